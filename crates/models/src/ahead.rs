@@ -1,5 +1,6 @@
 //! A file of records that is read piece by piece, each piece while another thread looks at the one before it.
 
+use rasterproof_core::parallel;
 use rasterproof_host::input::{InputError, Pieces};
 
 /// How many bytes are read at once: enough for several threads.
@@ -74,7 +75,7 @@ impl Ahead {
             next.reserve(rest.len() + PIECE as usize);
             next.extend_from_slice(rest);
             let records = &self.bytes[self.at..end];
-            let (more, used) = rayon::join(|| file.read_more(next, PIECE), || read(records));
+            let (more, used) = parallel::join(|| file.read_more(next, PIECE), || read(records));
             let more = more?;
             self.ended = more == 0;
             taken += used as u64;

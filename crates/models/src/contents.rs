@@ -9,7 +9,6 @@ use glam::{DMat4, DVec2, DVec3};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
 use rasterproof_render::pipeline::texture::Texture;
-use rayon::prelude::*;
 
 /// What a reader counts of faces with fewer than three corners, which show nothing.
 pub(crate) const INCOMPLETE_FACE: &str = "incomplete face";
@@ -79,17 +78,6 @@ impl Coordinate for f64 {
 #[inline]
 pub(crate) fn key(position: DVec3) -> [u64; 3] {
     position.to_array().map(Coordinate::bits)
-}
-
-/// Fewer records than this are read by one thread, because handing them to another one would take longer.
-pub(crate) const SHARE: usize = 1 << 14;
-
-/// The index of the first value for which something is true.
-pub(crate) fn first<T: Sync>(values: &[T], is_true: impl Fn(&T) -> bool + Sync) -> Option<usize> {
-    // All values of a share are looked at, which takes less time than stopping at the first one.
-    let any = |share: &[T]| share.iter().fold(false, |any, value| any | is_true(value));
-    let start = SHARE * values.par_chunks(SHARE).position_first(any)?;
-    values[start..].iter().position(is_true).map(|number| start + number)
 }
 
 /// Stands in a list of numbers for a corner that has none.
@@ -252,16 +240,6 @@ pub(crate) struct Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_first_of_many_is_found() {
-        let mut values = vec![0; 3 * SHARE + 1];
-        assert_eq!(first(&values, |value| *value > 0), None);
-        for place in [3 * SHARE, 2 * SHARE + 5, SHARE, SHARE - 1, 0] {
-            values[place] = 1;
-            assert_eq!(first(&values, |value| *value > 0), Some(place));
-        }
-    }
 
     #[test]
     fn numbers_are_those_that_were_pushed() {

@@ -5,16 +5,14 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use rasterproof_core::parallel;
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
-use rayon::prelude::*;
 
-use crate::contents::{
-    Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, SHARE, Surface, first, key,
-};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface, key};
 use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
@@ -110,7 +108,7 @@ fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
     }
     let is_far =
         |position: &DVec3| !position.is_finite() || position.abs().max_element() > MOST_COORDINATE;
-    match first(&part.positions, is_far) {
+    match parallel::first(&part.positions, is_far) {
         Some(number) => {
             let cause = format!(
                 "position {} of part '{}' is not a finite number up to 1e38 in size: repair it in the program that wrote the file",
@@ -218,8 +216,9 @@ fn mesh(
         }
     };
     let mut positions = part.positions;
-    let each = positions.par_iter_mut().with_min_len(SHARE);
-    each.for_each(|position| *position = mirrored(*position));
+    parallel::each_share(&mut positions, &|share| {
+        share.iter_mut().for_each(|position| *position = mirrored(*position));
+    });
     let positions = Arc::new(positions);
     let normals = match normals {
         Some(values) => scene::Normals::Given(of_cut(values, cut.as_deref())),

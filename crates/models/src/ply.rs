@@ -7,13 +7,14 @@ use std::ops::Range;
 use std::path::Path;
 
 use glam::{DMat4, DVec2, DVec3};
+use rasterproof_core::parallel::{self, SHARE};
 use rasterproof_host::input::InputError;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
 
 use crate::ahead::Ahead;
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, SHARE, Surface, first};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
 use crate::textures::{Textures, opacity};
 use crate::{BadFile, Warnings, bad};
 
@@ -480,25 +481,32 @@ fn columns(
     };
     let vector = |record: &[u8], place: usize| {
         let at = |place| number(record, place).unwrap_or(0.0);
-        DVec3::new(at(place), at(place + 1), at(place + 2))
+        let vector = DVec3::new(at(place), at(place + 1), at(place + 2));
+        if place == FIRST_COLOUR { vector.clamp(DVec3::ZERO, DVec3::ONE) } else { vector }
     };
     let has = |places: std::ops::Range<usize>| columns[places].iter().all(Option::is_some);
     let uv = |record: &[u8]| vector(record, 6).truncate();
-    let colour = |record: &[u8]| vector(record, FIRST_COLOUR).clamp(DVec3::ZERO, DVec3::ONE);
     let is_transparent = |record: &&[u8]| number(record, ALPHA).is_some_and(|alpha| alpha < 1.0);
     let mut transparent = 0;
     let whole = body.file.records(size, element.count, |bytes| {
         let records = bytes.par_chunks_exact(size).with_min_len(SHARE);
-        part.positions.par_extend(records.clone().map(|record| vector(record, 0)));
+        let take = |vectors: &mut Vec<DVec3>, place: usize| {
+            vectors.par_extend(records.clone().map(|record| vector(record, place)));
+        };
+        take(&mut part.positions, 0);
         if has(3..6) {
-            part.normals.par_extend(records.clone().map(|record| vector(record, 3)));
+            take(&mut part.normals, 3);
         }
         if has(6..8) {
             part.uvs.par_extend(records.clone().map(uv));
         }
         if has(FIRST_COLOUR..ALPHA) {
-            part.colours.par_extend(records.clone().map(colour));
-            transparent += records.filter(is_transparent).count() as u64;
+            take(&mut part.colours, FIRST_COLOUR);
+            let shares: Vec<&[u8]> = bytes.chunks(size * SHARE).collect();
+            let of_shares = parallel::map(shares.len(), |share| {
+                shares[share].chunks_exact(size).filter(is_transparent).count()
+            });
+            transparent += of_shares.into_iter().sum::<usize>() as u64;
         }
         bytes.len() / size
     })?;
@@ -626,7 +634,7 @@ fn triangles(
         let records = bytes.as_chunks::<RECORD>().0;
         // A few first, since every other face may have four corners.
         let few = records[..records.len().min(SHARE)].iter().position(is_other);
-        let found = few.or_else(|| first(records, is_other));
+        let found = few.or_else(|| parallel::first(records, is_other));
         let records = &records[..found.unwrap_or(records.len())];
         if records.len() <= SHARE {
             read.extend(records.iter().map(corners));
@@ -695,7 +703,7 @@ fn strips(body: &mut Body, element: &Element, part: &mut FilePart) -> Result<(),
 /// Whether all vertices that faces name are there.
 fn check(path: &Path, part: &FilePart) -> Result<(), BadFile> {
     let count = part.positions.len();
-    let wrong = first(&part.corners, |&corner| corner as usize >= count);
+    let wrong = parallel::first(&part.corners, |&corner| corner as usize >= count);
     let Some(wrong) = wrong else { return Ok(()) };
     let face = part.polygons.of_corner(wrong);
     let line = Some(part.polygons.line(face) as usize).filter(|&line| line > 0);

@@ -10,11 +10,12 @@ use foldhash::fast::RandomState;
 use glam::{DMat4, DVec3};
 use hashbrown::HashTable;
 use hashbrown::hash_table::Entry;
+use rasterproof_core::parallel::{self, SHARE};
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
 use crate::ahead::Ahead;
-use crate::contents::{Contents, Coordinate, FilePart, Polygons, SHARE};
+use crate::contents::{Contents, Coordinate, FilePart, Polygons};
 use crate::text::Text;
 use crate::{BadFile, bad};
 
@@ -89,18 +90,18 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
     let hasher = RandomState::default();
     let tables = count.div_ceil(SHARE).max(1);
     let hash = |[x, y, z]: [C::Bits; 3]| hasher.hash_one((x, y, z));
-    let sorted = shares.par_iter().map(|(start, share)| {
+    let sorted: Vec<Vec<Vec<Keyed<C>>>> = parallel::map(shares.len(), |share| {
+        let (start, share) = shares[share];
         let usual = share.positions.len() / tables;
         let mut of_tables: Vec<_> =
             (0..tables).map(|_| Vec::with_capacity(usual + usual / 16)).collect();
-        for (number, &point) in (*start as u32..).zip(&share.positions) {
+        for (number, &point) in (start as u32..).zip(&share.positions) {
             let keys = point.map(C::bits);
             of_tables[(hash(keys) >> 32) as usize % tables].push((keys, number));
         }
         of_tables
     });
-    let sorted: Vec<Vec<Vec<Keyed<C>>>> = sorted.collect();
-    let found = (0..tables).into_par_iter().map(|table| {
+    let found: Vec<Vec<(u32, u32)>> = parallel::map(tables, |table| {
         let all = || sorted.iter().map(|of_tables| &of_tables[table]);
         let mut known = HashTable::with_capacity(all().map(Vec::len).sum());
         let mut again = Vec::new();
@@ -113,7 +114,6 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
         }
         again
     });
-    let found: Vec<Vec<(u32, u32)>> = found.collect();
     // For each position the number of the first one that is equal, and then its number among those that are kept.
     let mut numbers: Vec<u32> = (0..count as u32).collect();
     for (number, first) in found.into_iter().flatten() {
@@ -131,10 +131,15 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
     }
     let mut corners = Vec::new();
     for (start, share) in shares {
-        let of_share = share.numbers.par_iter().with_min_len(SHARE);
-        corners.par_extend(of_share.map(|&number| numbers[start + number as usize]));
+        renumber(&share.numbers, &numbers[start..], &mut corners);
     }
     (positions, corners)
+}
+
+/// For each number the one at its place in a list.
+fn renumber(old: &[u32], new: &[u32], to: &mut Vec<u32>) {
+    let old = old.par_iter().with_min_len(SHARE);
+    to.par_extend(old.map(|&number| new[number as usize]));
 }
 
 /// Reads triangles in records, and counts those that have an attribute, which is not drawn.
@@ -180,7 +185,8 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
         }
         corners
     };
-    records.par_chunks(share).map(read).collect()
+    let shares: Vec<_> = records.chunks(share).collect();
+    parallel::map(shares.len(), |share| read(shares[share]))
 }
 
 /// Triangles in text that are merged by one thread.

@@ -1,7 +1,5 @@
 //! Triangles that are compressed by Draco.
 
-use std::collections::BTreeMap;
-
 use draco_core::{DecoderBuffer, FaceIndex, Mesh, MeshDecoder};
 use gltf_json::mesh::{Primitive, Semantic};
 use serde_json::Value;
@@ -15,7 +13,7 @@ pub(super) const EXTENSION: &str = "KHR_draco_mesh_compression";
 pub(super) struct Decoded {
     mesh: Mesh,
     /// The number of each attribute within the compressed bytes.
-    numbers: BTreeMap<String, u32>,
+    numbers: Vec<(String, u32)>,
 }
 
 /// Decodes a primitive; nothing of one that is not compressed.
@@ -43,7 +41,8 @@ impl Decoded {
 
     /// The values of an attribute in the order of the vertices; nothing of one that is not compressed.
     pub(super) fn vectors<const N: usize>(&self, semantic: &Semantic) -> Option<Vec<[f64; N]>> {
-        let number = self.numbers.get(&semantic.to_string())?;
+        let name = semantic.to_string();
+        let (_, number) = self.numbers.iter().find(|(other, _)| *other == name)?;
         let attribute = self.mesh.attribute_by_unique_id(*number)?;
         let read = attribute.read_f32s(self.mesh.num_points(), N);
         Some(read.as_chunks::<N>().0.iter().map(|vector| vector.map(f64::from)).collect())

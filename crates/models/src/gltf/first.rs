@@ -3,7 +3,7 @@
 //! Version 1.0 names things where 2.0 counts them. A node has several meshes, an accessor the distance of its elements,
 //! and a material the values of its shader.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -23,7 +23,7 @@ struct Asset {
 struct List<'a> {
     values: Vec<&'a Value>,
     names: Vec<&'a str>,
-    numbers: BTreeMap<&'a str, usize>,
+    numbers: HashMap<&'a str, usize>,
 }
 
 impl<'a> List<'a> {

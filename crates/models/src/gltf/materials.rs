@@ -1,6 +1,6 @@
 //! What is drawn of the materials of a glTF, and what is not.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -42,12 +42,12 @@ pub(super) fn encoded(linear: f64) -> f64 {
 /// The pictures of a document, each decoded once.
 pub(super) struct Pictures<'a> {
     path: &'a Path,
-    read: BTreeMap<usize, Result<Decoded, String>>,
+    read: HashMap<usize, Result<Decoded, String>>,
 }
 
 impl<'a> Pictures<'a> {
     pub(super) fn new(path: &'a Path) -> Self {
-        Self { path, read: BTreeMap::new() }
+        Self { path, read: HashMap::new() }
     }
 
     fn get(&mut self, data: &Data<'_>, number: usize) -> Result<Decoded, String> {

@@ -10,7 +10,7 @@ mod first;
 mod materials;
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
@@ -92,7 +92,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         contents,
         warnings: Warnings::default(),
         pictures: Pictures::new(path),
-        described: BTreeMap::new(),
+        described: HashMap::new(),
         corners: 0,
     };
     reader.scene().map_err(failed)?;
@@ -142,7 +142,7 @@ struct Reader<'a> {
     warnings: Warnings,
     pictures: Pictures<'a>,
     /// For each material that is used its number in the contents, and where its texture finds its coordinates.
-    described: BTreeMap<usize, Option<(usize, Option<u32>, glam::DAffine2)>>,
+    described: HashMap<usize, Option<(usize, Option<u32>, glam::DAffine2)>>,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
 }

@@ -21,6 +21,7 @@ use crate::pipeline::shade::{ALL, Light};
 use crate::pipeline::texture::Texture;
 use crate::scene::{Corner, Hidden, Scene};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::parallel;
 use rasterproof_core::triangle::{Corners, ScreenVertex};
 
 /// What the pieces of an item have in common, as numbers of what draws them.
@@ -174,14 +175,18 @@ impl<'a> Whole<'a> {
     /// All pieces, the farthest first; equal distances keep the drawing order.
     pub fn farthest_first(&self) -> Vec<Outline> {
         let runs = self.runs(SHARE);
-        let outlines = runs.par_iter().flat_map_iter(|run| {
-            let mut outlines = Vec::with_capacity(run.1.len());
-            self.outlines(run, &mut |outline| outlines.push(outline));
+        let order = |(a, _): &(f64, Outline), (b, _): &(f64, Outline)| b.total_cmp(a);
+        let of_runs = parallel::map(runs.len(), |run| {
+            let mut outlines = Vec::with_capacity(runs[run].1.len());
+            self.outlines(&runs[run], &mut |outline| {
+                outlines.push((outline.depths.iter().sum(), outline));
+            });
+            outlines.sort_by(order);
             outlines
         });
-        let distance = |outline: &Outline| -> f64 { outline.depths.iter().sum() };
-        let mut sorted: Vec<_> = outlines.map(|outline| (distance(&outline), outline)).collect();
-        sorted.par_sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        // The sort of the standard library merges what is sorted already.
+        let mut sorted: Vec<_> = of_runs.into_iter().flatten().collect();
+        sorted.sort_by(order);
         sorted.into_iter().map(|(_, outline)| outline).collect()
     }
 
@@ -247,7 +252,7 @@ impl<'a> Item<'a> {
         let prepared = Prepared::without_points(scene, index, &plan, window);
         let positions = item.mesh.positions.par_iter().with_min_len(SHARE);
         let vertices: Vec<Vertex> = positions.map(|&p| vertex(&prepared, p)).collect();
-        if let Some(bad) = vertices.par_iter().with_min_len(SHARE).position_first(|v| v.bad) {
+        if let Some(bad) = parallel::first(&vertices, |vertex| vertex.bad) {
             prepared.point(bad, item.mesh.positions[bad])?;
         }
         let material = SurfaceMaterial {
