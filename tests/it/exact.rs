@@ -4,7 +4,6 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use rasterproof_core::contract::{Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, Refusal, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
@@ -17,6 +16,7 @@ use rasterproof_verify::comparison::Options;
 use rasterproof_verify::comparison::unsnapped::{exact_coverage, judge_exact, judge_exact_case};
 
 use crate::program::check;
+use crate::recorded::hits as hits_of;
 
 const ALL: [ExactEngine; 3] =
     [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
@@ -312,13 +312,11 @@ proptest! {
     #[test]
     fn on_the_lattice_they_are_the_lattice_engines(corners in lattice()) {
         let window = PixelRect { x0: -2, y0: -2, x1: 16, y1: 16 };
-        let mut targets = [Coverage::new(window, 0), Coverage::new(window, 0)];
-        Scanline.cover(corners, window, |s| targets[0].hit(s.y_px, s.x0_px, s.x1_px));
-        EdgeFunction.cover(corners, window, |s| targets[1].hit(s.y_px, s.x0_px, s.x1_px));
+        let list = [corners];
+        let targets = [hits_of(&Scanline, &list, window), hits_of(&EdgeFunction, &list, window)];
+        let case = OffGridCase { window, triangles: vec![corners.into()], is_tiling: false };
         for engine in ALL {
-            let mut actual = Coverage::new(window, 0);
-            let hit = |s: rasterproof_core::triangle::Span| actual.hit(s.y_px, s.x0_px, s.x1_px);
-            engine.cover_exact(&corners.into(), window, hit);
+            let actual = exact_coverage(&engine, &case).expect("no panic").0;
             for target in &targets {
                 prop_assert!(&actual == target, "{} on {corners:?}", engine.name());
             }

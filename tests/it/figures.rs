@@ -16,13 +16,13 @@ use rasterproof_faults::published::sysu_strict_t::clip_strict;
 use rasterproof_invariants::CATALOGUE;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_registry::published_check::{free_truth, specimen_coverage};
+use rasterproof_render::effects::render::Rendered;
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::clip::MOST_VERTICES;
 use rasterproof_render::pipeline::shadow::Shadows;
-use rasterproof_render::pipeline::target::{Antialias, Target};
-use rasterproof_render::scene::chapters::scene;
-use rasterproof_render::scene::{Item, Material, shapes};
+use rasterproof_render::pipeline::target::Antialias;
+use rasterproof_render::scene::{Item, Material, Scene, shapes};
 use rasterproof_report::frame_comparison::differing;
 use rasterproof_verify::cases::named::{Input, find};
 use rasterproof_verify::cases::{Case, Shape, families};
@@ -34,18 +34,16 @@ use crate::book::bugs;
 use crate::by_hand;
 use crate::illustrations::ball;
 use crate::pages::{page, read};
+use crate::scenes::{still, target_of};
 
 type Values = fn() -> Vec<f64>;
 
 /// Fragments of a scene, how many of them an effect is computed for with everything on and by the plan, and the pixels
 /// that are wrong without it.
 fn pays(name: &str, effect: Effect) -> Vec<f64> {
-    let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
     let without = Effects::PLANNED.with(effect, Mode::Never);
-    let [all, planned, without] = [Effects::ALWAYS, Effects::PLANNED, without].map(|effects| {
-        let mut target = Target::new(640, 480, Antialias::None, Default::default()).unwrap();
-        Drawer::Scanline.render(&scene, &effects, &mut target).unwrap()
-    });
+    let [all, planned, without] = [Effects::ALWAYS, Effects::PLANNED, without]
+        .map(|effects| drawn(&still(name), Antialias::None, effects));
     let wrong = differing(&planned.picture, &without.picture);
     let counts = [
         planned.counters.fragments,
@@ -60,7 +58,7 @@ fn pays(name: &str, effect: Effect) -> Vec<f64> {
 /// them; and the same with a speck so high above it that the map spans a thousand times the depth.
 fn shadow_bits() -> Vec<f64> {
     let picture = |bits: u32, height: f64| {
-        let mut scene = scene("shadows", 4.0 / 3.0, 0.0).unwrap();
+        let mut scene = still("shadows");
         scene.shadows = Some(Shadows { bits, ..Shadows::default() });
         if height > 0.0 {
             let place = DVec3::new(0.0, 0.0, 5.0) + scene.light.towards * height;
@@ -68,8 +66,7 @@ fn shadow_bits() -> Vec<f64> {
             let speck = shapes::triangle(corners, [DVec3::ONE; 3]);
             scene.items.push(Item::new(speck, Material::default()));
         }
-        let mut target = Target::new(640, 480, Antialias::None, Default::default()).unwrap();
-        Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target).unwrap().picture
+        drawn(&scene, Antialias::None, Effects::PLANNED).picture
     };
     let changed = |height: f64| {
         let exact = picture(52, height);
@@ -244,11 +241,13 @@ fn widest(words: &[WordWidth]) -> Vec<f64> {
     vec![f64::from(enough)]
 }
 
-/// What a scene costs as the page on effects measures it.
+/// A frame as the page on effects measures it.
+fn drawn(scene: &Scene, antialias: Antialias, effects: Effects) -> Rendered {
+    Drawer::Scanline.render(scene, &effects, &mut target_of(640, 480, antialias)).unwrap()
+}
+
 fn counted(name: &str, antialias: Antialias, effects: Effects) -> Counters {
-    let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
-    let mut target = Target::new(640, 480, antialias, Default::default()).unwrap();
-    Drawer::Scanline.render(&scene, &effects, &mut target).unwrap().counters
+    drawn(&still(name), antialias, effects).counters
 }
 
 /// Pixels whose samples a plan tells apart.

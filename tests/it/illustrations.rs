@@ -12,10 +12,8 @@ use rasterproof_faults::published::book_final::BookFinal;
 use rasterproof_faults::published::{Published as _, RealVertex};
 use rasterproof_registry::engines::{Drawer, ExactEngine};
 use rasterproof_render::effects::{Effect, Effects, Mode};
-use rasterproof_render::pipeline::depth::DepthFormat;
-use rasterproof_render::pipeline::target::{Antialias, Target};
+use rasterproof_render::pipeline::target::Antialias;
 use rasterproof_render::pipeline::transform::frustum;
-use rasterproof_render::scene::chapters::scene;
 use rasterproof_render::scene::{shapes, textures};
 use rasterproof_report::lettering::{self, Size};
 use rasterproof_report::{frame_comparison, panels, picture};
@@ -23,6 +21,7 @@ use rasterproof_verify::cases::unsnapped::{FAMILIES, OffGridCase};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::unsnapped::exact_coverage;
 
+use crate::scenes::{still, target_of};
 use crate::snapshots::{check_picture, check_sheet};
 
 const PAPER: Rgb<u8> = Rgb([250, 250, 247]);
@@ -59,9 +58,9 @@ fn larger(picture: &RgbImage, zoom: u32) -> RgbImage {
 }
 
 fn rendered(name: &str, effects: Effects, antialias: Antialias) -> RgbImage {
-    let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
-    let mut target = Target::new(WIDTH, HEIGHT, antialias, DepthFormat::Unorm32).unwrap();
-    frame_comparison::rgb(&Drawer::Scanline.render(&scene, &effects, &mut target).unwrap().picture)
+    let mut target = target_of(WIDTH, HEIGHT, antialias);
+    let drawn = Drawer::Scanline.render(&still(name), &effects, &mut target);
+    frame_comparison::rgb(&drawn.unwrap().picture)
 }
 
 /// A part of the homework's scene, where both triangles have an edge: one sample a pixel, four.
@@ -103,9 +102,9 @@ fn picture_before_the_depth_test() {
 fn picture_of_what_is_paid_for() {
     let sheets = [("facets", Antialias::Supersample(4)), ("everything", Antialias::None)].map(
         |(name, antialias)| {
-            let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
-            let mut target = Target::new(WIDTH, HEIGHT, antialias, DepthFormat::Unorm32).unwrap();
-            let drawn = Drawer::Scanline.render_mapped(&scene, &Effects::PLANNED, &mut target);
+            let mut target = target_of(WIDTH, HEIGHT, antialias);
+            let drawn =
+                Drawer::Scanline.render_mapped(&still(name), &Effects::PLANNED, &mut target);
             let (rendered, map) = drawn.unwrap();
             let head = match antialias.samples() {
                 1 => format!("{name}, one sample a pixel"),

@@ -101,34 +101,17 @@ fn partition_with_a_filled_hole_is_reported() {
 /// Rows of the pages are the sums of what the adapters counted.
 #[test]
 fn pages_show_what_tessellators_of_others_did() {
-    let names = [
-        "cdt",
-        "earcut",
-        "earcut-i32",
-        "earcutr",
-        "i_triangle",
-        "kika",
-        "lyon_tessellation",
-        "poly2tri-rs",
-        "spade",
-        "triangulate",
-    ];
-    for name in names {
+    let names = "cdt earcut earcut-i32 earcutr i_triangle kika lyon_tessellation poly2tri-rs spade triangulate";
+    for name in names.split(' ') {
         let text = read(&format!("adapters/tessellators/results/{name}.csv"));
         let head: Vec<_> = text.lines().next().unwrap().split(',').collect();
-        let sum = |columns: &[&str]| -> String {
-            let is_meant = |(column, _): &(&&str, &str)| columns.contains(*column);
+        let sum = |meant: &str| -> String {
+            let is_meant = |(column, _): &(&&str, &str)| **column == meant;
             let cells = text.lines().skip(1).flat_map(|line| head.iter().zip(line.split(',')));
             let counts = cells.filter(is_meant).map(|(_, cell)| cell.split(' ').next().unwrap());
             counts.map(|count| count.parse::<u64>().unwrap()).sum::<u64>().to_string()
         };
-        let cells = [
-            sum(&["judged"]),
-            sum(&["left out"]),
-            sum(&["wrong cover"]),
-            sum(&["T-junction"]),
-            sum(&["degenerate"]),
-        ];
+        let cells = ["judged", "left out", "wrong cover", "T-junction", "degenerate"].map(sum);
         let (start, end) = (format!("| {name} "), format!(" | {} |", cells.join(" | ")));
         for page in ["docs/tessellators.md", "docs/zh/tessellators.md"] {
             let page = read(page).replace(',', "");

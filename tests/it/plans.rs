@@ -8,14 +8,13 @@ use glam::{DMat4, DVec3};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::{Canvas, Pieces};
 use rasterproof_render::effects::{Effect, Effects, Mode};
-use rasterproof_render::pipeline::depth::DepthFormat;
-use rasterproof_render::pipeline::target::{Antialias, Target};
-use rasterproof_render::scene::chapters::{SCENES, scene};
+use rasterproof_render::pipeline::target::Antialias;
+use rasterproof_render::scene::chapters::SCENES;
 use rasterproof_render::scene::{Corner, Item, Material, Scene, shapes};
 use serde_json::{Value, json};
 
 use crate::program::{Folder, Run};
-use crate::scenes::as_they_come;
+use crate::scenes::{as_they_come, still, target_of};
 
 /// Two squares that are apart as long as they are seen from the front.
 const SQUARES: &str = "v -1 -.5 0\nv -.2 -.5 0\nv -.2 .5 0\nv -1 .5 0\nv .2 -.5 -1.5\nv 1 -.5 -1\n\
@@ -165,8 +164,7 @@ fn what_is_not_called_for_can_be_switched_off() {
     let scene = one_inside_one_outside();
     for drawer in Drawer::ALL {
         let draw = |effects: &Effects| {
-            let mut target = Target::new(80, 60, Antialias::None, DepthFormat::Unorm32).unwrap();
-            drawer.render(&scene, effects, &mut target).unwrap()
+            drawer.render(&scene, effects, &mut target_of(80, 60, Antialias::None)).unwrap()
         };
         let planned = draw(&Effects::PLANNED);
         let clip = planned.plan.decisions.iter().find(|d| d.effect == Effect::Clip).unwrap();
@@ -183,9 +181,8 @@ fn reasons_and_counts_say_the_same() {
     for (entry, antialias) in
         SCENES.iter().flat_map(|entry| [(entry, Antialias::None), (entry, Antialias::Multisample4)])
     {
-        let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
-        let target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
-        let plan = Drawer::EdgeFunction.plan(&scene, &Effects::PLANNED, &Canvas::of(&target));
+        let (scene, canvas) = (still(entry.name), Canvas::of(&target_of(160, 120, antialias)));
+        let plan = Drawer::EdgeFunction.plan(&scene, &Effects::PLANNED, &canvas);
         for d in plan.unwrap().decisions.into_iter().filter(|d| d.item.is_some()) {
             let agrees = match d.reason.split(' ').next().unwrap() {
                 "every" => d.on > 0 && d.off == 0,
@@ -243,8 +240,8 @@ fn what_overlaps_at_first_sight_is_not_listed() {
     let is_listed = |items: Vec<Item>| {
         let mut scene = Scene::new("squares", "", DMat4::IDENTITY);
         scene.items = items;
-        let target = Target::new(400, 400, Antialias::None, DepthFormat::Unorm32).unwrap();
-        let plan = Drawer::Scanline.plan(&scene, &Effects::PLANNED, &Canvas::of(&target)).unwrap();
+        let canvas = Canvas::of(&target_of(400, 400, Antialias::None));
+        let plan = Drawer::Scanline.plan(&scene, &Effects::PLANNED, &canvas).unwrap();
         plan.items.iter().all(|item| matches!(item.pieces, Pieces::Listed(_)))
     };
     assert!(is_listed(vec![squares(0.0, 1.0, 300)]));

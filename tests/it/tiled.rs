@@ -23,6 +23,8 @@ use rasterproof_verify::cases::{Shape, Triangle};
 use rasterproof_verify::comparison::tolerance;
 use rasterproof_verify::oracle::Oracle;
 
+use crate::scenes::target_of;
+
 /// The centre of a pixel, and the four samples, in 1/16 px.
 const PLACES: [(i32, i32); 5] = [(8, 8), SAMPLES[0], SAMPLES[1], SAMPLES[2], SAMPLES[3]];
 
@@ -98,7 +100,7 @@ fn by_scanline(scene: &Scene, width: u32, height: u32, samples: Samples) -> Fram
         Samples::One => Antialias::None,
         Samples::Four => Antialias::Multisample4,
     };
-    let mut target = Target::new(width, height, antialias, Default::default()).unwrap();
+    let mut target = target_of(width, height, antialias);
     Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target).unwrap().picture
 }
 
@@ -298,7 +300,7 @@ fn what_tiles_do_not_draw_is_drawn_by_another_engine() {
     for (scene, are_all) in parts.chain([(sorted, true)]) {
         let scene = plain(scene);
         for antialias in [Antialias::None, Antialias::Multisample4] {
-            let target = || Target::new(201, 134, antialias, Default::default()).unwrap();
+            let target = || target_of(201, 134, antialias);
             let (picture, handed_over) = divided(&scene, &mut target());
             let whole = Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target()).unwrap();
             assert!(picture == whole.picture, "{} {antialias:?}", scene.name);
@@ -308,7 +310,7 @@ fn what_tiles_do_not_draw_is_drawn_by_another_engine() {
         }
     }
     let shadows = chapters::scene("shadows", 1.5, 0.1).unwrap();
-    let mut target = Target::new(201, 134, Antialias::None, Default::default()).unwrap();
+    let mut target = target_of(201, 134, Antialias::None);
     let (picture, handed_over) = divided(&shadows, &mut target);
     assert_eq!(handed_over.in_shadows, all_of(&shadows));
     assert!(picture == by_scanline(&shadows, 201, 134, Samples::One));
@@ -320,7 +322,7 @@ fn items_beyond_f32_are_handed_over() {
     let mut scene = chapters::scene("mip-maps", 1.5, 0.1).unwrap();
     let mesh = Arc::make_mut(&mut scene.items[0].mesh);
     mesh.triangles.change_corners(|corner| corner.uv.x = 4.0 * MOST_ATTRIBUTE);
-    let mut target = Target::new(201, 134, Antialias::None, Default::default()).unwrap();
+    let mut target = target_of(201, 134, Antialias::None);
     let (_, handed_over) = divided(&scene, &mut target);
     let triangles = scene.items[0].mesh.triangles.len();
     assert_eq!(handed_over, HandedOver { beyond_f32: triangles, ..Default::default() });

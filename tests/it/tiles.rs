@@ -11,11 +11,7 @@ use rasterproof_verify::cases::Shape;
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::oracle::Oracle;
 
-fn oracle(corners: Corners, window: PixelRect) -> Coverage {
-    let mut hits = Coverage::new(window, 0);
-    Oracle.cover(corners, window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
-    hits
-}
+use crate::recorded::hits;
 
 fn tiles(engine: &Tiles, list: &[Corners], window: PixelRect) -> (Vec<Coverage>, Vec<Piece>) {
     let mut hits: Vec<_> = list.iter().map(|_| Coverage::new(window, 0)).collect();
@@ -35,7 +31,7 @@ fn tiles(engine: &Tiles, list: &[Corners], window: PixelRect) -> (Vec<Coverage>,
 }
 
 fn compare(list: &[Corners], window: PixelRect) {
-    let truth: Vec<_> = list.iter().map(|&corners| oracle(corners, window)).collect();
+    let truth: Vec<_> = list.iter().map(|&corners| hits(&Oracle, &[corners], window)).collect();
     for engine in Tiles::levels() {
         let (hits, _) = tiles(&engine, list, window);
         for ((corners, actual), truth) in list.iter().zip(&hits).zip(&truth) {
