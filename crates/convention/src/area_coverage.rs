@@ -4,7 +4,7 @@
 //! upward takes away, the area between the box's left border and the edge (its x held to the box).
 //! Each term is a fraction over twice the edge's height and width, so the sum is one fraction.
 
-use super::place::{Place, Points, around, turn};
+use super::place::{Emit, Place, Points, around, edges, turn};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
@@ -56,8 +56,8 @@ fn under(p: [i64; 2], q: [i64; 2]) -> Fraction {
 /// Twice the area of the triangle in the box of one pixel at `corner`, as a fraction.
 fn twice_area(points: &Points, corner: [i64; 2]) -> Fraction {
     let at = points.map_array(|p| [p[0] - corner[0], p[1] - corner[1]]);
-    let sum = (0..3).map(|i| under(at[i], at[(i + 1) % 3])).reduce(Fraction::plus);
-    let Fraction(n, d) = sum.unwrap_or(Fraction(0, 1));
+    let [a, b, c] = edges(&at).map_array(|[p, q]| under(p, q));
+    let Fraction(n, d) = a.plus(b).plus(c);
     // Clockwise on the screen goes down on its right side: that adds.
     Fraction(n * turn(points).signum(), d)
 }
@@ -66,8 +66,7 @@ fn twice_area(points: &Points, corner: [i64; 2]) -> Fraction {
 /// to most pixels that have no share.
 fn apart(points: &Points, corner: [i64; 2]) -> bool {
     let sign = turn(points).signum() as i64;
-    (0..3).any(|i| {
-        let (p, q) = (points[i], points[(i + 1) % 3]);
+    edges(points).into_iter().any(|[p, q]| {
         let (a, b) = (sign * (p[1] - q[1]), sign * (q[0] - p[0]));
         // The corner of the pixel that lies farthest inside.
         let far =
@@ -82,7 +81,7 @@ pub(super) fn trace(
     [x, y]: [i32; 2],
     percent: i32,
     window: PixelRect,
-    emit: &mut dyn FnMut(i32, i32, Place),
+    emit: Emit<'_>,
 ) -> bool {
     let rect = around(points, 2);
     if i64::from(rect.width().max(rect.height())) * 256 > MOST_EXTENT {

@@ -3,10 +3,10 @@
 use super::bench::Answer;
 use super::general::area;
 use super::mask::Mask;
-use super::outline::LineTie;
 use super::place::{Place, turn};
 use super::quantum::Quantum;
 use super::rule::Windings;
+use super::scan::Scan;
 use super::shape::Shape;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
@@ -20,6 +20,18 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
+    /// The scan conversions of libraries that explain everything: what is nearly one of them is none of them.
+    pub(super) fn scans(
+        draws: Windings,
+        answers: &[Answer],
+        window: PixelRect,
+    ) -> impl Iterator<Item = Self> {
+        Scan::ALL
+            .map(|scan| Self { draws, quantum: Quantum::NONE, shape: Shape::Scan(scan) })
+            .into_iter()
+            .filter(move |scan| scan.errors(answers, window, 0) == 0)
+    }
+
     /// What it is sure to draw, and what it may draw: with and without its ties. None where it says
     /// nothing. Where its shape is not defined for such corners, a contradiction.
     fn bounds(&self, corners: &Corners, window: PixelRect) -> Option<[Mask; 2]> {
@@ -98,9 +110,7 @@ impl Candidate {
             Shape::Point { x, y } => (0, digits(x) + digits(y)),
             Shape::Rows { left, right, y } => (1, digits(left) + digits(right) + digits(y)),
             Shape::Stepped { x, y } => (2, digits(x) + digits(y)),
-            Shape::Outline(tie) => {
-                (3, LineTie::ALL.iter().position(|&t| t == tie).unwrap_or(0) as u32)
-            }
+            Shape::Outline(tie) => (3, tie as u32),
             Shape::Samples { x, y, pattern, least } => {
                 (4, digits(x) + digits(y) + pattern as u32 + u32::from(least))
             }

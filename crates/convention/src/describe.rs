@@ -2,14 +2,11 @@
 
 use super::bench::LEAST_SIDE_PX;
 use super::diagnosis::{Confidence, Diagnosis};
-use super::lines::{Ends, LineConvention, LineDiagnosis, LineRounding, Steps};
-use super::mirror::Mirror;
+use super::lines::{LineConvention, LineDiagnosis, LineRounding, Steps};
 use super::outline::End;
 use super::place::FACINGS;
-use super::quantum::{Quantum, Rounding};
+use super::quantum::Quantum;
 use super::rule::{Convention, Windings};
-use super::samples::Pattern;
-use super::scan::Scan;
 use super::shape::Shape;
 use super::ties::{Compass, Count};
 
@@ -36,12 +33,7 @@ fn quantum(quantum: Quantum) -> String {
         256 => "whole pixels".to_owned(),
         step => format!("1/{} px", 256 / step),
     };
-    let how = match quantum.rounding {
-        Rounding::Near => "the nearest, halves up",
-        Rounding::HalfEven => "the nearest, halves to the even one",
-        Rounding::Down => "down",
-        Rounding::TowardZero => "toward zero",
-    };
+    let how = quantum.rounding.name();
     format!("moves corners to {grid} ({how}), ")
 }
 
@@ -78,10 +70,7 @@ fn shape(shape: Shape) -> String {
             format!("draws a pixel if at least {percent} % of its area{area} is covered")
         }
         Shape::Samples { x, y, pattern, least } => {
-            let how = match pattern {
-                Pattern::Square => "two by two",
-                Pattern::Rotated => "each in a row and column of its own",
-            };
+            let how = pattern.name();
             let middle = if (x, y) == (128, 128) {
                 String::new()
             } else {
@@ -95,38 +84,12 @@ fn shape(shape: Shape) -> String {
             };
             format!("draws a pixel if {many} of its four samples ({how}{middle}) are covered")
         }
-        Shape::Scan(scan) => scan_words(scan).to_owned(),
+        Shape::Scan(scan) => scan.name().to_owned(),
         Shape::Outline(tie) => format!(
             "fills between whole pixels, and draws the three sides as lines; a line halfway \
              between two pixels goes {}",
             tie.name()
         ),
-    }
-}
-
-fn scan_words(scan: Scan) -> &'static str {
-    match scan {
-        Scan::Above => {
-            "fills the rows whose centres it holds, between crossings taken 1/256 px above the centre \
-             and cut down to 1/256 px"
-        }
-        Scan::Coarse => {
-            "samples at the pixel's centre, row by row, between crossings that are stepped from the \
-             first one, all cut to 1/1024 px"
-        }
-        Scan::Sides => {
-            "fills row by row between crossings stepped in 1/65536 px from the row nearest to a corner, \
-             without the last row, and draws the three sides as lines in such steps"
-        }
-        Scan::Joined => {
-            "moves corners to whole pixels (toward zero), fills every row from the first to the last \
-             between crossings rounded to the nearest pixel, halves inwards, and draws on the row of a \
-             corner to where the next one begins"
-        }
-        Scan::Carried => {
-            "moves corners a quarter of a pixel right and down, and samples at the pixel's centre, row by row, \
-             between crossings in single precision that are stepped with a remainder of 31 bits"
-        }
     }
 }
 
@@ -168,61 +131,49 @@ fn ties(convention: &Convention, compass: &Compass) -> String {
 }
 
 fn convention(of: &Convention, compass: &Compass) -> String {
-    let winding = match of.draws {
-        Windings::Both => "",
-        Windings::Clockwise => "draws clockwise triangles alone, ",
-        Windings::CounterClockwise => "draws counterclockwise triangles alone, ",
-        Windings::Neither => "draws nothing, ",
-    };
-    let mirror = match of.mirror {
-        Mirror::None => "",
-        Mirror::UpsideDown => "draws its picture upside down, ",
-        Mirror::LeftToRight => "draws its picture with left and right exchanged, ",
-        Mirror::HalfTurn => "draws its picture turned by half a turn, ",
-        Mirror::Exchanged => "draws its picture with x and y exchanged, ",
-    };
+    let (mirror, winding) = (of.mirror.name(), of.draws.name());
     let (quantum, ties) = (quantum(of.quantum), ties(of, compass));
     format!("{mirror}{winding}{quantum}{}{ties}", shape(of.shape))
 }
 
 impl Diagnosis {
     pub fn sentence(&self) -> String {
-        diagnosis(self)
-    }
-}
-
-fn diagnosis(found: &Diagnosis) -> String {
-    match (found.asked, found.asked == found.refused) {
-        (0, _) => return format!("Not asked: a window or range of {LEAST_SIDE_PX} px is needed."),
-        (asked, true) => return format!("Unexplained: it answered none of {asked} questions."),
-        _ if found.convention.draws == Windings::Neither => return "It draws nothing.".to_owned(),
-        _ => {}
-    }
-    let words = convention(&found.convention, &found.compass);
-    let exact = found.as_found.general.triangles;
-    let share = exact.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));
-    let mut text = match found.confidence {
-        Confidence::Certain => format!("It {words}."),
-        Confidence::Likely => format!("It {words}; that explains {share} of its triangles."),
-        Confidence::Unexplained => {
-            return format!(
-                "Unexplained. The nearest hypothesis explains {share} of its triangles: it {words}."
-            );
+        match (self.asked, self.asked == self.refused) {
+            (0, _) => {
+                return format!("Not asked: a window or range of {LEAST_SIDE_PX} px is needed.");
+            }
+            (asked, true) => return format!("Unexplained: it answered none of {asked} questions."),
+            _ if self.convention.draws == Windings::Neither => {
+                return "It draws nothing.".to_owned();
+            }
+            _ => {}
         }
-    };
-    if found.rotated.drawn + found.reversed.drawn > 0 {
-        text += " The order of the corners changes the answer.";
+        let words = convention(&self.convention, &self.compass);
+        let exact = self.as_found.general.triangles;
+        let share = exact.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));
+        let mut text = match self.confidence {
+            Confidence::Certain => format!("It {words}."),
+            Confidence::Likely => format!("It {words}; that explains {share} of its triangles."),
+            Confidence::Unexplained => {
+                return format!(
+                    "Unexplained. The nearest hypothesis explains {share} of its triangles: it {words}."
+                );
+            }
+        };
+        if self.rotated.drawn + self.reversed.drawn > 0 {
+            text += " The order of the corners changes the answer.";
+        }
+        if self.flat.drawn > 0 {
+            text += " Triangles without area leave pixels.";
+        }
+        if self.twice.drawn > 0 {
+            text += " It hits pixels of one triangle twice.";
+        }
+        if let Some(other) = self.alternatives.first() {
+            text += &format!(" It may as well be that it {}.", convention(other, &self.compass));
+        }
+        text
     }
-    if found.flat.drawn > 0 {
-        text += " Triangles without area leave pixels.";
-    }
-    if found.twice.drawn > 0 {
-        text += " It hits pixels of one triangle twice.";
-    }
-    if let Some(other) = found.alternatives.first() {
-        text += &format!(" It may as well be that it {}.", convention(other, &found.compass));
-    }
-    text
 }
 
 fn line_convention(of: &LineConvention) -> String {
@@ -248,13 +199,7 @@ fn line_convention(of: &LineConvention) -> String {
             format!("rounds the minor coordinate away from {}", end.name())
         }
     };
-    let ends = match of.ends {
-        Ends::Both => "both ends are drawn",
-        Ends::WithoutLast => "the last pixel is not drawn",
-        Ends::WithoutFirst => "the first pixel is not drawn",
-        Ends::WithoutRight => "the right end (of upright lines the lower) is not drawn",
-        Ends::Neither => "neither end is drawn",
-    };
+    let ends = of.ends.name();
     let between = |axis: &str, end: End| {
         let end = end.name();
         format!("; diagonal steps go along the {axis} axis first, seen from {end}: 4-connected")
@@ -269,32 +214,28 @@ fn line_convention(of: &LineConvention) -> String {
 
 impl LineDiagnosis {
     pub fn sentence(&self) -> String {
-        lines(self)
+        let words = line_convention(&self.convention);
+        let share = self.as_found.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));
+        let mut text = match self.confidence {
+            Confidence::Certain => format!("It {words}."),
+            Confidence::Likely => format!("It {words}; that explains {share} of its lines."),
+            Confidence::Unexplained => format!(
+                "Unexplained. The nearest hypothesis explains {share} of its lines: it {words}."
+            ),
+        };
+        if self.both_ways.drawn < self.both_ways.of {
+            let percent = self.both_ways.percent().unwrap_or(0.0);
+            text += &format!(" {percent:.0} % of its lines are the same from either end.");
+        }
+        if self.twice.drawn > 0 {
+            text += " It draws pixels of one line twice.";
+        }
+        if self.in_order.drawn < self.in_order.of {
+            text += " Its pixels do not come in order from the first end.";
+        }
+        if let Some(other) = self.alternatives.first() {
+            text += &format!(" It may as well be that it {}.", line_convention(other));
+        }
+        text
     }
-}
-
-fn lines(found: &LineDiagnosis) -> String {
-    let words = line_convention(&found.convention);
-    let share = found.as_found.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));
-    let mut text = match found.confidence {
-        Confidence::Certain => format!("It {words}."),
-        Confidence::Likely => format!("It {words}; that explains {share} of its lines."),
-        Confidence::Unexplained => format!(
-            "Unexplained. The nearest hypothesis explains {share} of its lines: it {words}."
-        ),
-    };
-    if found.both_ways.drawn < found.both_ways.of {
-        let percent = found.both_ways.percent().unwrap_or(0.0);
-        text += &format!(" {percent:.0} % of its lines are the same from either end.");
-    }
-    if found.twice.drawn > 0 {
-        text += " It draws pixels of one line twice.";
-    }
-    if found.in_order.drawn < found.in_order.of {
-        text += " Its pixels do not come in order from the first end.";
-    }
-    if let Some(other) = found.alternatives.first() {
-        text += &format!(" It may as well be that it {}.", line_convention(other));
-    }
-    text
 }

@@ -6,11 +6,8 @@ use super::bench::{Answer, Bench, Question};
 use super::candidate::Candidate;
 use super::fit::Fit;
 use super::mirror::Mirror;
-use super::quantum::Quantum;
 use super::rule::{Convention, Ties, Windings};
-use super::scan::Scan;
 use super::search::Seen;
-use super::shape::Shape;
 use super::ties::{Compass, Count};
 use super::upright::mirror_of;
 use super::{Ask, Known};
@@ -157,10 +154,9 @@ impl Bench<'_> {
         let mut others = others;
         // Ties without a rule: the scan conversion of a library may say why.
         if !as_found.is_exact() {
-            let scan = |scan| Candidate { draws, quantum: Quantum::NONE, shape: Shape::Scan(scan) };
-            let fits = |scan: &Candidate| scan.errors(&ties, self.window, 0) == 0;
-            let scans = Scan::ALL.map(scan).into_iter().filter(fits);
-            for scan in scans.map(|scan| convention(&scan, compass.ties())) {
+            for scan in Candidate::scans(draws, &ties, self.window)
+                .map(|scan| convention(&scan, compass.ties()))
+            {
                 let as_scan = share(&scan, self);
                 if as_scan.is_exact() {
                     (found, as_found, others) = (scan, as_scan, &[]);
@@ -183,7 +179,7 @@ impl Bench<'_> {
             .collect();
         Diagnosis {
             convention: found,
-            confidence: confidence(&as_found, &alternatives),
+            confidence: Confidence::of(as_found.general.triangles, alternatives.is_empty()),
             alternatives,
             compass,
             flat,
@@ -198,14 +194,15 @@ impl Bench<'_> {
     }
 }
 
-fn confidence(found: &Share, alternatives: &[Convention]) -> Confidence {
-    let exact = found.general.triangles;
-    if exact.of > 0 && exact.drawn == exact.of && alternatives.is_empty() {
-        Confidence::Certain
-    } else if exact.percent().is_some_and(|percent| percent >= LIKELY_PERCENT) {
-        Confidence::Likely
-    } else {
-        Confidence::Unexplained
+impl Confidence {
+    /// How sure a hypothesis is that explains so many of the fresh answers. `is_alone` is whether no other one
+    /// explains as many.
+    pub(super) fn of(fresh: Count, is_alone: bool) -> Self {
+        match fresh.percent() {
+            Some(_) if is_alone && fresh.drawn == fresh.of => Self::Certain,
+            Some(percent) if percent >= LIKELY_PERCENT => Self::Likely,
+            _ => Self::Unexplained,
+        }
     }
 }
 

@@ -6,7 +6,6 @@ use super::general::Flip;
 use super::outline::LineTie;
 use super::quantum::{Quantum, Rounding};
 use super::samples::Pattern;
-use super::scan::Scan;
 use super::search::{Range, Scored, Search, Seen};
 use super::shape::Shape;
 use rasterproof_core::arrays::MapArray as _;
@@ -45,7 +44,8 @@ impl<'a> Fit<'a> {
             }
         }
         if found.iter().all(|(errors, _)| *errors > 0) {
-            found.extend(self.scans());
+            let Seen { answers, window, draws } = self.seen;
+            found.extend(Candidate::scans(draws, answers, window).map(|scan| (0, scan)));
         }
         found.sort_by_key(|(errors, candidate)| (*errors, candidate.rank()));
         found
@@ -102,17 +102,6 @@ impl<'a> Fit<'a> {
             .flat_map(|quantum| LineTie::ALL.map(|tie| (quantum, Shape::Outline(tie))))
             .map(|(quantum, shape)| Candidate { draws, quantum, shape })
             .map(|candidate| (candidate.errors(answers, window, u32::MAX), candidate))
-            .collect()
-    }
-
-    /// Those that explain everything: what is nearly one of them is none of them.
-    fn scans(&self) -> Vec<Scored> {
-        let Seen { answers, window, draws } = self.seen;
-        Scan::ALL
-            .map(|scan| Candidate { draws, quantum: Quantum::NONE, shape: Shape::Scan(scan) })
-            .into_iter()
-            .filter(|candidate| candidate.errors(answers, window, 0) == 0)
-            .map(|candidate| (0, candidate))
             .collect()
     }
 

@@ -1,7 +1,7 @@
 //! Triangles as half-planes, moved: what most shapes are. A sample point moves the pixel, samples that
 //! differ for left and right edges are crossings rounded row by row, a reach moves the edges outward.
 
-use super::place::{Place, Points, around, turn};
+use super::place::{Emit, Place, Points, around, edges, turn};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
@@ -51,12 +51,7 @@ pub(super) fn at(x: i32, y: i32) -> HalfPlanes {
 
 impl HalfPlanes {
     /// Calls `emit` with every pixel of `window` that is not outside; true.
-    pub(super) fn trace(
-        self,
-        points: &Points,
-        window: PixelRect,
-        emit: &mut dyn FnMut(i32, i32, Place),
-    ) -> bool {
+    pub(super) fn trace(self, points: &Points, window: PixelRect, emit: Emit<'_>) -> bool {
         let sign = turn(points).signum() as i64;
         if sign == 0 {
             return true;
@@ -87,15 +82,14 @@ impl HalfPlanes {
             Side { a: wa, b: wb, c: c + i128::from(reach), facing: facing(a, b) }
         };
         let mut sides = Vec::with_capacity(7);
-        for (i, p) in points.iter().enumerate() {
-            let q = points[(i + 1) % 3];
+        for [p, q] in edges(points) {
             let (a, b) = (sign * (p[1] - q[1]), sign * (q[0] - p[0]));
             // What is level or upright is among the borders of the box.
             if (rows && a == 0) || (boxed && (a == 0 || b == 0)) {
                 continue;
             }
             let width = if square { a.abs() + b.abs() } else { a.abs().max(b.abs()) };
-            sides.push(side(a, b, *p, width * i64::from(reach)));
+            sides.push(side(a, b, p, width * i64::from(reach)));
         }
         let ends = |axis: usize| {
             let v = points.map_array(|p| p[axis]);
@@ -115,7 +109,7 @@ impl HalfPlanes {
 }
 
 /// The same loop in words that cannot overflow: i64 for corners within 2^28, else i128.
-fn walk<T>(sides: &[Side<T>], rect: PixelRect, emit: &mut dyn FnMut(i32, i32, Place))
+fn walk<T>(sides: &[Side<T>], rect: PixelRect, emit: Emit<'_>)
 where
     T: Copy + Ord + From<i64> + std::ops::Add<Output = T> + std::ops::Mul<Output = T>,
 {

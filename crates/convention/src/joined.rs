@@ -6,7 +6,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::place::Points;
+use super::place::{Points, edges};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
@@ -68,8 +68,7 @@ fn last(x: f32) -> i64 {
 pub(super) fn trace(points: &Points, window: PixelRect, put: &mut dyn FnMut(i64, i64)) {
     let corners = points.map_array(|p| p.map_array(|v| v / 256));
     let mut sides = Vec::new();
-    for i in 0..3 {
-        let (p, q) = (corners[i], corners[(i + 1) % 3]);
+    for [p, q] in edges(&corners) {
         if p[1] == q[1] {
             (p[0].min(q[0])..=p[0].max(q[0])).for_each(|x| put(x, p[1]));
         } else {

@@ -43,14 +43,15 @@ pub enum LineRounding {
     Ahead,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum Ends {
-    Both,
-    WithoutLast,
-    WithoutFirst,
-    /// Not the right end; of upright lines, the lower.
-    WithoutRight,
-    Neither,
+rasterproof_core::named! {
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum Ends {
+        Both = "both ends are drawn",
+        WithoutLast = "the last pixel is not drawn",
+        WithoutFirst = "the first pixel is not drawn",
+        WithoutRight = "the right end (of upright lines the lower) is not drawn",
+        Neither = "neither end is drawn",
+    }
 }
 
 /// How a step along both axes at once is drawn.
@@ -102,11 +103,6 @@ impl LineRounding {
         };
         below + i64::from(up && rest > 0)
     }
-}
-
-impl Ends {
-    pub const ALL: [Self; 5] =
-        [Self::Both, Self::WithoutLast, Self::WithoutFirst, Self::WithoutRight, Self::Neither];
 }
 
 impl Steps {
@@ -273,8 +269,6 @@ const FRESH: usize = 80;
 /// Answers that all hypotheses are tried on, and how many of these go on.
 const FEW: usize = 40;
 const KEPT: usize = 40;
-/// From this share on a convention that does not explain all is likely.
-const LIKELY_PERCENT: f64 = 95.0;
 
 /// Random lines: half of them anywhere, half with ties, which random ones seldom have.
 fn lines(rng: &mut Rng, side: i32, count: usize) -> Vec<LineQuestion> {
@@ -382,13 +376,7 @@ fn conclude(
             .filter(|c| explained(c, fresh) == best)
             .collect();
     }
-    found.confidence = if whole && found.alternatives.is_empty() {
-        Confidence::Certain
-    } else if best.percent().is_some_and(|percent| percent >= LIKELY_PERCENT) {
-        Confidence::Likely
-    } else {
-        Confidence::Unexplained
-    };
+    found.confidence = Confidence::of(best, whole && found.alternatives.is_empty());
     for drawn in fresh {
         found.twice.add(drawn.set.len() < drawn.pixels.len());
         if ordered {

@@ -5,23 +5,21 @@ use serde::Serialize;
 
 use rasterproof_core::grid::PixelRect;
 
-/// How the whole picture is turned over, about the middle of its window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum Mirror {
-    None,
-    /// Upside down: row y is row height - 1 - y.
-    UpsideDown,
-    /// Column x is column width - 1 - x.
-    LeftToRight,
-    /// Both: turned by half a turn.
-    HalfTurn,
-    Exchanged,
+rasterproof_core::named! {
+    /// How the whole picture is turned over, about the middle of its window.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum Mirror {
+        None = "",
+        /// Row y is row height - 1 - y.
+        UpsideDown = "draws its picture upside down, ",
+        /// Column x is column width - 1 - x.
+        LeftToRight = "draws its picture with left and right exchanged, ",
+        HalfTurn = "draws its picture turned by half a turn, ",
+        Exchanged = "draws its picture with x and y exchanged, ",
+    }
 }
 
 impl Mirror {
-    pub const ALL: [Self; 5] =
-        [Self::None, Self::UpsideDown, Self::LeftToRight, Self::HalfTurn, Self::Exchanged];
-
     /// Where the pixel that belongs at (x, y) is drawn. Its own inverse.
     pub(super) fn at(self, x: i32, y: i32, window: PixelRect) -> [i32; 2] {
         let [across, down] = [window.x0 + window.x1 - 1 - x, window.y0 + window.y1 - 1 - y];

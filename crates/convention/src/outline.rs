@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::half_planes;
-use super::place::{Place, Points};
+use super::place::{Emit, Place, Points, edges};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
@@ -137,14 +137,9 @@ const MOST_STEPS: i64 = 1 << 13;
 
 /// As [`super::shape::Shape::trace`]: the pixels whose corner lies in the closed triangle, and the three sides.
 /// Corners are multiples of a pixel.
-pub(super) fn trace(
-    points: &Points,
-    tie: LineTie,
-    window: PixelRect,
-    emit: &mut dyn FnMut(i32, i32, Place),
-) -> bool {
+pub(super) fn trace(points: &Points, tie: LineTie, window: PixelRect, emit: Emit<'_>) -> bool {
     let pixels = points.map_array(|p| p.map_array(|v| v.div_euclid(256)));
-    let lines = [0, 1, 2].map_array(|i| Line::new(pixels[i], pixels[(i + 1) % 3]));
+    let lines = edges(&pixels).map_array(|[from, to]| Line::new(from, to));
     if lines.iter().any(|line| line.steps() > MOST_STEPS) {
         return false;
     }

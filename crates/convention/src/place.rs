@@ -26,8 +26,16 @@ pub(super) enum Place {
     },
 }
 
+/// What is called with every pixel that is not outside.
+pub(super) type Emit<'a> = &'a mut dyn FnMut(i32, i32, Place);
+
 /// Corners on the grid, in subpixels.
 pub(super) type Points = [[i64; 2]; 3];
+
+/// The edges, each from a corner to the next.
+pub(super) fn edges(&[a, b, c]: &Points) -> [[[i64; 2]; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
+}
 
 /// Twice the area; positive where the corners turn clockwise on the screen.
 pub(super) fn turn([a, b, c]: &Points) -> i128 {

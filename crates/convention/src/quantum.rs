@@ -6,15 +6,17 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum Rounding {
-    /// To the nearest, a half up: floor(v + 1/2).
-    Near,
-    HalfEven,
-    /// Down: floor(v).
-    Down,
-    /// Toward zero, as a cast to `int` does.
-    TowardZero,
+rasterproof_core::named! {
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum Rounding {
+        /// floor(v + 1/2).
+        Near = "the nearest, halves up",
+        HalfEven = "the nearest, halves to the even one",
+        /// floor(v).
+        Down = "down",
+        /// As a cast to `int` does.
+        TowardZero = "toward zero",
+    }
 }
 
 /// The grid of corners: multiples of `step` subpixels (1/256 px).

@@ -13,14 +13,15 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
-/// Which windings are drawn, as seen on the screen with y down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum Windings {
-    Both,
-    Clockwise,
-    CounterClockwise,
-    /// None: it draws nothing.
-    Neither,
+rasterproof_core::named! {
+    /// Which windings are drawn, as seen on the screen with y down.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum Windings {
+        Both = "",
+        Clockwise = "draws clockwise triangles alone, ",
+        CounterClockwise = "draws counterclockwise triangles alone, ",
+        Neither = "draws nothing, ",
+    }
 }
 
 impl Windings {

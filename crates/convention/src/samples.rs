@@ -4,17 +4,19 @@
 use serde::Serialize;
 
 use super::half_planes;
-use super::place::{Place, Points, around};
+use super::place::{Emit, Place, Points, around};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 
-/// How four samples lie about their middle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum Pattern {
-    /// Two by two, a quarter of a pixel each way.
-    Square,
-    /// The four of Vulkan and Direct3D, each in a row and a column of its own.
-    Rotated,
+rasterproof_core::named! {
+    /// How four samples lie about their middle.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum Pattern {
+        /// A quarter of a pixel each way.
+        Square = "two by two",
+        /// The four of Vulkan and Direct3D.
+        Rotated = "each in a row and column of its own",
+    }
 }
 
 impl Pattern {
@@ -33,7 +35,7 @@ pub(super) fn trace(
     [x, y]: [i32; 2],
     (pattern, least): (Pattern, u8),
     window: PixelRect,
-    emit: &mut dyn FnMut(i32, i32, Place),
+    emit: Emit<'_>,
 ) -> bool {
     // Samples lie up to a pixel and a half from the pixel's corner.
     let rect = around(points, 3).intersect(&window);

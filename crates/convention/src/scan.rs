@@ -8,41 +8,38 @@
 use serde::Serialize;
 
 use super::joined;
-use super::place::{Place, Points, around};
+use super::place::{Emit, Place, Points, around, edges};
 use rasterproof_core::grid::PixelRect;
 
-/// How rows and crossings are rounded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum Scan {
-    /// A row belongs where its centre does; its crossings are taken 1/256 px above and cut down to
-    /// 1/256 px: cairo without antialiasing.
-    Above,
-    /// The first crossing and the slope are cut to 1/1024 px, then added: Java 2D, paths.
-    Coarse,
-    /// Crossings in 1/65536 px, begun in the row nearest to a corner at the corner's column, the last
-    /// row left out, and the three sides as lines in such steps: OpenCV, convex polygons.
-    Sides,
-    /// Between whole pixels, both ends of every side included, corners drawn on: Pillow.
-    Joined,
-    /// Corners moved a quarter of a pixel right and down, crossings in f32, stepped with a remainder of 31
-    /// bits: Java 2D, polygons of whole pixels.
-    Carried,
+rasterproof_core::named! {
+    /// How rows and crossings are rounded.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum Scan {
+        /// cairo without antialiasing.
+        Above = "fills the rows whose centres it holds, between crossings taken 1/256 px above the centre \
+                 and cut down to 1/256 px",
+        /// Java 2D, paths.
+        Coarse = "samples at the pixel's centre, row by row, between crossings that are stepped from the \
+                  first one, all cut to 1/1024 px",
+        /// OpenCV, convex polygons.
+        Sides = "fills row by row between crossings stepped in 1/65536 px from the row nearest to a corner, \
+                 without the last row, and draws the three sides as lines in such steps",
+        /// Pillow.
+        Joined = "moves corners to whole pixels (toward zero), fills every row from the first to the last \
+                  between crossings rounded to the nearest pixel, halves inwards, and draws on the row of a \
+                  corner to where the next one begins",
+        /// Java 2D, polygons of whole pixels.
+        Carried = "moves corners a quarter of a pixel right and down, and samples at the pixel's centre, row by row, \
+                   between crossings in single precision that are stepped with a remainder of 31 bits",
+    }
 }
 
 /// Corners farther out are not computed.
 const MOST: i64 = 1 << 22;
 
 impl Scan {
-    pub const ALL: [Self; 5] =
-        [Self::Above, Self::Coarse, Self::Sides, Self::Joined, Self::Carried];
-
     /// As [`super::shape::Shape::trace`]. Nothing where a corner lies 2^14 px out.
-    pub(super) fn trace(
-        self,
-        points: &Points,
-        window: PixelRect,
-        emit: &mut dyn FnMut(i32, i32, Place),
-    ) -> bool {
+    pub(super) fn trace(self, points: &Points, window: PixelRect, emit: Emit<'_>) -> bool {
         if points.as_flattened().iter().any(|v| v.abs() > MOST) {
             return false;
         }
@@ -64,10 +61,7 @@ impl Scan {
 
     /// Rows between two crossings.
     fn rows(self, points: &Points, window: PixelRect, put: &mut dyn FnMut(i64, i64)) {
-        let edges = [0, 1, 2].map(|i| {
-            let (p, q) = (points[i], points[(i + 1) % 3]);
-            if p[1] <= q[1] { [p, q] } else { [q, p] }
-        });
+        let edges = edges(points).map(|[p, q]| if p[1] <= q[1] { [p, q] } else { [q, p] });
         let rect = around(points, 2).intersect(&window);
         for y in i64::from(rect.y0)..rect.y1.into() {
             let columns = edges.iter().filter_map(|edge| match self {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::area_coverage;
 use super::half_planes::{self, HalfPlanes};
 use super::outline::{self, LineTie};
-use super::place::{Place, Points, turn};
+use super::place::{Emit, Points, turn};
 use super::samples::{self, Pattern};
 use super::scan::Scan;
 use super::stepped;
@@ -62,12 +62,7 @@ impl Shape {
 
     /// Calls `emit` with every pixel of `window` that is not outside. A triangle without area has
     /// none, but for what [`Shape::draws_flat`]. Nothing where this shape is not computed for triangles so large: then false.
-    pub(super) fn trace(
-        self,
-        points: &Points,
-        window: PixelRect,
-        emit: &mut dyn FnMut(i32, i32, Place),
-    ) -> bool {
+    pub(super) fn trace(self, points: &Points, window: PixelRect, emit: Emit<'_>) -> bool {
         if turn(points) == 0 && !self.draws_flat() {
             return true;
         }

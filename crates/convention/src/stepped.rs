@@ -4,7 +4,7 @@
 //! grid of the corners, the slope to 1/65536 px a row; then the slope is added row by row. Both
 //! roundings move an edge by up to a step of the grid, so two triangles at one edge still agree.
 
-use super::place::{Place, Points, around};
+use super::place::{Emit, Place, Points, around, edges};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
@@ -36,19 +36,13 @@ impl Edge {
 }
 
 /// As [`super::shape::Shape::trace`]. Nothing where a corner is not a multiple of 1/64 px.
-pub(super) fn trace(
-    points: &Points,
-    [x, y]: [i32; 2],
-    window: PixelRect,
-    emit: &mut dyn FnMut(i32, i32, Place),
-) -> bool {
+pub(super) fn trace(points: &Points, [x, y]: [i32; 2], window: PixelRect, emit: Emit<'_>) -> bool {
     let at = points.map_array(|p| [p[0] - i64::from(x), p[1] - i64::from(y)]);
     if at.as_flattened().iter().any(|v| v % STEP != 0 || v.abs() > 1 << 22) {
         return false;
     }
     let at = at.map_array(|p| p.map_array(|v| v / STEP));
-    let edges = [0, 1, 2].map_array(|i| {
-        let (p, q) = (at[i], at[(i + 1) % 3]);
+    let edges = edges(&at).map_array(|[p, q]| {
         if p[1] <= q[1] { Edge { top: p, bottom: q } } else { Edge { top: q, bottom: p } }
     });
     let rect = around(points, 2).intersect(&window);
