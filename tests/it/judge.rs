@@ -135,7 +135,8 @@ fn judge_names_misbehaviour() {
         let program = process(&["scanline", "--plant", fault], 400).unwrap();
         let verdict = judged(Box::new(program), &options(64, &["half-integer", "uniform"]));
         let incidents = verdict.found.incidents.iter().map(|i| &i.what);
-        let words: Vec<_> = incidents.chain(&verdict.found.strays).map(|m| m.word()).collect();
+        let words: Vec<_> =
+            incidents.chain(&verdict.found.strays).map(|m| m.breach.name()).collect();
         assert!(words.contains(&word), "{fault}: {words:?}");
         assert_eq!(property(&verdict, "protocol"), Outcome::Fail, "{fault}");
         assert_eq!(property(&verdict, "uniform"), Outcome::Pass, "{fault}");
@@ -182,7 +183,7 @@ fn judge_refuses_who_never_says_hello() {
         let Err(misbehaviour) = Program::start(&command, &[], limits) else {
             panic!("{fault} says no HELLO")
         };
-        assert_eq!(misbehaviour.word(), word, "{fault}");
+        assert_eq!(misbehaviour.breach.name(), word, "{fault}");
         assert!(misbehaviour.to_string().contains(said), "{fault}: {misbehaviour}");
     }
     check("judge -- ./there-is-no-such-program", 2)

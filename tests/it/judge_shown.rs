@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
+use rasterproof_judge::ask::{Answer, Ask, Asked, Breach, Question};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
@@ -134,7 +134,7 @@ fn judge_sees_the_first_request() {
     let dies = Answering(engine.declared().clone(), move |questions: &[Question], most| {
         let mut answers = engine.ask(questions, most);
         if !std::mem::replace(&mut has_died, true) {
-            answers[0] = Answer::Died(Misbehaviour::Crashes("signal 11".to_owned()));
+            answers[0] = Answer::Died(Breach::Crashes.by("signal 11"));
         }
         answers
     });

@@ -4,11 +4,12 @@
 //! the tests can compare them.
 
 use std::fmt;
+use std::io::Write as _;
 
 use glam::DVec2;
 
 use super::declared::Declared;
-use super::text::{Words, printable, write_int, write_px};
+use super::text::{Words, printable, px};
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
@@ -42,6 +43,20 @@ pub enum Asked {
     Near(Triangle),
 }
 
+impl Asked {
+    /// The letters of the request and of its answer.
+    fn letters(&self) -> [u8; 2] {
+        *match self {
+            Self::Coverage(_) => b"TC",
+            Self::Values(_) => b"IF",
+            Self::Samples(_) => b"SM",
+            Self::Line { .. } => b"LP",
+            Self::Depth(_) => b"DV",
+            Self::Near(_) => b"NG",
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     /// C: runs of covered pixels as they came.
@@ -70,54 +85,47 @@ impl Answer {
     }
 }
 
+rasterproof_core::named! {
+    /// In which way a program did not answer.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Breach {
+        CannotStart = "cannot be started",
+        NoHello = "never says HELLO",
+        /// No answer within the limit, and none within as much again.
+        Hangs = "hangs",
+        Late = "answers late",
+        /// It ended, or closed its output, before it had answered.
+        Exits = "exits early",
+        /// It was ended by a signal, or panicked.
+        Crashes = "crashes",
+        Nonsense = "prints nonsense",
+        Twice = "answers twice",
+        OutOfOrder = "answers out of order",
+        Unasked = "answers for another id",
+        /// More output than any answers have.
+        Floods = "floods its output",
+    }
+}
+
 /// What a program did instead of answering.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Misbehaviour {
-    /// It could not be started: the reason.
-    CannotStart(String),
-    /// It did not answer HELLO: the last thing it said, or what it did instead.
-    NoHello(String),
-    /// No answer within the limit, and none within as much again: the limit in seconds.
-    Hangs(f64),
-    /// An answer after the limit: seconds it took, and the limit.
-    Late(f64, f64),
-    /// It ended, or closed its output, before it had answered: how.
-    Exits(String),
-    /// It was ended by this signal, or panicked with this message.
-    Crashes(String),
-    /// A line that is no answer, printable.
-    Nonsense(String),
-    /// A second answer for a request.
-    Twice(String),
-    /// The answer of a later request.
-    OutOfOrder(String),
-    /// An answer for a request that was never made.
-    Unasked(String),
-    /// More output than any answers have: how much.
-    Floods(String),
+pub struct Misbehaviour {
+    pub breach: Breach,
+    /// How it did it, or what it said, printable.
+    pub how: String,
+}
+
+impl Breach {
+    pub fn by(self, how: impl Into<String>) -> Misbehaviour {
+        Misbehaviour { breach: self, how: how.into() }
+    }
 }
 
 impl Misbehaviour {
-    pub fn word(&self) -> &'static str {
-        match self {
-            Self::CannotStart(_) => "cannot be started",
-            Self::NoHello(_) => "never says HELLO",
-            Self::Hangs(_) => "hangs",
-            Self::Late(..) => "answers late",
-            Self::Exits(_) => "exits early",
-            Self::Crashes(_) => "crashes",
-            Self::Nonsense(_) => "prints nonsense",
-            Self::Twice(_) => "answers twice",
-            Self::OutOfOrder(_) => "answers out of order",
-            Self::Unasked(_) => "answers for another id",
-            Self::Floods(_) => "floods its output",
-        }
-    }
-
     /// What to do about a program that cannot be judged at all.
     pub fn remedy(&self) -> &'static str {
-        match self {
-            Self::CannotStart(_) => {
+        match self.breach {
+            Breach::CannotStart => {
                 "name a program and its arguments after --; at a limit of processes, allow more (ulimit -u)"
             }
             _ => {
@@ -130,22 +138,7 @@ impl Misbehaviour {
 
 impl fmt::Display for Misbehaviour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let word = self.word();
-        match self {
-            Self::CannotStart(what)
-            | Self::NoHello(what)
-            | Self::Exits(what)
-            | Self::Crashes(what)
-            | Self::Nonsense(what)
-            | Self::Twice(what)
-            | Self::OutOfOrder(what)
-            | Self::Unasked(what)
-            | Self::Floods(what) => write!(f, "{word}: {what}"),
-            Self::Hangs(limit) => write!(f, "{word}: no answer within {limit} s"),
-            Self::Late(took, limit) => {
-                write!(f, "{word}: after {took:.1} s, allowed are {limit} s")
-            }
-        }
+        write!(f, "{}: {}", self.breach.name(), self.how)
     }
 }
 
@@ -175,50 +168,40 @@ pub trait Ask: Send {
 impl Question {
     /// Appends the request, with its line end.
     pub fn write(&self, id: u64, out: &mut Vec<u8>) {
-        out.push(match self.of {
-            Asked::Coverage(_) => b'T',
-            Asked::Values(_) => b'I',
-            Asked::Samples(_) => b'S',
-            Asked::Line { .. } => b'L',
-            Asked::Depth(_) => b'D',
-            Asked::Near(_) => b'N',
-        });
-        let sides = [self.width, self.height];
-        let sides: &[u32] = if matches!(self.of, Asked::Near(_)) { &[] } else { &sides };
-        for number in std::iter::once(id).chain(sides.iter().map(|side| u64::from(*side))) {
-            out.push(b' ');
-            write_int(out, number as i64);
+        // Writing to a vector does not fail.
+        let _ = write!(out, "{} {id}", char::from(self.of.letters()[0]));
+        if !matches!(self.of, Asked::Near(_)) {
+            let _ = write!(out, " {} {}", self.width, self.height);
         }
+        // Rust prints the shortest decimal that reads back as the same number.
+        let mut add = |numbers: &[f64]| {
+            numbers.iter().for_each(|number| drop(write!(out, " {number}")));
+        };
+        let at = |p: SubpixelPoint| [px(p.x), px(p.y)];
         match &self.of {
             Asked::Coverage(corners) | Asked::Samples(corners) => {
-                for sub in corners.iter().flat_map(|p| [p.x, p.y]) {
-                    out.push(b' ');
-                    write_px(out, sub);
-                }
+                corners.iter().for_each(|p| add(&at(*p)));
             }
             Asked::Values(triangle) => {
                 for v in &triangle.vertices {
-                    write_numbers(
-                        out,
-                        v.position,
-                        &[v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y],
-                    );
+                    add(&at(v.position));
+                    add(&[v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y]);
                 }
             }
             Asked::Line { ends, whole } => {
-                for px in ends.iter().flat_map(|p| [p.x, p.y]) {
-                    let centre = if *whole { 0.0 } else { 0.5 };
-                    out.extend_from_slice(format!(" {}", f64::from(px) + centre).as_bytes());
-                }
+                let centre = if *whole { 0.0 } else { 0.5 };
+                ends.iter().for_each(|p| add(&[p.x, p.y].map(|px| f64::from(px) + centre)));
             }
             Asked::Depth(list) => {
                 for v in list.iter().flat_map(|triangle| &triangle.vertices) {
-                    write_numbers(out, v.position, &[v.depth]);
+                    add(&at(v.position));
+                    add(&[v.depth]);
                 }
             }
             Asked::Near(triangle) => {
                 for (v, [_, _, z, w]) in triangle.vertices.iter().zip(clip_corners(triangle)) {
-                    write_numbers(out, v.position, &[z, w]);
+                    add(&at(v.position));
+                    add(&[z, w]);
                 }
             }
         }
@@ -242,15 +225,7 @@ impl Question {
         if letter == b'E' {
             return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
         }
-        let expected = match self.of {
-            Asked::Coverage(_) => b'C',
-            Asked::Values(_) => b'F',
-            Asked::Samples(_) => b'M',
-            Asked::Line { .. } => b'P',
-            Asked::Depth(_) => b'V',
-            Asked::Near(_) => b'G',
-        };
-        if letter != expected {
+        if letter != self.of.letters()[1] {
             return Err("its letter does not belong to the request");
         }
         let n = words.int().and_then(|n| usize::try_from(n).ok()).ok_or("it has no count")?;
@@ -265,18 +240,6 @@ impl Question {
             })?),
         };
         if words.is_empty() { Ok(answer) } else { Err("more follows than it counts") }
-    }
-}
-
-/// Appends a position and what else a corner has.
-fn write_numbers(out: &mut Vec<u8>, position: SubpixelPoint, more: &[f64]) {
-    for sub in [position.x, position.y] {
-        out.push(b' ');
-        write_px(out, sub);
-    }
-    for number in more {
-        // Rust prints the shortest decimal that reads back as the same number.
-        out.extend_from_slice(format!(" {number}").as_bytes());
     }
 }
 

@@ -72,8 +72,7 @@ impl Baseline {
     /// Sorts the outcomes of a verdict into known and new.
     pub fn apply(&self, verdict: &mut Verdict) {
         let failing = failing(verdict);
-        let judged: HashSet<String> =
-            verdict.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect();
+        let judged = judged(verdict);
         for property in &mut verdict.properties {
             let of_it = |case: &&String| case.split(' ').next() == Some(property.name);
             let all: Vec<&String> = failing.keys().filter(of_it).collect();
@@ -103,8 +102,7 @@ impl Baseline {
             let most = super::run::MOST_REMEMBERED;
             return Err(format!("more than {most} cases fail: ask fewer with --cases"));
         }
-        let judged: HashSet<String> =
-            verdict.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect();
+        let judged = judged(verdict);
         let mut all: BTreeMap<_, _> =
             self.known.iter().filter(|(case, _)| !judged.contains(*case)).collect();
         let failing = failing(verdict);
@@ -116,6 +114,11 @@ impl Baseline {
         }
         Ok(out)
     }
+}
+
+/// The cases that were judged, as in the file.
+fn judged(verdict: &Verdict) -> HashSet<String> {
+    verdict.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect()
 }
 
 /// What fails, as in the file. What the whole run shows has one case.

@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::text::{number, printable};
+use super::text::{number, printable, px};
 use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, MAX_SIDE_PX, SUBPIXELS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 
@@ -181,7 +181,6 @@ fn subpixels(word: &str) -> Option<i32> {
 impl fmt::Display for Declared {
     /// The words after the name, as HELLO 2 has them.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
         f.write_str(&self.capabilities().join(" "))?;
         write!(f, " grid={} origin={},{}", self.grid, px(self.origin[0]), px(self.origin[1]))?;
         write!(f, " rule={} winding={}", self.rule.word(), self.winding.word())?;

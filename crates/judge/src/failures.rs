@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Ask, Misbehaviour, show};
+use super::ask::{Answer, Ask, Breach, Misbehaviour, show};
 use super::check::{Check, Truth, expected_answer};
 use super::finding::Finding;
 use super::pictured::{Pictured, pictured};
@@ -77,7 +77,7 @@ fn failure(
     let start = Instant::now();
     let leaves = adapt_case::leaves_window(&case);
     // What takes long to go wrong is shown as it is.
-    let is_slow = |m: &Misbehaviour| matches!(m, Misbehaviour::Hangs(_) | Misbehaviour::Late(..));
+    let is_slow = |m: &Misbehaviour| matches!(m.breach, Breach::Hangs | Breach::Late);
     let case = if !first.is_wrong() || first.died.iter().any(|(_, m)| is_slow(m)) {
         case
     } else {

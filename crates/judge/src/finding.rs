@@ -46,7 +46,7 @@ impl Finding {
         let mut mark = self.mark;
         [missing, extra, twice, order, off, self.refused].iter().for_each(|n| mix(&mut mark, *n));
         for (_, misbehaviour) in &self.died {
-            misbehaviour.word().bytes().for_each(|b| mix(&mut mark, u64::from(b)));
+            misbehaviour.breach.name().bytes().for_each(|b| mix(&mut mark, u64::from(b)));
         }
         mark
     }

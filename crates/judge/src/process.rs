@@ -15,7 +15,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::ask::{Answer, Ask, Misbehaviour, Question};
+use super::ask::{Answer, Ask, Breach, Misbehaviour, Question};
 use super::declared::Declared;
 use super::process_group::Group;
 use super::text::{Words, printable};
@@ -145,7 +145,7 @@ impl Program {
             self.kept += live.heard;
             if self.kept > limits::PROGRAM_BLOCK_BYTES {
                 let said = format!("{} bytes of answers to a block of requests", self.kept);
-                return Err((Misbehaviour::Floods(said), sent - answered));
+                return Err((Breach::Floods.by(said), sent - answered));
             }
             answers.push(answer);
             live.answered = Some((id, questions[answered].clone()));
@@ -213,18 +213,18 @@ impl Live {
         complaints: &Arc<Mutex<VecDeque<u8>>>,
     ) -> Result<Self, Misbehaviour> {
         let Some((name, arguments)) = command.split_first() else {
-            return Err(Misbehaviour::CannotStart("no program is named".to_owned()));
+            return Err(Breach::CannotStart.by("no program is named"));
         };
         let mut command = Command::new(name);
         command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let failed = |e: std::io::Error| {
-            Misbehaviour::CannotStart(format!("{}: {e}", printable(name.as_encoded_bytes(), 80)))
+            Breach::CannotStart.by(format!("{}: {e}", printable(name.as_encoded_bytes(), 80)))
         };
         let mut group = Group::start(&mut command).map_err(failed)?;
         let child = group.child();
         let pipes = (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let (Some(mut stdin), Some(mut stdout), Some(stderr)) = pipes else {
-            return Err(Misbehaviour::CannotStart("it has no pipes".to_owned()));
+            return Err(Breach::CannotStart.by("it has no pipes"));
         };
         let (requests, blocks) = mpsc::channel::<Vec<u8>>();
         serve(move || {
@@ -270,25 +270,25 @@ impl Live {
                         asked = 1;
                         let _ = self.requests.send(b"HELLO 1\n".to_vec());
                     } else if refuses {
-                        return Err(Misbehaviour::NoHello(quote(&last)));
+                        return Err(Breach::NoHello.by(quote(&last)));
                     } else if heard > limits::PROGRAM_CHATTER_BYTES {
                         let said = format!("{heard} bytes before HELLO, at last {}", quote(&last));
-                        return Err(Misbehaviour::Floods(said));
+                        return Err(Breach::Floods.by(said));
                     }
                 }
                 Err(NoLine::Ended) => {
                     let how = match ending(self.group.end(LOOK * 50)) {
-                        Misbehaviour::Exits(how) => format!("it exits: {how}"),
+                        Misbehaviour { breach: Breach::Exits, how } => format!("it exits: {how}"),
                         other => other.to_string(),
                     };
-                    return Err(Misbehaviour::NoHello(how));
+                    return Err(Breach::NoHello.by(how));
                 }
                 Err(NoLine::TimeOut) => {
                     let limit = limits.start.as_secs_f64();
                     let said = quote(&last);
-                    return Err(Misbehaviour::NoHello(format!("{said}, for {limit} s")));
+                    return Err(Breach::NoHello.by(format!("{said}, for {limit} s")));
                 }
-                Err(NoLine::TooLong(bytes)) => return Err(Misbehaviour::Floods(unended(bytes))),
+                Err(NoLine::TooLong(bytes)) => return Err(Breach::Floods.by(unended(bytes))),
             }
         }
     }
@@ -306,7 +306,10 @@ impl Live {
         let line = match self.line(start + limits.answer) {
             // As much time again tells an answer that is late from none at all.
             Err(NoLine::TimeOut) => match self.line(start + 2 * limits.answer) {
-                Ok(_) => Err(Misbehaviour::Late(start.elapsed().as_secs_f64(), limit)),
+                Ok(_) => {
+                    let took = start.elapsed().as_secs_f64();
+                    Err(Breach::Late.by(format!("after {took:.1} s, allowed are {limit} s")))
+                }
                 Err(why) => Err(self.why(why, limit)),
             },
             other => other.map_err(|why| self.why(why, limit)),
@@ -316,7 +319,7 @@ impl Live {
         let mut words = Words(line);
         let nonsense = |why: &str| {
             let said = printable(line, 60);
-            Misbehaviour::Nonsense(if said.is_empty() {
+            Breach::Nonsense.by(if said.is_empty() {
                 "an empty line".to_owned()
             } else {
                 format!("{said} ({why})")
@@ -331,12 +334,12 @@ impl Live {
         if named_id != Some(id) {
             let text = |id: u64, q: &Question| printable(q.text(id).as_bytes(), 80);
             return Err(match (named_id, &self.answered) {
-                (Some(n), Some((last, q))) if n == *last => Misbehaviour::Twice(text(n, q)),
-                (Some(n), _) if n < id && n > 0 => Misbehaviour::Twice(format!("request {n}")),
+                (Some(n), Some((last, q))) if n == *last => Breach::Twice.by(text(n, q)),
+                (Some(n), _) if n < id && n > 0 => Breach::Twice.by(format!("request {n}")),
                 (Some(n), _) if n > id && asked.contains(&n) => {
-                    Misbehaviour::OutOfOrder(format!("{n} before {id}"))
+                    Breach::OutOfOrder.by(format!("{n} before {id}"))
                 }
-                _ => Misbehaviour::Unasked(format!("{} for {id}", printable(named, 20))),
+                _ => Breach::Unasked.by(format!("{} for {id}", printable(named, 20))),
             });
         }
         question.read(letter, &mut words).map_err(nonsense)
@@ -344,8 +347,8 @@ impl Live {
 
     /// What it did, or that it floods its output: after a line that is no answer comes more without an end.
     fn or_flood(&mut self, what: Misbehaviour, limits: Limits) -> Misbehaviour {
-        use Misbehaviour::{Nonsense, OutOfOrder, Twice, Unasked};
-        if !matches!(what, Nonsense(_) | OutOfOrder(_) | Twice(_) | Unasked(_)) {
+        use Breach::{Nonsense, OutOfOrder, Twice, Unasked};
+        if !matches!(what.breach, Nonsense | OutOfOrder | Twice | Unasked) {
             return what;
         }
         let start = Instant::now();
@@ -356,14 +359,14 @@ impl Live {
                 _ => return what,
             }
         }
-        Misbehaviour::Floods(format!("{more} bytes and more after it {what}"))
+        Breach::Floods.by(format!("{more} bytes and more after it {what}"))
     }
 
     fn why(&mut self, no_line: NoLine, limit: f64) -> Misbehaviour {
         match no_line {
             NoLine::Ended => ending(self.group.end(LOOK * 50)),
-            NoLine::TimeOut => Misbehaviour::Hangs(limit),
-            NoLine::TooLong(bytes) => Misbehaviour::Floods(unended(bytes)),
+            NoLine::TimeOut => Breach::Hangs.by(format!("no answer within {limit} s")),
+            NoLine::TooLong(bytes) => Breach::Floods.by(unended(bytes)),
         }
     }
 
@@ -423,16 +426,16 @@ fn unended(bytes: usize) -> String {
 /// What an ending says; nothing is known of one that closed its output and had to be ended.
 fn ending(status: Option<ExitStatus>) -> Misbehaviour {
     let Some(status) = status else {
-        return Misbehaviour::Exits("it closed its output".to_owned());
+        return Breach::Exits.by("it closed its output");
     };
     #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        return Misbehaviour::Crashes(format!("signal {signal}{}", signal_name(signal)));
+        return Breach::Crashes.by(format!("signal {signal}{}", signal_name(signal)));
     }
     match status.code() {
         // What a Rust panic ends with.
-        Some(101) => Misbehaviour::Crashes("status 101, a panic".to_owned()),
-        code => Misbehaviour::Exits(format!("with status {}", code.unwrap_or(-1))),
+        Some(101) => Breach::Crashes.by("status 101, a panic"),
+        code => Breach::Exits.by(format!("with status {}", code.unwrap_or(-1))),
     }
 }
 
@@ -448,11 +451,10 @@ fn signal_name(signal: i32) -> &'static str {
     }
 }
 
-/// Starts a thread that serves a pipe.
 fn serve(work: impl FnOnce() + Send + 'static) -> Result<(), Misbehaviour> {
     let refused = |error| {
         let why = "no thread can be started for its pipes; allow more processes (ulimit -u)";
-        Misbehaviour::CannotStart(format!("{why}: {error}"))
+        Breach::CannotStart.by(format!("{why}: {error}"))
     };
     std::thread::Builder::new().spawn(work).map(drop).map_err(refused)
 }

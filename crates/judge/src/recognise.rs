@@ -13,6 +13,7 @@ use super::declared::Declared;
 use super::expected::Expect;
 use super::leaving;
 use super::run::MOST_DEATHS;
+use super::text::px;
 use rasterproof_convention::{
     Confidence, Convention, CornerRule, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion,
     Mirror, Quantum, Shape, Ties, Windings,
@@ -296,7 +297,6 @@ fn words(declared: &Declared, found: &Diagnosis) -> String {
     // What is seen, turned over where y goes up, is what the program says.
     let seen = declared.convention().rule(rule).winding(winding);
     let (rule, winding) = (seen.seen_rule(), seen.seen_winding());
-    let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
     let mut out = String::new();
     if grid < declared.grid {
         let _ = write!(out, " grid={grid}");

@@ -1,6 +1,7 @@
 //! Words of the line protocol: numbers in, requests and answers out, and text of others made safe
 //! to show.
 
+use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_host::text::printable_short;
 
 /// A decimal number or a C99 hex float. NaN and infinities are read; who asks refuses them by name.
@@ -33,7 +34,6 @@ pub fn printable(bytes: &[u8], most: usize) -> String {
 pub struct Words<'a>(pub &'a [u8]);
 
 impl<'a> Words<'a> {
-    /// The next word, or nothing at the end.
     pub fn word(&mut self) -> Option<&'a [u8]> {
         let start = self.0.iter().position(|b| !b.is_ascii_whitespace())?;
         let rest = &self.0[start..];
@@ -44,26 +44,8 @@ impl<'a> Words<'a> {
 
     /// The next word as a whole number; nothing where it is none or does not fit.
     pub fn int(&mut self) -> Option<i32> {
-        let mut at = 0;
-        while self.0.get(at).is_some_and(u8::is_ascii_whitespace) {
-            at += 1;
-        }
-        let negative = self.0.get(at) == Some(&b'-');
-        at += usize::from(negative);
-        let first = at;
-        let mut value: i64 = 0;
-        while let Some(digit) = self.0.get(at).filter(|b| b.is_ascii_digit()) {
-            // Ten digits always fit; more are refused below.
-            value = value.wrapping_mul(10) + i64::from(digit - b'0');
-            at += 1;
-        }
-        if !(1..=10).contains(&(at - first))
-            || self.0.get(at).is_some_and(|b| !b.is_ascii_whitespace())
-        {
-            return None;
-        }
-        self.0 = &self.0[at..];
-        i32::try_from(if negative { -value } else { value }).ok()
+        let word = std::str::from_utf8(self.word()?).ok()?;
+        word.parse().ok().filter(|_| !word.starts_with('+'))
     }
 
     pub fn float(&mut self) -> Option<f64> {
@@ -76,40 +58,9 @@ impl<'a> Words<'a> {
     }
 }
 
-pub fn write_int(out: &mut Vec<u8>, value: i64) {
-    if value < 0 {
-        out.push(b'-');
-    }
-    let mut digits = [0u8; 20];
-    let (mut at, mut rest) = (digits.len(), value.unsigned_abs());
-    loop {
-        at -= 1;
-        digits[at] = b'0' + (rest % 10) as u8;
-        rest /= 10;
-        if rest == 0 {
-            break;
-        }
-    }
-    out.extend_from_slice(&digits[at..]);
-}
-
-/// Appends a coordinate in subpixels as pixels, exactly: 1/256 has eight decimals.
-pub fn write_px(out: &mut Vec<u8>, sub: i32) {
-    let magnitude = sub.unsigned_abs();
-    if sub < 0 {
-        out.push(b'-');
-    }
-    write_int(out, i64::from(magnitude / 256));
-    let mut fraction = u64::from(magnitude % 256) * 100_000_000 / 256;
-    if fraction > 0 {
-        out.push(b'.');
-        let mut scale = 10_000_000;
-        while fraction > 0 {
-            out.push(b'0' + (fraction / scale) as u8);
-            fraction %= scale;
-            scale /= 10;
-        }
-    }
+/// A coordinate in subpixels as pixels. It prints exactly: no shorter decimal reads back as the same number.
+pub fn px(sub: i32) -> f64 {
+    f64::from(sub) / f64::from(SUBPIXELS)
 }
 
 #[cfg(test)]
@@ -119,9 +70,10 @@ mod tests {
     #[test]
     fn pixels_are_written_exactly() {
         for sub in [0, 1, -1, 128, -129, 255, 256, 4097, i32::MAX, i32::MIN] {
-            let mut out = Vec::new();
-            write_px(&mut out, sub);
-            let text = String::from_utf8(out).unwrap();
+            let text = px(sub).to_string();
+            let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+            // 1/256 has eight decimals.
+            assert!(decimals <= 8 && !text.contains('e'), "{text}");
             assert_eq!(text.parse::<f64>().unwrap() * 256.0, f64::from(sub), "{text}");
         }
     }

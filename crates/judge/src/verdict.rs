@@ -2,7 +2,6 @@
 
 use super::Options;
 use super::adapt_case;
-use super::ask::Misbehaviour;
 use super::declared::Declared;
 use super::failures::Failure;
 use super::recognise::Said;
@@ -147,7 +146,7 @@ impl Verdict {
 
     fn manners(&self) -> String {
         let whats = self.found.incidents.iter().map(|i| &i.what).chain(&self.found.strays);
-        let mut words: Vec<&str> = whats.map(Misbehaviour::word).collect();
+        let mut words: Vec<&str> = whats.map(|what| what.breach.name()).collect();
         words.sort_unstable();
         words.dedup();
         if words.is_empty() {

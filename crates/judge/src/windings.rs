@@ -51,7 +51,6 @@ impl Windings {
     }
 }
 
-/// Asks plain triangles in both windings.
 pub fn windings(program: &mut dyn Ask, seed: u64) -> Windings {
     let declared = program.declared().clone();
     let mut windings = Windings::default();

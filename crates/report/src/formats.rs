@@ -107,7 +107,7 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
     let incidents = verdict.found.incidents.iter().map(|i| {
         let of_family = Some(i).filter(|i| !i.family.is_empty());
         json!({
-            "family": i.family, "index": i.index, "word": i.what.word(), "what": i.what.to_string(),
+            "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
             "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
         })
     });

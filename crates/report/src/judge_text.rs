@@ -200,7 +200,7 @@ fn table(out: &mut String, verdict: &Verdict) {
 pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) {
     let mut shown: Vec<&str> = Vec::new();
     for incident in &verdict.found.incidents {
-        let word = incident.what.word();
+        let word = incident.what.breach.name();
         if shown.iter().filter(|w| **w == word).count() == MOST_INCIDENTS {
             continue;
         }

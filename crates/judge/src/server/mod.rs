@@ -111,13 +111,15 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     }
     let id = rest.first().copied().unwrap_or("-");
     let refused = |reason: String| Stop::Refused(format!("{id} {reason}"));
-    let count = match verb {
-        "T" | "S" => 6,
-        "L" => 4,
-        "I" => 18,
-        "N" => 12,
+    let declared = Declared::from(entry);
+    let (speaks, count) = match verb {
+        "T" => (declared.coverage, 6),
+        "S" => (declared.samples4, 6),
+        "L" => (declared.line, 4),
+        "I" => (declared.attributes, 18),
+        "N" => (declared.clip, 12),
         // As many triangles as there are.
-        "D" => (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9,
+        "D" => (declared.depth, (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9),
         _ => {
             return Err(refused(format!(
                 "unknown request '{}'; expected HELLO, T, L, I, S, D, N",
@@ -125,17 +127,9 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
             )));
         }
     };
-    let engine = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
-        ("T", Some(engine), _, _) => Speaker::Cover(engine),
-        ("T", _, _, Some(engine)) => Speaker::CoverExact(engine),
-        ("I", Some(engine), _, _) => Speaker::Values(engine),
-        ("S", Some(engine), _, _) => Speaker::Samples(engine),
-        ("L", _, Some(engine), _) => Speaker::Line(engine),
-        ("D", Some(engine), _, _) => Speaker::Depth(engine),
-        ("N", Some(_), _, _) => Speaker::Near,
-        _ if published::speaks(entry, verb) => Speaker::Published(entry),
-        _ => return Err(refused("unsupported".to_owned())),
-    };
+    if !speaks {
+        return Err(refused("unsupported".to_owned()));
+    }
     // What the near plane leaves has nothing to do with a window.
     let first = if verb == "N" { 1 } else { 3 };
     if rest.len() != count + first {
@@ -161,37 +155,23 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         })
         .collect::<Result<_, _>>()
         .map_err(refused)?;
-    let reply = match engine {
-        Speaker::Cover(engine) => cover(engine, window, &numbers),
-        Speaker::CoverExact(engine) => cover_exact(engine, window, &numbers),
-        Speaker::Samples(engine) => samples(engine, window, &numbers),
-        Speaker::Line(engine) => line(engine, window, &numbers),
-        Speaker::Depth(engine) => depth(engine, window, &numbers),
-        Speaker::Near => near(&numbers),
-        Speaker::Published(entry) => published::answer(entry, verb, window, &numbers),
-        Speaker::Values(engine) => {
-            return match values(engine, window, &numbers) {
-                Ok((triangle, n)) => write_fragments(engine, &triangle, window, id, n, out),
-                Err(reason) => Err(refused(reason)),
-            };
+    let reply = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
+        ("T", Some(engine), ..) => cover(engine, window, &numbers),
+        ("T", _, _, Some(engine)) => cover_exact(engine, window, &numbers),
+        ("S", Some(engine), ..) => samples(engine, window, &numbers),
+        ("L", _, Some(engine), _) => line(engine, window, &numbers),
+        ("D", Some(engine), ..) => depth(engine, window, &numbers),
+        ("N", Some(_), ..) => near(&numbers),
+        ("I", Some(engine), ..) => {
+            let (triangle, n) = values(engine, window, &numbers).map_err(refused)?;
+            return write_fragments(engine, &triangle, window, id, n, out);
         }
+        _ => published::answer(entry, verb, window, &numbers),
     };
     let (letter, n, runs) = reply.map_err(refused)?;
     write!(out, "{letter} {id} {n}")?;
     out.write_all(&runs)?;
     Ok(out.write_all(b"\n")?)
-}
-
-#[derive(Clone, Copy)]
-enum Speaker<'a> {
-    Cover(Engine),
-    CoverExact(ExactEngine),
-    Values(Engine),
-    Samples(Engine),
-    Line(LineEngine),
-    Depth(Engine),
-    Near,
-    Published(&'a Entry),
 }
 
 fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {

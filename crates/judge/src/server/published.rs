@@ -24,15 +24,7 @@ fn whole(letter: char, n: usize, runs: Vec<u8>) -> Reply {
     Ok((letter, n, runs))
 }
 
-pub(crate) fn speaks(entry: &Entry, verb: &str) -> bool {
-    match (entry.specimen, verb) {
-        (Some(Specimen::Triangle(_)), "T") | (Some(Specimen::Line(_)), "L") => true,
-        (Some(Specimen::Triangle(specimen)), "I") => specimen.has_values(),
-        _ => false,
-    }
-}
-
-/// Answers a request that [`speaks`] accepts.
+/// Answers a request of a kind that the specimen declares.
 pub(crate) fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f64]) -> Reply {
     match (entry.specimen, verb) {
         (Some(Specimen::Triangle(specimen)), "T") => cover(specimen, window, numbers),

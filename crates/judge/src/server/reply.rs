@@ -1,6 +1,7 @@
 //! What an answer of the line protocol is made of.
 
-use crate::text::write_int;
+use std::io::Write as _;
+
 use rasterproof_core::grid::Refusal;
 use rasterproof_core::triangle::{Span, refused_number};
 
@@ -14,8 +15,8 @@ pub fn named(name: &str) -> impl FnOnce(Refusal) -> String {
 /// Appends whole numbers, a space before each.
 pub fn write_words<const N: usize>(out: &mut Vec<u8>, words: [i32; N]) {
     for word in words {
-        out.push(b' ');
-        write_int(out, word.into());
+        // Writing to a vector does not fail.
+        let _ = write!(out, " {word}");
     }
 }
 

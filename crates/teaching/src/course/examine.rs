@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::misconceptions::{self, Misconception};
 use super::{Exercise, Step};
-use rasterproof_judge::ask::{Answer, Ask, Misbehaviour, Question, show};
+use rasterproof_judge::ask::{Answer, Ask, Breach, Question, show};
 use rasterproof_judge::check::{Check, Truth, expected_answer};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::finding::Finding;
@@ -206,9 +206,7 @@ fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Fa
         let finding = judge(check, case, &answers, questions.len(), &truth);
         (questions, answers, finding)
     };
-    let is_slow = |answer: &Answer| {
-        matches!(answer, Answer::Died(Misbehaviour::Hangs(_) | Misbehaviour::Late(..)))
-    };
+    let is_slow = |answer: &Answer| matches!(answer, Answer::Died(what) if matches!(what.breach, Breach::Hangs | Breach::Late));
     let start = Instant::now();
     // What takes long to go wrong is shown as it is, and not asked again.
     let (case, (questions, answers, finding)) = if asked.iter().any(|(_, a)| is_slow(a)) {
@@ -256,6 +254,7 @@ pub fn complaint(program: &dyn Ask) -> Option<String> {
 mod tests {
     use super::*;
     use crate::course::STEPS;
+    use rasterproof_judge::ask::Misbehaviour;
 
     /// A program whose requests all come to nothing, and how many it was asked.
     struct Silent {
@@ -288,7 +287,7 @@ mod tests {
 
     #[test]
     fn what_is_not_answered_is_not_asked_again() {
-        let (outcome, asked) = examined(Some(Misbehaviour::Hangs(5.0)));
+        let (outcome, asked) = examined(Some(Breach::Hangs.by("")));
         assert!(!outcome.passes() && !outcome.given_up && outcome.failure.is_some());
         assert_eq!((outcome.cases, outcome.wrong, asked), (1, 1, 1));
         // Where no request is at fault, it is started again a few times.

@@ -18,7 +18,7 @@ use crate::device::open::Opened;
 use crate::device::page::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, Span};
-use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
+use rasterproof_judge::ask::{Answer, Ask, Asked, Breach, Question};
 use rasterproof_judge::declared::{Declared, MOST_IN_FLIGHT};
 use rasterproof_judge::in_process::runs_of;
 
@@ -267,7 +267,7 @@ impl Ask for Gpu {
                     // of the device opened anew.
                     Err(error) => {
                         deaths += 1;
-                        let what = Misbehaviour::Crashes(error.to_string());
+                        let what = Breach::Crashes.by(error.to_string());
                         answers[rest[0].0] = Some(Answer::Died(what));
                         rest = &rest[1..];
                     }
