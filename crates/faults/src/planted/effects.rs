@@ -30,7 +30,6 @@ pub type TapsStage = fn(&Footprint, DVec2, f64, u8) -> Taps;
 /// How many of nine parts of the light reach a place in the plane through three.
 pub type LitStage = fn(&LightView, &ShadowMap, [DVec3; 3], DVec3) -> u32;
 
-/// The formulas that an [`EffectMutant`] takes the place of.
 #[derive(Clone, Copy)]
 pub struct Formulas {
     pub over: fn(Colour, Colour, u8) -> Colour,
@@ -58,7 +57,6 @@ fn mixed(layers: &[Layer], most: u32, stored: u64, mut colour: Colour) -> Colour
 }
 
 impl EffectMutant {
-    /// The right formulas but for the one that this fault changes.
     #[must_use]
     pub fn formulas(self) -> Formulas {
         let mut formulas = Formulas::REAL;

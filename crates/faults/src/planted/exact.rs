@@ -40,7 +40,6 @@ impl RasterizeExact for ExactMutant {
 }
 
 impl ExactMutant {
-    /// As [`RasterizeExact::cover_exact`].
     pub fn spans(
         &self,
         corners: &FreeCorners,

@@ -32,7 +32,6 @@ impl DrawLine for LineMutant {
     }
 }
 
-/// The line that most mutants spoil.
 fn bresenham<V: Varying>(
     line: &ScreenLine<V>,
     bounds: PixelRect,
@@ -42,7 +41,6 @@ fn bresenham<V: Varying>(
 }
 
 impl LineMutant {
-    /// As [`DrawLine::draw`].
     pub fn stroke<V: Varying>(
         &self,
         line: &ScreenLine<V>,

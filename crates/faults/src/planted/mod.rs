@@ -7,21 +7,14 @@
 /// Declares a kind of planted fault from its table: each fault with its name for `--plant` and, in a sentence, what is wrong.
 macro_rules! planted {
     ($kind:ident { $($fault:ident $name:literal: $sentence:literal,)+ }) => {
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum $kind {
-            $(#[doc = $sentence] $fault,)+
+        rasterproof_core::named! {
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub enum $kind {
+                $(#[doc = $sentence] $fault = $name,)+
+            }
         }
 
         impl $kind {
-            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$fault),+];
-
-            /// The name that `--plant` takes and that reports print.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$fault => $name,)+
-                }
-            }
-
             pub fn about(self) -> &'static str {
                 match self {
                     $(Self::$fault => $sentence,)+
@@ -55,7 +48,6 @@ use rasterproof_core::triangle::Span;
 /// Declares [`Mutant`] from the kinds of faults.
 macro_rules! kinds {
     ($($kind:ident($mutant:ty),)+) => {
-        /// A mutant of any kind that invariants judge.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Mutant {
             $($kind($mutant),)+
@@ -118,7 +110,6 @@ pub fn about(name: &str) -> Option<&'static str> {
     all().find(|(listed, _)| *listed == name).map(|(_, about)| about)
 }
 
-/// Names of all planted faults, for the command line.
 pub fn names() -> Vec<&'static str> {
     all().map(|(name, _)| name).collect()
 }

@@ -74,7 +74,6 @@ impl Interpolate for TriangleMutant {
 
 // No mutant is called from a hot loop: through `dyn`, its engines are compiled once.
 impl TriangleMutant {
-    /// As [`Rasterize::cover`].
     pub fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::InclusiveEdges => by_rule(corners, bounds, 0, |_, _| true, emit),
@@ -159,7 +158,6 @@ impl TriangleMutant {
         }
     }
 
-    /// As [`Interpolate::fragments`].
     pub fn values<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
@@ -265,7 +263,6 @@ fn on_outline<V: Varying>(
     }
 }
 
-/// The values of the edge-function engine, which most mutants spoil.
 fn edge_values<V: Varying>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
@@ -274,7 +271,6 @@ fn edge_values<V: Varying>(
     EdgeFunction.fragments(triangle, bounds, emit);
 }
 
-/// The spans of the scanline engine, which many mutants spoil.
 fn scanline_spans(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     Scanline.cover(corners, bounds, emit);
 }
@@ -324,7 +320,6 @@ fn by_rule(
     by_edges(corners, near(&corners, bounds), &keeps, emit);
 }
 
-/// By edges in wrapping 32-bit arithmetic.
 fn wrapping(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     let centre = |px: i32| px.wrapping_mul(SUBPIXELS).wrapping_add(HALF_PIXEL);
     let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {

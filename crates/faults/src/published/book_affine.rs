@@ -1,32 +1,12 @@
 //! Specimen: values interpolated on the screen as if there were no perspective, the textured square
 //! of the book (part 2, chapter 5, section 5.3), drawn with the fill of chapter 3.
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
 //! Symptom: w is not used at all; a tilted square's stripes break at its diagonal, by up to
 //! (sqrt R - 1)/(sqrt R + 1) of the spread of the values, R being the ratio of the w.
-//! Cure: v/w over 1/w ([`rasterproof_core::raster`]). Exposed by a receding floor; harmless where the w are
-//! equal, but for the steps of chapter 3.
 
-use super::book_triangle::BookChapter3;
+/// Chapter 3's fill, on corners that were projected.
+pub use super::book_triangle::BookChapter3 as BookAffine;
 use super::scene::{Image, Setting, Version, chequered, floor, runs_out_below};
-use super::{Drawn, Fragments, Published, RealTriangle, Spans};
-use rasterproof_core::grid::PixelRect;
-
-/// Chapter 3's fill on projected corners.
-#[derive(Clone, Copy, Debug)]
-pub struct BookAffine;
-
-impl Published for BookAffine {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
-        BookChapter3.cover(triangle, bounds, emit)
-    }
-
-    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
-        BookChapter3.fragments(triangle, bounds, emit)
-    }
-}
 
 /// A chequered floor that recedes, or a triangle of one value.
 pub fn draw(version: Version, setting: Setting) -> Image {

@@ -1,20 +1,13 @@
 //! Specimen: DrawLine of the book (part 1, chapter 2, section 2.1), a DDA in `double`.
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
-//! Symptom: the last pixel is never drawn; the height is truncated instead of rounded, and the sum
-//! of slopes drifts, so that (0, 0) to (20, 2) is still in row 0 at column 10; a line of length zero
-//! draws nothing; both ends are truncated without moving the height along.
-//! Cure: the height as an exact fraction, rounded to the nearest, both ends included
-//! ([`rasterproof_core::line`]). Exposed by `line_drift`; harmless where the slope is a whole number, but for
-//! the end.
+//! Symptom: the last pixel is never drawn; the height is truncated instead of rounded, and the sum of slopes
+//! drifts, so that (0, 0) to (20, 2) is still in row 0 at column 10; a line of length zero draws nothing; both
+//! ends are truncated without moving the height along.
 
 use super::{BookScreen, MOST_STEPS, PublishedLine, Refused, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
-/// The book's line drawer.
 #[derive(Clone, Copy, Debug)]
 pub struct BookDda;
 

@@ -1,15 +1,10 @@
 //! Specimens: the depths that the book compares before it comes to z/w in chapter 8: w itself, with perspective
 //! (part 2, chapter 6), and -1/w, linear (chapter 7).
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
-//! Symptoms, of both and of z/w: the depth starts at the crossing and steps without regard to the samples,
-//! so a nearly flat span throws it far out of the range of its corners, and what is drawn later
-//! vanishes behind nothing; ties pass the test, and so does NaN. Chapter 6 besides needs the buffer
-//! cleared to a true distance, and evaluates formula (8) for each pixel.
-//! Cure: the depth of the sample, linear in the window. Exposed by `depth_poison`; harmless where
-//! edges and rows start on samples.
+//! Symptoms, of both and of z/w: the depth starts at the crossing and steps without regard to the samples, so a
+//! nearly flat span throws it far out of the range of its corners, and what is drawn later vanishes behind
+//! nothing; ties pass the test, and so does NaN. Chapter 6 besides needs the buffer cleared to a true distance,
+//! and evaluates formula (8) for each pixel.
 
 use glam::DVec2;
 

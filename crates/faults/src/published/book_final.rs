@@ -1,18 +1,12 @@
 //! Specimens: the final DrawTriangle of the book (part 3, chapter 11) with its clip and viewport,
 //! before and after the last exercise (section 11.4).
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
-//! Symptoms: the coverage of chapter 2, every fault of it; the area is judged in device coordinates,
-//! where 1e-15 is some other size; a clipped triangle is a fan whose inner seams are drawn twice.
-//! Values (sections 5.4 and 5.5, formulas 8 and 9) start at each edge with t' = 0 and at each row's
-//! truncated first pixel with t' = 0, so t' overshoots 1: values leave the range of the corners, and
-//! a row between 9.75 and 10.25 divides by zero. The exercise holds t' at 1 down the edges: that
-//! changes no coverage, leaves the rows as they are, and does nothing for the depth.
-//! Cure: t' from the distance of the sample ([`rasterproof_core::raster::scanline`]). Exposed by `t_divzero`,
-//! `depth_poison`, `z_not_clamped_after_fix`; the values are harmless where edges and rows start on
-//! sample points.
+//! Symptoms: the coverage of chapter 2, every fault of it; the area is judged in device coordinates, where
+//! 1e-15 is some other size; a clipped triangle is a fan whose inner seams are drawn twice. Values (sections
+//! 5.4 and 5.5, formulas 8 and 9) start at each edge with t' = 0 and at each row's truncated first pixel with
+//! t' = 0, so t' overshoots 1: values leave the range of the corners, and a row between 9.75 and 10.25 divides
+//! by zero. The exercise holds t' at 1 down the edges: that changes no coverage, leaves the rows as they are,
+//! and does nothing for the depth.
 
 use glam::{DVec2, DVec4};
 
@@ -85,7 +79,6 @@ struct Corner {
     varying: DVec2,
 }
 
-/// What a row needs: its ends, and the values there.
 struct ValuedRow {
     row: Row,
     z: [f64; 2],

@@ -1,15 +1,10 @@
 //! Specimen: formulas (8) and (9) of the book (part 2, chapter 5, sections 5.4 and 5.5), as its code
 //! evaluates them.
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
-//! Symptom: numerator and denominator are differences of products, so they cancel where w_a and w_b
-//! differ much: at t' = 1 the result is not v_b. In f32 the error is 1e-2 at a ratio of 1e6 and 0.5 at
-//! 1e7; in f64, which the book uses, the same ratios squared. A t' that is 0 at the truncated pixel
-//! instead of the crossing can make the denominator zero ([`super::book_final`]).
-//! Cure: sums of positive terms, w_b (1 - t') v_a + w_a t' v_b. Exposed by w = 0.1 and 1e6 at t' = 1;
-//! harmless where the w are equal, when (8) is the affine formula.
+//! Symptom: numerator and denominator are differences of products, so they cancel where w_a and w_b differ
+//! much: at t' = 1 the result is not v_b. In f32 the error is 1e-2 at a ratio of 1e6 and 0.5 at 1e7; in f64,
+//! which the book uses, the same ratios squared. A t' that is 0 at the truncated pixel instead of the crossing
+//! can make the denominator zero ([`super::book_final`]).
 
 use glam::DVec2;
 

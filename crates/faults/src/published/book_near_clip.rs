@@ -1,15 +1,10 @@
 //! Specimen: the near-plane clip of the book (part 2, chapter 7, section 7.4), ClipLine and
 //! ClipAndDraw.
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
-//! Symptom: an edge counts as kept only if both ends lie strictly inside and as dropped only if both
-//! lie strictly outside. An edge that lies in the plane is neither, so it is cut, at 0/0: the
-//! triangle gets a corner that is not a number and disappears, although it lies wholly inside. A
-//! corner in the plane is cut where it is, which is harmless but for its copies.
-//! Cure: a corner in the plane is inside; only an edge whose ends differ is cut. Exposed by
-//! `clip7_on_plane`; harmless while no corner lies in the plane.
+//! Symptom: an edge counts as kept only if both ends lie strictly inside and as dropped only if both lie
+//! strictly outside. An edge that lies in the plane is neither, so it is cut, at 0/0: the triangle gets a
+//! corner that is not a number and disappears, although it lies wholly inside. A corner in the plane is cut
+//! where it is, which is harmless but for its copies.
 
 use super::ClipVertex;
 use super::scene::{

@@ -1,13 +1,8 @@
 //! Specimen: the turns of the book (part 3, chapter 10, section 10.4) and RotateX of its companion code.
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
-//! Symptom: R_z turns x towards y, yet R_x turns z towards y and R_y x towards z, so the three belong
-//! to no one convention, whichever hand the axes have. The companion code's RotateX writes the cosine
-//! and then the sine into `[1][1]` and leaves `[1][2]` at 0: a turn by nothing flattens what it turns.
-//! Cure: one cycle, x towards y, y towards z, z towards x. Exposed by squares turned by 30 degrees
-//! about x and y; harmless about z.
+//! Symptom: R_z turns x towards y, yet R_x turns z towards y and R_y x towards z, so the three belong to no one
+//! convention, whichever hand the axes have. The companion code's RotateX writes the cosine and then the sine
+//! into `[1][1]` and leaves `[1][2]` at 0: a turn by nothing flattens what it turns.
 
 use std::f64::consts::FRAC_PI_6;
 
@@ -18,17 +13,13 @@ use rasterproof_core::angle::sin_cos;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// R_x of section 10.4.
     X,
-    /// R_y of section 10.4.
     Y,
-    /// R_z of section 10.4.
     Z,
     /// RotateX of the companion code.
     CodeX,
 }
 
-/// Where the published matrix sends a point.
 pub fn published(turn: Turn, angle_rad: f64, p: DVec3) -> DVec3 {
     let (s, c) = sin_cos(angle_rad);
     match turn {

@@ -1,19 +1,12 @@
 //! Specimens: the triangle of the book as chapter 2 draws it (part 1, section 2.2, DrawTriangle2D)
 //! and as chapter 3 does (sections 3.2.4 and 3.2.5), which has no clamp.
 //!
-//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
-//! `docs/sources.md`.
-//!
-//! Symptoms: columns run from the truncated left edge to the right edge inclusive, so shared edges
-//! and the row of the middle corner are drawn twice; the edges start at the corner's x without a
-//! step to the row's sample, so row y shows the edge at y + the fraction of its start; the sum of
-//! slopes drifts; twice the area below 1e-15 counts as none, above it as some. Without the clamp a
-//! flat edge that crosses a row boundary leaves the triangle by thousands of pixels (figure 2-4).
-//! Chapter 3 adds values by equal steps: the first pixel of a row gets the value at the crossing,
-//! and the steps down the edges ignore the fraction of the start as well.
-//! Cure: half-open rows and columns of sample points, exact crossings, values at the sample
-//! ([`rasterproof_core::raster::scanline`]). Exposed by `double_row`, `floor_left`, `ch3_unclamped`; nearly no
-//! triangle is harmless.
+//! Symptoms: columns run from the truncated left edge to the right edge inclusive, so shared edges and the row
+//! of the middle corner are drawn twice; the edges start at the corner's x without a step to the row's sample,
+//! so row y shows the edge at y + the fraction of its start; the sum of slopes drifts; twice the area below
+//! 1e-15 counts as none, above it as some. Without the clamp a flat edge that crosses a row boundary leaves the
+//! triangle by thousands of pixels (figure 2-4). Chapter 3 adds values by equal steps: the first pixel of a row
+//! gets the value at the crossing, and the steps down the edges ignore the fraction of the start as well.
 
 use glam::DVec2;
 
@@ -36,7 +29,6 @@ pub struct BookChapter3;
 /// Below this twice the area counts as none.
 pub(super) const AREA_LIMIT: f64 = 1e-15;
 
-/// Twice the signed area in the book's order of operations.
 pub(super) fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
     a.x * b.y + b.x * c.y + c.x * a.y - a.x * c.y - b.x * a.y - c.x * b.y
 }

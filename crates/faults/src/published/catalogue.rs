@@ -16,9 +16,7 @@ use rasterproof_core::arrays::MapArray as _;
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
     pub name: &'static str,
-    /// Document, chapter or task, section.
     pub source: &'static str,
-    /// What is wrong, in a few words.
     pub fault: &'static str,
     pub cure: &'static str,
     pub exhibit: Exhibit,
@@ -40,7 +38,6 @@ pub struct TriangleCase {
     pub side_px: u32,
     pub corners_px: &'static [[(f64, f64); 3]],
     pub w: [f64; 3],
-    /// The attribute at the corners; the depth too.
     pub values: [f64; 3],
 }
 
@@ -50,7 +47,6 @@ pub struct LineCase {
     pub pixels: [(i32, i32); 2],
 }
 
-/// A recorded input of the book's code, by triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedCase {
     pub name: &'static str,
@@ -59,7 +55,6 @@ pub struct RecordedCase {
     pub corners: &'static [[(f64, f64); 3]],
 }
 
-/// Side of the recorded screens in pixels.
 pub const RECORDED_SIDE_PX: u32 = 64;
 
 impl RecordedCase {

@@ -1,14 +1,9 @@
 //! Specimen: the bounding box of GAMES101 homework 2 as one solution walks it: never cut to the window.
 //!
-//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see
-//! `docs/sources.md`.
-//!
-//! Symptom: a pixel is found at y times width plus x in the depth and colour buffers. One beyond the
-//! right border is the first of the next row, so what leaves on one side comes in on the other; one
-//! above or below the window is not in the buffer at all, and other memory is overwritten.
-//! Cure: cut the box to the window. Here the buffer lies between guard rows that belong to nobody and
-//! show what is written there; what goes beyond them is dropped. Exposed by a triangle that leaves at
-//! the right and below; harmless within the window.
+//! Symptom: a pixel is found at y times width plus x in the depth and colour buffers. One beyond the right
+//! border is the first of the next row, so what leaves on one side comes in on the other; one above or below
+//! the window is not in the buffer at all, and other memory is overwritten. Here the buffer lies between guard
+//! rows that belong to nobody and show what is written there; what goes beyond them is dropped.
 
 use super::scene::{COLOURS, Colour, Image, SIDE, Setting, Version, empty};
 use rasterproof_core::arrays::MapArray as _;

@@ -1,14 +1,10 @@
 //! Specimen: the repair that one solution of GAMES101 homework 2 publishes for its depth.
 //!
-//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see
-//! `docs/sources.md`.
-//!
-//! The skeleton divides depths by a w that it has set to 1, so its depth is linear on the screen. The
-//! solution takes that for the fault and puts the true w back.
-//! Symptom: z/w is linear on the screen already; with the true w it is bent, by
-//! 2 (sqrt R - 1)/(sqrt R + 1) of a range of 2: 0.34 at a ratio of R = 2, 1.64 at 100. Neighbours that
-//! share an edge then hide each other wrongly. Cure: leave it linear; the degenerate formula was
-//! right. Exposed by w = 1 and 100; harmless where the w are equal.
+//! The skeleton divides depths by a w that it has set to 1, so its depth is linear on the screen. The solution
+//! takes that for the fault and puts the true w back.
+//! Symptom: z/w is linear on the screen already; with the true w it is bent, by 2 (sqrt R - 1)/(sqrt R + 1) of
+//! a range of 2: 0.34 at a ratio of R = 2, 1.64 at 100. Neighbours that share an edge then hide each other
+//! wrongly.
 
 use super::games101_strict::Games101Strict;
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, either, empty, floor_triangles};

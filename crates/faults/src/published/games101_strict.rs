@@ -1,14 +1,9 @@
 //! Specimen: the triangle of GAMES101 homework 2 (rasterize_triangle and insideTriangle), in f32.
 //!
-//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see
-//! `docs/sources.md`.
-//!
-//! Symptom: a sample belongs where three cross products are all above or all below zero, so a sample
-//! on an edge belongs to no triangle: meshes have holes along shared edges. Cross products in f32
-//! round far from the origin. The skeleton's insideTriangle takes `int x, int y`
-//! ([`Games101Strict::whole_samples`], 'pitfall 2'): every sample of a pixel is its lower left corner.
-//! Cure: the top-left rule on exact edge functions ([`rasterproof_core::raster::edge_function`]). Exposed by a
-//! square on pixel centres; harmless while no sample lies on an edge.
+//! Symptom: a sample belongs where three cross products are all above or all below zero, so a sample on an edge
+//! belongs to no triangle: meshes have holes along shared edges. Cross products in f32 round far from the
+//! origin. The skeleton's insideTriangle takes `int x, int y` ([`Games101Strict::whole_samples`], 'pitfall 2'):
+//! every sample of a pixel is its lower left corner.
 //!
 //! Values: alpha v0/w0 + ... over alpha/w0 + ..., and the skeleton has set every w to 1. So all are
 //! linear on the screen: right for z/w, by luck, and wrong for every attribute, by up to
@@ -23,7 +18,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
-/// The rasterizer of homework 2.
 #[derive(Clone, Copy, Debug)]
 pub struct Games101Strict {
     /// Whether sample positions pass through an `int`.

@@ -1,13 +1,9 @@
 //! Specimen: supersampling averaged inside the loop over triangles ('pitfall 1' of GAMES101 homework
 //! 2), and its right form.
 //!
-//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see
-//! `docs/sources.md`.
-//!
-//! Symptom: each triangle averages its own samples over the background and the last one to pass wins:
-//! a pixel that is 1/4 of one triangle and 3/4 of the other becomes 3/4 or 1/4 of a colour, never the
-//! whole: dark edges between neighbours. Cure: a colour for every sample, one average after the last
-//! triangle. Exposed by two triangles that fill a square; harmless for a triangle alone.
+//! Symptom: each triangle averages its own samples over the background and the last one to pass wins: a pixel
+//! that is 1/4 of one triangle and 3/4 of the other becomes 3/4 or 1/4 of a colour, never the whole: dark edges
+//! between neighbours.
 
 use glam::DVec2;
 
@@ -15,7 +11,6 @@ use super::scene::{COLOURS, Colour, Image, SIDE, Setting, Version, empty, fill};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
-/// Samples along a side of a pixel.
 const SAMPLES: u32 = 2;
 
 fn triangles(setting: Setting) -> Vec<[DVec2; 3]> {
@@ -27,7 +22,6 @@ fn triangles(setting: Setting) -> Vec<[DVec2; 3]> {
     }
 }
 
-/// The mean of each pixel's samples.
 fn resolve(samples: &Image) -> Image {
     let mut image = empty(SIDE);
     let bounds = image.bounds();
@@ -50,7 +44,6 @@ fn drawn(samples: &mut Image, triangle: [DVec2; 3], colour: Colour) {
     fill(samples, &triangle.map_array(|p| p * f64::from(SAMPLES)), colour);
 }
 
-/// Two triangles of one colour that fill a square.
 pub fn draw(version: Version, setting: Setting) -> Image {
     let (mut all, mut image) = (empty(SIDE * SAMPLES), empty(SIDE));
     for triangle in triangles(setting) {

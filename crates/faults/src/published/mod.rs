@@ -1,10 +1,11 @@
 //! The published algorithms, faults included: specimens to look at, never to build on.
 //!
 //! Two sources publish code that is kept here: a Chinese text on writing a software renderer ("the
-//! book", eleven chapters) and two sets of course work, GAMES101 homework 2 and SYSU assignment 2;
-//! `docs/sources.md` says where they are to be found. A file holds one algorithm in our own words, with
-//! its source, its symptom and its cure. A specimen
-//! takes positions as real numbers, since its faults begin with what it does to them, and draws a
+//! book", eleven chapters, yangzhenzhuozz/Renderer on GitHub) and two sets of course work, GAMES101 (Lingqi
+//! Yan, 2020) homework 2 with its published solutions, and SYSU (Sun Yat-sen University, Computer Graphics)
+//! assignment 2 with a published report (2022); `docs/sources.md` says where they are to be found. A file
+//! holds one algorithm in our own words, with its symptom. The [`catalogue`] has its cure, a case that
+//! exposes it and one that is harmless. A specimen takes positions as real numbers, since its faults begin with what it does to them, and draws a
 //! pixel as often as the published loops do. None is ever repaired: the tests require each to be
 //! caught.
 //!
@@ -65,7 +66,6 @@ pub fn bare(corners_px: [[f64; 2]; 3]) -> RealTriangle {
     })
 }
 
-/// The same positions as real numbers, exactly.
 pub fn from_lattice(corners: Corners) -> RealTriangle {
     bare(corners.map_array(|corner| corner.to_px().into()))
 }
@@ -80,7 +80,6 @@ pub fn from_screen(triangle: &ScreenTriangle<DVec2>) -> RealTriangle {
     })
 }
 
-/// A corner before the division by w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClipVertex {
     /// x, y, z, w, homogeneous.
@@ -221,7 +220,6 @@ struct BookScreen {
 }
 
 impl BookScreen {
-    /// A position in window pixels as the book's.
     fn position(self, position_px: DVec2) -> DVec2 {
         let x = position_px.x - f64::from(self.bounds.x0);
         let y = f64::from(self.bounds.y1) - position_px.y;

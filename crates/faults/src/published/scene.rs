@@ -13,7 +13,6 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::triangle::{Fragment, ScreenTriangle, ScreenVertex};
 
-/// A colour, red, green, blue.
 pub type Colour = [u8; 3];
 pub type Image = Frame<Colour>;
 
@@ -26,7 +25,6 @@ pub enum Version {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     Exposing,
-    /// A case on which both versions agree.
     Harmless,
 }
 
@@ -43,7 +41,6 @@ fn at(position_px: DVec2) -> SubpixelPoint {
     SubpixelPoint::from_px(position_px.x, position_px.y).expect("scenes stay in the domain")
 }
 
-/// Fills the fan around the first corner.
 pub fn fill(image: &mut Image, corners_px: &[DVec2], colour: Colour) {
     for pair in corners_px.get(1..).unwrap_or_default().windows(2) {
         EdgeFunction.cover([at(corners_px[0]), at(pair[0]), at(pair[1])], image.bounds(), |span| {

@@ -1,20 +1,14 @@
 //! Specimen: the line of SYSU assignment 2 (rasterize_wire_aux): Bresenham with the decision
 //! `flag < 0`, where its text says p <= 0.
 //!
-//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022);
-//! see `docs/sources.md`.
-//!
-//! Symptoms: a line that passes halfway between two pixels takes the step, so the side depends on the
-//! direction of drawing: of the 4,225 lines from (0, 0) to (x, y), 0 <= x, y <= 64, 1,428 change when
-//! reversed. A point has the weight 0/0. Pixels outside the window are walked and dropped one by one.
-//! Cure: a side fixed on the sorted ends ([`rasterproof_core::line::bresenham`]). Exposed by (2, 1) to (0, 0);
-//! harmless where no tie occurs, as in (0, 0) to (3, 1).
+//! Symptoms: a line that passes halfway between two pixels takes the step, so the side depends on the direction
+//! of drawing: of the 4,225 lines from (0, 0) to (x, y), 0 <= x, y <= 64, 1,428 change when reversed. A point
+//! has the weight 0/0. Pixels outside the window are walked and dropped one by one.
 
 use super::{MOST_STEPS, PublishedLine, Refused, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
-/// The line drawer of assignment 2.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuBresenham;
 

@@ -1,17 +1,10 @@
 //! Specimen: the triangle of SYSU assignment 2 (rasterize_fill_edge_function): edge functions in
 //! `int` on corners rounded to whole pixels.
 //!
-//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022);
-//! see `docs/sources.md`.
-//!
-//! Symptoms: a sample belongs where the three functions are <= 0, so samples on shared edges are
-//! drawn twice; corners are rounded to whole pixels (and towards zero left of the window), so shapes
-//! jump; products overflow from 46341 x 46341 pixels on; a triangle without area is a line, drawn
-//! with weights 0/0. Two mistakes that the report describes live in [`super::sysu_weights`] and
-//! [`super::sysu_truncated`].
-//! Cure: a subpixel lattice, top-left bias, words as wide as the triangle needs, zero area covers
-//! nothing ([`rasterproof_core::raster::edge_function`]). Exposed by a square on pixel centres; harmless where
-//! corners are pixel centres and no sample lies on an edge.
+//! Symptoms: a sample belongs where the three functions are <= 0, so samples on shared edges are drawn twice;
+//! corners are rounded to whole pixels (and towards zero left of the window), so shapes jump; products overflow
+//! from 46341 x 46341 pixels on; a triangle without area is a line, drawn with weights 0/0. Two mistakes that
+//! the report describes live in [`super::sysu_weights`] and [`super::sysu_truncated`].
 //!
 //! The renderer hands over front faces only; here a triangle of the other winding is turned round.
 
@@ -22,7 +15,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
-/// The rasterizer of assignment 2.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuInclusive;
 

@@ -1,14 +1,9 @@
 //! Specimen: pixel positions truncated after interpolation, a mistake that the report on SYSU
 //! assignment 2 (task 6) describes.
 //!
-//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022);
-//! see `docs/sources.md`.
-//!
-//! Symptom: a fragment's position is interpolated from the corners like any attribute and cut to
-//! whole numbers. Weights rounded in f32 put it just below the pixel it came from, so it lands on the
-//! neighbour: holes inside triangles, and neighbours drawn twice.
-//! Cure: the position is the pixel that was tested. Exposed by a triangle whose 1/(2A) is no power of
-//! two; harmless where it is one.
+//! Symptom: a fragment's position is interpolated from the corners like any attribute and cut to whole numbers.
+//! Weights rounded in f32 put it just below the pixel it came from, so it lands on the neighbour: holes inside
+//! triangles, and neighbours drawn twice.
 
 use super::sysu_inclusive::{front, samples};
 use super::{Drawn, Published, RealTriangle, Spans, to_int};
@@ -16,7 +11,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 
-/// The rasterizer that truncates interpolated positions.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuTruncated;
 

@@ -1,13 +1,9 @@
 //! Specimen: the weights in the wrong order, a mistake that the report on SYSU assignment 2 (task 6)
 //! describes.
 //!
-//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022);
-//! see `docs/sources.md`.
-//!
-//! Symptom: the function of edge ab, which belongs to the corner opposite, weighs corner a, and so
-//! on round: every value wanders to another corner and colours break at shared edges.
-//! Cure: an edge's function weighs the corner opposite. Exposed by any triangle whose corners have
-//! different values; harmless where they are equal. Coverage is that of [`super::sysu_inclusive`].
+//! Symptom: the function of edge ab, which belongs to the corner opposite, weighs corner a, and so on round:
+//! every value wanders to another corner and colours break at shared edges. Coverage is that of
+//! [`super::sysu_inclusive`].
 
 use super::scene::{Colour, Image, SIDE, Setting, Version, either, empty};
 use super::sysu_inclusive::{SysuInclusive, front, lerp, samples};
@@ -16,7 +12,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Fragment;
 
-/// The rasterizer with its weights in the wrong order.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuWeights;
 
