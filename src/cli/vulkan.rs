@@ -131,6 +131,6 @@ pub fn list(out: &mut dyn Write) -> Result<(), Failure> {
         }
     }
     writeln!(out, "\nFaults to plant in a device (rasterproof verify --engine NAME+FAULT):")?;
-    let names = Plant::ALL.map(|(name, _)| name).join(" ");
+    let names = Plant::ALL.map(Plant::name).join(" ");
     Ok(write_entry(out, "", &names)?)
 }

@@ -18,11 +18,10 @@ use rasterproof_judge::in_process::runs_of;
 use rasterproof_precision::cost::ExternalVariant as _;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_vulkan::device::Error;
-use rasterproof_vulkan::device::draw::Draw;
 use rasterproof_vulkan::device::find::{self, About};
 use rasterproof_vulkan::device::page::{CELL_PX, Kind};
 use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
-use rasterproof_vulkan::gpu::cells::{plain, twice_area_px2};
+use rasterproof_vulkan::gpu::cells::{draw_of, plain, twice_area_px2};
 use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind};
 use rasterproof_vulkan::gpu::known;
 use rasterproof_vulkan::gpu::rules::Class;
@@ -263,10 +262,17 @@ fn ints(value: &serde_json::Value) -> Vec<i32> {
     value.as_array().unwrap().iter().map(|v| v.as_i64().unwrap() as i32).collect()
 }
 
+fn points(record: &serde_json::Value) -> Vec<SubpixelPoint> {
+    let point = |v| {
+        let p = ints(v);
+        SubpixelPoint::new(p[0], p[1])
+    };
+    record["v"].as_array().unwrap().iter().map(point).collect()
+}
+
 /// What the oracle draws of a recorded triangle, with how often.
 fn exact(record: &serde_json::Value) -> Vec<(Vec<i32>, u8)> {
-    let points: Vec<_> = record["v"].as_array().unwrap().iter().map(ints).collect();
-    let points: Vec<_> = points.iter().map(|p| SubpixelPoint::new(p[0], p[1])).collect();
+    let points = points(record);
     let mut runs = Vec::new();
     let window = PixelRect::window(CELL_PX, CELL_PX);
     Oracle.cover([points[0], points[1], points[2]], window, |s| {
@@ -294,20 +300,14 @@ fn recordings_are_drawn_again() {
         let half = gpu.viewport_px() / 2.0;
         let (mut draws, mut alone) = (Vec::new(), Vec::new());
         for (cell, record) in whole.iter().enumerate() {
-            let points: Vec<_> = record["v"].as_array().unwrap().iter().map(ints).collect();
-            let points: Vec<_> = points.iter().map(|p| SubpixelPoint::new(p[0], p[1])).collect();
+            let points = points(record);
             for corners in points.chunks_exact(3) {
                 let corners = [corners[0], corners[1], corners[2]];
                 let list = match hits_kind(twice_area_px2(&corners)) {
                     Kind::Alone => &mut alone,
                     _ => &mut draws,
                 };
-                list.push(Draw {
-                    cell,
-                    vertices: plain(&corners, half),
-                    viewport: [-half, -half, 2.0 * half, 2.0 * half],
-                    window: [CELL_PX; 2],
-                });
+                list.push(draw_of(cell, plain(&corners, half), 2.0 * half));
             }
         }
         let lonely: Vec<usize> = alone.iter().map(|draw| draw.cell).collect();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::memory::{Buffer, copy};
+use super::memory::Buffer;
 use super::open::Opened;
 use super::page::{CELL_PX, Kind, Page, VERTEX_BYTES};
 use super::{Error, While as _};
@@ -18,9 +18,15 @@ const PATIENCE_S: u64 = 120;
 /// A vertex: clip coordinates, and two attributes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vertex {
-    /// x, y, z, w.
     pub clip: [f32; 4],
     pub attributes: [f32; 2],
+}
+
+impl Vertex {
+    /// With w = 1 and no attributes, halfway into the view volume.
+    pub fn flat([x, y]: [f32; 2]) -> Self {
+        Self { clip: [x, y, 0.5, 1.0], attributes: [0.0; 2] }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +50,6 @@ pub enum Failing {
     OutOfMemory(u64),
 }
 
-/// What was drawn: the pixels of every cell.
 #[derive(PartialEq)]
 pub struct Pictures {
     kind: Kind,
@@ -385,8 +390,13 @@ impl Painter {
     /// Records the copy of a page behind those before it.
     fn record_copy(&self, commands: vk::CommandBuffer, kind: Kind, at: u64, into: &Buffer) {
         let (raw, page) = (&self.device.raw, &self.kinds[&kind]);
-        let from = at * page_bytes(kind) as u64;
-        let region = [copy(kind.format(), [kind.page_px(); 2], from)];
+        let layers =
+            vk::ImageSubresourceLayers::default().aspect_mask(kind.aspect()).layer_count(1);
+        let (width, height) = (kind.page_px(), kind.page_px());
+        let region = [vk::BufferImageCopy::default()
+            .buffer_offset(at * page_bytes(kind) as u64)
+            .image_subresource(layers)
+            .image_extent(vk::Extent3D { width, height, depth: 1 })];
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         // SAFETY: the render pass leaves the page in this layout, and the buffer has room for all.
         unsafe {

@@ -22,7 +22,6 @@ impl Drop for Instance {
     }
 }
 
-/// A device that the loader knows, and what it says of itself.
 #[derive(Clone)]
 pub struct Listed {
     pub(super) instance: Arc<Instance>,
@@ -41,11 +40,8 @@ pub struct About {
     pub vulkan: String,
     /// `subPixelPrecisionBits`: window positions are multiples of 1/2^bits px.
     pub subpixel_bits: u32,
-    /// `maxViewportDimensions`.
     pub largest_viewport: [u32; 2],
-    /// `viewportBoundsRange`.
     pub viewport_bounds: [f32; 2],
-    /// `maxImageDimension2D`.
     pub largest_image: u32,
     pub four_samples: bool,
     /// `standardSampleLocations`: samples lie where the specification's table has them.

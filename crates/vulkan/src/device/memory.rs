@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use super::open::Opened;
+use super::page::Kind;
 use super::{Error, While as _};
 
 struct Memory {
@@ -47,11 +48,9 @@ impl Memory {
     }
 }
 
-/// A buffer that both the device and the program see.
 pub struct Buffer {
     device: Arc<Opened>,
     pub(super) raw: vk::Buffer,
-    /// Its size in bytes.
     pub size: usize,
     start: *mut u8,
     // Freed after the buffer: fields are dropped after `drop`.
@@ -138,28 +137,6 @@ pub struct Image {
     _memory: Memory,
 }
 
-#[derive(Clone, Copy)]
-pub(super) struct Like {
-    pub(super) format: vk::Format,
-    pub(super) size: [u32; 2],
-    pub(super) samples: vk::SampleCountFlags,
-    pub(super) usage: vk::ImageUsageFlags,
-}
-
-impl Like {
-    /// A square that is drawn into, of colours or depths, and copied where a pixel has one sample.
-    pub(super) fn drawn(format: vk::Format, side: u32, samples: vk::SampleCountFlags) -> Self {
-        let mut usage = match is_depth(format) {
-            true => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
-            false => vk::ImageUsageFlags::COLOR_ATTACHMENT,
-        };
-        if samples == vk::SampleCountFlags::TYPE_1 {
-            usage |= vk::ImageUsageFlags::TRANSFER_SRC;
-        }
-        Self { format, size: [side; 2], samples, usage }
-    }
-}
-
 impl Drop for Image {
     fn drop(&mut self) {
         // SAFETY: nothing is in use by the device between calls; the view goes before its image.
@@ -171,20 +148,32 @@ impl Drop for Image {
 }
 
 impl Image {
-    pub(super) fn new(device: &Arc<Opened>, like: Like) -> Result<Self, Error> {
-        let [width, height] = like.size;
+    /// A page that is drawn into, and copied from where a pixel has one sample.
+    pub(super) fn new(
+        device: &Arc<Opened>,
+        kind: Kind,
+        samples: vk::SampleCountFlags,
+    ) -> Result<Self, Error> {
+        let mut usage = match kind.is_depths() {
+            true => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            false => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+        };
+        if samples == vk::SampleCountFlags::TYPE_1 {
+            usage |= vk::ImageUsageFlags::TRANSFER_SRC;
+        }
+        let side = kind.page_px();
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
-            .format(like.format)
-            .extent(vk::Extent3D { width, height, depth: 1 })
+            .format(kind.format())
+            .extent(vk::Extent3D { width: side, height: side, depth: 1 })
             .mip_levels(1)
             .array_layers(1)
-            .samples(like.samples)
+            .samples(samples)
             .tiling(vk::ImageTiling::OPTIMAL)
-            .usage(like.usage);
+            .usage(usage);
         // SAFETY: formats and sample counts are those that every device has or that were asked for.
         let raw = unsafe { device.raw.create_image(&info, None) }.during("creating an image")?;
-        let made = Self::bind(device, raw, like);
+        let made = Self::bind(device, raw, kind);
         let (memory, view) = made.inspect_err(|_| {
             // SAFETY: nobody else knows the image.
             unsafe { device.raw.destroy_image(raw, None) };
@@ -195,7 +184,7 @@ impl Image {
     fn bind(
         device: &Arc<Opened>,
         raw: vk::Image,
-        like: Like,
+        kind: Kind,
     ) -> Result<(Memory, vk::ImageView), Error> {
         // SAFETY: the image was just made from this device.
         let needs = unsafe { device.raw.get_image_memory_requirements(raw) };
@@ -203,45 +192,17 @@ impl Image {
         let memory = Memory::new(device, needs, &wanted)?;
         // SAFETY: the memory is fresh, large enough, and of a type that the image allows.
         unsafe { device.raw.bind_image_memory(raw, memory.raw, 0) }.during("binding an image")?;
+        let all = vk::ImageSubresourceRange::default()
+            .aspect_mask(kind.aspect())
+            .level_count(1)
+            .layer_count(1);
         let info = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(vk::ImageViewType::TYPE_2D)
-            .format(like.format)
-            .subresource_range(whole(like.format));
+            .format(kind.format())
+            .subresource_range(all);
         // SAFETY: the image has memory, and the view shows all of it in its own format.
         let view = unsafe { device.raw.create_image_view(&info, None) };
         Ok((memory, view.during("creating a view of an image")?))
-    }
-}
-
-fn is_depth(format: vk::Format) -> bool {
-    [vk::Format::D16_UNORM, vk::Format::X8_D24_UNORM_PACK32, vk::Format::D32_SFLOAT]
-        .contains(&format)
-}
-
-fn aspect(format: vk::Format) -> vk::ImageAspectFlags {
-    if is_depth(format) { vk::ImageAspectFlags::DEPTH } else { vk::ImageAspectFlags::COLOR }
-}
-
-/// A copy between a buffer and all of an image.
-pub(super) fn copy(
-    format: vk::Format,
-    [width, height]: [u32; 2],
-    from_byte: u64,
-) -> vk::BufferImageCopy {
-    let layers = vk::ImageSubresourceLayers::default().aspect_mask(aspect(format)).layer_count(1);
-    vk::BufferImageCopy::default()
-        .buffer_offset(from_byte)
-        .image_subresource(layers)
-        .image_extent(vk::Extent3D { width, height, depth: 1 })
-}
-
-pub(super) fn whole(format: vk::Format) -> vk::ImageSubresourceRange {
-    vk::ImageSubresourceRange {
-        aspect_mask: aspect(format),
-        base_mip_level: 0,
-        level_count: 1,
-        base_array_layer: 0,
-        layer_count: 1,
     }
 }

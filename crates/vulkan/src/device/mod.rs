@@ -31,7 +31,6 @@ pub enum Error {
     /// No device of this name: the word, the devices that there are, and what is wrong with the ICD
     /// files that are named.
     Unknown(String, Vec<String>, Vec<String>),
-    /// The device cannot do what is asked of it.
     Unsupported(String),
     OutOfMemory(&'static str),
     /// The device was lost: the driver or the hardware gave up.
@@ -88,7 +87,6 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Adds to a result what was being done.
 trait While<T> {
     fn during(self, what: &'static str) -> Result<T, Error>;
 }

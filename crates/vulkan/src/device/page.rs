@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::memory::{Image, Like};
+use super::memory::Image;
 use super::open::Opened;
-use super::pipeline::{Attachments, Recipe, framebuffer};
+use super::pipeline::{framebuffer, pipeline, render_pass};
 use super::{Error, While as _};
 
 /// Cells of most pages, in rows and columns.
@@ -57,7 +57,6 @@ impl Kind {
         }
     }
 
-    /// Cells of a page, in rows and columns.
     pub(super) fn cells(self) -> u32 {
         if self == Self::Alone { 1 } else { CELLS }
     }
@@ -78,11 +77,17 @@ impl Kind {
         matches!(self, Self::Lines | Self::RectangularLines | Self::BresenhamLines)
     }
 
-    fn is_depths(self) -> bool {
+    pub(super) fn is_depths(self) -> bool {
         matches!(self, Self::Depths16 | Self::Depths)
     }
 
-    /// The value of a pixel that no triangle covers.
+    pub(super) fn aspect(self) -> vk::ImageAspectFlags {
+        match self.is_depths() {
+            true => vk::ImageAspectFlags::DEPTH,
+            false => vk::ImageAspectFlags::COLOR,
+        }
+    }
+
     pub(super) fn clear(self) -> vk::ClearValue {
         let farthest = vk::ClearDepthStencilValue { depth: 1.0, stencil: 0 };
         match self.is_depths() {
@@ -102,22 +107,30 @@ impl Kind {
         }
     }
 
-    fn attachments(self) -> Attachments {
-        let (format, samples) = (Some(self.format()), self.samples());
-        match self.is_depths() {
-            true => Attachments { colours: None, depths: format, samples },
-            false => Attachments { colours: format, depths: None, samples },
+    pub(super) fn topology(self) -> vk::PrimitiveTopology {
+        match self.is_lines() {
+            true => vk::PrimitiveTopology::LINE_LIST,
+            false => vk::PrimitiveTopology::TRIANGLE_LIST,
         }
     }
 
-    fn samples(self) -> vk::SampleCountFlags {
+    /// How lines are drawn; nothing where the device decides, and for triangles.
+    pub(super) fn line_mode(self) -> Option<vk::LineRasterizationModeEXT> {
+        match self {
+            Self::BresenhamLines => Some(vk::LineRasterizationModeEXT::BRESENHAM),
+            Self::RectangularLines => Some(vk::LineRasterizationModeEXT::RECTANGULAR),
+            _ => None,
+        }
+    }
+
+    pub(super) fn samples(self) -> vk::SampleCountFlags {
         match self {
             Self::Samples => vk::SampleCountFlags::TYPE_4,
             _ => vk::SampleCountFlags::TYPE_1,
         }
     }
 
-    fn fragment_shader(self) -> &'static [u8] {
+    pub(super) fn fragment_shader(self) -> &'static [u8] {
         match self {
             Self::Values => include_bytes!("shaders/values.frag.spv"),
             Self::Linear => include_bytes!("shaders/linear.frag.spv"),
@@ -144,7 +157,7 @@ pub(super) struct Pass {
 
 /// A page of one kind with everything that draws into it.
 pub(super) struct Page {
-    device: Arc<Opened>,
+    pub(super) device: Arc<Opened>,
     pub(super) render_pass: vk::RenderPass,
     pub(super) framebuffer: vk::Framebuffer,
     pub(super) layout: vk::PipelineLayout,
@@ -174,9 +187,7 @@ impl Page {
         let one = vk::SampleCountFlags::TYPE_1;
         let samples = match kind.samples() {
             samples if samples == one => None,
-            samples => {
-                Some(Image::new(device, Like::drawn(kind.format(), kind.page_px(), samples))?)
-            }
+            samples => Some(Image::new(device, kind, samples)?),
         };
         let mut page = Self {
             device: Arc::clone(device),
@@ -184,11 +195,11 @@ impl Page {
             framebuffer: vk::Framebuffer::null(),
             layout: vk::PipelineLayout::null(),
             passes: Vec::new(),
-            image: Image::new(device, Like::drawn(kind.format(), kind.page_px(), one))?,
+            image: Image::new(device, kind, one)?,
             _samples: samples,
         };
         // Filled field by field: what fails is dropped with what was made before it.
-        page.render_pass = kind.attachments().render_pass(device)?;
+        page.render_pass = render_pass(device, kind)?;
         let views: Vec<_> = page._samples.iter().chain([&page.image]).map(|i| i.view).collect();
         page.framebuffer = framebuffer(device, page.render_pass, &views, kind.page_px())?;
         let ranges = [vk::PushConstantRange {
@@ -210,26 +221,3 @@ impl Page {
 
 /// Bytes of a vertex: clip coordinates and two attributes, six f32.
 pub(super) const VERTEX_BYTES: u32 = 24;
-
-fn pipeline(page: &Page, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline, Error> {
-    Recipe {
-        shaders: [include_bytes!("shaders/draw.vert.spv"), kind.fragment_shader()],
-        stride: VERTEX_BYTES,
-        attributes: &[(vk::Format::R32G32B32A32_SFLOAT, 0), (vk::Format::R32G32_SFLOAT, 16)],
-        topology: match kind.corners() {
-            2 => vk::PrimitiveTopology::LINE_LIST,
-            _ => vk::PrimitiveTopology::TRIANGLE_LIST,
-        },
-        line_mode: match kind {
-            Kind::BresenhamLines => Some(vk::LineRasterizationModeEXT::BRESENHAM),
-            Kind::RectangularLines => Some(vk::LineRasterizationModeEXT::RECTANGULAR),
-            _ => None,
-        },
-        attachments: kind.attachments(),
-        sample_mask,
-        adds: kind.pixel_bytes() == 1,
-        layout: page.layout,
-        render_pass: page.render_pass,
-    }
-    .make(&page.device)
-}

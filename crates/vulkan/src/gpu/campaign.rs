@@ -27,9 +27,7 @@ const MOST_OF_A_STAGE: u64 = 2048;
 pub struct DeviceReport {
     pub about: About,
     pub plant: Option<&'static str>,
-    /// The families, as the judge of programs has them.
     pub verdict: Verdict,
-    /// Every property and every stage with its rule.
     pub findings: Vec<Finding>,
     /// Known faults of this driver that were seen, or not any more.
     pub known: Vec<String>,

@@ -15,10 +15,7 @@ pub const WINDOW: PixelRect = PixelRect::window(CELL_PX, CELL_PX);
 /// Corners with w = 1, halfway into the view volume.
 #[must_use]
 pub fn plain(corners: &Corners, half_px: f32) -> [Vertex; 3] {
-    corners.map(|p| {
-        let [x, y] = [p.x, p.y].map(|sub| sub as f32 / SUBPIXELS as f32 / half_px);
-        Vertex { clip: [x, y, 0.5, 1.0], attributes: [0.0; 2] }
-    })
+    corners.map(|p| Vertex::flat([p.x, p.y].map(|sub| sub as f32 / SUBPIXELS as f32 / half_px)))
 }
 
 /// Corners with depth, w and attributes, rounded to f32.
@@ -36,7 +33,6 @@ pub fn valued(triangle: &Triangle, half_px: f32) -> [Vertex; 3] {
     })
 }
 
-/// Four f32.
 #[must_use]
 pub fn floats(pixel: &[u8]) -> [f64; 4] {
     let word = |i: usize| {
@@ -50,6 +46,12 @@ pub fn floats(pixel: &[u8]) -> [f64; 4] {
 pub fn draw_of(cell: usize, vertices: [Vertex; 3], side_px: f32) -> Draw {
     let half = side_px / 2.0;
     Draw { cell, vertices, viewport: [-half, -half, side_px, side_px], window: [CELL_PX; 2] }
+}
+
+/// The pixels of a cell, row by row.
+pub(super) fn pixels() -> impl Iterator<Item = (i32, i32)> {
+    let side = CELL_PX as i32;
+    (0..side).flat_map(move |y| (0..side).map(move |x| (x, y)))
 }
 
 pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {

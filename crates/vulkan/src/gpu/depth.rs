@@ -1,6 +1,6 @@
 //! Depths as a device keeps them, which of two is nearer, and what the near and the far plane leave.
 
-use super::cells::{draw_of, hits_of, in_perspective, valued};
+use super::cells::{draw_of, hits_of, in_perspective, pixels, valued};
 use super::engine::Gpu;
 use super::rules::{Class, Errors, Outcome};
 use crate::device::Error;
@@ -34,9 +34,9 @@ fn draws(gpu: &Gpu, triangles: &[Triangle]) -> Vec<Draw> {
 
 /// The depth in a pixel as it is kept: whole steps, or the bits of an f32, which are in the order of
 /// their numbers; nothing where nothing is drawn.
-fn kept(pictures: &Pictures, kind: Kind, cell: usize, (x, y): (u32, u32)) -> Option<u32> {
+fn kept(pictures: &Pictures, kind: Kind, cell: usize, (x, y): (i32, i32)) -> Option<u32> {
     let size = kind.pixel_bytes();
-    let pixel = &pictures.row(cell, y, CELL_PX)[x as usize * size..][..size];
+    let pixel = &pictures.row(cell, y as u32, CELL_PX)[x as usize * size..][..size];
     let mut word = [0; 4];
     word[..size].copy_from_slice(pixel);
     let (word, clear) = match size {
@@ -44,10 +44,6 @@ fn kept(pictures: &Pictures, kind: Kind, cell: usize, (x, y): (u32, u32)) -> Opt
         _ => (u32::from_ne_bytes(word), 1f32.to_bits()),
     };
     (word != clear).then_some(word)
-}
-
-fn pixels() -> impl Iterator<Item = (u32, u32)> {
-    (0..CELL_PX).flat_map(|y| (0..CELL_PX).map(move |x| (x, y)))
 }
 
 /// Depths of the families, against exact ones.
@@ -71,7 +67,7 @@ pub(super) fn stored(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result
                 Kind::Depths16 => (f64::from(word) / MOST_16, 1.0 / MOST_16),
                 _ => (f64::from(f32::from_bits(word)), 0.0),
             };
-            let error = exact.at(pixel.0 as i32, pixel.1 as i32).0.distance(value);
+            let error = exact.at(pixel.0, pixel.1).0.distance(value);
             // Of two steps the nearer is preferred, and either allowed.
             errors.add(error, bound + step / 2.0, of_weights + step);
         }
@@ -117,7 +113,7 @@ pub(super) fn nearer(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Er
         triangles.len(),
         judged.join(" and ")
     );
-    Ok((if wrong == 0 { Class::Equal } else { Class::Outside }, said))
+    Ok((Class::of(wrong == 0, false), said))
 }
 
 /// Triangles that the near and the far plane cut.
@@ -149,13 +145,14 @@ pub(super) fn clipped(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, E
     for (cell, (_, borders)) in (0..).zip(&triangles) {
         let drawn = hits_of(&pictures, cell);
         let (mut differs, mut inside, mut behind) = (false, false, false);
-        for pixel in pixels() {
+        for (x, y) in pixels() {
+            let pixel = (x as u32, y as u32);
             let values = borders.map(|b| b.at(pixel));
             let in_triangle = values[..3].iter().all(|v| *v >= 0);
             let right = in_triangle && values[3] >= 0 && values[4] >= 0;
             inside |= right;
             behind |= in_triangle && !right;
-            let hits = drawn.get(pixel.0 as i32, pixel.1 as i32).unwrap_or_default();
+            let hits = drawn.get(x, y).unwrap_or_default();
             if hits != u8::from(right) {
                 differs = true;
                 wrong_px += 1;
@@ -172,9 +169,5 @@ pub(super) fn clipped(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, E
          {furthest:.4} px from a border; clipping explains {bound_px:.4}",
         triangles.len()
     );
-    Ok(match different {
-        0 => (Class::Equal, said),
-        _ if furthest <= bound_px => (Class::Allowed, said),
-        _ => (Class::Outside, said),
-    })
+    Ok((Class::of(different == 0, furthest <= bound_px), said))
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::cells::{floats, plain, twice_area_px2, valued};
+use super::cells::{draw_of, floats, plain, twice_area_px2, valued};
 use super::plant::Plant;
 use crate::device::Error;
 use crate::device::draw::{Draw, Painter, Pictures, Vertex};
@@ -27,7 +27,6 @@ pub const PREFIX: &str = "vulkan:";
 /// Cases of a family that are asked at once: thousands of draws a submission.
 const CASES_AT_ONCE: u64 = 512;
 
-/// A Vulkan device on the stand.
 pub struct Gpu {
     listed: Listed,
     plant: Option<Plant>,
@@ -49,10 +48,10 @@ impl Gpu {
             Some((word, name)) => (word, Some(name)),
             None => (word, None),
         };
-        let known = |name: &str| Plant::ALL.iter().find(|(n, _)| *n == name).map(|(_, p)| *p);
+        let known = |name: &str| Plant::ALL.into_iter().find(|plant| plant.name() == name);
         let plant = match plant {
             Some(name) => Some(known(name).ok_or_else(|| {
-                let names = Plant::ALL.map(|(name, _)| name).join(", ");
+                let names = Plant::ALL.map(Plant::name).join(", ");
                 Error::Unsupported(format!("no planted fault is called '{name}'; see: {names}"))
             })?),
             None => None,
@@ -70,8 +69,7 @@ impl Gpu {
     }
 
     pub fn plant_name(&self) -> Option<&'static str> {
-        let plant = self.plant?;
-        Plant::ALL.iter().find(|(_, p)| *p == plant).map(|(name, _)| *name)
+        self.plant.map(Plant::name)
     }
 
     /// Submissions since the device was opened last.
@@ -79,7 +77,6 @@ impl Gpu {
         self.painter.as_ref().map_or(0, Painter::submissions)
     }
 
-    /// Opens the device if it is not open.
     pub(super) fn ready(&mut self) -> Result<&mut Painter, Error> {
         if self.painter.is_none() {
             // A planted failure happens once.
@@ -111,12 +108,22 @@ impl Gpu {
         })
     }
 
+    /// Draws each triangle in the middle of the viewport, in a cell of its own.
+    pub fn draw_each(
+        &mut self,
+        kind: Kind,
+        triangles: impl ExactSizeIterator<Item = [Vertex; 3]>,
+    ) -> Result<Pictures, Error> {
+        let (side, cells) = (self.viewport_px(), triangles.len());
+        let draws = (0..).zip(triangles).map(|(cell, vertices)| draw_of(cell, vertices, side));
+        self.draw(kind, cells, draws.collect())
+    }
+
     /// Closes the device; the next list opens it anew.
     pub fn close(&mut self) {
         self.painter = None;
     }
 
-    /// A step of the device's lattice in px.
     pub fn step_px(&self) -> f32 {
         1.0 / self.declared.grid as f32
     }
@@ -142,12 +149,8 @@ impl Gpu {
     fn group(&mut self, kind: Kind, questions: &[&Question]) -> Result<Vec<Answer>, Error> {
         let side = self.viewport_px();
         let draw = |(cell, question): (usize, &&Question)| {
-            Some(Draw {
-                cell,
-                vertices: vertices(&question.of, side / 2.0)?,
-                viewport: [-side / 2.0, -side / 2.0, side, side],
-                window: [question.width, question.height],
-            })
+            let window = [question.width, question.height];
+            Some(Draw { window, ..draw_of(cell, vertices(&question.of, side / 2.0)?, side) })
         };
         let draws = (0..).zip(questions).filter_map(draw).collect();
         let pictures = self.draw(kind, questions.len(), draws)?;
@@ -210,10 +213,7 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
 fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> Answer {
     let rows = (0..question.height).map(|y| (y as i32, pictures.row(cell, y, question.width)));
     match kind {
-        Kind::Samples => {
-            let runs = rows.flat_map(|(y, row)| runs_of(y, row));
-            Answer::Samples(runs.collect())
-        }
+        Kind::Samples => Answer::Samples(rows.flat_map(|(y, row)| runs_of(y, row)).collect()),
         Kind::Values | Kind::Linear => {
             let pixels =
                 rows.flat_map(|(y, row)| (0..).zip(row.chunks_exact(16)).map(move |p| (y, p)));

@@ -16,7 +16,6 @@ pub const TEXT: &str = include_str!("known-faults.txt");
 pub struct Known {
     /// Part of the driver's name, in small letters.
     driver: String,
-    /// The beginning of its version.
     version: String,
     /// The families, stages and other properties that fail, and whether each does in every run.
     properties: Vec<(String, bool)>,

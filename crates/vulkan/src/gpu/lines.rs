@@ -61,11 +61,7 @@ fn lit(pictures: &Pictures, cell: usize) -> Pixels {
 }
 
 fn class([_, allowed, outside]: [u64; 3]) -> Class {
-    match (outside, allowed) {
-        (0, 0) => Class::Equal,
-        (0, _) => Class::Allowed,
-        _ => Class::Outside,
-    }
+    Class::of(allowed + outside == 0, outside == 0)
 }
 
 pub(super) fn apart(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result<Outcome, Error> {

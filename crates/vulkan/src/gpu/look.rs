@@ -1,5 +1,6 @@
 //! One case as a device draws it, in a window of any size.
 
+use super::cells::draw_of;
 use super::engine::{Gpu, hits_kind};
 use crate::device::Error;
 use crate::device::draw::{Draw, Vertex};
@@ -37,12 +38,9 @@ pub fn coverages_px(
     for (list, window) in jobs {
         for tile in cut(*window) {
             for corners in list {
-                draws.push(Draw {
-                    cell: tiles.len(),
-                    vertices: seen_from(corners, (tile.x0, tile.y0), half)?,
-                    viewport: [-half, -half, 2.0 * half, 2.0 * half],
-                    window: [tile.width(), tile.height()],
-                });
+                let vertices = seen_from(corners, (tile.x0, tile.y0), half)?;
+                let window = [tile.width(), tile.height()];
+                draws.push(Draw { window, ..draw_of(tiles.len(), vertices, 2.0 * half) });
             }
             tiles.push(tile);
         }
@@ -71,7 +69,6 @@ pub fn coverages_px(
     Ok(jobs.iter().map(|(_, window)| whole(*window)).collect())
 }
 
-/// A window in pieces that fit a cell.
 fn cut(window: PixelRect) -> impl Iterator<Item = PixelRect> {
     let side = CELL_PX as i32;
     (window.y0..window.y1).step_by(CELL_PX as usize).flat_map(move |y0| {
@@ -98,8 +95,7 @@ pub(super) fn seen_from(
                 "a corner lies further than {half_px} px from the window"
             )));
         }
-        let [x, y] = [x, y].map(|v| (v / f64::from(half_px)) as f32);
-        Ok(Vertex { clip: [x, y, 0.5, 1.0], attributes: [0.0; 2] })
+        Ok(Vertex::flat([x, y].map(|v| (v / f64::from(half_px)) as f32)))
     });
     Ok([a?, b?, c?])
 }

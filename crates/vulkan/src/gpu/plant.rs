@@ -2,45 +2,34 @@
 
 use crate::device::draw::{Draw, Failing};
 
-/// A fault that is planted between the judge and the device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Plant {
-    /// The viewport is moved right by 1/16 px: every sample lies that much further left.
-    ShiftedSamples,
-    /// Corners are moved right and down by a step of the lattice: samples on top and left edges are
-    /// lost, those on bottom and right edges won.
-    BottomRightRule,
-    DrawsTwice,
-    /// Attributes are interpolated without perspective.
-    NoPerspective,
-    /// Four samples lie elsewhere: the viewport is moved for them alone.
-    ShiftedMasks,
-    /// Triangles with twice an area of 2^23 px^2 or more are lost.
-    LosesLarge,
-    /// Depths are rounded to 1/4096 before they are drawn.
-    CoarseDepths,
-    /// What lies in front of the near plane is not clipped but drawn at the plane.
-    NoNearPlane,
-    /// The device is lost at the third submission.
-    Lost,
-    /// Memory is short at the third submission.
-    OutOfMemory,
+rasterproof_core::named! {
+    /// A fault that is planted between the judge and the device.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Plant {
+        /// The viewport is moved right by 1/16 px: every sample lies that much further left.
+        ShiftedSamples = "shifted-samples",
+        /// Corners are moved right and down by a step of the lattice: samples on top and left edges are
+        /// lost, those on bottom and right edges won.
+        BottomRightRule = "bottom-right-rule",
+        DrawsTwice = "draws-twice",
+        /// Attributes are interpolated without perspective.
+        NoPerspective = "no-perspective",
+        /// Four samples lie elsewhere: the viewport is moved for them alone.
+        ShiftedMasks = "shifted-masks",
+        /// Triangles with twice an area of 2^23 px^2 or more are lost.
+        LosesLarge = "loses-large",
+        /// Depths are rounded to 1/4096 before they are drawn.
+        CoarseDepths = "coarse-depths",
+        /// What lies in front of the near plane is not clipped but drawn at the plane.
+        NoNearPlane = "no-near-plane",
+        /// The device is lost at the third submission.
+        Lost = "lost",
+        /// Memory is short at the third submission.
+        OutOfMemory = "out-of-memory",
+    }
 }
 
 impl Plant {
-    pub const ALL: [(&'static str, Self); 10] = [
-        ("shifted-samples", Self::ShiftedSamples),
-        ("bottom-right-rule", Self::BottomRightRule),
-        ("draws-twice", Self::DrawsTwice),
-        ("no-perspective", Self::NoPerspective),
-        ("shifted-masks", Self::ShiftedMasks),
-        ("loses-large", Self::LosesLarge),
-        ("coarse-depths", Self::CoarseDepths),
-        ("no-near-plane", Self::NoNearPlane),
-        ("lost", Self::Lost),
-        ("out-of-memory", Self::OutOfMemory),
-    ];
-
     #[must_use]
     pub fn failing(self) -> Option<Failing> {
         match self {

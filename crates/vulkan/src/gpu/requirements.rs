@@ -2,7 +2,7 @@
 //! twice; depths are in [`super::depth`], lines in [`super::lines`].
 
 use super::cells::{
-    WINDOW, draw_of, floats, hits_of, in_perspective, plain, twice_area_px2, valued,
+    WINDOW, draw_of, floats, hits_of, in_perspective, pixels, plain, twice_area_px2, valued,
 };
 use super::engine::Gpu;
 use super::known::{self, Known};
@@ -87,20 +87,16 @@ fn large(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Result<Outcom
     };
     let triangles: Vec<Corners> =
         (0..cases).map(|_| [point(0, 64 * per_px), point(-reach, 0), point(-reach, 0)]).collect();
-    let side = gpu.viewport_px();
-    let draws =
-        (0..).zip(&triangles).map(|(cell, t)| draw_of(cell, plain(t, side / 2.0), side)).collect();
+    let half = gpu.viewport_px() / 2.0;
     // A picture of its own for each: see `engine::hits_kind`.
-    let pictures = gpu.draw(Kind::Alone, triangles.len(), draws)?;
+    let pictures = gpu.draw_each(Kind::Alone, triangles.iter().map(|t| plain(t, half)))?;
     let mut wrong_px = 0u64;
     let judged: Vec<(f64, bool)> = (0..)
         .zip(&triangles)
         .map(|(cell, corners)| {
             let (drawn, right) = (hits_of(&pictures, cell), oracle(corners));
-            let rows = drawn.rows().zip(right.rows());
-            let wrong = rows.flat_map(|((_, a), (_, b))| a.iter().zip(b)).filter(|(a, b)| a != b);
-            let wrong = wrong.count() as u64;
-            wrong_px += wrong;
+            let wrong = pixels().filter(|&(x, y)| drawn.get(x, y) != right.get(x, y)).count();
+            wrong_px += wrong as u64;
             (twice_area_px2(corners), wrong == 0)
         })
         .collect();
@@ -127,7 +123,6 @@ fn oracle(corners: &Corners) -> Coverage {
 /// A way to round a position to the lattice, given in halves of a step, to whole steps.
 type Rounding = fn(i32) -> i32;
 
-/// The ways that are told apart.
 const ROUNDINGS: [(&str, Rounding); 4] = [
     ("half to even", |halves| toward(halves, 0)),
     ("half to odd", |halves| toward(halves, 1)),
@@ -152,15 +147,11 @@ fn snapping(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     };
     let triangles: Vec<[[i32; 2]; 3]> =
         (0..cases).map(|_| [0; 3].map(|_| [halves(), halves()])).collect();
-    let side = gpu.viewport_px();
-    let draws = (0..).zip(&triangles).map(|(cell, corners)| {
-        let vertices = corners.map(|p| {
-            let [x, y] = p.map(|halves| halves as f32 / per_px as f32 / (side / 2.0));
-            Vertex { clip: [x, y, 0.5, 1.0], attributes: [0.0; 2] }
-        });
-        draw_of(cell, vertices, side)
-    });
-    let pictures = gpu.draw(Kind::Hits, triangles.len(), draws.collect())?;
+    let half_px = gpu.viewport_px() / 2.0;
+    let vertices = |corners: &[[i32; 2]; 3]| {
+        corners.map(|p| Vertex::flat(p.map(|halves| halves as f32 / per_px as f32 / half_px)))
+    };
+    let pictures = gpu.draw_each(Kind::Hits, triangles.iter().map(vertices))?;
     let right = ROUNDINGS.map(|(name, round)| {
         let is_right = |(cell, corners): &(usize, &[[i32; 2]; 3])| {
             let snapped = corners.map(|p| {
@@ -184,9 +175,8 @@ fn snapping(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
 /// Triangles of the families in perspective, their attributes drawn without it.
 fn linear(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     let triangles = in_perspective(gpu.declared(), seed, cases);
-    let side = gpu.viewport_px();
-    let draws = (0..).zip(&triangles).map(|(cell, t)| draw_of(cell, valued(t, side / 2.0), side));
-    let pictures = gpu.draw(Kind::Linear, triangles.len(), draws.collect())?;
+    let half = gpu.viewport_px() / 2.0;
+    let pictures = gpu.draw_each(Kind::Linear, triangles.iter().map(|t| valued(t, half)))?;
     let mut errors = Errors::default();
     for (cell, triangle) in (0..).zip(&triangles) {
         let v = &triangle.vertices;
@@ -197,13 +187,13 @@ fn linear(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
             continue;
         };
         let bounds = linear_bounds(triangle, f64::from(PAGE_PX));
-        for (x, y) in (0..CELL_PX).flat_map(|y| (0..CELL_PX).map(move |x| (x, y))) {
-            let row = pictures.row(cell, y, CELL_PX);
+        for (x, y) in pixels().filter(|(x, y)| (x + y) % 5 == 0) {
+            let row = pictures.row(cell, y as u32, CELL_PX);
             let [inv_w, a, b, drawn] = floats(&row[16 * x as usize..]);
-            if drawn == 0.0 || (x + y) % 5 != 0 {
+            if drawn == 0.0 {
                 continue;
             }
-            let (w, [e, f]) = exact.at(x as i32, y as i32);
+            let (w, [e, f]) = exact.at(x, y);
             for (error, [bound, of_weights]) in
                 [w.distance(inv_w), e.distance(a), f.distance(b)].into_iter().zip(bounds)
             {
@@ -262,15 +252,13 @@ fn clipping(gpu: &mut Gpu, seed: u64, cases: u64, far: bool) -> Result<Outcome, 
         large += u64::from(twice_area_px2(&corners) >= LARGE_PX2);
         let (drawn, right) = (hits_of(&pictures, cell), oracle(&corners));
         let mut differs = false;
-        for ((y, a), (_, b)) in drawn.rows().zip(right.rows()) {
-            for (x, (hits, right)) in (0..).zip(a.iter().zip(b)) {
-                let is_shown = shown.contains(x, y);
-                beyond += u64::from(!is_shown && *hits != 0);
-                if is_shown && hits != right {
-                    differs = true;
-                    wrong_px += 1;
-                    furthest = furthest.max(from_edges_px(&corners, x, y));
-                }
+        for (x, y) in pixels() {
+            let is_shown = shown.contains(x, y);
+            beyond += u64::from(!is_shown && drawn.get(x, y) != Some(0));
+            if is_shown && drawn.get(x, y) != right.get(x, y) {
+                differs = true;
+                wrong_px += 1;
+                furthest = furthest.max(from_edges_px(&corners, x, y));
             }
         }
         different += u64::from(differs);
@@ -283,11 +271,8 @@ fn clipping(gpu: &mut Gpu, seed: u64, cases: u64, far: bool) -> Result<Outcome, 
     if beyond > 0 {
         said += &format!("; {beyond} px are drawn beyond the viewport");
     }
-    Ok(match different {
-        _ if beyond > 0 || furthest > bound_px => (Class::Outside, said),
-        0 => (Class::Equal, said),
-        _ => (Class::Allowed, said),
-    })
+    let is_allowed = beyond == 0 && furthest <= bound_px;
+    Ok((Class::of(different + beyond == 0, is_allowed), said))
 }
 
 /// Twice the area from which a driver was seen to lose pixels.
@@ -311,27 +296,26 @@ fn from_edges_px(corners: &Corners, x: i32, y: i32) -> f64 {
 /// not speak.
 fn twice(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     let declared = rasterproof_judge::ask::Ask::declared(gpu).clone();
-    let side = gpu.viewport_px();
-    let mut draws = Vec::new();
+    let half = gpu.viewport_px() / 2.0;
+    let mut triangles = Vec::new();
     for family in
         cases::triangles::FAMILIES.iter().filter(|f| f.name != "far" && f.name != "w-extreme")
     {
         for index in 0..cases.div_ceil(64) {
             let case = adapt_case::put(family.case(seed, index), &declared);
             let Shape::Triangles { list, .. } = case.shape else { continue };
-            if let Some(t) = list.first() {
-                draws.push(draw_of(draws.len(), valued(t, side / 2.0), side));
-            }
+            triangles.extend(list.first().map(|t| valued(t, half)));
         }
     }
-    let cells = draws.len();
     let (mut again, mut anew) = (true, true);
     for kind in [Kind::Hits, Kind::Values] {
-        let first = gpu.draw(kind, cells, draws.clone())?;
-        again &= first == gpu.draw(kind, cells, draws.clone())?;
+        let draw = |gpu: &mut Gpu| gpu.draw_each(kind, triangles.iter().copied());
+        let first = draw(gpu)?;
+        again &= first == draw(gpu)?;
         gpu.close();
-        anew &= first == gpu.draw(kind, cells, draws.clone())?;
+        anew &= first == draw(gpu)?;
     }
+    let cells = triangles.len();
     let said = format!("{cells} triangles, hits and values, drawn twice and after opening anew");
     Ok(match (again, anew) {
         (true, true) => (Class::Equal, format!("{said}: the same bits")),

@@ -25,6 +25,14 @@ pub enum Class {
 pub type Outcome = (Class, String);
 
 impl Class {
+    pub fn of(is_equal: bool, is_allowed: bool) -> Self {
+        match (is_equal, is_allowed) {
+            (true, _) => Self::Equal,
+            (_, true) => Self::Allowed,
+            _ => Self::Outside,
+        }
+    }
+
     #[must_use]
     pub fn is_good(self) -> bool {
         self <= Self::NotOffered
@@ -67,7 +75,6 @@ pub const PERSPECTIVE: Rule = Rule {
     says: "attributes are weighed by barycentric coordinates over w, depth by them alone",
     open: "how exactly: the bound is derived from roundings in f32",
 };
-/// Values without perspective.
 pub const LINEAR: Rule = Rule {
     section: "Basic Polygon Rasterization (primsrast-polygons-basic)",
     says: "noperspective attributes and 1/w are weighed by barycentric coordinates alone",
@@ -105,7 +112,6 @@ pub const RECTANGLES: Rule = Rule {
     open: "samples on its border, and how its corners are rounded to the lattice of \
            lineSubPixelPrecisionBits",
 };
-/// Lines of devices without `strictLines`.
 pub const LOOSE_LINES: Rule = Rule {
     section: "Basic Line Segment Rasterization (primsrast-lines-basic)",
     says: "without strictLines a line is a parallelogram with ends along the minor axis, or drawn as a \
@@ -118,7 +124,6 @@ pub const BRESENHAM: Rule = Rule {
            more or fewer, and one a column (row)",
     open: "that deviation",
 };
-/// Bresenham lines that go on.
 pub const JOINED: Rule = Rule {
     section: "Bresenham Line Segment Rasterization (primsrast-lines-bresenham)",
     says: "of two lines with a common end in the same major direction no pixel is drawn twice, and \
@@ -154,11 +159,7 @@ impl Errors {
         let Self { values, beyond, outside, worst } = self;
         let said = format!("{values} {what}, the worst at {worst:.3} of the derived bound");
         let more = format!("{said}, {beyond} beyond it, {outside} of them beyond {allowed}");
-        match (beyond, outside) {
-            (0, _) => (Class::Equal, said),
-            (_, 0) => (Class::Allowed, more),
-            _ => (Class::Outside, more),
-        }
+        (Class::of(*beyond == 0, *outside == 0), if *beyond == 0 { said } else { more })
     }
 }
 

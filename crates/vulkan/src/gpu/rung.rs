@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cells::draw_of;
 use super::engine::Gpu;
 use super::look;
 use crate::device::Error;
@@ -10,6 +11,7 @@ use crate::device::open::Opened;
 use crate::device::page::{Kind, PAGE_PX};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
+use rasterproof_judge::in_process::runs_of;
 use rasterproof_precision::cost::{ExternalVariant, Rung};
 
 /// Triangles that are drawn at once to be judged.
@@ -25,10 +27,6 @@ impl OnLadder {
         let mut gpu = Gpu::named(engine)?;
         let opened = Arc::clone(gpu.ready()?.device());
         Ok(Self { gpu, opened })
-    }
-
-    fn half(&self) -> f32 {
-        self.gpu.viewport_px() / 2.0
     }
 }
 
@@ -69,12 +67,10 @@ impl ExternalVariant for OnLadder {
             all.extend(drawn.iter().map(|hits| {
                 let mut spans = Vec::new();
                 for (y_px, row) in hits.rows() {
-                    let mut x0_px = hits.bounds().x0;
-                    for run in row.chunk_by(|a, b| a == b) {
-                        let x1_px = x0_px + run.len() as i32;
-                        let span = Span { y_px, x0_px, x1_px };
-                        spans.extend(std::iter::repeat_n(span, usize::from(run[0])));
-                        x0_px = x1_px;
+                    for (run, times) in runs_of(y_px, row) {
+                        let x0 = hits.bounds().x0;
+                        let span = Span { y_px, x0_px: x0 + run.x0_px, x1_px: x0 + run.x1_px };
+                        spans.extend(std::iter::repeat_n(span, usize::from(times)));
                     }
                 }
                 spans
@@ -92,14 +88,10 @@ impl ExternalVariant for OnLadder {
         if (bounds.x0, bounds.y0) != (0, 0) || width.max(height) > PAGE_PX {
             return Err(format!("a page has {PAGE_PX} x {PAGE_PX} px"));
         }
-        let half = self.half();
+        let half = self.gpu.viewport_px() / 2.0;
         let draw = |corners: &FreeCorners| {
-            Ok(Draw {
-                cell: 0,
-                vertices: look::seen_from(&corners.px(), (0, 0), half)?,
-                viewport: [-half, -half, 2.0 * half, 2.0 * half],
-                window: [width, height],
-            })
+            let vertices = look::seen_from(&corners.px(), (0, 0), half)?;
+            Ok(Draw { window: [width, height], ..draw_of(0, vertices, 2.0 * half) })
         };
         let said = |error: Error| error.to_string();
         let draws: Vec<Draw> =
