@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, Told, finish};
+use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung, Told};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
@@ -94,39 +94,30 @@ pub(super) fn measure_on(
     options: &Options,
     (progress, afterwards): Told<'_>,
 ) -> Board {
-    let ladder = Ladder::Antialiasing;
     let variants = variants();
     let triangles: Vec<Vec<Corners>> =
         scenes.iter().map(|scene| scene.triangles.iter().filter_map(snap).collect()).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0.0))).collect();
-    let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
-    for (i, scene) in scenes.iter().enumerate() {
-        progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
-        let (about, items) = (scene.about.to_owned(), triangles[i].len() as u64);
+    let rungs = variants.iter().map(|variant| variant.rung.clone());
+    let mut draft = Draft::new(Ladder::Antialiasing, rungs);
+    for ((scene, triangles), target) in scenes.iter().zip(&triangles).zip(&targets) {
+        draft.tell(progress, scenes.len());
+        let column = |pixels| Column::new(scene.name, scene.about, triangles.len() as u64, pixels);
         if scene.name.starts_with(W_PREFIX) {
-            let why = "coverage does not depend on w";
-            prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
-            columns.push(Column::new(scene.name, about, items, 0));
+            draft.leave_out(column(0), "coverage does not depend on w");
             continue;
         }
-        let truth = truth(&triangles[i], scene);
-        for (variant, row) in variants.iter().zip(&mut prepared) {
-            let (triangles, target) = (&triangles[i], &targets[i]);
+        let truth = truth(triangles, scene);
+        let cells = variants.iter().map(|variant| {
             let mut rung = (variant.make)();
             rung.draw(triangles, &mut target.borrow_mut());
             let error = root_mean_square(&target.borrow(), &truth);
-            row.push(Prepared::Ready {
-                errors: vec![Some(error)],
-                work: None,
-                pass: Box::new(move || {
-                    rung.draw(std::hint::black_box(triangles), &mut target.borrow_mut());
-                }),
-            });
-        }
-        columns.push(Column::new(scene.name, about, items, truth.pixels));
+            Prepared::ready(vec![Some(error)], move || {
+                rung.draw(std::hint::black_box(triangles), &mut target.borrow_mut());
+            })
+        });
+        draft.add(column(truth.pixels), cells);
     }
-    let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, afterwards))
+    draft.finish(measures(), options, (progress, afterwards))
 }

@@ -1,9 +1,8 @@
 //! Derived bounds of the rungs of interpolation: how far a value may be off at a pixel.
 
-use super::tiles::packed;
+use super::tiles::{box_of, packed};
 use crate::ladder::interpolation::Valued;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::planes::Bounded;
@@ -19,13 +18,10 @@ pub enum Bound {
     BookFormula,
     /// 1/w and v/w accumulated along the row.
     Accumulated,
-    /// 1/w and v/w evaluated at each pixel.
     Direct,
-    /// Planes over the screen.
     Plane,
     /// Planes that are set up in f64 and rounded, as frames in tiles have them.
     Tile,
-    /// The offset form.
     Offset,
     /// One rounding of the exact value.
     Rounded,
@@ -34,12 +30,10 @@ pub enum Bound {
 /// What is known of a triangle and one of its pixels when a bound is computed, in f64.
 pub struct Place<'a> {
     pub triangle: &'a Valued,
+    /// The rows of the triangle, and the pixel's.
+    pub spans: &'a [Span],
     pub span: Span,
-    /// The pixel's column.
     pub x_px: i32,
-    /// Rows since the first one of the triangle.
-    pub rows: i32,
-    pub box_px: PixelRect,
 }
 
 /// A linear function over the screen in f64, and how much its slopes cancel.
@@ -87,7 +81,6 @@ impl Place<'_> {
         f.f0 + f.slope[0] * dx + f.slope[1] * dy
     }
 
-    /// 1/w, v/w and v at a column of the row.
     fn perspective(&self, x_px: i32) -> [f64; 3] {
         let inv_w = self.value(&self.linear(self.triangle.inv_w), x_px);
         let over_w = self.value(&self.linear(self.over_w()), x_px);
@@ -98,7 +91,6 @@ impl Place<'_> {
         [0, 1, 2].map_array(|i| self.triangle.inv_w[i] * self.triangle.value[i])
     }
 
-    /// The slope of the value along the row.
     fn slope_x(&self) -> f64 {
         let [inv_w, _, v] = self.perspective(self.x_px);
         let (n, d) = (self.linear(self.over_w()), self.linear(self.triangle.inv_w));
@@ -157,7 +149,7 @@ impl Bound {
         let a = wide / place.perspective(place.x_px)[0];
         let x = corners.iter().map(|p| p.to_px().0.abs()).fold(0.0, f64::max);
         let n_x = f64::from(place.x_px - place.span.x0_px);
-        let n_y = f64::from(place.rows);
+        let n_y = f64::from(place.span.y_px - place.spans[0].y_px);
         let along = || x * place.slope_x();
         let limit = match self {
             // The model's error is no rounding, and may be large.
@@ -169,7 +161,8 @@ impl Bound {
             Self::EverySixteen => return sixteen(place, u, m),
             Self::Tile => {
                 let (corners, values) = packed(place.triangle);
-                let planes = Bounded::new(Tiles::default(), &corners, &values, place.box_px, false);
+                let box_px = box_of(place.spans)?;
+                let planes = Bounded::new(Tiles::default(), &corners, &values, box_px, false);
                 let bound = planes.value(0, place.x_px.into(), place.span.y_px.into()).1;
                 return (bound <= 0.1 * m).then_some(bound);
             }

@@ -9,11 +9,9 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-/// Something to time.
 pub struct Pass<'a> {
     /// Passes of one column stay together.
     pub column: usize,
-    /// Does the work once.
     pub run: Box<dyn FnMut() + 'a>,
 }
 
@@ -23,9 +21,7 @@ pub struct Pass<'a> {
 pub struct Spread {
     /// A quarter of the rounds were at most this.
     pub low: f64,
-    /// Half of the rounds.
     pub median: f64,
-    /// Three quarters.
     pub high: f64,
 }
 
@@ -72,7 +68,6 @@ impl Spread {
 /// rounds, divided by other counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Time {
-    /// Nanoseconds for each covered pixel.
     pub pixel_ns: Spread,
     /// Nanoseconds for each triangle or line.
     pub item_ns: Spread,
@@ -84,7 +79,6 @@ impl Time {
     }
 }
 
-/// Rounds of a run.
 pub(super) fn rounds(quick: bool) -> usize {
     if quick { 7 } else { 41 }
 }

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 
 use super::external::ExternalVariant;
 use super::tiles::Lists;
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use super::{Board, Column, Draft, Ladder, Measure, Name, Options, Prepared, Rung};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
@@ -65,7 +65,6 @@ impl Cover for AsPublished {
     }
 }
 
-/// What the measurements need of a rung, without its type.
 trait AnyRung: Sync {
     fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String>;
     fn spans(
@@ -92,30 +91,7 @@ impl<R: Cover + Sync> AnyRung for R {
     }
 
     fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
-        for (corners, colour) in triangles.iter().zip(1..) {
-            self.cover(corners, bounds, |span| {
-                target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour);
-            });
-        }
-    }
-}
-
-impl AnyRung for Lists {
-    fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
-        Cover::accepts(&self.snapped(), corners, bounds)
-    }
-
-    fn spans(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        spans: &mut Vec<Span>,
-    ) -> Option<Work> {
-        self.snapped().cover(corners, bounds, |span| spans.push(span))
-    }
-
-    fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
-        Lists::paint(*self, triangles, bounds, target);
+        Cover::paint(self, triangles, bounds, target);
     }
 }
 
@@ -128,7 +104,7 @@ pub struct Variant {
 
 fn variant(
     name: &'static str,
-    about: &'static str,
+    about: impl Into<Name>,
     promises: &[usize],
     body: impl Cover + Sync + 'static,
 ) -> Variant {
@@ -204,7 +180,7 @@ fn edge_functions() -> Vec<Variant> {
             &[SNAPPED],
             Snapped(EdgeFunction),
         ),
-        lists(),
+        variant("tiles i32 x 16", Lists::default().about(), &[SNAPPED], Lists::default()),
         variant(
             "adaptive",
             "the engine edge-function-exact",
@@ -215,21 +191,11 @@ fn edge_functions() -> Vec<Variant> {
     ]
 }
 
-fn lists() -> Variant {
-    let mut rung = Rung::new("tiles i32 x 16", "", &[SNAPPED]);
-    rung.about = Lists::default().about().into();
-    Variant { rung, body: Box::new(Lists::default()) }
-}
-
 /// The pixels of one scene by both truths.
 struct Truth {
     /// Spans of each triangle as given, then as snapped.
     spans: [Vec<Vec<Span>>; 2],
     pixels: [u64; 2],
-}
-
-fn pixels(spans: &[Span]) -> u64 {
-    spans.iter().map(|span| u64::from(span.x0_px.abs_diff(span.x1_px))).sum()
 }
 
 impl Truth {
@@ -252,7 +218,9 @@ impl Truth {
                 }
             }),
         ];
-        let pixels = [0, 1].map_array(|i| spans[i].iter().map(|list| pixels(list)).sum());
+        let pixels =
+            |spans: &[Vec<Span>]| spans.iter().flatten().map(Span::pixels).sum::<usize>() as u64;
+        let pixels = spans.each_ref().map(|spans| pixels(spans));
         Self { spans, pixels }
     }
 }
@@ -307,7 +275,6 @@ fn cracks(truth: &Truth, spans: &[Vec<Span>], interior: PixelRect) -> (u64, u64)
     (holes, twice)
 }
 
-/// The errors of a rung on a scene, and its work.
 fn errors(
     variant: &Variant,
     scene: &Scene,
@@ -328,7 +295,6 @@ fn errors(
     Ok((score(&spans, scene, truth), work))
 }
 
-/// The errors of the pixels of each triangle of a scene.
 fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth) -> Vec<Option<f64>> {
     let per_million = |i: usize| {
         let pairs = spans.iter().zip(&truth.spans[i]);
@@ -351,13 +317,12 @@ fn prepare<'a>(
 ) -> Prepared<'a> {
     match errors(variant, scene, truth) {
         Err(why) => Prepared::NotRun(why),
-        Ok((errors, work)) => Prepared::Ready {
-            errors,
-            work,
-            pass: Box::new(|| {
+        Ok((errors, work)) => {
+            let pass = Box::new(|| {
                 variant.paint(std::hint::black_box(&scene.triangles), &mut target.borrow_mut());
-            }),
-        },
+            });
+            Prepared::Ready { errors, work, pass }
+        }
     }
 }
 
@@ -387,30 +352,25 @@ pub(super) fn measure(
     let variants = variants(ladder);
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0))).collect();
-    let mut columns = Vec::new();
-    let mut rungs: Vec<Rung> = variants.iter().map(|c| c.rung.clone()).collect();
-    rungs.extend(external.iter().map(|variant| variant.rung()));
-    let mut prepared: Vec<Vec<Prepared<'_>>> = rungs.iter().map(|_| Vec::new()).collect();
-    for (done, (scene, target)) in scenes.iter().zip(&targets).enumerate() {
-        progress(0.3 * done as f64 / scenes.len() as f64, ladder.title());
-        let (about, items) = (scene.about.to_owned(), scene.triangles.len() as u64);
+    let own = variants.iter().map(|variant| variant.rung.clone());
+    let rungs = own.chain(external.iter().map(|variant| variant.rung()));
+    let mut draft = Draft::new(ladder, rungs);
+    for (scene, target) in scenes.iter().zip(&targets) {
+        draft.tell(progress, scenes.len());
+        let items = scene.triangles.len() as u64;
         if scene.name.starts_with(W_PREFIX) {
-            let why = "coverage does not depend on w";
-            let rows = prepared.iter_mut();
-            rows.for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
-            columns.push(Column::new(scene.name, about, items, 0));
+            let column = Column::new(scene.name, scene.about, items, 0);
+            draft.leave_out(column, "coverage does not depend on w");
             continue;
         }
         let truth = Truth::of(scene);
-        for (variant, row) in variants.iter().zip(&mut prepared) {
-            row.push(prepare(variant, scene, &truth, target));
-        }
-        for (variant, row) in external.iter_mut().zip(&mut prepared[variants.len()..]) {
-            row.push(prepare_external(variant.as_mut(), scene, &truth));
-        }
-        columns.push(Column::new(scene.name, about, items, truth.pixels[GIVEN]));
+        let own = variants.iter().map(|variant| prepare(variant, scene, &truth, target));
+        let others = external.iter_mut();
+        let others = others.map(|variant| prepare_external(variant.as_mut(), scene, &truth));
+        let column = Column::new(scene.name, scene.about, items, truth.pixels[GIVEN]);
+        draft.add(column, own.chain(others));
     }
-    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
+    draft.finish(measures(), options, (progress, &mut |_, _| ()))
 }
 
 #[cfg(test)]
@@ -448,7 +408,6 @@ mod tests {
         assert_eq!(cracks(&truth, &[vec![span(0, 0, 6)], vec![span(0, 4, 9)]]), (0, 2));
     }
 
-    /// The errors of a planted rung on every class with coverage.
     fn of(body: impl Cover + Sync + 'static) -> Vec<(&'static str, Vec<Option<f64>>)> {
         let variant = variant("planted", "", &[], body);
         scenes(1, Size { side_px: 128, pixels: 4000 })

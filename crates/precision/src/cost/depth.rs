@@ -3,7 +3,7 @@
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish, no_classes};
+use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -116,31 +116,25 @@ fn gap<F: Format>(z: f64) -> f64 {
     high
 }
 
-/// The largest gap near `z`.
 fn step<F: Format>(z: f64) -> f64 {
     // Whole numbers over a number that no power of two divides hit all phases of a step.
     (0..1000).map(|i| gap::<F>(z * (1.0 - 0.003 * f64::from(i) / 1013.0))).fold(0.0, f64::max)
 }
 
 trait AnyFormat {
-    fn errors(&self, z: f64, layers: &[Layers]) -> Vec<Option<f64>>;
-    fn pass<'a>(&self, layers: &'a [Layers]) -> Box<dyn FnMut() + 'a>;
+    /// Draws the layers and counts what is wrong of them; and draws them again to be timed.
+    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> Prepared<'a>;
 }
 
 impl<F: Format + 'static> AnyFormat for F {
-    fn errors(&self, z: f64, layers: &[Layers]) -> Vec<Option<f64>> {
+    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> Prepared<'a> {
         let pixels = layers.len() * SIDE_PX * SIDE_PX;
         let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
         draw::<F>(layers, &mut buffer, &mut colours);
         let wrong = colours.iter().filter(|&&colour| colour != 2).count();
         let per_million = wrong as f64 * 1e6 / pixels as f64;
-        vec![Some(per_million), Some(gap::<F>(z)), Some(step::<F>(z))]
-    }
-
-    fn pass<'a>(&self, layers: &'a [Layers]) -> Box<dyn FnMut() + 'a> {
-        let pixels = layers.len() * SIDE_PX * SIDE_PX;
-        let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
-        Box::new(move || {
+        let errors = vec![Some(per_million), Some(gap::<F>(z)), Some(step::<F>(z))];
+        Prepared::ready(errors, move || {
             draw::<F>(std::hint::black_box(layers), &mut buffer, &mut colours);
             std::hint::black_box(&buffer);
         })
@@ -158,28 +152,21 @@ fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
 }
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
-    let ladder = Ladder::Depth;
     let variants = variants();
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };
-    let made: Vec<_> =
-        DISTANCES.iter().map(|&(name, z)| layers(options.seed, name, z, tiles)).collect();
-    let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
-    for (i, &(name, z)) in DISTANCES.iter().enumerate() {
-        progress(0.3 * i as f64 / DISTANCES.len() as f64, ladder.title());
-        for ((_, format), row) in variants.iter().zip(&mut prepared) {
-            let (errors, pass) = (format.errors(z, &made[i]), format.pass(&made[i]));
-            row.push(Prepared::Ready { errors, work: None, pass });
-        }
+    let made = DISTANCES.map(|(name, z)| layers(options.seed, name, z, tiles));
+    let mut draft = Draft::new(Ladder::Depth, variants.iter().map(|(rung, _)| rung.clone()));
+    for ((name, z), layers) in DISTANCES.into_iter().zip(&made) {
+        draft.tell(progress, DISTANCES.len());
         let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");
         let pixels = (2 * tiles * SIDE_PX * SIDE_PX) as u64;
-        columns.push(Column::new(name, about, 2 * tiles as u64, pixels));
+        let cells = variants.iter().map(|(_, format)| format.prepare(z, layers));
+        draft.add(Column::new(name, about, 2 * tiles as u64, pixels), cells);
     }
     let why = "depth depends on the distance from the eye, not on the shape";
-    no_classes(options, why, &mut columns, &mut prepared);
-    let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
+    draft.leave_out_classes(options, why);
+    draft.finish(measures(), options, (progress, &mut |_, _| ()))
 }
 
 #[cfg(test)]

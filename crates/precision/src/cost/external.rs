@@ -8,7 +8,6 @@ use rasterproof_core::triangle::{FreeCorners, Span};
 pub trait ExternalVariant {
     fn rung(&self) -> Rung;
 
-    /// The pixels of each triangle.
     fn spans(
         &mut self,
         triangles: &[FreeCorners],

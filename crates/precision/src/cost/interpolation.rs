@@ -6,17 +6,16 @@
 use std::cell::RefCell;
 
 use super::bounds::{Bound, Place, largest};
+use super::drawn::{AnyValues, Drawn, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::tiles::{Planes, box_of};
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, Told, finish};
+use super::tiles::Planes;
+use super::{Board, Column, Draft, Ladder, Measure, Name, Options, Prepared, Rung, Told};
+use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
 };
-use crate::ladder::{Real, snap};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Frame;
-use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::Span;
 use rasterproof_verify::oracle::values::{Exact, ExactTriangle};
 
@@ -35,37 +34,16 @@ fn measures() -> Vec<Measure> {
     ]
 }
 
-/// What the measurements need of a rung, without its type.
-trait AnyValues {
-    fn each(&self, drawn: &Drawn, emit: &mut dyn FnMut(i32, i32, f64));
-    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>);
-}
-
-impl<R: Values> AnyValues for R {
-    fn each(&self, Drawn { triangle, spans, .. }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
-        self.values(triangle, spans, emit);
-    }
-
-    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
-        let x0 = target.bounds().x0;
-        for Drawn { triangle, spans, .. } in drawn {
-            self.values(triangle, spans, |x_px, y_px, value| {
-                target.row_mut(y_px)[(x_px - x0) as usize] = value as f32;
-            });
-        }
-    }
-}
-
-impl AnyValues for Planes {
-    fn each(&self, Drawn { triangle, spans, .. }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
-        self.runs(triangle, spans, &mut |x_px, y_px, values| {
+impl AnyValues<Valued> for Planes {
+    fn each(&self, drawn: &Drawn<Valued>, emit: &mut dyn FnMut(i32, i32, f64)) {
+        self.runs(&drawn.triangle, &drawn.spans, &mut |x_px, y_px, values| {
             for (x_px, &value) in (x_px..).zip(values) {
                 emit(x_px, y_px, value.into());
             }
         });
     }
 
-    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
+    fn paint(&self, drawn: &[Drawn<Valued>], target: &mut Frame<f32>) {
         for Drawn { triangle, spans, .. } in drawn {
             self.runs(triangle, spans, &mut |x_px, y_px, values| {
                 let run = target.span_mut(y_px, x_px, x_px + values.len() as i32);
@@ -96,26 +74,18 @@ fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
     ExactTriangle::new(corners, [0.0; 3], *inv_w, value.map_array(|v| [v]))
 }
 
-/// A triangle and the rows it covers.
-struct Drawn {
-    /// Its place in the list of the scene's triangles.
-    number: usize,
-    triangle: Valued,
-    spans: Vec<Span>,
-}
-
 struct Variant {
     rung: Rung,
     bound: Bound,
     unit: f64,
-    body: Box<dyn AnyValues>,
+    body: Box<dyn AnyValues<Valued>>,
 }
 
 fn variant<T: Real>(
     name: &'static str,
-    about: &'static str,
+    about: impl Into<Name>,
     bound: Bound,
-    body: impl Values + 'static,
+    body: impl AnyValues<Valued> + 'static,
 ) -> Variant {
     // 13 D + M is at most 27 M, far below the goal with either float.
     let promises =
@@ -156,7 +126,12 @@ fn variants() -> Vec<Variant> {
             Bound::Plane,
             Plane::<f32>::default(),
         ),
-        planes(),
+        variant::<f32>(
+            "planes f32 x 16",
+            Planes::default().about(),
+            Bound::Tile,
+            Planes::default(),
+        ),
         variant::<f32>(
             "offset f32",
             "exact edge functions as weights",
@@ -173,44 +148,28 @@ fn variants() -> Vec<Variant> {
     ]
 }
 
-fn planes() -> Variant {
-    let mut rung = Rung::new("planes f32 x 16", "", &[]);
-    rung.about = Planes::default().about().into();
-    let body = Box::new(Planes::default());
-    Variant { rung, bound: Bound::Tile, unit: f32::UNIT, body }
-}
-
 /// The triangles of a scene on the lattice, with w and a value at each corner.
-fn dress(scene: &Scene) -> Vec<Drawn> {
-    let triangles = scene.triangles.iter().zip(&scene.w).enumerate();
-    let dressed = triangles.filter_map(|(number, (corners, w))| {
-        let corners = snap(corners)?;
-        let mut spans = Vec::new();
-        Scanline.cover(corners, scene.bounds, |span| spans.push(span));
+fn valued(scene: &Scene) -> Vec<Drawn<Valued>> {
+    dress(scene, |number, corners, inv_w| {
+        let w = scene.w[number];
         // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
         let made = |i: usize| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0;
         let given = scene.values.get(number).copied();
         let value = given.unwrap_or_else(|| [0, 1, 2].map_array(made));
-        let inv_w = w.map_array(|w| f64::from((1.0 / w) as f32));
-        Some(Drawn { number, triangle: Valued { corners, inv_w, value }, spans })
-    });
-    dressed.collect()
+        Valued { corners, inv_w, value }
+    })
 }
 
-/// The exact value at one pixel, by its number in drawing order.
 struct Sample {
     triangle: usize,
-    /// Number of the pixel within its triangle.
     number: usize,
     exact: Exact,
 }
 
 /// About `count` samples of all pixels, evenly spread in drawing order.
-fn samples(drawn: &[Drawn], count: usize) -> Vec<Sample> {
-    let width = |span: &Span| span.x0_px.abs_diff(span.x1_px) as usize;
-    let pixels: usize = drawn.iter().flat_map(|d| &d.spans).map(width).sum();
+fn samples(drawn: &[Drawn<Valued>], count: usize) -> Vec<Sample> {
     // Odd, so that a stride does not keep step with rows of even length.
-    let stride = (pixels / count).max(1) | 1;
+    let stride = (pixels(drawn) / count).max(1) | 1;
     let mut samples = Vec::new();
     let mut before = 0;
     for (triangle, Drawn { triangle: valued, spans, .. }) in drawn.iter().enumerate() {
@@ -229,40 +188,50 @@ fn samples(drawn: &[Drawn], count: usize) -> Vec<Sample> {
     samples
 }
 
-/// Errors of a rung at the samples: over M, in u M, over the bound.
-fn errors(variant: &Variant, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<f64>> {
-    let (mut worst, mut worst_bound) = (0f64, None::<f64>);
+/// Calls `see` with the triangle, the pixel and the value that a rung has there, for each sample.
+fn at_samples<'a>(
+    rung: &dyn AnyValues<Valued>,
+    drawn: &'a [Drawn<Valued>],
+    samples: &[Sample],
+    see: &mut dyn FnMut(&'a Drawn<Valued>, &Sample, [i32; 2], f64),
+) {
     let mut samples = samples.iter().peekable();
     for (i, of_this) in drawn.iter().enumerate() {
-        let Drawn { triangle, spans, .. } = of_this;
         if samples.peek().is_none_or(|sample| sample.triangle != i) {
             continue;
         }
-        let m = largest(triangle.value);
-        let box_px = box_of(spans).expect("it has samples");
         let mut number = 0;
-        variant.body.each(of_this, &mut |x_px, y_px, value| {
+        rung.each(of_this, &mut |x_px, y_px, value| {
             if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
-                let error = sample.exact.distance(value);
-                worst = worst.max(if m > 0.0 { error / m } else { error });
-                let row = spans[0].y_px;
-                let span = spans[(y_px - row).clamp(0, spans.len() as i32 - 1) as usize];
-                let span = if span.y_px == y_px { span } else { find(spans, y_px) };
-                let place = Place { triangle, span, x_px, rows: y_px - row, box_px };
-                if let Some(bound) = variant.bound.at(&place, variant.unit) {
-                    let share = if error == 0.0 { 0.0 } else { error / bound };
-                    worst_bound = Some(worst_bound.unwrap_or(0.0).max(share));
-                }
+                see(of_this, sample, [x_px, y_px], value);
             }
             number += 1;
         });
     }
+}
+
+/// Errors of a rung at the samples: over M, in u M, over the bound.
+fn errors(variant: &Variant, drawn: &[Drawn<Valued>], samples: &[Sample]) -> Vec<Option<f64>> {
+    let (mut worst, mut worst_bound) = (0f64, None::<f64>);
+    at_samples(&*variant.body, drawn, samples, &mut |of_this, sample, [x_px, y_px], value| {
+        let Drawn { triangle, spans, .. } = of_this;
+        let m = largest(triangle.value);
+        let error = sample.exact.distance(value);
+        worst = worst.max(if m > 0.0 { error / m } else { error });
+        let place = Place { triangle, spans, span: row_of(spans, y_px), x_px };
+        if let Some(bound) = variant.bound.at(&place, variant.unit) {
+            let share = if error == 0.0 { 0.0 } else { error / bound };
+            worst_bound = Some(worst_bound.unwrap_or(0.0).max(share));
+        }
+    });
     vec![Some(worst), Some(worst / variant.unit), worst_bound]
 }
 
-/// The span of a row that some rows before it lack.
-fn find(spans: &[Span], y_px: i32) -> Span {
-    *spans.iter().find(|span| span.y_px == y_px).expect("values come from the rows given")
+/// The span of a row; rows before it may be missing.
+fn row_of(spans: &[Span], y_px: i32) -> Span {
+    let guess = (y_px - spans[0].y_px).clamp(0, spans.len() as i32 - 1) as usize;
+    let mut near = spans[..=guess].iter().rev();
+    *near.find(|span| span.y_px == y_px).expect("values come from the rows given")
 }
 
 /// What the rungs get wrong of some triangles.
@@ -277,32 +246,18 @@ pub struct WrongValues {
 
 /// The pixels of each triangle in which each rung is visibly wrong.
 pub fn wrong_values(scene: &Scene) -> WrongValues {
-    let drawn = dress(scene);
+    let drawn = valued(scene);
     let samples = samples(&drawn, 4 * SAMPLES);
-    let variants = variants();
-    let wrong = variants.iter().map(|variant| {
+    let wrong = variants().into_iter().map(|variant| {
         let mut wrong = vec![0; scene.triangles.len()];
-        let mut samples = samples.iter().peekable();
-        for (i, of_this) in drawn.iter().enumerate() {
-            if samples.peek().is_none_or(|sample| sample.triangle != i) {
-                continue;
-            }
-            let m = largest(of_this.triangle.value);
-            let mut number = 0;
-            variant.body.each(of_this, &mut |_, _, value| {
-                if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
-                    let is_wrong = sample.exact.distance(value) > HALF_STEP * m;
-                    wrong[of_this.number] += u64::from(is_wrong);
-                }
-                number += 1;
-            });
-        }
+        at_samples(&*variant.body, &drawn, &samples, &mut |of_this, sample, _, value| {
+            let limit = HALF_STEP * largest(of_this.triangle.value);
+            wrong[of_this.number] += u64::from(sample.exact.distance(value) > limit);
+        });
         wrong
     });
     let wrong = wrong.collect();
-    let width = |span: &Span| u64::from(span.x0_px.abs_diff(span.x1_px));
-    let of = drawn.iter().flat_map(|drawn| &drawn.spans).map(width).sum();
-    WrongValues { wrong, pixels: samples.len() as u64, of }
+    WrongValues { wrong, pixels: samples.len() as u64, of: pixels(&drawn) as u64 }
 }
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
@@ -312,7 +267,6 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
     measure_on(&scenes, options, count, (progress, &mut |_, _| ()))
 }
 
-/// Pixels at which errors are taken.
 pub(super) const SAMPLES: usize = 4000;
 
 /// The same on other scenes.
@@ -322,33 +276,24 @@ pub(super) fn measure_on(
     count: usize,
     (progress, afterwards): Told<'_>,
 ) -> Board {
-    let ladder = Ladder::Interpolation;
     let variants = variants();
-    let drawn: Vec<_> = scenes.iter().map(dress).collect();
+    let drawn: Vec<_> = scenes.iter().map(valued).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
-    let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
-    for (i, scene) in scenes.iter().enumerate() {
-        progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
-        let (drawn, target) = (&drawn[i], &targets[i]);
+    let rungs = variants.iter().map(|variant| variant.rung.clone());
+    let mut draft = Draft::new(Ladder::Interpolation, rungs);
+    for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
+        draft.tell(progress, scenes.len());
         let samples = samples(drawn, count);
-        for (variant, row) in variants.iter().zip(&mut prepared) {
-            row.push(Prepared::Ready {
-                errors: errors(variant, drawn, &samples),
-                work: None,
-                pass: Box::new(|| {
-                    variant.body.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
-                }),
-            });
-        }
-        let width = |span: &Span| u64::from(span.x0_px.abs_diff(span.x1_px));
-        let pixels = drawn.iter().flat_map(|d| &d.spans).map(width).sum();
-        let about = scene.about.to_owned();
-        columns.push(Column::new(scene.name, about, drawn.len() as u64, pixels));
+        let cells = variants.iter().map(|variant| {
+            Prepared::ready(errors(variant, drawn, &samples), || {
+                variant.body.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
+            })
+        });
+        let (items, pixels) = (drawn.len() as u64, pixels(drawn) as u64);
+        draft.add(Column::new(scene.name, scene.about, items, pixels), cells);
     }
-    let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, afterwards))
+    draft.finish(measures(), options, (progress, afterwards))
 }
 
 #[cfg(test)]
@@ -360,7 +305,7 @@ mod tests {
         scenes(seed, Size { side_px: 64, pixels: 1500 })
             .iter()
             .map(|scene| {
-                let drawn = dress(scene);
+                let drawn = valued(scene);
                 let samples = samples(&drawn, usize::MAX);
                 assert!(samples.len() > 100, "{}", scene.name);
                 errors(variant, &drawn, &samples)[2].unwrap_or(0.0)
@@ -408,28 +353,22 @@ mod tests {
         }
     }
 
+    fn late(bound: Bound, rung: impl Values + Sync + 'static) -> Variant {
+        variant::<f32>("late", "", bound, Late(rung))
+    }
+
     #[test]
     fn bounds_find_planted_faults() {
         let late = [
-            variant::<f32>("affine", "", Bound::Affine, Late(Affine::<f32>::default())),
-            variant::<f32>(
-                "sixteen",
-                "",
-                Bound::EverySixteen,
-                Late(EverySixteen::<f32>::default()),
-            ),
-            variant::<f32>("book", "", Bound::BookFormula, Late(BookFormula::<f32>::default())),
-            variant::<f32>(
-                "accumulated",
-                "",
-                Bound::Accumulated,
-                Late(Accumulated::<f32>::default()),
-            ),
-            variant::<f32>("direct", "", Bound::Direct, Late(Direct::<f32>::default())),
-            variant::<f32>("plane", "", Bound::Plane, Late(Plane::<f32>::default())),
-            variant::<f32>("planes", "", Bound::Tile, Late(Plane::<f32>::default())),
-            variant::<f32>("offset", "", Bound::Offset, Late(Offset::<f32>::default())),
-            variant::<f32>("rational", "", Bound::Rounded, Late(Rational)),
+            late(Bound::Affine, Affine::<f32>::default()),
+            late(Bound::EverySixteen, EverySixteen::<f32>::default()),
+            late(Bound::BookFormula, BookFormula::<f32>::default()),
+            late(Bound::Accumulated, Accumulated::<f32>::default()),
+            late(Bound::Direct, Direct::<f32>::default()),
+            late(Bound::Plane, Plane::<f32>::default()),
+            late(Bound::Tile, Plane::<f32>::default()),
+            late(Bound::Offset, Offset::<f32>::default()),
+            late(Bound::Rounded, Rational),
             // The float that the bound is not for, and the model that it is not for.
             variant::<f64>("offset", "", Bound::Offset, Offset::<f32>::default()),
             variant::<f32>("direct", "", Bound::Direct, EverySixteen::<f32>::default()),

@@ -5,18 +5,15 @@
 
 use std::cell::RefCell;
 
+use super::drawn::{AnyValues, Drawn, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
-use crate::ladder::levels::{Derivatives, Differences, Level, OfTriangle, SIDE, Textured};
-use crate::ladder::snap;
+use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
+use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
-use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_core::triangle::Span;
 
 /// A part of a level that 8 bits between two levels can express, as the Vulkan specification wants at most.
 const STEP: f64 = 1.0 / 256.0;
@@ -31,27 +28,17 @@ fn measures() -> Vec<Measure> {
     ]
 }
 
-/// A triangle and the rows it covers.
-struct Drawn {
-    triangle: Textured,
-    spans: Vec<Span>,
-}
-
-/// The triangles of a scene on the lattice, with texture coordinates made of their positions.
-fn dress(scene: &Scene) -> Vec<Drawn> {
-    let dressed = scene.triangles.iter().zip(&scene.w).filter_map(|(corners, w)| {
-        let corners = snap(corners)?;
-        let mut spans = Vec::new();
-        Scanline.cover(corners, scene.bounds, |span| spans.push(span));
+/// The triangles of a scene on the lattice that cover anything, with texture coordinates made of their positions.
+fn textured(scene: &Scene) -> Vec<Drawn<Textured>> {
+    let mut drawn = dress(scene, |_, corners, inv_w| {
         let made = |i: usize| {
             let SubpixelPoint { x, y } = corners[i];
             [x % 509 + i as i32, y % 503].map_array(|n| f64::from(n - 254) / 256.0)
         };
-        let inv_w = w.map_array(|w| f64::from((1.0 / w) as f32));
-        let triangle = Textured { corners, inv_w, uv: [0, 1, 2].map_array(made) };
-        (!spans.is_empty()).then_some(Drawn { triangle, spans })
+        Textured { corners, inv_w, uv: [0, 1, 2].map_array(made) }
     });
-    dressed.collect()
+    drawn.retain(|of| !of.spans.is_empty());
+    drawn
 }
 
 fn exactly(value: f64) -> BigRational {
@@ -89,13 +76,12 @@ fn exact(Textured { corners, inv_w, uv }: &Textured, x_px: i32, y_px: i32) -> Op
     (square > 0.0).then(|| 0.5 * libm::log2(square))
 }
 
-/// The exact level at one pixel, by its number in drawing order.
 struct Sample {
     number: usize,
     level: f64,
 }
 
-fn samples(drawn: &[Drawn]) -> Vec<Sample> {
+fn samples(drawn: &[Drawn<Textured>]) -> Vec<Sample> {
     let pixels = drawn.iter().flat_map(|of| of.spans.iter().map(move |span| (of, span)));
     let pixels =
         pixels.flat_map(|(of, span)| (span.x0_px..span.x1_px).map(move |x| (of, x, span.y_px)));
@@ -107,32 +93,12 @@ fn samples(drawn: &[Drawn]) -> Vec<Sample> {
     samples.collect()
 }
 
-trait AnyLevel {
-    fn each(&self, drawn: &[Drawn], emit: &mut dyn FnMut(f64));
-    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>);
-}
+type AnyLevel = dyn AnyValues<Textured>;
 
-impl<R: Level> AnyLevel for R {
-    fn each(&self, drawn: &[Drawn], emit: &mut dyn FnMut(f64)) {
-        for Drawn { triangle, spans } in drawn {
-            self.levels(triangle, spans, |_, _, level| emit(level));
-        }
-    }
-
-    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
-        let x0 = target.bounds().x0;
-        for Drawn { triangle, spans } in drawn {
-            self.levels(triangle, spans, |x_px, y_px, level| {
-                target.row_mut(y_px)[(x_px - x0) as usize] = level as f32;
-            });
-        }
-    }
-}
-
-fn errors(rung: &dyn AnyLevel, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<f64>> {
+fn errors(rung: &AnyLevel, drawn: &[Drawn<Textured>], samples: &[Sample]) -> Vec<Option<f64>> {
     let (mut worst, mut sum, mut number) = (0f64, 0.0, 0);
     let mut left = samples.iter().peekable();
-    rung.each(drawn, &mut |level| {
+    let mut see = |_, _, level: f64| {
         if let Some(sample) = left.next_if(|sample| sample.number == number) {
             let error = (level - sample.level).abs();
             // A triangle that is an edge in the texture has no area, and no level by it.
@@ -141,11 +107,12 @@ fn errors(rung: &dyn AnyLevel, drawn: &[Drawn], samples: &[Sample]) -> Vec<Optio
             sum += error;
         }
         number += 1;
-    });
+    };
+    drawn.iter().for_each(|of_this| rung.each(of_this, &mut see));
     vec![Some(worst), Some(sum / samples.len().max(1) as f64)]
 }
 
-fn variants() -> Vec<(Rung, Box<dyn AnyLevel>)> {
+fn variants() -> Vec<(Rung, Box<AnyLevel>)> {
     let rung = |name, about| Rung::new(name, about, &[]);
     vec![
         (rung("one a triangle", "by the areas in texels and in pixels"), Box::new(OfTriangle)),
@@ -160,43 +127,32 @@ fn variants() -> Vec<(Rung, Box<dyn AnyLevel>)> {
 }
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
-    let ladder = Ladder::Levels;
-    let pixels = if options.quick { 20_000 } else { 200_000 };
-    let scenes = scenes(options.seed, Size { side_px: 512, pixels });
+    let size = if options.quick { 20_000 } else { 200_000 };
+    let scenes = scenes(options.seed, Size { side_px: 512, pixels: size });
     let variants = variants();
-    let drawn: Vec<Vec<Drawn>> = scenes.iter().map(dress).collect();
+    let drawn: Vec<_> = scenes.iter().map(textured).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
-    let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
-    for (i, scene) in scenes.iter().enumerate() {
-        progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
-        let samples = samples(&drawn[i]);
-        for ((_, rung), row) in variants.iter().zip(&mut prepared) {
-            let (drawn, target) = (&drawn[i], &targets[i]);
-            let pass = Box::new(move || {
+    let mut draft = Draft::new(Ladder::Levels, variants.iter().map(|(rung, _)| rung.clone()));
+    for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
+        draft.tell(progress, scenes.len());
+        let samples = samples(drawn);
+        let cells = variants.iter().map(|(_, rung)| {
+            Prepared::ready(errors(&**rung, drawn, &samples), || {
                 rung.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
-            });
-            let errors = errors(&**rung, drawn, &samples);
-            row.push(Prepared::Ready { errors, work: None, pass });
-        }
-        let spans = drawn[i].iter().flat_map(|of| &of.spans);
-        let pixels = spans.map(|span| u64::from(span.x0_px.abs_diff(span.x1_px))).sum();
-        columns.push(Column::new(
-            scene.name,
-            scene.about.to_owned(),
-            drawn[i].len() as u64,
-            pixels,
-        ));
+            })
+        });
+        let (items, pixels) = (drawn.len() as u64, pixels(drawn) as u64);
+        draft.add(Column::new(scene.name, scene.about, items, pixels), cells);
     }
-    let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
+    draft.finish(measures(), options, (progress, &mut |_, _| ()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ladder::levels::Level;
+    use crate::ladder::interpolation::Values;
+    use rasterproof_core::triangle::Span;
 
     /// A square of 256 x 256 texels in 64 x 64 pixels that faces the eye: four texels a pixel.
     #[test]
@@ -209,9 +165,10 @@ mod tests {
         };
         assert_eq!(exact(&triangle, 3, 7), Some(2.0));
         let spans = [Span { y_px: 7, x0_px: 1, x1_px: 6 }];
-        let check = |rung: &dyn AnyLevel| {
+        let drawn = Drawn { number: 0, triangle, spans: spans.to_vec() };
+        let check = |rung: &AnyLevel| {
             let mut count = 0;
-            rung.each(&[Drawn { triangle, spans: spans.to_vec() }], &mut |level| {
+            rung.each(&drawn, &mut |_, _, level| {
                 assert!((level - 2.0).abs() < 1e-5, "{level}");
                 count += 1;
             });
@@ -224,15 +181,15 @@ mod tests {
     #[test]
     fn a_level_without_perspective_is_seen() {
         struct Affine;
-        impl Level for Affine {
-            fn levels(&self, triangle: &Textured, spans: &[Span], emit: impl FnMut(i32, i32, f64)) {
+        impl Values<Textured> for Affine {
+            fn values(&self, triangle: &Textured, spans: &[Span], emit: impl FnMut(i32, i32, f64)) {
                 let flat = Textured { inv_w: [1.0; 3], ..*triangle };
-                Derivatives::<f64>::default().levels(&flat, spans, emit);
+                Derivatives::<f64>::default().values(&flat, spans, emit);
             }
         }
         let scenes = scenes(1, Size { side_px: 256, pixels: 4_000 });
-        let worst = |name: &str, rung: &dyn AnyLevel| {
-            let drawn = dress(scenes.iter().find(|scene| scene.name == name).unwrap());
+        let worst = |name: &str, rung: &AnyLevel| {
+            let drawn = textured(scenes.iter().find(|scene| scene.name == name).unwrap());
             errors(rung, &drawn, &samples(&drawn))[0].unwrap()
         };
         assert!(worst("w 1", &Affine) < 1e-9 && worst("w 4", &Affine) > 0.5);

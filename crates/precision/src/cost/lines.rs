@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Size, scenes};
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -144,51 +144,39 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
 }
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
-    let ladder = Ladder::Lines;
     let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };
     let variants = variants();
     // The classes of the other ladders, for their names and windows.
     let classes = scenes(options.seed, Size { side_px: size.side_px, pixels: 0 });
-    let mut columns = Vec::new();
     let made: Vec<_> =
         classes.iter().map(|class| lines(class.name, options.seed, &size, class.bounds)).collect();
     let targets: Vec<_> =
         classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
-    for (i, class) in classes.iter().enumerate() {
-        progress(0.3 * i as f64 / classes.len() as f64, ladder.title());
-        let (lines, about) = match &made[i] {
+    let rungs = variants.iter().map(|variant| variant.rung.clone());
+    let mut draft = Draft::new(Ladder::Lines, rungs);
+    for ((class, made), target) in classes.iter().zip(&made).zip(&targets) {
+        draft.tell(progress, classes.len());
+        let (lines, about) = match made {
             Ok(made) => made,
             Err(why) => {
-                prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.clone())));
-                let about = class.about.to_owned();
-                columns.push(Column::new(class.name, about, 0, 0));
+                draft.leave_out(Column::new(class.name, class.about, 0, 0), why);
                 continue;
             }
         };
         let truth: Vec<_> = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
         let pixels: u64 = truth.iter().map(|list| list.len() as u64).sum();
-        for (variant, row) in variants.iter().zip(&mut prepared) {
-            let refused = lines.iter().find_map(|&ends| variant.body.accepts(ends).err());
-            row.push(match refused {
-                Some(why) => Prepared::NotRun(why),
-                None => {
-                    let drawn = lines.iter().map(|&ends| variant.body.pixels(ends, class.bounds));
-                    let wrong: u64 = drawn.zip(&truth).map(|(ours, t)| differences(ours, t)).sum();
-                    let (body, target) = (&variant.body, &targets[i]);
-                    Prepared::Ready {
-                        errors: vec![Some(wrong as f64 * 1e6 / pixels.max(1) as f64)],
-                        work: None,
-                        pass: Box::new(move || {
-                            body.paint(std::hint::black_box(lines), &mut target.borrow_mut());
-                        }),
-                    }
-                }
-            });
-        }
-        let (about, items) = ((*about).to_owned(), lines.len() as u64);
-        columns.push(Column::new(class.name, about, items, pixels));
+        let cells = variants.iter().map(|Variant { body, .. }| {
+            if let Some(why) = lines.iter().find_map(|&ends| body.accepts(ends).err()) {
+                return Prepared::NotRun(why);
+            }
+            let drawn = lines.iter().map(|&ends| body.pixels(ends, class.bounds));
+            let wrong: u64 = drawn.zip(&truth).map(|(ours, t)| differences(ours, t)).sum();
+            let per_million = wrong as f64 * 1e6 / pixels.max(1) as f64;
+            Prepared::ready(vec![Some(per_million)], || {
+                body.paint(std::hint::black_box(lines), &mut target.borrow_mut());
+            })
+        });
+        draft.add(Column::new(class.name, *about, lines.len() as u64, pixels), cells);
     }
-    let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
+    draft.finish(measures(), options, (progress, &mut |_, _| ()))
 }

@@ -10,6 +10,7 @@ mod bounds;
 mod clock;
 mod coverage;
 mod depth;
+mod drawn;
 mod external;
 mod interpolation;
 mod levels;
@@ -40,21 +41,15 @@ rasterproof_core::named! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Ladder {
-        /// Coverage by walking down the edges.
         Scanline = "scanline",
-        /// Coverage by testing samples against edges.
         EdgeFunction = "edge-function",
-        /// Attributes at covered pixels.
         Interpolation = "interpolation",
-        /// Formats of the depth buffer.
         Depth = "depth",
         /// Formats of a shadow map, and the bias with which depths are compared.
         Shadows = "shadows",
         /// Levels of detail of a texture, by differences and by derivatives.
         Levels = "levels",
-        /// Samples for each pixel.
         Antialiasing = "antialiasing",
-        /// Line drawers.
         Lines = "lines",
     }
 }
@@ -88,7 +83,6 @@ pub struct Options {
     pub timed: bool,
 }
 
-/// A kind of error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measure {
     /// What is measured, with its unit.
@@ -105,50 +99,44 @@ impl Measure {
     }
 }
 
-/// A class of scenes, the columns of a board.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     pub name: Name,
     pub about: String,
-    /// Triangles or lines.
     pub items: u64,
     /// Pixels that they cover, added up, by the oracle.
     pub pixels: u64,
 }
 
 impl Column {
-    fn new(name: &'static str, about: String, items: u64, pixels: u64) -> Self {
-        Self { name: name.into(), about, items, pixels }
+    fn new(name: &'static str, about: impl Into<String>, items: u64, pixels: u64) -> Self {
+        Self { name: name.into(), about: about.into(), items, pixels }
     }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     pub name: Name,
-    /// How it works, in a few words.
     pub about: Name,
     /// Of which measures, by number, it promises to meet the goal, whatever the scene.
     pub promises: Vec<usize>,
 }
 
 impl Rung {
-    fn new(name: &'static str, about: &'static str, promises: &[usize]) -> Self {
+    fn new(name: &'static str, about: impl Into<Name>, promises: &[usize]) -> Self {
         Self { name: name.into(), about: about.into(), promises: promises.to_vec() }
     }
 }
 
-/// What became of a rung on a class of scenes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cell {
     /// It was not run, and why.
     NotRun(String),
-    /// It was.
     Run(Run),
 }
 
 impl Cell {
-    /// What was measured, if anything.
     pub fn run(&self) -> Option<&Run> {
         match self {
             Self::Run(run) => Some(run),
@@ -157,27 +145,22 @@ impl Cell {
     }
 }
 
-/// What was measured of a rung on a class of scenes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// For each measure of the board its error, where the measure applies.
     pub errors: Vec<Option<f64>>,
     /// Counted work, where the rung counts.
     pub work: Option<Work>,
-    /// Time, where it was taken.
     pub time: Option<Time>,
 }
 
-/// The measurements of one ladder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Board {
     pub ladder: Ladder,
     pub seed: u64,
     /// Rounds that the medians are over, 0 without times.
     pub rounds: usize,
-    /// The kinds of error.
     pub measures: Vec<Measure>,
-    /// Classes of scenes.
     pub columns: Vec<Column>,
     pub rungs: Vec<Rung>,
     /// A row for each rung, in it a cell for each column.
@@ -185,17 +168,14 @@ pub struct Board {
 }
 
 impl Board {
-    /// The measurement of a rung on a class of scenes.
     pub fn run(&self, rung: usize, column: usize) -> Option<&Run> {
         self.cells[rung][column].run()
     }
 
-    /// An error, where it was measured.
     pub fn error(&self, rung: usize, column: usize, measure: usize) -> Option<f64> {
         self.run(rung, column)?.errors[measure]
     }
 
-    /// Nanoseconds for each covered pixel.
     #[must_use]
     pub fn time(&self, rung: usize, column: usize) -> Option<&Time> {
         self.run(rung, column)?.time.as_ref()
@@ -256,57 +236,89 @@ enum Prepared<'a> {
     Ready { errors: Vec<Option<f64>>, work: Option<Work>, pass: Box<dyn FnMut() + 'a> },
 }
 
-/// The classes of scenes on which a ladder is not measured that has columns of its own, with the reason.
-fn no_classes(
-    options: &Options,
-    why: &str,
-    columns: &mut Vec<Column>,
-    prepared: &mut [Vec<Prepared<'_>>],
-) {
-    for class in scene::scenes(options.seed, scene::Size { side_px: 64, pixels: 0 }) {
-        prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
-        columns.push(Column::new(class.name, class.about.to_owned(), 0, 0));
+impl<'a> Prepared<'a> {
+    fn ready(errors: Vec<Option<f64>>, pass: impl FnMut() + 'a) -> Self {
+        Self::Ready { errors, work: None, pass: Box::new(pass) }
     }
 }
 
-/// Times what was prepared (cells by rung, then by column) and puts the board together.
-fn finish(
-    (ladder, measures): (Ladder, Vec<Measure>),
-    (rungs, columns): (Vec<Rung>, Vec<Column>),
-    prepared: Vec<Vec<Prepared<'_>>>,
-    options: &Options,
-    (progress, afterwards): Told<'_>,
-) -> Board {
-    let mut passes: Vec<clock::Pass<'_>> = Vec::new();
-    let mut cells: Vec<Vec<Cell>> = Vec::new();
-    let mut places = Vec::new();
-    for (rung, row) in prepared.into_iter().enumerate() {
-        let mut out = Vec::new();
-        for (column, cell) in row.into_iter().enumerate() {
-            out.push(match cell {
-                Prepared::NotRun(why) => Cell::NotRun(why),
-                Prepared::Ready { errors, work, pass } => {
-                    passes.push(clock::Pass { column, run: pass });
-                    places.push((rung, column));
-                    Cell::Run(Run { errors, work, time: None })
-                }
-            });
-        }
-        cells.push(out);
+/// A board before it is timed.
+struct Draft<'a> {
+    ladder: Ladder,
+    rungs: Vec<Rung>,
+    columns: Vec<Column>,
+    /// By rung, then by column.
+    cells: Vec<Vec<Prepared<'a>>>,
+}
+
+impl<'a> Draft<'a> {
+    fn new(ladder: Ladder, rungs: impl Iterator<Item = Rung>) -> Self {
+        let rungs: Vec<Rung> = rungs.collect();
+        let cells = rungs.iter().map(|_| Vec::new()).collect();
+        Self { ladder, rungs, columns: Vec::new(), cells }
     }
-    let rounds = if options.timed { clock::rounds(options.quick) } else { 0 };
-    if options.timed {
-        let spreads = clock::time(&mut passes, rounds, options.quick, &|share| {
-            progress(0.3 + 0.7 * share, ladder.title());
-        });
-        for ((rung, column), spread) in places.into_iter().zip(spreads) {
-            if let Cell::Run(run) = &mut cells[rung][column] {
-                let Column { items, pixels, .. } = columns[column];
-                run.time = Some(Time::new(spread, pixels, items));
+
+    /// Tells `progress` how many of the classes of scenes are prepared.
+    fn tell(&self, progress: &dyn Fn(f64, &str), classes: usize) {
+        progress(0.3 * self.columns.len() as f64 / classes as f64, self.ladder.title());
+    }
+
+    fn add(&mut self, column: Column, cells: impl Iterator<Item = Prepared<'a>>) {
+        self.columns.push(column);
+        self.cells.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
+    }
+
+    /// Adds a class of scenes on which no rung is measured, with the reason.
+    fn leave_out(&mut self, column: Column, why: &str) {
+        self.add(column, std::iter::repeat_with(|| Prepared::NotRun(why.to_owned())));
+    }
+
+    /// Adds the usual classes of scenes, on which a ladder is not measured that has columns of its own.
+    fn leave_out_classes(&mut self, options: &Options, why: &str) {
+        for class in scene::scenes(options.seed, scene::Size { side_px: 64, pixels: 0 }) {
+            self.leave_out(Column::new(class.name, class.about, 0, 0), why);
+        }
+    }
+
+    /// Times what was prepared and puts the board together.
+    fn finish(
+        self,
+        measures: Vec<Measure>,
+        options: &Options,
+        (progress, afterwards): Told<'_>,
+    ) -> Board {
+        let Self { ladder, rungs, columns, cells: prepared } = self;
+        let mut passes: Vec<clock::Pass<'_>> = Vec::new();
+        let mut cells: Vec<Vec<Cell>> = Vec::new();
+        let mut places = Vec::new();
+        for (rung, row) in prepared.into_iter().enumerate() {
+            let mut out = Vec::new();
+            for (column, cell) in row.into_iter().enumerate() {
+                out.push(match cell {
+                    Prepared::NotRun(why) => Cell::NotRun(why),
+                    Prepared::Ready { errors, work, pass } => {
+                        passes.push(clock::Pass { column, run: pass });
+                        places.push((rung, column));
+                        Cell::Run(Run { errors, work, time: None })
+                    }
+                });
+            }
+            cells.push(out);
+        }
+        let rounds = if options.timed { clock::rounds(options.quick) } else { 0 };
+        if options.timed {
+            let spreads = clock::time(&mut passes, rounds, options.quick, &|share| {
+                progress(0.3 + 0.7 * share, ladder.title());
+            });
+            for ((rung, column), spread) in places.into_iter().zip(spreads) {
+                if let Cell::Run(run) = &mut cells[rung][column] {
+                    let Column { items, pixels, .. } = columns[column];
+                    run.time = Some(Time::new(spread, pixels, items));
+                }
             }
         }
+        let board = Board { ladder, seed: options.seed, rounds, measures, columns, rungs, cells };
+        afterwards(&board, &mut passes);
+        board
     }
-    let board = Board { ladder, seed: options.seed, rounds, measures, columns, rungs, cells };
-    afterwards(&board, &mut passes);
-    board
 }

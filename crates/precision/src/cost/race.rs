@@ -33,7 +33,6 @@ pub enum Finish {
     Undecided,
 }
 
-/// What a race found out about its passes.
 #[derive(Clone, Debug)]
 pub struct Race {
     /// One entry for each pass, in the order in which they were given; the times too.

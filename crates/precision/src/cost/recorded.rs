@@ -8,10 +8,8 @@ use super::{Board, Cell, Ladder};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Recorded {
     pub version: String,
-    /// The command.
     pub repeat: String,
     pub seed: u64,
-    /// Smaller scenes and fewer rounds.
     pub quick: bool,
     /// The boards, each ladder once.
     #[serde(deserialize_with = "checked")]

@@ -10,15 +10,11 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::FreeCorners;
 use rasterproof_verify::cases::Rng;
 
-/// Triangles to draw.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Name of the class.
     pub name: &'static str,
     pub about: &'static str,
-    /// The window.
     pub bounds: PixelRect,
-    /// Corners as given.
     pub triangles: Vec<FreeCorners>,
     /// w of each corner, in [1, ratio]; f32.
     pub w: Vec<[f64; 3]>,
@@ -32,7 +28,6 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug)]
 pub struct Size {
     pub side_px: u32,
-    /// About how many pixels are covered in all.
     pub pixels: u64,
 }
 
@@ -50,44 +45,38 @@ type Corners = [Point; 3];
 /// Classes whose name begins so differ from the others by their w alone.
 pub const W_PREFIX: &str = "w ";
 
+const fn class(
+    name: &'static str,
+    about: &'static str,
+    ratio: f64,
+    make: fn(&mut Rng, &Size) -> Vec<Corners>,
+) -> Class {
+    Class { name, about, ratio, make }
+}
+
 const CLASSES: [Class; 12] = [
-    Class { name: "large", about: "a tenth of the window each", ratio: 4.0, make: large },
-    Class { name: "25 px", about: "25 px each", ratio: 4.0, make: medium },
-    Class { name: "<8 px", about: "under 8 px each", ratio: 4.0, make: small },
-    Class {
-        name: "sliver",
-        about: "half a window long, 1/2 to 2 px wide",
-        ratio: 4.0,
-        make: sliver,
-    },
-    Class {
-        name: "half",
-        about: "corners on pixel centres: ties everywhere",
-        ratio: 4.0,
-        make: half,
-    },
-    Class {
-        name: "tie",
-        about: "an edge through a sample, an end moved by at most an ulp of f32 or f64",
-        ratio: 4.0,
-        make: tie,
-    },
-    Class { name: "far", about: "1000 px each, 2^14 px from the origin", ratio: 4.0, make: far },
-    Class {
-        name: "mesh",
-        about: "a net of shared edges, many through or past a sample by an ulp of f32 or f64",
-        ratio: 4.0,
-        make: mesh,
-    },
-    Class { name: "w 1", about: "1000 px each, equal w", ratio: 1.0, make: thousand },
-    Class { name: "w 4", about: "1000 px each, w ratio up to 4", ratio: 4.0, make: thousand },
-    Class { name: "w 100", about: "1000 px each, w ratio up to 100", ratio: 100.0, make: thousand },
-    Class {
-        name: "w 1e4",
-        about: "1000 px each, w ratio up to 10,000",
-        ratio: 1e4,
-        make: thousand,
-    },
+    class("large", "a tenth of the window each", 4.0, large),
+    class("25 px", "25 px each", 4.0, |rng, size| compact(rng, size, 25.0)),
+    class("<8 px", "under 8 px each", 4.0, small),
+    class("sliver", "half a window long, 1/2 to 2 px wide", 4.0, sliver),
+    class("half", "corners on pixel centres: ties everywhere", 4.0, half),
+    class(
+        "tie",
+        "an edge through a sample, an end moved by at most an ulp of f32 or f64",
+        4.0,
+        tie,
+    ),
+    class("far", "1000 px each, 2^14 px from the origin", 4.0, thousand),
+    class(
+        "mesh",
+        "a net of shared edges, many through or past a sample by an ulp of f32 or f64",
+        4.0,
+        mesh,
+    ),
+    class("w 1", "1000 px each, equal w", 1.0, thousand),
+    class("w 4", "1000 px each, w ratio up to 4", 4.0, thousand),
+    class("w 100", "1000 px each, w ratio up to 100", 100.0, thousand),
+    class("w 1e4", "1000 px each, w ratio up to 10,000", 1e4, thousand),
 ];
 
 pub fn scenes(seed: u64, size: Size) -> Vec<Scene> {
@@ -140,10 +129,6 @@ fn large(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     compact(rng, size, side * side / 10.0)
 }
 
-fn medium(rng: &mut Rng, size: &Size) -> Vec<Corners> {
-    compact(rng, size, 25.0)
-}
-
 /// Areas of 1 to 8 px.
 fn small(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     (0..size.pixels / 4)
@@ -153,10 +138,6 @@ fn small(rng: &mut Rng, size: &Size) -> Vec<Corners> {
             place(rng, size, shape)
         })
         .collect()
-}
-
-fn far(rng: &mut Rng, size: &Size) -> Vec<Corners> {
-    compact(rng, size, 1000.0)
 }
 
 fn thousand(rng: &mut Rng, size: &Size) -> Vec<Corners> {
@@ -230,7 +211,6 @@ fn half(rng: &mut Rng, size: &Size) -> Vec<Corners> {
         .collect()
 }
 
-/// How fine a coordinate is.
 #[derive(Clone, Copy)]
 enum Grain {
     F32,
@@ -249,7 +229,6 @@ impl Grain {
         }
     }
 
-    /// Moves a coordinate by one ulp down or up, or not at all.
     fn nudge(self, rng: &mut Rng, v: f64) -> f64 {
         let choice = rng.int(0, 2) as usize;
         match self {
@@ -289,7 +268,6 @@ fn tie(rng: &mut Rng, size: &Size) -> Vec<Corners> {
 
 const CELL_PX: f64 = 16.0;
 
-/// Cells of the net along a side.
 fn cells(size: &Size) -> usize {
     let most = f64::from(size.side_px.max(48) - 16) / CELL_PX;
     ((size.pixels as f64).sqrt() / CELL_PX).clamp(2.0, most) as usize

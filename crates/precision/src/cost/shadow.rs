@@ -4,7 +4,7 @@
 //! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish, no_classes};
+use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
 use crate::ladder::shadow::{
     DepthPlane, Double, Fixed16, Fixed24, Fixed32, Format, Single, Unbiased,
 };
@@ -35,7 +35,6 @@ const CLASSES: [Class; 8] = [
 /// Texels along a side of a tile. The left half of a tile has a second surface before it.
 const SIDE: usize = 64;
 const TILE: usize = SIDE * SIDE;
-/// Texels along a side of the whole map.
 const MAP: f64 = 1024.0;
 /// The 3 x 3 texels around its place that a fragment reads.
 const TAPS: u8 = 9;
@@ -121,22 +120,16 @@ fn errors(lit: &[u8]) -> Vec<Option<f64>> {
 }
 
 trait AnyFormat {
-    fn errors(&self, tiles: &[Tile]) -> Vec<Option<f64>>;
-    fn pass<'a>(&self, tiles: &'a [Tile]) -> Box<dyn FnMut() + 'a>;
+    /// Draws the tiles and counts what is wrong of them; and draws them again to be timed.
+    fn prepare<'a>(&self, tiles: &'a [Tile]) -> Prepared<'a>;
 }
 
 impl<F: Format + 'static> AnyFormat for F {
-    fn errors(&self, tiles: &[Tile]) -> Vec<Option<f64>> {
+    fn prepare<'a>(&self, tiles: &'a [Tile]) -> Prepared<'a> {
         let places = tiles.len() * TILE;
         let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
         draw::<F>(tiles, &mut map, &mut lit);
-        errors(&lit)
-    }
-
-    fn pass<'a>(&self, tiles: &'a [Tile]) -> Box<dyn FnMut() + 'a> {
-        let places = tiles.len() * TILE;
-        let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
-        Box::new(move || {
+        Prepared::ready(errors(&lit), move || {
             draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
             std::hint::black_box(&lit);
         })
@@ -156,32 +149,23 @@ fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
 }
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
-    let ladder = Ladder::Shadows;
     let variants = variants();
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };
-    let made: Vec<_> = CLASSES.iter().map(|class| tiles(options.seed, class, count)).collect();
-    let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
-    for (i, class) in CLASSES.iter().enumerate() {
-        progress(0.3 * i as f64 / CLASSES.len() as f64, ladder.title());
-        for ((_, format), row) in variants.iter().zip(&mut prepared) {
-            let (errors, pass) = (format.errors(&made[i]), format.pass(&made[i]));
-            row.push(Prepared::Ready { errors, work: None, pass });
-        }
+    let made = CLASSES.each_ref().map(|class| tiles(options.seed, class, count));
+    let mut draft = Draft::new(Ladder::Shadows, variants.iter().map(|(rung, _)| rung.clone()));
+    for (class, tiles) in CLASSES.iter().zip(&made) {
+        draft.tell(progress, CLASSES.len());
         let slope =
             if class.slope > 0.0 { "sloping by up to 10 degrees" } else { "facing the light" };
         let about = format!("surfaces {slope}, 2^-{} of the map's depth apart", class.apart);
-        columns.push(Column::new(class.name, about, count as u64, (count * TILE) as u64));
+        let cells = variants.iter().map(|(_, format)| format.prepare(tiles));
+        let pixels = (count * TILE) as u64;
+        draft.add(Column::new(class.name, about, count as u64, pixels), cells);
     }
-    no_classes(
-        options,
-        "shadows depend on the depths of surfaces, not on their shapes",
-        &mut columns,
-        &mut prepared,
-    );
-    let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
+    let why = "shadows depend on the depths of surfaces, not on their shapes";
+    draft.leave_out_classes(options, why);
+    draft.finish(measures(), options, (progress, &mut |_, _| ()))
 }
 
 #[cfg(test)]
@@ -190,7 +174,8 @@ mod tests {
 
     fn errors_of<F: Format + Default + 'static>(name: &str) -> [f64; 2] {
         let class = CLASSES.iter().find(|class| class.name == name).unwrap();
-        let errors = F::default().errors(&tiles(3, class, 64));
+        let tiles = tiles(3, class, 64);
+        let Prepared::Ready { errors, .. } = F::default().prepare(&tiles) else { unreachable!() };
         [errors[0].unwrap(), errors[1].unwrap()]
     }
 

@@ -1,7 +1,7 @@
 //! The tile engine and the planes of frames in tiles, for rungs in the best vectors of this machine.
 
 use crate::ladder::interpolation::Valued;
-use crate::ladder::{Snapped, snap};
+use crate::ladder::{Cover, Snapped, Work, snap};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -18,14 +18,19 @@ impl Lists {
     pub fn about(self) -> String {
         format!("snaps; the engine tiles, a list at a time, {}", self.0.instructions())
     }
+}
 
-    /// Triangle by triangle.
-    pub fn snapped(self) -> Snapped<Tiles> {
-        Snapped(self.0)
+impl Cover for Lists {
+    fn accepts(&self, free: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
+        Snapped(self.0).accepts(free, bounds)
     }
 
-    /// Fills each triangle with a colour of its own; what cannot be snapped is not there.
-    pub fn paint(self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        Snapped(self.0).cover(free, bounds, emit)
+    }
+
+    /// All at once; what cannot be snapped is not there.
+    fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
         let list: Vec<Corners> = triangles.iter().filter_map(snap).collect();
         self.0.cover_list(&list, bounds, &mut |run| {
             for pieces in run.chunk_by(|a, b| a.triangle() == b.triangle()) {

@@ -30,7 +30,6 @@ pub struct Dominated {
 pub struct Price {
     /// The class.
     pub column: String,
-    /// The cheapest rung of any accuracy.
     pub cheapest: Priced,
     /// The cheapest that promises nothing, so computes in floats.
     pub unpromised: Option<Priced>,
@@ -40,19 +39,14 @@ pub struct Price {
     pub given: Option<Priced>,
 }
 
-/// A rung and its time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Priced {
-    /// Ladder and rung.
     pub name: String,
-    /// Nanoseconds for each covered pixel.
     pub pixel_ns: f64,
-    /// The same over that of the cheapest rung.
     pub ratio: f64,
 }
 
 impl Board {
-    /// Measures that rank, by number.
     pub fn ranking(&self) -> impl Iterator<Item = usize> {
         self.measures.iter().enumerate().filter(|(_, m)| m.goal.is_some()).map(|(i, _)| i)
     }
@@ -63,7 +57,6 @@ impl Board {
         Some(self.error(rung, column, measure)? <= self.measures[measure].goal?)
     }
 
-    /// Columns in which any rung ran.
     pub fn columns_run(&self) -> impl Iterator<Item = usize> {
         (0..self.columns.len())
             .filter(|&column| (0..self.rungs.len()).any(|r| self.run(r, column).is_some()))

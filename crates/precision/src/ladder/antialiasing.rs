@@ -13,7 +13,6 @@ use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
-/// Computes how much of each pixel is covered.
 pub trait Antialias {
     /// Sets every pixel of `target` to the sum of the shares that the triangles cover of it.
     fn draw(&mut self, triangles: &[Corners], target: &mut Frame<f64>);
@@ -22,7 +21,6 @@ pub trait Antialias {
 /// Offsets of the samples of four, in sixteenths of a pixel from its upper left corner: the pattern
 /// that D3D and Vulkan call standard.
 pub const FOUR: [[i32; 2]; 4] = [[6, 2], [14, 6], [2, 10], [10, 14]];
-/// The one sample at the centre.
 pub const ONE: [[i32; 2]; 1] = [[8, 8]];
 
 /// Samples at the given offsets, in sixteenths of a pixel, by an exact rasterizer.
@@ -34,7 +32,6 @@ pub struct Multisample<E, const N: usize> {
 }
 
 impl<E, const N: usize> Multisample<E, N> {
-    /// With the samples of `offsets`.
     #[must_use]
     pub fn new(engine: E, offsets: [[i32; 2]; N]) -> Self {
         Self { engine, offsets, samples: Vec::new() }
@@ -78,7 +75,6 @@ pub struct Supersample<E> {
 }
 
 impl<E> Supersample<E> {
-    /// With `side` x `side` samples a pixel.
     #[must_use]
     pub fn new(engine: E, side: i32) -> Self {
         Self { engine, side, samples: None }

@@ -12,16 +12,12 @@ use std::marker::PhantomData;
 use super::Real;
 
 pub const NEAR: f64 = 0.1;
-/// The far plane.
 pub const FAR: f64 = 1000.0;
 
-/// A format of depth.
 pub trait Format {
     /// What the buffer holds; smaller passes where [`Format::REVERSED`] is not set.
     type Stored: Copy + PartialOrd;
-    /// Whether larger values are nearer.
     const REVERSED: bool;
-    /// The float in which depth is interpolated.
     type Float: Real;
     /// What is stored for an interpolated depth.
     fn store(depth: Self::Float) -> Self::Stored;

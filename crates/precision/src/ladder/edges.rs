@@ -13,7 +13,7 @@ use std::ops::Add;
 use num_traits::{AsPrimitive, PrimInt, Signed};
 use robust::{Coord, orient2d};
 
-use super::{Cover, Real, Work, snap, snappable};
+use super::{Cover, Real, Work, centre, snap, snappable};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, FreeCorners, Span};
@@ -160,18 +160,11 @@ fn clockwise<T: Real>(
     }
 }
 
-/// The three edges, each from its first to its second corner.
 #[inline]
 fn edges<T: Copy>([a, b, c]: [PointIn<T>; 3]) -> [[PointIn<T>; 2]; 3] {
     [[b, c], [c, a], [a, b]]
 }
 
-#[inline]
-fn centre<T: Real>(x_px: i32, y_px: i32) -> PointIn<T> {
-    [x_px, y_px].map_array(|px| T::of(f64::from(px)) + T::HALF)
-}
-
-/// Covers by asking `side` at every sample.
 #[inline]
 fn cover_by<T: Real>(
     corners: &FreeCorners,
@@ -183,7 +176,7 @@ fn cover_by<T: Real>(
     let rect = pixel_box(&corners, bounds);
     let edges = edges(corners).map_array(|[a, b]| (a, b, is_top_left(&a, &b)));
     let inside = |x_px: i32, y_px: i32| {
-        let p = centre(x_px, y_px);
+        let p = [centre(x_px), centre(y_px)];
         // Without a branch for each edge, as the stepped rungs.
         edges.iter().fold(true, |inside, (a, b, keeps)| {
             let e = side(a, b, &p);
@@ -222,7 +215,7 @@ impl<T: Real> Cover for Stepped<T> {
         let Some(corners) = clockwise(free, side::<T>) else { return Some(Work::default()) };
         let rect = pixel_box(&corners, bounds);
         let edges = edges(corners);
-        let start = centre(rect.x0, rect.y0);
+        let start = [centre(rect.x0), centre(rect.y0)];
         let row = edges.map_array(|[a, b]| side(&a, &b, &start));
         let right = edges.map_array(|[a, b]| a[1] - b[1]);
         let down = edges.map_array(|[a, b]| b[0] - a[0]);

@@ -10,25 +10,22 @@
 
 use std::marker::PhantomData;
 
-use super::Real;
+use super::{Real, centre};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
 
-/// A triangle with one attribute.
 #[derive(Clone, Copy, Debug)]
 pub struct Valued {
-    /// Positions.
     pub corners: Corners,
-    /// 1/w of each, positive.
+    /// 1/w of each corner, positive.
     pub inv_w: [f64; 3],
-    /// The attribute of each.
     pub value: [f64; 3],
 }
 
-pub trait Values {
+pub trait Values<T = Valued> {
     /// Emits (column, row, value) for each pixel of `spans`, which are the rows of `triangle`.
-    fn values(&self, triangle: &Valued, spans: &[Span], emit: impl FnMut(i32, i32, f64));
+    fn values(&self, triangle: &T, spans: &[Span], emit: impl FnMut(i32, i32, f64));
 }
 
 macro_rules! rungs {
@@ -61,20 +58,13 @@ rungs! {
     Offset,
 }
 
-/// Pixel centre as a float; exact below 2^23 in f32.
-#[inline]
-fn centre<T: Real>(px: i32) -> T {
-    T::of(f64::from(px)) + T::HALF
-}
-
 /// A position in pixels; exact in f32 for |x| < 2^15 px.
 #[inline]
-fn position<T: Real>(point: SubpixelPoint) -> [T; 2] {
+pub(super) fn position<T: Real>(point: SubpixelPoint) -> [T; 2] {
     let (x, y) = point.to_px();
     [T::of(x), T::of(y)]
 }
 
-/// The triangle in floats: positions, 1/w, values.
 struct Floats<T> {
     at: [[T; 2]; 3],
     inv_w: [T; 3],
@@ -93,32 +83,31 @@ impl<T: Real> Floats<T> {
 }
 
 /// A function that is linear over the screen: f0 at the first vertex, and its slopes.
-#[derive(Clone, Copy)]
-struct Slopes<T> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slopes<T> {
     f0: T,
-    per_x: T,
-    per_y: T,
+    pub per_x: T,
+    pub per_y: T,
 }
 
 impl<T: Real> Slopes<T> {
     /// `inv_area` is 1 / 2A of the same corners.
     #[inline]
-    fn new(at: &[[T; 2]; 3], [f0, f1, f2]: [T; 3], inv_area: T) -> Self {
+    pub fn new(at: &[[T; 2]; 3], [f0, f1, f2]: [T; 3], inv_area: T) -> Self {
         let (x1, y1) = (at[1][0] - at[0][0], at[1][1] - at[0][1]);
         let (x2, y2) = (at[2][0] - at[0][0], at[2][1] - at[0][1]);
         let (d1, d2) = (f1 - f0, f2 - f0);
         Self { f0, per_x: (d1 * y2 - d2 * y1) * inv_area, per_y: (d2 * x1 - d1 * x2) * inv_area }
     }
 
-    /// At a distance from the first vertex.
     #[inline]
-    fn at(&self, dx: T, dy: T) -> T {
+    pub fn at(&self, dx: T, dy: T) -> T {
         self.f0 + self.per_x * dx + self.per_y * dy
     }
 }
 
 #[inline]
-fn inv_area<T: Real>(at: &[[T; 2]; 3]) -> T {
+pub(super) fn inv_area<T: Real>(at: &[[T; 2]; 3]) -> T {
     let [a, b, c] = at;
     T::one() / ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]))
 }

@@ -11,12 +11,11 @@ use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_render::pipeline::assemble::twice_area;
 
-use super::Real;
+use super::interpolation::{Slopes, Values, inv_area, position};
+use super::{Real, centre};
 
-/// Texels along each side of the texture.
 pub const SIDE: f64 = 256.0;
 
-/// A triangle with texture coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Textured {
     pub corners: Corners,
@@ -25,48 +24,33 @@ pub struct Textured {
     pub uv: [[f64; 2]; 3],
 }
 
-/// u/w, v/w and 1/w at a corner, and their slopes by columns and by rows of pixels; u and v in texels.
+/// u/w, v/w and 1/w over the window; u and v in texels.
 #[derive(Clone, Copy, Debug)]
 struct Planes<T> {
-    /// The pixel position of that corner.
     at: [T; 2],
-    value: [T; 3],
-    slope: [[T; 3]; 2],
+    of: [Slopes<T>; 3],
 }
 
 impl<T: Real> Planes<T> {
     #[inline]
     fn new(Textured { corners, inv_w, uv }: &Textured) -> Self {
-        let px = corners.map_array(|corner| {
-            [corner.x, corner.y].map_array(|sub| T::of(f64::from(sub) / f64::from(SUBPIXELS)))
-        });
-        let value = [0, 1, 2].map_array(|i: usize| {
-            let inv_w = T::of(inv_w[i]);
-            let [u, v] = uv[i].map_array(|coordinate| T::of(coordinate * SIDE));
-            [u * inv_w, v * inv_w, inv_w]
-        });
-        let [a, b, c] = px;
-        let (to_b, to_c) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-        let area = to_b[0] * to_c[1] - to_b[1] * to_c[0];
-        let per_area = T::of(1.0) / area;
-        let slope = |axis: usize| {
-            [0, 1, 2].map_array(|k: usize| {
-                let (b, c) = (value[1][k] - value[0][k], value[2][k] - value[0][k]);
-                let numerator =
-                    if axis == 0 { b * to_c[1] - c * to_b[1] } else { c * to_b[0] - b * to_c[0] };
-                numerator * per_area
-            })
-        };
-        Self { at: a, value: value[0], slope: [slope(0), slope(1)] }
+        let px = corners.map_array(position);
+        let inv_w = inv_w.map_array(T::of);
+        let over_w = |k: usize| [0, 1, 2].map_array(|i| T::of(uv[i][k] * SIDE) * inv_w[i]);
+        let inv_area = inv_area(&px);
+        let of = [over_w(0), over_w(1), inv_w].map_array(|f| Slopes::new(&px, f, inv_area));
+        Self { at: px[0], of }
     }
 
-    /// u/w, v/w and 1/w at the centre of a pixel.
     #[inline]
     fn at(&self, x_px: i32, y_px: i32) -> [T; 3] {
-        let from = [x_px, y_px].map_array(|px| T::of(f64::from(px) + 0.5));
-        let [dx, dy] = [from[0] - self.at[0], from[1] - self.at[1]];
-        [0, 1, 2]
-            .map_array(|k: usize| self.value[k] + self.slope[0][k] * dx + self.slope[1][k] * dy)
+        let (dx, dy) = (centre::<T>(x_px) - self.at[0], centre::<T>(y_px) - self.at[1]);
+        self.of.map_array(|slopes| slopes.at(dx, dy))
+    }
+
+    #[inline]
+    fn slopes(&self) -> [[T; 3]; 2] {
+        [self.of.map_array(|f| f.per_x), self.of.map_array(|f| f.per_y)]
     }
 
     #[inline]
@@ -85,11 +69,6 @@ fn level<T: Real>([x, y]: [[T; 2]; 2]) -> f64 {
     0.5 * libm::log2(longest)
 }
 
-pub trait Level {
-    /// Emits (column, row, level) for each pixel of `spans`, which are the rows of `triangle`.
-    fn levels(&self, triangle: &Textured, spans: &[Span], emit: impl FnMut(i32, i32, f64));
-}
-
 /// One level for a triangle: that of its area in texels over its area in pixels.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OfTriangle;
@@ -102,8 +81,8 @@ pub struct Differences<T>(PhantomData<T>);
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Derivatives<T>(PhantomData<T>);
 
-impl Level for OfTriangle {
-    fn levels(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+impl Values<Textured> for OfTriangle {
+    fn values(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
         let [a, b, c] = triangle.uv;
         let texels = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * SIDE * SIDE;
         let pixels = twice_area(triangle.corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
@@ -114,8 +93,8 @@ impl Level for OfTriangle {
     }
 }
 
-impl<T: Real> Level for Differences<T> {
-    fn levels(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+impl<T: Real> Values<Textured> for Differences<T> {
+    fn values(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
         let planes = Planes::<T>::new(triangle);
         for span in spans {
             let y0 = span.y_px & !1;
@@ -134,9 +113,10 @@ impl<T: Real> Level for Differences<T> {
     }
 }
 
-impl<T: Real> Level for Derivatives<T> {
-    fn levels(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+impl<T: Real> Values<Textured> for Derivatives<T> {
+    fn values(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
         let planes = Planes::<T>::new(triangle);
+        let slopes = planes.slopes();
         for span in spans {
             for x_px in span.x0_px..span.x1_px {
                 let [u, v, inv_w] = planes.at(x_px, span.y_px);
@@ -144,7 +124,7 @@ impl<T: Real> Level for Derivatives<T> {
                 let derivative = |[du, dv, d_inv_w]: [T; 3]| {
                     [(du - u * w * d_inv_w) * w, (dv - v * w * d_inv_w) * w]
                 };
-                emit(x_px, span.y_px, level(planes.slope.map_array(derivative)));
+                emit(x_px, span.y_px, level(slopes.map_array(derivative)));
             }
         }
     }

@@ -12,7 +12,6 @@ use rasterproof_core::contract::DrawLine;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 
-/// Draws lines between pixels.
 pub trait Draw {
     /// Whether the rung may be given this line; otherwise why not.
     fn accepts(&self, _ends: [PixelPoint; 2]) -> Result<(), String> {
@@ -32,7 +31,6 @@ pub struct FixedPoint;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Drifting<T>(PhantomData<T>);
 
-/// A line drawer of the contract as a rung.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Contracted<D>(pub D);
 

@@ -22,18 +22,16 @@ use std::ops::AddAssign;
 use num_traits::{AsPrimitive, Float};
 
 use rasterproof_core::contract::{Rasterize, RasterizeExact};
+use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, FreeCorners, Span};
 
-/// The float a rung computes in.
 pub trait Real:
     Float + Default + AsPrimitive<i32> + AsPrimitive<f64> + Send + Sync + 'static
 {
     /// Unit roundoff: the largest relative error of one operation.
     const UNIT: f64;
-    /// The nearest value of this type.
     fn of(value: f64) -> Self;
-    /// 1/2.
     const HALF: Self;
 }
 
@@ -84,6 +82,20 @@ pub trait Cover {
     /// that are not empty. The rule is that of [`Rasterize::cover`]; how well it is kept is what is
     /// measured. Returns the work as far as the rung can count it, in all fields or in none.
     fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work>;
+
+    fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
+        for (corners, colour) in triangles.iter().zip(1..) {
+            self.cover(corners, bounds, |span| {
+                target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour);
+            });
+        }
+    }
+}
+
+/// The centre of a pixel along an axis; exact below 2^23 in f32.
+#[inline]
+fn centre<T: Real>(px: i32) -> T {
+    T::of(f64::from(px)) + T::HALF
 }
 
 /// Rounds the corners to the lattice; `None` where one lies at the very end of the domain.

@@ -11,7 +11,7 @@ use std::marker::PhantomData;
 use num_bigint::BigInt;
 use num_traits::{Euclid, Float, ToPrimitive};
 
-use super::{Cover, Real, Work};
+use super::{Cover, Real, Work, centre};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
@@ -28,16 +28,13 @@ pub struct Direct<T>(PhantomData<T>);
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BigIntegers;
 
-/// One side of a triangle on the way down.
 trait Side: Sized {
     type Corner: Clone;
-    /// Divisions of the set-up and of each row.
     const DIVISIONS: [u64; 2];
     /// The side from `a` down to `b`, at the centre of row `y_px`.
     fn start(a: &Self::Corner, b: &Self::Corner, y_px: i32) -> Self;
     /// The first column whose centre is not left of the side, in the present row.
     fn column(&self) -> i32;
-    /// Goes down one row.
     fn step(&mut self);
     /// The first row whose centre is not above a point.
     fn first_row(point: &Self::Corner) -> i32;
@@ -85,7 +82,6 @@ fn first_centre<T: Real>(v: T) -> i32 {
     (v - T::HALF).ceil().as_()
 }
 
-/// Converts and sorts by height.
 #[inline]
 fn sorted<T: Real>(corners: &FreeCorners) -> [[T; 2]; 3] {
     let [mut a, mut b, mut c] = corners.px().map_array(|p| p.map_array(T::of));
@@ -99,11 +95,6 @@ fn sorted<T: Real>(corners: &FreeCorners) -> [[T; 2]; 3] {
         (a, b) = (b, a);
     }
     [a, b, c]
-}
-
-#[inline]
-fn centre<T: Real>(y_px: i32) -> T {
-    T::of(f64::from(y_px)) + T::HALF
 }
 
 struct AccumulatedSide<T> {

@@ -9,7 +9,6 @@ pub trait Format {
     type Stored: Copy + PartialOrd;
     /// Whether the bias is taken from the depth of a fragment.
     const BIASED: bool = true;
-    /// What is stored for a depth from 0 to 1.
     fn store(depth: f64) -> Self::Stored;
 }
 
