@@ -52,24 +52,32 @@ pub struct Case {
 }
 
 /// A way to make cases that share a danger.
-#[derive(Clone, Copy)]
-pub struct Family {
+pub struct Family<C = Case> {
     /// Its name on the command line.
     pub name: &'static str,
     /// What it threatens, in a few words.
     pub about: &'static str,
-    make: fn(&mut Rng) -> Case,
+    make: fn(&mut Rng) -> C,
 }
 
-impl Family {
+// Derived, they would want cases that can be copied.
+impl<C> Clone for Family<C> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<C> Copy for Family<C> {}
+
+impl<C> Family<C> {
     /// The case number `index` of this family under `seed`.
     #[must_use]
-    pub fn case(&self, seed: u64, index: u64) -> Case {
+    pub fn case(&self, seed: u64, index: u64) -> C {
         (self.make)(&mut Rng::new(self.name, seed, index))
     }
 }
 
-const fn family(name: &'static str, about: &'static str, make: fn(&mut Rng) -> Case) -> Family {
+const fn family<C>(name: &'static str, about: &'static str, make: fn(&mut Rng) -> C) -> Family<C> {
     Family { name, about, make }
 }
 

@@ -96,14 +96,17 @@ fn drawn(
     NamedCase { name, about, input }
 }
 
-fn disjoint(triangles: &[[Px; 3]]) -> Shape {
+fn meshed(triangles: &[[Px; 3]], disjoint: bool) -> Shape {
     let list = triangles.iter().map(|corners| plain_triangle(corners.map_array(at))).collect();
-    Shape::Triangles { list, disjoint: true }
+    Shape::Triangles { list, disjoint }
+}
+
+fn disjoint(triangles: &[[Px; 3]]) -> Shape {
+    meshed(triangles, true)
 }
 
 fn overlapping(triangles: &[[Px; 3]]) -> Shape {
-    let list = triangles.iter().map(|corners| plain_triangle(corners.map_array(at))).collect();
-    Shape::Triangles { list, disjoint: false }
+    meshed(triangles, false)
 }
 
 fn segments(lines: &[[i32; 4]]) -> Shape {
@@ -146,20 +149,9 @@ fn ties() -> Vec<NamedCase> {
         })
         .collect();
     let s = 3f64.sqrt() * 3.0;
-    let twelve = [
-        (6.0, 0.0),
-        (s, 3.0),
-        (3.0, s),
-        (0.0, 6.0),
-        (-3.0, s),
-        (-s, 3.0),
-        (-6.0, 0.0),
-        (-s, -3.0),
-        (-3.0, -s),
-        (0.0, -6.0),
-        (3.0, -s),
-        (s, -3.0),
-    ];
+    let quarter = [(6.0, 0.0), (s, 3.0), (3.0, s)];
+    let turns: [fn(Px) -> Px; 4] = [|p| p, |(x, y)| (-y, x), |(x, y)| (-x, -y), |(x, y)| (y, -x)];
+    let twelve: Vec<Px> = turns.into_iter().flat_map(|turn| quarter.map(turn)).collect();
     let [a, b, c, d] = square((0.0, 0.0), 4.0);
     let [e, f, g, h] = square((6.0, 0.0), 4.0);
     let [p, q, r, o] = [

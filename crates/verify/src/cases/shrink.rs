@@ -5,7 +5,7 @@
 //! of half a pixel, then short ones. The number of trials is bounded, so a slow engine costs little.
 
 use super::named::{plain_line, plain_triangle};
-use super::{Case, Line, Shape, Triangle};
+use super::{Case, Shape};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::PixelPoint;
@@ -45,25 +45,33 @@ pub fn shrink(case: Case, fails: impl Fn(&Case) -> bool) -> Case {
     }
 }
 
-/// The case in a window that holds the whole shape with a pixel to spare, if that is small.
-fn around(case: &Case) -> Option<Case> {
-    let points: Vec<(i64, i64)> = match &case.shape {
+type Point = [i32; 2];
+
+/// The corners of all triangles in subpixels, or the ends of all lines in pixels.
+fn points(case: &Case) -> Vec<Point> {
+    match &case.shape {
         Shape::Triangles { list, .. } => {
-            let px = |sub: i32| i64::from(sub.div_euclid(SUBPIXELS));
-            list.iter().flat_map(|t| t.corners()).map(|p| (px(p.x), px(p.y))).collect()
+            list.iter().flat_map(|t| t.corners()).map(|p| [p.x, p.y]).collect()
         }
         Shape::Lines(lines) => {
-            let pixels = lines.iter().flat_map(|l| l.ends).map(|end| end.pixel);
-            pixels.map(|p| (i64::from(p.x), i64::from(p.y))).collect()
+            lines.iter().flat_map(|l| l.ends).map(|end| [end.pixel.x, end.pixel.y]).collect()
         }
+    }
+}
+
+/// The case in a window that holds the whole shape with a pixel to spare, if that is small.
+fn around(case: &Case) -> Option<Case> {
+    let points = points(case);
+    let px = |v: i32| match case.shape {
+        Shape::Triangles { .. } => i64::from(v.div_euclid(SUBPIXELS)),
+        Shape::Lines(_) => i64::from(v),
     };
-    let range = |values: &mut dyn Iterator<Item = i64>| {
-        let (min, max) = values.fold((i64::MAX, i64::MIN), |(a, b), v| (a.min(v), b.max(v)));
-        let (first, end) = (min.checked_sub(1)?, max.checked_add(2)?);
+    let range = |axis: usize| {
+        let along = || points.iter().map(|p| px(p[axis]));
+        let (first, end) = (along().min()? - 1, along().max()? + 2);
         (end - first <= 48).then(|| Some((i32::try_from(first).ok()?, i32::try_from(end).ok()?)))?
     };
-    let (x0, x1) = range(&mut points.iter().map(|p| p.0))?;
-    let (y0, y1) = range(&mut points.iter().map(|p| p.1))?;
+    let ((x0, x1), (y0, y1)) = (range(0)?, range(1)?);
     Some(Case { window: PixelRect { x0, y0, x1, y1 }, shape: case.shape.clone() })
 }
 
@@ -95,30 +103,21 @@ pub fn has_plain_values(case: &Case) -> bool {
 pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
     let own = !has_plain_values(case);
     let window = u64::from(case.window.width()) + u64::from(case.window.height());
-    let reach = |values: &[i64]| {
-        let (min, max) =
-            values.iter().fold((i64::MAX, i64::MIN), |(a, b), &v| (a.min(v), b.max(v)));
-        if values.is_empty() { 0 } else { max.abs_diff(min) }
+    let points = points(case);
+    let all = points.as_flattened();
+    let reach = |axis: usize| {
+        let along = || points.iter().map(|p| p[axis]);
+        along().max().zip(along().min()).map_or(0, |(max, min)| u64::from(max.abs_diff(min)))
     };
-    let far = |values: &[i64]| values.iter().map(|v| v.unsigned_abs()).sum::<u64>();
+    let reach = reach(0) + reach(1);
+    let far = all.iter().map(|v| u64::from(v.unsigned_abs())).sum();
     match &case.shape {
         Shape::Triangles { list, .. } => {
-            let points: Vec<_> = list.iter().flat_map(|t| t.corners()).collect();
-            let xs: Vec<_> = points.iter().map(|p| i64::from(p.x)).collect();
-            let ys: Vec<_> = points.iter().map(|p| i64::from(p.y)).collect();
-            let all = || points.iter().flat_map(|p| [p.x, p.y]);
-            let odd = all().filter(|v| v & (HALF_PIXEL - 1) != 0).count();
-            let bits = all().map(|v| (v & (SUBPIXELS - 1)).count_ones()).sum();
-            let px = (reach(&xs) + reach(&ys)).div_ceil(SUBPIXELS as u64);
-            (list.len(), own, odd, px, bits, far(&xs) + far(&ys), window)
+            let odd = all.iter().filter(|v| **v & (HALF_PIXEL - 1) != 0).count();
+            let bits = all.iter().map(|v| (v & (SUBPIXELS - 1)).count_ones()).sum();
+            (list.len(), own, odd, reach.div_ceil(SUBPIXELS as u64), bits, far, window)
         }
-        Shape::Lines(lines) => {
-            let points: Vec<_> =
-                lines.iter().flat_map(|l| l.ends.map_array(|end| end.pixel)).collect();
-            let xs: Vec<_> = points.iter().map(|p| i64::from(p.x)).collect();
-            let ys: Vec<_> = points.iter().map(|p| i64::from(p.y)).collect();
-            (lines.len(), own, 0, reach(&xs) + reach(&ys), 0, far(&xs) + far(&ys), window)
-        }
+        Shape::Lines(lines) => (lines.len(), own, 0, reach, 0, far, window),
     }
 }
 
@@ -130,16 +129,48 @@ pub fn smaller_cases(case: &Case) -> Vec<Case> {
 }
 
 fn candidates(case: &Case) -> Vec<Case> {
+    let with = |shape: Shape| Case { window: case.window, shape };
     let shapes = match &case.shape {
-        Shape::Triangles { list, .. } => triangle_candidates(case, list),
-        Shape::Lines(lines) => line_candidates(case, lines),
+        Shape::Triangles { list, .. } if list.len() > 1 => {
+            // One triangle alone, else one fewer.
+            let alone = list.iter().map(|t| vec![*t]);
+            let fewer = (0..list.len()).map(|i| [&list[..i], &list[i + 1..]].concat());
+            let lists = alone.chain(fewer);
+            lists.map(|list| with(Shape::Triangles { list, disjoint: false })).collect()
+        }
+        Shape::Lines(lines) if lines.len() > 1 => {
+            lines.iter().map(|line| with(Shape::Lines(vec![*line]))).collect()
+        }
+        Shape::Triangles { .. } => triangle_candidates(case),
+        Shape::Lines(_) => line_candidates(case),
     };
     std::iter::once(plain(case)).chain(shapes).collect()
 }
 
+/// The one shape of a case in this window, each corner or end moved.
+fn moved(case: &Case, window: PixelRect, by: &dyn Fn(usize, Point) -> Point) -> Case {
+    let mut shape = case.shape.clone();
+    match &mut shape {
+        Shape::Triangles { list, disjoint } => {
+            *disjoint = false;
+            for (i, vertex) in list.iter_mut().flat_map(|t| &mut t.vertices).enumerate() {
+                let [x, y] = by(i, [vertex.position.x, vertex.position.y]);
+                vertex.position = SubpixelPoint::new(x, y);
+            }
+        }
+        Shape::Lines(lines) => {
+            for (i, end) in lines.iter_mut().flat_map(|l| &mut l.ends).enumerate() {
+                let [x, y] = by(i, [end.pixel.x, end.pixel.y]);
+                end.pixel = PixelPoint::new(x, y);
+            }
+        }
+    }
+    Case { window, shape }
+}
+
 /// Points between two, nearest to the second first, a whole number of `unit` from the first: what lies on
 /// the edge between them goes on lying there.
-fn between(unit: i32, [x0, y0]: [i32; 2], [x1, y1]: [i32; 2]) -> impl Iterator<Item = [i32; 2]> {
+fn between(unit: i32, [x0, y0]: Point, [x1, y1]: Point) -> impl Iterator<Item = Point> {
     let [dx, dy] = [i64::from(x1) - i64::from(x0), i64::from(y1) - i64::from(y0)];
     let (mut divisor, mut rest) = (dx.abs(), dy.abs());
     while rest > 0 {
@@ -152,91 +183,63 @@ fn between(unit: i32, [x0, y0]: [i32; 2], [x1, y1]: [i32; 2]) -> impl Iterator<I
     [steps - 1, steps / 2, 1].into_iter().filter(move |&k| 0 < k && k < steps).map(at)
 }
 
-fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
-    let with = |window: PixelRect, list: Vec<Triangle>| Case {
-        window,
-        shape: Shape::Triangles { list, disjoint: false },
-    };
-    if list.len() > 1 {
-        // One triangle alone, else one fewer.
-        let alone = list.iter().map(|t| with(case.window, vec![*t]));
-        let fewer = (0..list.len()).map(|i| {
-            let rest = list.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, t)| *t);
-            with(case.window, rest.collect())
-        });
-        return alone.chain(fewer).collect();
-    }
-    let Some(triangle) = list.first() else { return Vec::new() };
-    let moved = |by: &dyn Fn(usize, SubpixelPoint) -> SubpixelPoint| {
-        let mut triangle = *triangle;
-        for (i, vertex) in triangle.vertices.iter_mut().enumerate() {
-            vertex.position = by(i, vertex.position);
-        }
-        triangle
-    };
+fn triangle_candidates(case: &Case) -> Vec<Case> {
+    let Ok(corners) = <[Point; 3]>::try_from(points(case)) else { return Vec::new() };
+    let w = case.window;
+    let here = |by: &dyn Fn(usize, Point) -> Point| moved(case, w, by);
     let mut found = Vec::new();
     // To the origin, window and all.
-    let w = case.window;
     if (w.x0, w.y0) != (0, 0) {
         let shift = |v: i32, px: i32| v.saturating_sub(px.saturating_mul(SUBPIXELS));
         let window = PixelRect::window(w.width(), w.height());
-        found.push(with(
-            window,
-            vec![moved(&|_, p| SubpixelPoint::new(shift(p.x, w.x0), shift(p.y, w.y0)))],
-        ));
+        found.push(moved(case, window, &|_, [x, y]| [shift(x, w.x0), shift(y, w.y0)]));
     }
     // A smaller window, around the origin.
-    found.extend(smaller_windows(w).map(|window| with(window, vec![*triangle])));
+    found.extend(smaller_windows(w).map(|window| moved(case, window, &|_, p| p)));
     // By whole pixels towards the origin.
-    for (dx, dy) in [(16, 0), (0, 16), (4, 0), (0, 4), (1, 0), (0, 1)] {
-        let by = |v: i32, px: i32| v.saturating_sub(px * SUBPIXELS);
-        found.push(with(w, vec![moved(&|_, p| SubpixelPoint::new(by(p.x, dx), by(p.y, dy)))]));
+    for px in [[16, 0], [0, 16], [4, 0], [0, 4], [1, 0], [0, 1]] {
+        let along = |p: Point, axis: usize| p[axis].saturating_sub(px[axis] * SUBPIXELS);
+        found.push(here(&|_, p| [along(p, 0), along(p, 1)]));
     }
     // Everything to a multiple of half a pixel, then one corner: a tie that needs both of its
     // coordinates survives no step along one axis.
     for offset in [HALF_PIXEL / 2, 0, HALF_PIXEL - 1] {
-        found.push(with(w, vec![moved(&|_, p| halves(p, offset, offset))]));
+        found.push(here(&|_, p| halves(p, [offset; 2])));
     }
     for corner in 0..3 {
-        for (dx, dy) in NEARBY {
-            let by = |i: usize, p| if i == corner { halves(p, dx, dy) } else { p };
-            found.push(with(w, vec![moved(&by)]));
+        for nearby in NEARBY {
+            found.push(here(&|i, p| if i == corner { halves(p, nearby) } else { p }));
         }
     }
     // A corner along its edges towards the other two.
     for (corner, other) in [(0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)] {
-        let [from, to] = [corner, other].map_array(|i| triangle.vertices[i].position);
-        let [from, to] = [from, to].map_array(|p| [p.x, p.y]);
+        let [from, to] = [corners[corner], corners[other]];
         let on_halves = [from, to].as_flattened().iter().all(|v| v % HALF_PIXEL == 0);
-        for [x, y] in between(if on_halves { HALF_PIXEL } else { 1 }, from, to) {
-            let by = |i: usize, p| if i == corner { SubpixelPoint::new(x, y) } else { p };
-            found.push(with(w, vec![moved(&by)]));
+        for point in between(if on_halves { HALF_PIXEL } else { 1 }, from, to) {
+            found.push(here(&|i, p| if i == corner { point } else { p }));
         }
     }
     // Everything closer to the first corner, then each coordinate alone.
-    let first = triangle.vertices[0].position;
+    let first = corners[0];
     let halfway = |a: i32, b: i32| ((i64::from(a) + i64::from(b)) / 2) as i32;
-    found.push(with(
-        w,
-        vec![moved(&|_, p| SubpixelPoint::new(halfway(p.x, first.x), halfway(p.y, first.y)))],
-    ));
+    found.push(here(&|_, [x, y]| [halfway(x, first[0]), halfway(y, first[1])]));
     for corner in 0..3 {
         for axis in 0..2 {
-            let position = triangle.vertices[corner].position;
-            let value = [position.x, position.y][axis];
-            for simpler in simpler_coordinates(value) {
-                found.push(with(
-                    w,
-                    vec![moved(&|i, p| match (i == corner, axis) {
-                        (true, 0) => SubpixelPoint::new(simpler, p.y),
-                        (true, _) => SubpixelPoint::new(p.x, simpler),
-                        _ => p,
-                    })],
-                ));
-            }
+            let simpler = simpler_coordinates(corners[corner][axis]);
+            found.extend(simpler.into_iter().map(|value| here(&one_at(corner, axis, value))));
         }
     }
     found
+}
+
+/// Replaces one coordinate of one point.
+fn one_at(point: usize, axis: usize, value: i32) -> impl Fn(usize, Point) -> Point {
+    move |i, mut p| {
+        if i == point {
+            p[axis] = value;
+        }
+        p
+    }
 }
 
 /// Half the window, then a row or column less, around its upper left corner; none that is empty.
@@ -254,18 +257,13 @@ fn smaller_windows(w: PixelRect) -> impl Iterator<Item = PixelRect> {
 
 /// What is added before rounding down to multiples of half a pixel: nearest first, then the other
 /// three around a point.
-const NEARBY: [(i32, i32); 5] = [
-    (HALF_PIXEL / 2, HALF_PIXEL / 2),
-    (0, 0),
-    (HALF_PIXEL - 1, 0),
-    (0, HALF_PIXEL - 1),
-    (HALF_PIXEL - 1, HALF_PIXEL - 1),
-];
+const NEARBY: [Point; 5] =
+    [[HALF_PIXEL / 2; 2], [0; 2], [HALF_PIXEL - 1, 0], [0, HALF_PIXEL - 1], [HALF_PIXEL - 1; 2]];
 
-/// The point on the grid of half pixels that rounding down finds from `dx`, `dy` further on.
-fn halves(p: SubpixelPoint, dx: i32, dy: i32) -> SubpixelPoint {
+/// The point on the grid of half pixels that rounding down finds so much further on.
+fn halves([x, y]: Point, [dx, dy]: Point) -> Point {
     let down = |v: i32, d: i32| v.saturating_add(d) & !(HALF_PIXEL - 1);
-    SubpixelPoint::new(down(p.x, dx), down(p.y, dy))
+    [down(x, dx), down(y, dy)]
 }
 
 /// Nearer to zero, on pixel borders, on centres.
@@ -291,48 +289,24 @@ fn simpler_coordinates(value: i32) -> Vec<i32> {
     simpler
 }
 
-fn line_candidates(case: &Case, lines: &[Line]) -> Vec<Case> {
-    let with = |window: PixelRect, lines: Vec<Line>| Case { window, shape: Shape::Lines(lines) };
-    if lines.len() > 1 {
-        return lines.iter().map(|line| with(case.window, vec![*line])).collect();
-    }
-    let Some(line) = lines.first() else { return Vec::new() };
-    let moved = |by: &dyn Fn(usize, PixelPoint) -> PixelPoint| {
-        let mut line = *line;
-        for (i, end) in line.ends.iter_mut().enumerate() {
-            end.pixel = by(i, end.pixel);
-        }
-        line
-    };
+fn line_candidates(case: &Case) -> Vec<Case> {
+    let Ok(ends) = <[Point; 2]>::try_from(points(case)) else { return Vec::new() };
     let w = case.window;
-    let mut found = Vec::new();
-    found.extend(smaller_windows(w).map(|window| with(window, vec![*line])));
+    let here = |by: &dyn Fn(usize, Point) -> Point| moved(case, w, by);
+    let mut found: Vec<Case> =
+        smaller_windows(w).map(|window| moved(case, window, &|_, p| p)).collect();
     for (dx, dy) in [(8, 0), (0, 8), (1, 0), (0, 1), (-8, 0), (0, -8), (-1, 0), (0, -1)] {
-        found.push(with(
-            w,
-            vec![moved(&|_, p| PixelPoint::new(p.x.saturating_sub(dx), p.y.saturating_sub(dy)))],
-        ));
+        found.push(here(&|_, [x, y]| [x.saturating_sub(dx), y.saturating_sub(dy)]));
     }
     for end in 0..2 {
-        let [from, to] = [end, 1 - end].map_array(|i| line.ends[i].pixel);
-        for [x, y] in between(1, [from.x, from.y], [to.x, to.y]) {
-            let by = |i: usize, p| if i == end { PixelPoint::new(x, y) } else { p };
-            found.push(with(w, vec![moved(&by)]));
+        for point in between(1, ends[end], ends[1 - end]) {
+            found.push(here(&|i, p| if i == end { point } else { p }));
         }
         for axis in 0..2 {
-            let pixel = line.ends[end].pixel;
-            let value = [pixel.x, pixel.y][axis];
+            let value = ends[end][axis];
             let step = |v: i32| value - value.signum() * v.min(value.abs());
-            for simpler in [0, value / 2, step(8), step(2), step(1)] {
-                found.push(with(
-                    w,
-                    vec![moved(&|i, p| match (i == end, axis) {
-                        (true, 0) => PixelPoint::new(simpler, p.y),
-                        (true, _) => PixelPoint::new(p.x, simpler),
-                        _ => p,
-                    })],
-                ));
-            }
+            let simpler = [0, value / 2, step(8), step(2), step(1)];
+            found.extend(simpler.map(|value| here(&one_at(end, axis, value))));
         }
     }
     found

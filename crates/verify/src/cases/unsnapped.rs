@@ -11,7 +11,7 @@
 #[doc(hidden)]
 pub mod shrink;
 
-use super::Rng;
+use super::{Family, Rng, family};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::FreeCorners;
@@ -29,30 +29,7 @@ pub struct OffGridCase {
 }
 
 /// A way to make cases that share a danger.
-#[derive(Clone, Copy)]
-pub struct OffGridFamily {
-    /// Its name on the command line.
-    pub name: &'static str,
-    /// What it threatens, in a few words.
-    pub about: &'static str,
-    make: fn(&mut Rng) -> OffGridCase,
-}
-
-impl OffGridFamily {
-    /// The case number `index` of this family under `seed`.
-    #[must_use]
-    pub fn case(&self, seed: u64, index: u64) -> OffGridCase {
-        (self.make)(&mut Rng::new(self.name, seed, index))
-    }
-}
-
-const fn family(
-    name: &'static str,
-    about: &'static str,
-    make: fn(&mut Rng) -> OffGridCase,
-) -> OffGridFamily {
-    OffGridFamily { name, about, make }
-}
+pub type OffGridFamily = Family<OffGridCase>;
 
 /// Every family of triangles off the lattice.
 pub const FAMILIES: &[OffGridFamily] = &[

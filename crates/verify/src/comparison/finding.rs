@@ -50,9 +50,7 @@ impl Tally {
         }
         tally
     }
-}
 
-impl Tally {
     /// The kinds that occur, in words; empty where nothing is wrong.
     #[must_use]
     pub fn describe(&self) -> String {

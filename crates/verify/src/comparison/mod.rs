@@ -34,7 +34,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
-use rasterproof_core::triangle::Span;
 use tolerance::Tolerance;
 
 pub use convention::{Convention, Rule, Winding};
@@ -335,6 +334,19 @@ impl Verdict {
     pub fn sum(&self, lines: bool, number: impl Fn(&FamilyReport) -> u64) -> u64 {
         self.families.iter().filter(|f| f.lines == lines).map(number).sum()
     }
+
+    /// What the quotas are about, how much of it there was in percent, and how much is wanted.
+    #[must_use]
+    pub fn quotas(&self) -> [(&'static str, u64, u64); 3] {
+        let cases = self.sum(false, |f| f.cases);
+        let counts = [
+            self.sum(false, |f| f.tie_cases),
+            self.sum(false, |f| f.sliver_cases),
+            self.sum(false, |f| f.empty_cases),
+        ];
+        let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
+        [0, 1, 2].map_array(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
+    }
 }
 
 /// Wrong pixels by what was compared with what. The same pixel may be wrong in several ways, so the
@@ -353,21 +365,6 @@ pub struct Comparisons {
 /// Quotas for ties, slivers and empty cases, in percent of the cases of triangles: what the families
 /// must offer for a verdict to mean something.
 pub const QUOTAS: [(&str, u64); 3] = [("ties", 25), ("slivers", 10), ("empty", 5)];
-
-impl Verdict {
-    /// What the quotas are about, how much of it there was in percent, and how much is wanted.
-    #[must_use]
-    pub fn quotas(&self) -> [(&'static str, u64, u64); 3] {
-        let cases = self.sum(false, |f| f.cases);
-        let counts = [
-            self.sum(false, |f| f.tie_cases),
-            self.sum(false, |f| f.sliver_cases),
-            self.sum(false, |f| f.empty_cases),
-        ];
-        let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
-        [0, 1, 2].map_array(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
-    }
-}
 
 /// Judges several rasterizers and line drawers against the oracle and against each other, each under its name.
 /// Where nothing is selected, the verdict has no families, and the caller has to notice.
@@ -679,14 +676,7 @@ impl PairReport {
 /// What the oracle draws in a case.
 fn expected(case: &Case, convention: Convention) -> Coverage {
     match &case.shape {
-        Shape::Triangles { list, .. } => {
-            let mut hits = Coverage::new(case.window, 0);
-            for triangle in list {
-                let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
-                convention.cover(triangle.corners(), case.window, hit);
-            }
-            hits
-        }
+        Shape::Triangles { list, .. } => spans::hits_of_all(&convention, list, case.window),
         Shape::Lines(lines) => {
             let mut hits = Coverage::new(case.window, 0);
             for line in lines {
@@ -720,14 +710,13 @@ fn shrink_failures(
         let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
         failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
     }
-    let mut shrunk = parallel::map(failing.len(), |number| {
-        let (place, pair, index) = failing[number];
+    let shrunk = |(place, pair, index): (usize, usize, u64)| {
         let (family, lines, pairs) = &chosen[place];
         let original = options.convention.place(family.case(options.seed, index));
         let fails =
             |case: &Case| options.convention.holds(case) && findings(*lines, case)[pair].is_wrong();
         let case = shrink::shrink(original, fails);
-        let failure = Failure {
+        Failure {
             family: family.name.to_owned(),
             index,
             seed: options.seed,
@@ -736,13 +725,25 @@ fn shrink_failures(
             drawn: drawn(*lines, &pairs[pair][0], &case),
             expected: expected(&case, options.convention),
             case,
-        };
-        ((place, pair), failure)
-    });
-    shrunk.sort_by_cached_key(|(origin, failure)| (*origin, shrink::size(&failure.case)));
+        }
+    };
+    smallest_first(&failing, shrunk, |failure| shrink::size(&failure.case))
+}
+
+/// What is made of failing cases, given by family, pair and number: the smallest of each family and
+/// pair, smallest first.
+fn smallest_first<F: Send, S: Ord>(
+    failing: &[(usize, usize, u64)],
+    shrunk: impl Fn((usize, usize, u64)) -> F + Sync,
+    size: impl Fn(&F) -> S,
+) -> Vec<F> {
+    let shrunk = parallel::map(failing.len(), |number| shrunk(failing[number])).into_iter();
+    let origins = failing.iter().map(|&(place, pair, _)| (place, pair));
+    let mut shrunk: Vec<_> = origins.zip(shrunk).collect();
+    shrunk.sort_by_cached_key(|(origin, failure)| (*origin, size(failure)));
     shrunk.dedup_by_key(|(origin, _)| *origin);
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
-    failures.sort_by_cached_key(|failure| shrink::size(&failure.case));
+    failures.sort_by_cached_key(size);
     failures
 }
 

@@ -149,26 +149,23 @@ pub fn engine_coverage(
     triangles: &[Triangle],
     window: PixelRect,
 ) -> Result<Coverage, EnginePanic> {
-    caught(|| {
-        let mut hits = Coverage::new(window, 0);
-        for triangle in triangles {
-            engine.cover(triangle.corners(), window, |span| {
-                hits.hit(span.y_px, span.x0_px, span.x1_px)
-            });
-        }
-        hits
-    })
+    caught(|| hits_of_all(engine, triangles, window))
+}
+
+/// The same of a rasterizer that does not panic.
+pub fn hits_of_all(engine: &impl Rasterize, triangles: &[Triangle], window: PixelRect) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for triangle in triangles {
+        let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+        engine.cover(triangle.corners(), window, hit);
+    }
+    hits
 }
 
 /// Hits of the oracle over all triangles of a case.
 #[must_use]
 pub fn oracle_coverage(triangles: &[Triangle], window: PixelRect) -> Coverage {
-    let mut hits = Coverage::new(window, 0);
-    for triangle in triangles {
-        Oracle
-            .cover(triangle.corners(), window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
-    }
-    hits
+    hits_of_all(&Oracle, triangles, window)
 }
 
 /// Pixels of each triangle or line of a case alone, by the oracle.

@@ -8,14 +8,13 @@ use std::fmt;
 use std::ops::AddAssign;
 
 use super::finding::{EnginePanic, caught};
-use super::{Convention, KEPT, NothingJudged, Options, Partial, Tally, in_blocks};
+use super::{Convention, KEPT, NothingJudged, Options, Partial, Tally, in_blocks, smallest_first};
 use crate::cases::unsnapped::shrink::{shrink, size};
 use crate::cases::unsnapped::{FAMILIES, OffGridCase, OffGridFamily};
 use crate::oracle::rational::cover_and_count_ties;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, RasterizeExact};
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::parallel;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
 /// How an engine did on a family.
@@ -320,24 +319,18 @@ fn shrink_failures<R: RasterizeExact + Sync>(
     let failing: Vec<_> = failing
         .flat_map(|(place, partial)| partial.failing.iter().map(move |&(at, i)| (place, at, i)))
         .collect();
-    let mut shrunk = parallel::map(failing.len(), |number| {
-        let (place, at, index) = failing[number];
+    let shrunk = |(place, at, index): (usize, usize, u64)| {
         let (name, engine) = &engines[at];
         let fails = |case: &OffGridCase| judge_exact_case(engine, case).is_wrong();
         let case = shrink(chosen[place].case(options.seed, index), fails);
-        let failure = ExactFailure {
+        ExactFailure {
             family: chosen[place].name.to_owned(),
             index,
             seed: options.seed,
             engine: (*name).to_owned(),
             what: judge_exact_case(engine, &case).describe(),
             case,
-        };
-        ((place, at), failure)
-    });
-    shrunk.sort_by_cached_key(|(origin, failure)| (*origin, size(&failure.case)));
-    shrunk.dedup_by_key(|(origin, _)| *origin);
-    let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
-    failures.sort_by_cached_key(|failure| size(&failure.case));
-    failures
+        }
+    };
+    smallest_first(&failing, shrunk, |failure| size(&failure.case))
 }

@@ -88,29 +88,15 @@ fn regions_by_hand() {
         assert_eq!(area(vec![outer.clone(), reversed(&inner)], rule), 32.0);
         assert_eq!(area(vec![reversed(&outer)], rule), 36.0);
         // Two squares that meet at a vertex, as one contour that turns left in one and right in the other.
-        let eight = vec![
-            [0.0, 0.0],
-            [2.0, 0.0],
-            [2.0, 2.0],
-            [4.0, 2.0],
-            [4.0, 4.0],
-            [2.0, 4.0],
-            [2.0, 2.0],
-            [0.0, 2.0],
-        ];
+        let there = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [4.0, 2.0]];
+        let back = [[4.0, 4.0], [2.0, 4.0], [2.0, 2.0], [0.0, 2.0]];
+        let eight = [there, back].concat();
         assert_eq!(area(vec![eight], rule), 8.0);
         let bow = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [2.0, 0.0], [1.0, 1.0], [0.0, 2.0]];
         assert_eq!(area(vec![bow], rule), 2.0);
-        let spiked = vec![
-            [0.0, 0.0],
-            [6.0, 0.0],
-            [6.0, 6.0],
-            [3.0, 3.0],
-            [6.0, 6.0],
-            [0.0, 6.0],
-            [0.0, 9.0],
-            [0.0, 6.0],
-        ];
+        let inwards = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [3.0, 3.0], [6.0, 6.0]];
+        let outwards = [[0.0, 6.0], [0.0, 9.0], [0.0, 6.0]];
+        let spiked = [&inwards[..], &outwards].concat();
         assert_eq!(area(vec![spiked], rule), 36.0);
         let halves = [
             vec![[2.0, 2.0], [2.0, 4.0], [3.0, 4.0], [3.0, 2.0]],
@@ -347,28 +333,12 @@ fn decisions_agree_with_samples() {
     for index in 0..1_000 {
         let mut rng = Rng::new("samples", 1, index);
         let polygon = Polygon::new(vec![square(0.0, 4.0), square(1.0, 2.0)]);
-        let ring = [
-            [0.0, 0.0],
-            [4.0, 0.0],
-            [4.0, 4.0],
-            [0.0, 4.0],
-            [1.0, 1.0],
-            [2.0, 1.0],
-            [2.0, 2.0],
-            [1.0, 2.0],
-        ];
-        let numbers = [
-            [0, 1, 4],
-            [4, 1, 5],
-            [5, 1, 6],
-            [6, 1, 2],
-            [2, 3, 6],
-            [6, 3, 7],
-            [7, 3, 0],
-            [0, 4, 7],
-        ];
-        let mut triangles: Vec<Triangle> =
-            numbers.iter().map(|n| n.map(|i: usize| ring[i])).collect();
+        let (outer, inner) = (square(0.0, 4.0), square(1.0, 2.0));
+        let side = |i: usize| {
+            let (a, b, c, d) = (outer[i], outer[(i + 1) % 4], inner[(i + 1) % 4], inner[i]);
+            [[a, b, d], [d, b, c]]
+        };
+        let mut triangles: Vec<Triangle> = (0..4).flat_map(side).collect();
         for _ in 0..rng.int(0, 2) {
             let number = rng.int(0, triangles.len() as i64 - 1) as usize;
             triangles[number][rng.int(0, 2) as usize] =
