@@ -1,5 +1,7 @@
 //! Invariants 1 to 20: coverage. Every tolerance is zero but that of 19, which is a theorem.
 
+use std::ops::RangeInclusive;
+
 use robust::{Coord, orient2d};
 
 use super::Outcome;
@@ -15,7 +17,7 @@ use rasterproof_core::triangle::Corners;
 use rasterproof_render::pipeline::assemble::Cull;
 
 /// Compares hit counts; both show the same window. The number of pixels, or the first difference.
-fn same(name: &str, actual: &Coverage, target: &Coverage, what: &str) -> Outcome {
+fn same(actual: &Coverage, target: &Coverage, what: &str) -> Outcome {
     let bounds = actual.bounds();
     if actual == target {
         return Ok(u64::from(bounds.width()) * u64::from(bounds.height()));
@@ -23,34 +25,26 @@ fn same(name: &str, actual: &Coverage, target: &Coverage, what: &str) -> Outcome
     let differs = |&(x, y): &(i32, i32)| actual.get(x, y) != target.get(x, y);
     let (x, y) = pixels(bounds).find(differs).unwrap_or((bounds.x0, bounds.y0));
     let [actual, target] = [actual, target].map_array(|c| c.get(x, y).unwrap_or(0));
-    Err(format!("{name} hits pixel ({x}, {y}) {actual} times, {what} {target} times"))
+    Err(format!("hits pixel ({x}, {y}) {actual} times, {what} {target} times"))
 }
 
-/// Compares an engine's hits in a window with a predicate.
-fn expect(
-    engine: &Engine,
-    corners: Corners,
-    window: PixelRect,
-    what: &str,
-    inside: impl Fn(i32, i32) -> bool,
-) -> Outcome {
-    let mut target = Coverage::new(window, 0);
-    for (x, y) in pixels(around(&corners, window)).filter(|&(x, y)| inside(x, y)) {
-        target.hit(y, x, x + 1);
-    }
-    same(engine.name, &engine.hits(corners, window), &target, what)
+fn is_owned(engine: &Engine, corners: Corners, window: PixelRect) -> Outcome {
+    let inside = |x, y| owns(&corners, x, y, TOP_LEFT);
+    let target = covered(window, pixels(around(&corners, window)).filter(|&(x, y)| inside(x, y)));
+    same(&engine.hits(corners, window), &target, "checked arithmetic")
 }
 
-/// Runs a check for every engine and adds up what was compared.
-fn each(subject: &Subject, check: impl Fn(&Engine) -> Outcome) -> Outcome {
-    subject.engines.iter().map(check).sum()
+fn covered(window: PixelRect, pixels: impl Iterator<Item = (i32, i32)>) -> Coverage {
+    let mut coverage = Coverage::new(window, 0);
+    pixels.for_each(|(x, y)| coverage.hit(y, x, x + 1));
+    coverage
 }
 
 /// 1: each engine against the oracle, so against each other too.
 pub(super) fn engines_agree(subject: &Subject, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     let truth = hits(&*subject.oracle, [corners], window);
-    each(subject, |engine| same(engine.name, &engine.hits(corners, window), &truth, "the oracle"))
+    subject.each_engine(|engine| same(&engine.hits(corners, window), &truth, "the oracle"))
 }
 
 /// 2: three signs of `robust::orient2d` at each centre decide what the oracle must say.
@@ -65,20 +59,22 @@ pub(super) fn oracle_sign(subject: &Subject, input: &TriangleInput) -> Outcome {
     let [a, b, c] = corners;
     let winding = sign(coord(a), coord(b), coord(c));
     let [a, b, c] = if winding < 0 { [a, c, b] } else { [a, b, c] };
-    let mut target = Coverage::new(window, 0);
-    for (x, y) in pixels(around(&corners, window)) {
+    let inside = |&(x, y): &(i32, i32)| {
         let sample = Coord { x: centre(x) as f64, y: centre(y) as f64 };
-        let inside = [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
-            let top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
-            let side = sign(coord(from), coord(to), sample);
-            side > 0 || (side == 0 && top_left)
-        });
-        if inside && winding != 0 {
-            target.hit(y, x, x + 1);
-        }
-    }
-    same("the oracle", &hits(&*subject.oracle, [corners], window), &target, "robust says")
+        winding != 0
+            && [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
+                let top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
+                let side = sign(coord(from), coord(to), sample);
+                side > 0 || (side == 0 && top_left)
+            })
+    };
+    let target = covered(window, pixels(around(&corners, window)).filter(inside));
+    same(&hits(&*subject.oracle, [corners], window), &target, "robust says")
+        .map_err(|message| format!("the oracle {message}"))
 }
+
+const DOMAIN: PixelRect =
+    PixelRect { x0: -DOMAIN_PX, y0: -DOMAIN_PX, x1: DOMAIN_PX, y1: DOMAIN_PX };
 
 pub(super) const ORDERS: [[usize; 3]; 6] =
     [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
@@ -86,13 +82,13 @@ pub(super) const ORDERS: [[usize; 3]; 6] =
 /// 3: the set does not depend on the order of the vertices.
 pub(super) fn vertex_order(subject: &Subject, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let first = engine.hits(corners, window);
         ORDERS[1..]
             .iter()
             .map(|order| {
                 let other = engine.hits(order.map_array(|i| corners[i]), window);
-                same(engine.name, &other, &first, &format!("in order {order:?} and in 0 1 2"))
+                same(&other, &first, &format!("in order {order:?} and in 0 1 2"))
             })
             .sum()
     })
@@ -129,7 +125,7 @@ pub(super) fn translation(subject: &Subject, input: &TriangleInput) -> Outcome {
         (-(1 << 14), 1 << 14),
         (DOMAIN_PX / 2, -DOMAIN_PX / 2),
     ];
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let still = engine.hits(corners, window);
         let mut compared = 0;
         for (dx, dy) in shifts {
@@ -138,7 +134,7 @@ pub(super) fn translation(subject: &Subject, input: &TriangleInput) -> Outcome {
             let moved = engine.hits(moved, there);
             for ((_, a), (_, b)) in moved.rows().zip(still.rows()) {
                 if a != b {
-                    return Err(format!("{} draws another set after ({dx}, {dy}) px", engine.name));
+                    return Err(format!("draws another set after ({dx}, {dy}) px"));
                 }
                 compared += a.len() as u64;
             }
@@ -166,7 +162,7 @@ pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outco
         // The mirror image of the domain's first column lies outside the domain.
         return Ok(0);
     }
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let check = |[mx, my]: [[i32; 2]; 2]| {
             let image = corners.map_array(|p| {
                 SubpixelPoint::new(mx[0] * p.x + mx[1] * p.y, my[0] * p.x + my[1] * p.y)
@@ -186,15 +182,11 @@ pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outco
                 x1: ends[0].0.max(ends[1].0) + 1,
                 y1: ends[0].1.max(ends[1].1) + 1,
             };
-            let mut target = Coverage::new(there, 0);
-            for (x, y) in pixels(around(&corners, window)) {
-                if owns(&corners, x, y, nudge) {
-                    let (u, v) = (along(mx, x, y), along(my, x, y));
-                    target.hit(v, u, u + 1);
-                }
-            }
+            let owned =
+                pixels(around(&corners, window)).filter(|&(x, y)| owns(&corners, x, y, nudge));
+            let target = covered(there, owned.map(|(x, y)| (along(mx, x, y), along(my, x, y))));
             let what = format!("mapped by {:?}, the conjugate rule", [mx, my]);
-            same(engine.name, &engine.hits(image, there), &target, &what)
+            same(&engine.hits(image, there), &target, &what)
         };
         SYMMETRIES.into_iter().map(check).sum()
     })
@@ -203,13 +195,13 @@ pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outco
 /// 6: both ways to split give the same union, and no pixel twice.
 pub(super) fn quad_split(subject: &Subject, input: &Quad) -> Outcome {
     let ([a, b, c, d], window) = (input.corners, input.window);
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let one = hits(&*engine.fill, [[a, b, c], [a, c, d]], window);
         let other = hits(&*engine.fill, [[a, b, d], [b, c, d]], window);
         if let Some((x, y)) = pixels(window).find(|&(x, y)| one.get(x, y) > Some(1)) {
-            return Err(format!("{} hits pixel ({x}, {y}) twice", engine.name));
+            return Err(format!("hits pixel ({x}, {y}) twice"));
         }
-        same(engine.name, &one, &other, "split on the other diagonal")
+        same(&one, &other, "split on the other diagonal")
     })
 }
 
@@ -229,9 +221,9 @@ pub(super) fn closed_fan(subject: &Subject, input: &Fan) -> Outcome {
             target.hit(y, x, x + 1);
         }
     }
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let fan = hits(&*engine.fill, triangles.iter().copied(), input.window);
-        same(engine.name, &fan, &target, "the outline winds round it")
+        same(&fan, &target, "the outline winds round it")
     })
 }
 
@@ -252,15 +244,15 @@ pub(super) fn signed_hit_count(subject: &Subject, input: &Fan) -> Outcome {
     let disk = fan_triangles(input.apex, &input.ring);
     let turned = fan_triangles(input.centre, &input.ring).into_iter().map(|[a, b, c]| [a, c, b]);
     let closed: Vec<Corners> = disk.iter().copied().chain(turned).collect();
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let on_disk = signed_hits(engine, &disk, input.window);
         let on_closed = signed_hits(engine, &closed, input.window);
         for (i, (x, y)) in pixels(input.window).enumerate() {
             let target = exact::winding(&input.ring, x, y);
             if on_disk[i] != target || on_closed[i] != 0 {
                 return Err(format!(
-                    "{} hits pixel ({x}, {y}) {} times on the disk and {} times on the closed mesh, signed; right are {target} and 0",
-                    engine.name, on_disk[i], on_closed[i]
+                    "hits pixel ({x}, {y}) {} times on the disk and {} times on the closed mesh, signed; right are {target} and 0",
+                    on_disk[i], on_closed[i]
                 ));
             }
         }
@@ -270,38 +262,43 @@ pub(super) fn signed_hit_count(subject: &Subject, input: &Fan) -> Outcome {
 
 /// 9: what is covered of a row is one run.
 pub(super) fn contiguous_rows(subject: &Subject, input: &TriangleInput) -> Outcome {
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let hits = engine.hits(input.triangle.corners(), input.window);
         let mut last_row = None;
         for (y_px, ..) in hits.runs() {
             if last_row.replace(y_px) == Some(y_px) {
-                return Err(format!("{} leaves a hole in row {y_px}", engine.name));
+                return Err(format!("leaves a hole in row {y_px}"));
             }
         }
         Ok(u64::from(input.window.height()))
     })
 }
 
+/// The subpixels from the first to the last column of the corners, and from the first to the last row.
+fn box_of(corners: &Corners) -> (RangeInclusive<i64>, RangeInclusive<i64>) {
+    let range = |values: [i32; 3]| {
+        let [a, b, c] = values.map(i64::from);
+        a.min(b).min(c)..=a.max(b).max(c)
+    };
+    (range(corners.map_array(|p| p.x)), range(corners.map_array(|p| p.y)))
+}
+
 /// 10: nothing outside the snapped box, everything strictly inside.
 pub(super) fn inside_the_box(subject: &Subject, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
-    let range = |v: fn(&SubpixelPoint) -> i32| {
-        let (low, high) = (corners.iter().map(v).min(), corners.iter().map(v).max());
-        i64::from(low.unwrap_or(0))..=i64::from(high.unwrap_or(0))
-    };
-    let (columns, rows) = (range(|p| p.x), range(|p| p.y));
+    let (columns, rows) = box_of(&corners);
     let oriented = exact::clockwise(&corners);
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let hits = engine.hits(corners, window);
         for (x, y) in pixels(window) {
             let covered = hits.get(x, y) > Some(0);
             let in_box = columns.contains(&centre(x)) && rows.contains(&centre(y));
             if covered && !in_box {
-                return Err(format!("{} covers ({x}, {y}), outside the box", engine.name));
+                return Err(format!("covers ({x}, {y}), outside the box"));
             }
             let strictly = |c: &Corners| exact::edges(c, x, y).iter().all(|&e| e > 0);
             if !covered && in_box && oriented.as_ref().is_some_and(strictly) {
-                return Err(format!("{} misses ({x}, {y}), strictly inside", engine.name));
+                return Err(format!("misses ({x}, {y}), strictly inside"));
             }
         }
         Ok(u64::from(window.width()) * u64::from(window.height()))
@@ -325,7 +322,7 @@ pub(super) fn nesting(subject: &Subject, input: &TriangleInput) -> Outcome {
         let (x, y) = (i64::from(p.x), i64::from(p.y));
         [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| exact::edge(p, q, x, y) >= 0)
     };
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let whole = engine.hits(outer, window);
         let mut compared = 0;
         for part in [[a, b, inner], [inner, b, c], [ab, bc, ca], [a, ab, inner]] {
@@ -334,8 +331,7 @@ pub(super) fn nesting(subject: &Subject, input: &TriangleInput) -> Outcome {
             }
             let hits = engine.hits(part, window);
             if let Some((x, y)) = pixels(window).find(|&(x, y)| hits.get(x, y) > whole.get(x, y)) {
-                let name = engine.name;
-                return Err(format!("{name} covers ({x}, {y}) by {part:?} but not by {outer:?}"));
+                return Err(format!("covers ({x}, {y}) by {part:?} but not by {outer:?}"));
             }
             compared += 1;
         }
@@ -357,7 +353,7 @@ pub(super) fn zero_area(subject: &Subject, input: &TriangleInput) -> Outcome {
     if exact::twice_area(&input.triangle.corners()) == 0 {
         flat.push(input.triangle.corners());
     }
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         for corners in &flat {
             let covered = engine.hits(*corners, window).covered();
             let mut triangle = input.triangle;
@@ -365,8 +361,7 @@ pub(super) fn zero_area(subject: &Subject, input: &TriangleInput) -> Outcome {
             let fragments = engine.fragments(&triangle, window).len();
             if covered > 0 || fragments > 0 {
                 return Err(format!(
-                    "{} covers {covered} pixels and emits {fragments} fragments of {corners:?}",
-                    engine.name
+                    "covers {covered} pixels and emits {fragments} fragments of {corners:?}"
                 ));
             }
         }
@@ -386,9 +381,9 @@ pub(super) fn windings(subject: &Subject, input: &TriangleInput) -> Outcome {
             return Err(format!("culling none, clockwise, counter-clockwise: {removed:?}"));
         }
     }
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let front = engine.hits([a, b, c], window);
-        same(engine.name, &engine.hits([c, b, a], window), &front, "with the other winding")
+        same(&engine.hits([c, b, a], window), &front, "with the other winding")
     })
 }
 
@@ -404,7 +399,7 @@ pub(super) fn crop(subject: &Subject, input: &TriangleInput) -> Outcome {
             cut(window.x0, window.x1).map(move |(x0, x1)| PixelRect { x0, y0, x1, y1 })
         })
         .collect();
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let whole = engine.hits(triangle.corners(), window);
         let fragments = engine.fragments(triangle, window);
         let value_at = |x: i32, y: i32| fragments.iter().find(|f| (f.x_px, f.y_px) == (x, y));
@@ -413,19 +408,14 @@ pub(super) fn crop(subject: &Subject, input: &TriangleInput) -> Outcome {
             let hits = engine.hits(triangle.corners(), tile);
             let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != whole.get(x, y);
             if let Some((x, y)) = pixels(tile).find(differs) {
-                return Err(format!(
-                    "{} differs at ({x}, {y}) in a tile of {side} px",
-                    engine.name
-                ));
+                return Err(format!("differs at ({x}, {y}) in a tile of {side} px"));
             }
             // The last fragment of a tile is where a walk from another start has gone farthest.
             let inside = engine.fragments(triangle, tile);
             for f in inside.first().into_iter().chain(inside.last()) {
                 if value_at(f.x_px, f.y_px) != Some(f) {
-                    return Err(format!(
-                        "{} has another value at ({}, {}) in a tile of {side} px",
-                        engine.name, f.x_px, f.y_px
-                    ));
+                    let (x, y) = (f.x_px, f.y_px);
+                    return Err(format!("has another value at ({x}, {y}) in a tile of {side} px"));
                 }
             }
             Ok(hits.covered() + 1)
@@ -470,7 +460,7 @@ pub(super) fn identifies_the_rule(subject: &Subject, input: &TriangleInput) -> O
         let [dx, dy] = ARMS[arm % 8];
         SubpixelPoint::new(sample.x + dx * times, sample.y + dy * times)
     };
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let bit =
             |corners: Corners, i: usize| u8::from(engine.hits(corners, window).covered() > 0) << i;
         let fan = (0..8).map(|i| bit([sample, tip(i, arm_sub), tip(i + 1, arm_sub)], i)).sum();
@@ -482,8 +472,7 @@ pub(super) fn identifies_the_rule(subject: &Subject, input: &TriangleInput) -> O
         } else {
             let (target_fan, target_edges) = target;
             Err(format!(
-                "{}: fan {fan:08b}, edges {edges:08b}; top-left has {target_fan:08b}, {target_edges:08b}",
-                engine.name
+                "has fan {fan:08b}, edges {edges:08b}; top-left has {target_fan:08b}, {target_edges:08b}"
             ))
         }
     })
@@ -546,25 +535,11 @@ pub(super) fn edge_lemma(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// one step more, and the engines neither panic nor err.
 pub(super) fn edge_bound(subject: &Subject, input: &TriangleInput) -> Outcome {
     let corners = sized(input);
-    let extent = |v: fn(&SubpixelPoint) -> i32| {
-        let values = corners.iter().map(v);
-        values.clone().max().unwrap_or(0).abs_diff(values.min().unwrap_or(0))
-    };
-    let (width, height) = (extent(|p| p.x), extent(|p| p.y));
+    let (columns, rows) = box_of(&corners);
+    let [width, height] = [&columns, &rows].map(|ends| (ends.end() - ends.start()) as u32);
     let bound = i128::from(width) * i128::from(height);
-    let whole = PixelRect { x0: -DOMAIN_PX, y0: -DOMAIN_PX, x1: DOMAIN_PX, y1: DOMAIN_PX };
-    // Pixels whose centres lie in the box.
-    let touched = around(&corners, whole);
-    let [low_x, low_y, high_x, high_y] = [
-        corners.iter().map(|p| p.x).min(),
-        corners.iter().map(|p| p.y).min(),
-        corners.iter().map(|p| p.x).max(),
-        corners.iter().map(|p| p.y).max(),
-    ]
-    .map(|v| i64::from(v.unwrap_or(0)));
-    let inside = |x: i32, y: i32| {
-        (low_x..=high_x).contains(&centre(x)) && (low_y..=high_y).contains(&centre(y))
-    };
+    let touched = around(&corners, DOMAIN);
+    let inside = |x: i32, y: i32| columns.contains(&centre(x)) && rows.contains(&centre(y));
     for x in [touched.x0, touched.x0 + 1, touched.x1 - 2, touched.x1 - 1] {
         for y in [touched.y0, touched.y0 + 1, touched.y1 - 2, touched.y1 - 1] {
             let values = (subject.edge_values)(&corners, x, y);
@@ -590,15 +565,8 @@ pub(super) fn edge_bound(subject: &Subject, input: &TriangleInput) -> Outcome {
         x1: touched.x1,
         y1: touched.y1.min(touched.y0.saturating_add(12)),
     };
-    each(subject, |engine| {
-        [near, input.window]
-            .into_iter()
-            .map(|w| {
-                expect(engine, corners, w, "checked arithmetic", |x, y| {
-                    owns(&corners, x, y, TOP_LEFT)
-                })
-            })
-            .sum()
+    subject.each_engine(|engine| {
+        [near, input.window].into_iter().map(|window| is_owned(engine, corners, window)).sum()
     })
 }
 
@@ -667,8 +635,7 @@ const U: f64 = f64::EPSILON / 2.0;
 pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
     const MOST_PX: u32 = 512;
     let corners = input.triangle.corners();
-    let whole = PixelRect { x0: -DOMAIN_PX, y0: -DOMAIN_PX, x1: DOMAIN_PX, y1: DOMAIN_PX };
-    let window = around(&corners, whole);
+    let window = around(&corners, DOMAIN);
     if window.width() > MOST_PX || window.height() > MOST_PX {
         return Ok(0);
     }
@@ -682,12 +649,11 @@ pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
         (x * x + y * y).sqrt()
     };
     let perimeter_px = (side(0, 1) + side(1, 2) + side(2, 0)) * (1.0 + 8.0 * U);
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let covered = engine.hits(corners, window).covered();
         if area_px > 0.0 && (covered as f64 - area_px).abs() > perimeter_px / 2.0 + 1.0 {
             return Err(format!(
-                "{} covers {covered} pixels of an area of {area_px} and a perimeter of {perimeter_px}",
-                engine.name
+                "covers {covered} pixels of an area of {area_px} and a perimeter of {perimeter_px}"
             ));
         }
         Ok(1)
@@ -706,7 +672,7 @@ pub(super) fn supersampling(subject: &Subject, input: &TriangleInput) -> Outcome
     let scaled = corners.map_array(|p| SubpixelPoint::new(p.x * n, p.y * n));
     let there =
         PixelRect { x0: window.x0 * n, y0: window.y0 * n, x1: window.x1 * n, y1: window.y1 * n };
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let large = engine.hits(scaled, there);
         for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
             // From the sample to the centre.
@@ -715,7 +681,7 @@ pub(super) fn supersampling(subject: &Subject, input: &TriangleInput) -> Outcome
             let hits = engine.hits(moved, window);
             let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != large.get(x * n + i, y * n + j);
             if let Some((x, y)) = pixels(window).find(differs) {
-                return Err(format!("{}: sample {i},{j} of {n} x {n} of ({x}, {y})", engine.name));
+                return Err(format!("differs at sample {i},{j} of {n} x {n} of ({x}, {y})"));
             }
         }
         Ok(u64::from(there.width()) * u64::from(there.height()))

@@ -7,7 +7,6 @@
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
-/// Centre of pixel `px`, in subpixels.
 pub fn centre(px: i32) -> i64 {
     i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
 }
@@ -45,14 +44,12 @@ pub fn clockwise(corners: &Corners) -> Option<Corners> {
     }
 }
 
-/// The three edge functions at a pixel's centre, for clockwise corners.
 #[must_use]
 pub fn edges([a, b, c]: &Corners, x_px: i32, y_px: i32) -> [i128; 3] {
     let (x, y) = (centre(x_px), centre(y_px));
     [edge(*b, *c, x, y), edge(*c, *a, x, y), edge(*a, *b, x, y)]
 }
 
-/// Whether the nudged centre of a pixel lies inside.
 #[must_use]
 pub fn owns(corners: &Corners, x_px: i32, y_px: i32, nudge: Nudge) -> bool {
     let Some([a, b, c]) = clockwise(corners) else { return false };

@@ -11,10 +11,6 @@ use rasterproof_core::triangle::{Fragment, PixelPoint};
 use rasterproof_verify::cases::Line;
 use rasterproof_verify::cases::named::plain_line;
 
-fn each(subject: &Subject, check: impl Fn(&Drawer) -> Outcome) -> Outcome {
-    subject.drawers.iter().map(check).sum()
-}
-
 /// The same line at most 300 pixels long and near the origin, for checks that look at every pixel
 /// of it.
 fn near(line: &Line) -> Line {
@@ -75,13 +71,13 @@ fn is_nearest(line: &[[i64; 2]; 2], pixel: [i64; 2]) -> bool {
 pub(super) fn nearest_pixel(subject: &Subject, input: &LineInput) -> Outcome {
     let line = near(&input.line);
     let whole = ends(&line);
-    each(subject, |drawer| {
+    subject.each_drawer(|drawer| {
         let drawn = all_pixels(drawer, &line);
         match drawn.iter().find(|&&pixel| !is_nearest(&whole, pixel)) {
             None => Ok(drawn.len() as u64),
             Some(pixel) => {
                 let (twice, du) = deviation(&whole, *pixel);
-                Err(format!("{} lights {pixel:?}, {twice}/{du} half pixels off", drawer.name))
+                Err(format!("lights {pixel:?}, {twice}/{du} half pixels off"))
             }
         }
     })
@@ -94,19 +90,18 @@ pub(super) fn one_per_step(subject: &Subject, input: &LineInput) -> Outcome {
     let [a, b] = whole;
     let major = major_of(&whole);
     let length = (b[major] - a[major]).abs();
-    each(subject, |drawer| {
+    subject.each_drawer(|drawer| {
         let drawn = all_pixels(drawer, &line);
-        let name = drawer.name;
         if drawn.len() as i64 != length + 1 {
-            return Err(format!("{name} lights {} pixels on {length} steps", drawn.len()));
+            return Err(format!("lights {} pixels on {length} steps", drawn.len()));
         }
         if drawn.first() != Some(&a) || drawn.last() != Some(&b) {
-            return Err(format!("{name} runs from {:?} to {:?}", drawn.first(), drawn.last()));
+            return Err(format!("runs from {:?} to {:?}", drawn.first(), drawn.last()));
         }
         for two in drawn.windows(2) {
             let step = |axis: usize| (two[1][axis] - two[0][axis]).abs();
             if step(major) != 1 || step(1 - major) > 1 {
-                return Err(format!("{name} steps from {:?} to {:?}", two[0], two[1]));
+                return Err(format!("steps from {:?} to {:?}", two[0], two[1]));
             }
         }
         Ok(drawn.len() as u64)
@@ -133,15 +128,15 @@ pub(super) fn reversal(subject: &Subject, input: &LineInput) -> Outcome {
     if differs != even {
         return Err(format!("the control on {du}, {dv}: differs {differs}, even {even}"));
     }
-    each(subject, |drawer| {
+    subject.each_drawer(|drawer| {
         let mut there = all_pixels(drawer, &line);
         let mut back = all_pixels(drawer, &back);
         there.sort_unstable();
         back.sort_unstable();
         match there.iter().zip(&back).find(|(a, b)| a != b) {
             None if there.len() == back.len() => Ok(there.len() as u64),
-            None => Err(format!("{}: {} and {} pixels", drawer.name, there.len(), back.len())),
-            Some((a, b)) => Err(format!("{}: {a:?} on the way, {b:?} back", drawer.name)),
+            None => Err(format!("lights {} and {} pixels", there.len(), back.len())),
+            Some((a, b)) => Err(format!("lights {a:?} on the way, {b:?} back")),
         }
     })
 }
@@ -160,7 +155,7 @@ pub(super) fn octants(subject: &Subject, input: &LineInput) -> Outcome {
         let point = |p: [i64; 2]| PixelPoint::new(p[0] as i32, p[1] as i32);
         plain_line(point(a), point(end))
     };
-    each(subject, |drawer| {
+    subject.each_drawer(|drawer| {
         let first = all_pixels(drawer, &line_to(image([du, dv], false, 1, 1)));
         let mut compared = 0;
         for steep in [false, true] {
@@ -177,10 +172,7 @@ pub(super) fn octants(subject: &Subject, input: &LineInput) -> Outcome {
                 });
                 if !other.iter().copied().eq(target) {
                     let to = image([du, dv], steep, su, sv);
-                    return Err(format!(
-                        "{}: {a:?} to {to:?} is no image of the first octant",
-                        drawer.name
-                    ));
+                    return Err(format!("on {a:?} to {to:?} is no image of the first octant"));
                 }
                 compared += other.len() as u64;
             }
@@ -194,22 +186,21 @@ pub(super) fn octants(subject: &Subject, input: &LineInput) -> Outcome {
 pub(super) fn clipped_line(subject: &Subject, input: &LineInput) -> Outcome {
     let line = near(&input.line);
     let window = PixelRect { x0: 5, y0: -7, x1: 33, y1: 21 };
-    each(subject, |drawer| {
-        let name = drawer.name;
+    subject.each_drawer(|drawer| {
         let whole = drawer.fragments(&line, around(&line));
         let target = whole.into_iter().filter(|f| window.contains(f.x_px, f.y_px));
         let inside = drawer.fragments(&line, window);
         if !inside.iter().copied().eq(target) {
-            return Err(format!("{name}: another line in the window than the window of the line"));
+            return Err("draws another line in the window than the window of the line".to_owned());
         }
         let far = drawer.fragments(&input.line, input.window);
         let most = input.window.width().max(input.window.height()) as usize;
         if far.len() > most {
-            return Err(format!("{name} emits {} pixels in {most} steps", far.len()));
+            return Err(format!("emits {} pixels in {most} steps", far.len()));
         }
         let whole = ends(&input.line);
         if let Some(pixel) = pixels(&far).into_iter().find(|&pixel| !is_nearest(&whole, pixel)) {
-            return Err(format!("{name} lights {pixel:?}, not nearest to the unclipped line"));
+            return Err(format!("lights {pixel:?}, not nearest to the unclipped line"));
         }
         Ok(1 + (inside.len() + far.len()) as u64)
     })
@@ -226,7 +217,7 @@ pub(super) fn listed_differences(subject: &Subject, input: &LineInput) -> Outcom
     let known = KNOWN.map(|[x, y]| plain_line(origin, PixelPoint::new(x, y)));
     let lines = known.into_iter().chain([near(&input.line)]);
     let lines: Vec<Line> = lines.collect();
-    each(subject, |drawer| {
+    subject.each_drawer(|drawer| {
         let mut compared = 0;
         for line in &lines {
             let whole = ends(line);
@@ -235,8 +226,7 @@ pub(super) fn listed_differences(subject: &Subject, input: &LineInput) -> Outcom
             if !wrong.is_empty() {
                 let shown = &wrong[..wrong.len().min(5)];
                 return Err(format!(
-                    "{} on {:?} to {:?}: {} of {} pixels differ, first {shown:?}",
-                    drawer.name,
+                    "on {:?} to {:?}: {} of {} pixels differ, first {shown:?}",
                     whole[0],
                     whole[1],
                     wrong.len(),

@@ -22,7 +22,6 @@ const META: u32 = 42;
 #[derive(Clone, Debug)]
 pub struct Matrix {
     pub columns: Vec<u32>,
-    /// Names of the mutants, with their marks.
     pub rows: Vec<(String, Vec<bool>)>,
 }
 

@@ -139,7 +139,6 @@ pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
 }
 
 struct OneWrong {
-    /// Column and row.
     at: (i32, i32),
     /// How often that pixel is hit too often; -1 where it is not hit at all.
     by: i32,

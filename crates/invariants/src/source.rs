@@ -10,7 +10,6 @@ use rasterproof_verify::comparison::shrink;
 
 use super::subject::MakeCase;
 
-/// Side of the window of quads and fans, in pixels.
 const SIDE_PX: u32 = 24;
 const SIDE: i64 = SIDE_PX as i64 * SUBPIXELS as i64;
 
@@ -54,7 +53,6 @@ impl Quad {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fan {
     pub centre: SubpixelPoint,
-    /// The outline, clockwise.
     pub ring: Vec<SubpixelPoint>,
     pub apex: SubpixelPoint,
     pub window: PixelRect,

@@ -6,13 +6,13 @@
 
 use glam::{DVec2, DVec3};
 
+use super::Outcome;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{self, PixelRect, Refusal};
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::line::dda::Dda;
-use rasterproof_core::raster::edge_function::{self, EdgeFunction, WordWidth};
-use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::raster::edge_function::{self, WordWidth};
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span};
 use rasterproof_faults::planted::{Formulas, Mutant, StageMutant};
 use rasterproof_registry::engines;
@@ -29,9 +29,7 @@ use rasterproof_verify::comparison::tolerance::{self, Tolerance};
 use rasterproof_verify::oracle::Oracle;
 
 pub trait Fill: Sync {
-    /// As [`Rasterize::cover`].
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
-    /// As [`Interpolate::fragments`].
     fn values(&self, triangle: &Triangle, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
     /// As [`Interpolate::fragments`], for three numbers a vertex.
     fn weights(
@@ -67,7 +65,6 @@ impl<R: Interpolate + Sync> Fill for R {
 }
 
 pub trait Stroke: Sync {
-    /// As [`DrawLine::draw`].
     fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
 }
 
@@ -100,7 +97,6 @@ impl Engine {
     }
 }
 
-/// Hit counts of several triangles together.
 pub fn hits(
     fill: &dyn Fill,
     triangles: impl IntoIterator<Item = Corners>,
@@ -141,9 +137,7 @@ pub struct Subject {
     pub oracle: Box<dyn Fill>,
     /// Line drawers: DDA and Bresenham, or a faulty one.
     pub drawers: Vec<Drawer>,
-    /// Pixels to subpixels.
     pub snap: fn(f64) -> Result<i32, Refusal>,
-    /// The three edge functions at a pixel's centre.
     pub edge_values: fn(&Corners, i32, i32) -> [i128; 3],
     /// The word that edge functions are stepped in, from the extents of the triangle.
     pub word_width: fn(u32, u32) -> WordWidth,
@@ -173,7 +167,6 @@ pub enum Component {
     Formulas,
     Judge,
     Lists,
-    /// The matrix of invariants and mutants itself.
     Matrix,
 }
 
@@ -181,23 +174,14 @@ impl Subject {
     #[must_use]
     pub fn real() -> Self {
         Self {
-            engines: vec![
-                Engine {
-                    name: "scanline",
-                    fill: Box::new(Scanline),
-                    tolerance: tolerance::SCANLINE,
-                },
-                Engine {
-                    name: "edge-function",
-                    fill: Box::new(EdgeFunction),
-                    tolerance: tolerance::EDGE_FUNCTION,
-                },
-                Engine {
-                    name: "tile",
-                    fill: Box::new(engines::Engine::Tile),
-                    tolerance: engines::Engine::Tile.tolerance(),
-                },
-            ],
+            engines: engines::Engine::CHOICES
+                .into_iter()
+                .map(|engine| Engine {
+                    name: engine.name(),
+                    fill: Box::new(engine),
+                    tolerance: engine.tolerance(),
+                })
+                .collect(),
             lists: Tiles::levels()
                 .into_iter()
                 .map(|tiles| (tiles.instructions(), Box::new(tiles) as Box<dyn CoverList + Sync>))
@@ -222,6 +206,18 @@ impl Subject {
             formulas: Formulas::REAL,
             coverage_agrees: |actual, target| Tally::between(actual, target).total() == 0,
         }
+    }
+
+    /// What a check counts for all rasterizers; a failure begins with the name of the one.
+    pub fn each_engine(&self, check: impl Fn(&Engine) -> Outcome) -> Outcome {
+        let named = |of: &Engine| check(of).map_err(|message| format!("{} {message}", of.name));
+        self.engines.iter().map(named).sum()
+    }
+
+    /// What a check counts for all line drawers; a failure begins with the name of the one.
+    pub fn each_drawer(&self, check: impl Fn(&Drawer) -> Outcome) -> Outcome {
+        let named = |of: &Drawer| check(of).map_err(|message| format!("{} {message}", of.name));
+        self.drawers.iter().map(named).sum()
     }
 
     /// The real implementations but for one, in whose place stands the mutant.

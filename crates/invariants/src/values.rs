@@ -2,6 +2,7 @@
 //! tolerances are those derived in [`rasterproof_verify::comparison::tolerance`] from the operations of an engine.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use glam::{DVec2, DVec3};
 
@@ -9,7 +10,7 @@ use super::Outcome;
 use super::coverage::ORDERS;
 use super::exact;
 use super::source::TriangleInput;
-use super::subject::{Engine, Subject};
+use super::subject::Subject;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, MAX_VALUE, MAX_W, MIN_W, ScreenTriangle, ScreenVertex};
@@ -20,12 +21,23 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 /// Unit roundoff of f64.
 const U: f64 = f64::EPSILON / 2.0;
 
-fn each(subject: &Subject, check: impl Fn(&Engine) -> Outcome) -> Outcome {
-    subject.engines.iter().map(check).sum()
+/// The number of fragments, or the first that is not `good`.
+fn all_are(
+    fragments: &[Fragment<DVec2>],
+    what: impl Display,
+    good: impl Fn(&Fragment<DVec2>) -> bool,
+) -> Outcome {
+    match fragments.iter().find(|f| !good(f)) {
+        None => Ok(fragments.len() as u64),
+        Some(f) => {
+            let (x, y, depth, values) = (f.x_px, f.y_px, f.depth, f.varying);
+            Err(format!("at ({x}, {y}): depth {depth:?} and values {values:?} {what}"))
+        }
+    }
 }
 
 /// Bit by bit, and in the order of the pixels.
-fn identical(name: &str, a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcome {
+fn identical(a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcome {
     let bits = |f: &Fragment<DVec2>| {
         (f.y_px, f.x_px, f.depth.to_bits(), f.varying.to_array().map_array(f64::to_bits))
     };
@@ -36,14 +48,14 @@ fn identical(name: &str, a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &st
     };
     let (a, b) = (sorted(a), sorted(b));
     if a.len() != b.len() {
-        return Err(format!("{name}: {} fragments and {} {what}", a.len(), b.len()));
+        return Err(format!("emits {} fragments and {} {what}", a.len(), b.len()));
     }
     match a.iter().zip(&b).find(|(a, b)| a != b) {
         None => Ok(a.len() as u64),
         Some(((y, x, z, v), (_, _, other_z, other_v))) => {
             let read = |bits: &u64| f64::from_bits(*bits);
             Err(format!(
-                "{name} at ({x}, {y}): depth {:?}, values {:?}; {what}: {:?}, {:?}",
+                "at ({x}, {y}): depth {:?}, values {:?}; {what}: {:?}, {:?}",
                 read(z),
                 v.each_ref().map_array(read),
                 read(other_z),
@@ -95,7 +107,7 @@ pub(super) fn weights_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
         let ScreenVertex { position, depth, inv_w, .. } = input.triangle.vertices[i];
         ScreenVertex { position, depth, inv_w, varying: unit[i] }
     });
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let mut wrong = None;
         let mut compared = 0;
         engine.fill.weights(&ScreenTriangle { vertices }, input.window, &mut |f| {
@@ -109,10 +121,9 @@ pub(super) fn weights_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
         });
         match wrong {
             None => Ok(compared),
-            Some((x, y, weights, excess)) => Err(format!(
-                "{} at ({x}, {y}): weights {weights:?}, sum less one {excess:e}",
-                engine.name
-            )),
+            Some((x, y, weights, excess)) => {
+                Err(format!("at ({x}, {y}): weights {weights:?}, sum less one {excess:e}"))
+            }
         }
     })
 }
@@ -134,7 +145,6 @@ fn values_of(triangle: &Triangle, k: usize) -> [f64; 3] {
     triangle.vertices.map_array(|vertex| vertex.varying.to_array()[k])
 }
 
-/// The first, the last and two fragments between.
 fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
     let n = fragments.len();
     let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
@@ -151,7 +161,7 @@ pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
     let exact =
         ExactTriangle::new(&t.corners(), depths, t.vertices.map_array(|v| v.inv_w), attributes);
     let Some(exact) = exact else { return Ok(0) };
-    let judge = |name: &str, tolerance: &Tolerance, fragments: &[Fragment<DVec2>]| -> Outcome {
+    let judge = |tolerance: &Tolerance, fragments: &[Fragment<DVec2>]| -> Outcome {
         let mut compared = 0;
         for f in few(fragments) {
             let (depth, values) = exact.at(f.x_px, f.y_px);
@@ -162,7 +172,7 @@ pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
             let depth_ratio = depth.distance(f.depth) / tolerance.depth.at(depths);
             if ratio.into_iter().chain([depth_ratio]).any(|ratio| ratio > 1.0) {
                 return Err(format!(
-                    "{name} at ({}, {}): depth {:?} and values {actual:?} are {depth_ratio:.3e} and {ratio:.3?} times their bounds away",
+                    "at ({}, {}): depth {:?} and values {actual:?} are {depth_ratio:.3e} and {ratio:.3?} times their bounds away",
                     f.x_px, f.y_px, f.depth
                 ));
             }
@@ -172,10 +182,10 @@ pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
     };
     let mut oracle = Vec::new();
     subject.oracle.values(t, input.window, &mut |f| oracle.push(f));
-    let engines = each(subject, |engine| {
-        judge(engine.name, &engine.tolerance, &engine.fragments(t, input.window))
-    })?;
-    Ok(engines + judge("the oracle", &tolerance::ORACLE, &oracle)?)
+    let engines = subject
+        .each_engine(|engine| judge(&engine.tolerance, &engine.fragments(t, input.window)))?;
+    let oracle = judge(&tolerance::ORACLE, &oracle);
+    Ok(engines + oracle.map_err(|message| format!("the oracle {message}"))?)
 }
 
 /// 24: no value beyond those of the vertices by more than the engine's own bound of rounding. The
@@ -183,27 +193,18 @@ pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// clamp would only hide a larger error.
 pub(super) fn hull(subject: &Subject, input: &TriangleInput) -> Outcome {
     let t = &input.triangle;
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let within = |value: f64, ends: [f64; 3], bound: Bound| {
             let slack = bound.at(ends);
             let (low, high) =
                 ends.iter().fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
             (low - slack..=high + slack).contains(&value)
         };
-        let fragments = engine.fragments(t, input.window);
-        for f in &fragments {
-            let actual = f.varying.to_array();
-            let attribute = engine.tolerance.attribute;
-            let good = (0..2).all(|k| within(actual[k], values_of(t, k), attribute))
-                && within(f.depth, t.vertices.map_array(|v| v.depth), engine.tolerance.depth);
-            if !good {
-                return Err(format!(
-                    "{} at ({}, {}): depth {:?} or values {actual:?} leave the hull",
-                    engine.name, f.x_px, f.y_px, f.depth
-                ));
-            }
-        }
-        Ok(fragments.len() as u64)
+        let Tolerance { depth, attribute, .. } = engine.tolerance;
+        all_are(&engine.fragments(t, input.window), "leave the hull", |f| {
+            (0..2).all(|k| within(f.varying[k], values_of(t, k), attribute))
+                && within(f.depth, t.vertices.map_array(|v| v.depth), depth)
+        })
     })
 }
 
@@ -211,15 +212,9 @@ pub(super) fn hull(subject: &Subject, input: &TriangleInput) -> Outcome {
 pub(super) fn constant(subject: &Subject, input: &TriangleInput) -> Outcome {
     let value = input.triangle.vertices[0].varying;
     let flat = with(&input.triangle, |_, vertex| vertex.varying = value);
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let fragments = engine.fragments(&flat, input.window);
-        match fragments.iter().find(|f| f.varying != value) {
-            None => Ok(fragments.len() as u64),
-            Some(f) => Err(format!(
-                "{} at ({}, {}): {:?} instead of {value:?}",
-                engine.name, f.x_px, f.y_px, f.varying
-            )),
-        }
+        all_are(&fragments, format_args!("instead of values {value:?}"), |f| f.varying == value)
     })
 }
 
@@ -228,15 +223,15 @@ pub(super) fn equal_w(subject: &Subject, input: &TriangleInput) -> Outcome {
     let inv_w = input.triangle.vertices[0].inv_w;
     let equal = with(&input.triangle, |_, vertex| vertex.inv_w = inv_w);
     let affine = with(&input.triangle, |_, vertex| vertex.inv_w = 1.0);
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let [equal, affine] = [equal, affine].map_array(|t| engine.fragments(&t, input.window));
-        identical(engine.name, &equal, &affine, "with w = 1")
+        identical(&equal, &affine, "with w = 1")
     })
 }
 
 /// 27: a power of two moves the exponent of every w and of nothing else.
 pub(super) fn scaled_w(subject: &Subject, input: &TriangleInput) -> Outcome {
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let still = engine.fragments(&input.triangle, input.window);
         let mut compared = 0;
         for power in [-150, -3, 1, 40, 150] {
@@ -248,7 +243,7 @@ pub(super) fn scaled_w(subject: &Subject, input: &TriangleInput) -> Outcome {
             let scaled = with(&input.triangle, |_, vertex| vertex.inv_w *= factor);
             let fragments = engine.fragments(&scaled, input.window);
             let what = format!("before w was divided by 2^{power}");
-            compared += identical(engine.name, &fragments, &still, &what)?;
+            compared += identical(&fragments, &still, &what)?;
         }
         Ok(compared)
     })
@@ -257,12 +252,12 @@ pub(super) fn scaled_w(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// 28: not only the rotations but all six orders.
 pub(super) fn rotated_vertices(subject: &Subject, input: &TriangleInput) -> Outcome {
     let v = &input.triangle.vertices;
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let first = engine.fragments(&input.triangle, input.window);
         let other = |order: &[usize; 3]| {
             let turned = ScreenTriangle { vertices: order.map_array(|i| v[i]) };
             let fragments = engine.fragments(&turned, input.window);
-            identical(engine.name, &fragments, &first, &format!("in order 0 1 2, not {order:?}"))
+            identical(&fragments, &first, &format!("in order 0 1 2, not {order:?}"))
         };
         ORDERS[1..].iter().map(other).sum()
     })
@@ -306,14 +301,14 @@ pub(super) fn shared_edge(subject: &Subject, input: &TriangleInput) -> Outcome {
                 SubpixelPoint::new(2 * sample.x - v.position.x, 2 * sample.y - v.position.y);
         })
     };
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let value = |t: &Triangle| {
             let there = PixelRect { x0: px, y0: py, x1: px + 1, y1: py + 1 }.intersect(&window);
             let found = engine.fragments(t, there);
             found.first().copied().or_else(|| engine.fragments(&mirror(t), there).first().copied())
         };
         let (Some(f), Some(g)) = (value(&one), value(&other)) else {
-            return Err(format!("{} never owns the sample on the edge", engine.name));
+            return Err("never owns the sample on the edge".to_owned());
         };
         let bound = |k: usize| {
             let at = |t: &Triangle| engine.tolerance.attribute.at(values_of(t, k));
@@ -330,8 +325,7 @@ pub(super) fn shared_edge(subject: &Subject, input: &TriangleInput) -> Outcome {
             return Ok(1);
         }
         Err(format!(
-            "{} on the edge {:?} to {:?} at ({px}, {py}): {:?}, {:?} from one side, {:?}, {:?} from the other",
-            engine.name,
+            "on the edge {:?} to {:?} at ({px}, {py}): {:?}, {:?} from one side, {:?}, {:?} from the other",
             at(-back, 0),
             at(ahead, 0),
             f.depth,
@@ -358,15 +352,11 @@ pub(super) fn flat_depth(subject: &Subject, input: &TriangleInput) -> Outcome {
         .collect();
     let Some(copies) = copies.into_iter().collect::<Option<Vec<_>>>() else { return Ok(0) };
     let distinct = depths[0] != depths[1] && depths[1] != depths[2] && depths[0] != depths[2];
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let drawn: Vec<_> = copies.iter().map(|t| engine.fragments(t, input.window)).collect();
         for (i, fragments) in drawn.iter().enumerate() {
-            if let Some(f) = fragments.iter().find(|f| f.depth != depths[i]) {
-                return Err(format!(
-                    "{} at ({}, {}): depth {:?} instead of {:?}",
-                    engine.name, f.x_px, f.y_px, f.depth, depths[i]
-                ));
-            }
+            let depth = depths[i];
+            all_are(fragments, format_args!("instead of depth {depth:?}"), |f| f.depth == depth)?;
         }
         // Nearer wins; who does must not depend on who came first.
         let picture = |order: &[usize; 3]| {
@@ -383,7 +373,7 @@ pub(super) fn flat_depth(subject: &Subject, input: &TriangleInput) -> Outcome {
         };
         let first = picture(&ORDERS[0]);
         if distinct && ORDERS[1..].iter().any(|order| picture(order) != first) {
-            return Err(format!("{}: the picture depends on the order of submission", engine.name));
+            return Err("draws a picture that depends on the order of submission".to_owned());
         }
         Ok(drawn.iter().map(|fragments| fragments.len() as u64).sum())
     })
@@ -412,14 +402,9 @@ pub(super) fn finite(subject: &Subject, input: &TriangleInput) -> Outcome {
         vertex.depth = value[i];
         vertex.varying = DVec2::new(value[i], value[(i + 1) % 3]);
     });
-    each(subject, |engine| {
+    subject.each_engine(|engine| {
         let fragments = engine.fragments(&extreme, input.window);
-        match fragments.iter().find(|f| !(f.depth.is_finite() && f.varying.is_finite())) {
-            None => Ok(fragments.len() as u64),
-            Some(f) => Err(format!(
-                "{} at ({}, {}): depth {:?}, values {:?} from 1/w {inv_w:?} and values {value:?}",
-                engine.name, f.x_px, f.y_px, f.depth, f.varying
-            )),
-        }
+        let what = format_args!("from 1/w {inv_w:?} and values {value:?}");
+        all_are(&fragments, what, |f| f.depth.is_finite() && f.varying.is_finite())
     })
 }

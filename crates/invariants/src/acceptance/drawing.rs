@@ -33,7 +33,6 @@ pub struct Permitted {
     rule: Rule,
     /// Bits below the pixel; Vulkan asks for at least 4.
     bits: u32,
-    /// Whether values are computed in f32.
     single: bool,
 }
 

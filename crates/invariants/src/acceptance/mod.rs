@@ -16,7 +16,6 @@ use drawing::{Drawn, Subject, draw};
 use rules::{RULES, View};
 use scenes::{Scene, scenes};
 
-/// What came of a rule on a set of scenes.
 #[derive(Clone, Debug, Default)]
 pub struct Row {
     /// Faults that the rule refuses in at least one picture.
@@ -25,15 +24,12 @@ pub struct Row {
     pub passed: Vec<Passed>,
     /// Pictures of faults that differ from the right picture and that the rule looks at.
     pub wrong_pictures: u64,
-    /// How many of `wrong_pictures` it refuses.
     pub refused_pictures: u64,
-    /// The accepted picture with the largest share of wrong pixels.
     pub worst_picture: Option<WrongPicture>,
     /// Pictures that the rule is not used on, since it refuses the right one.
     pub unusable_pictures: u64,
     pub refused_right: Vec<&'static str>,
     pub right_pictures: u64,
-    /// How many of `right_pictures` it refuses.
     pub refused_right_pictures: u64,
 }
 
@@ -60,7 +56,6 @@ impl Row {
         self.passed.iter().filter(|fault| fault.wrong_pixels > 0).min_by_key(|f| f.wrong_pixels)
     }
 
-    /// The accepted fault with the most wrong pixels.
     pub fn most_harmful(&self) -> Option<&Passed> {
         self.passed.iter().filter(|fault| fault.wrong_pixels > 0).max_by_key(|f| f.wrong_pixels)
     }

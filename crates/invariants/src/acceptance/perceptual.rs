@@ -40,7 +40,6 @@ fn opponent([x, y, z]: [f64; 3]) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// Linear RGB to CIE L*a*b*.
 fn lab(rgb: [f64; 3]) -> [f64; 3] {
     let root = |v: f64| {
         if v > 216.0 / 24_389.0 { libm::cbrt(v) } else { v * 841.0 / 108.0 + 4.0 / 29.0 }
@@ -186,7 +185,6 @@ fn hyab(p: [f64; 3], q: [f64; 3]) -> f64 {
 const PATCH: i64 = 6;
 /// The constants that keep SSIM from dividing by zero, for L*, a* and b*.
 const STEADY: [[f64; 2]; 3] = [[100.0, 900.0], [650.25, 5852.25], [650.25, 5852.25]];
-/// Bins of the histogram of SSIM values.
 const BINS: usize = 200;
 
 /// How far SSIM is from 1, by VTK's tight measure: the root of the mean square, or the distance of the histogram, of the
@@ -262,7 +260,6 @@ pub fn pixelmatch(right: &Drawn, drawn: &Drawn, threshold: f64) -> usize {
     (0..right.pixels.len()).filter(|&place| differs(place)).count()
 }
 
-/// The difference of two colours in YIQ.
 fn yiq(a: [u8; 3], b: [u8; 3]) -> [f64; 3] {
     let [r, g, b] = [0, 1, 2].map(|i| f64::from(a[i]) - f64::from(b[i]));
     [

@@ -22,7 +22,6 @@ pub struct View<'a> {
     pub subject: &'a Subject,
 }
 
-/// What rules compute once for a scene.
 pub struct Seen {
     /// dEQP's three kinds of pixels, for devices with 8 and with 4 bits below the pixel.
     covers: Option<[Vec<Cover>; 2]>,

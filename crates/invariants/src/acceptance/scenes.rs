@@ -34,7 +34,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Whether a picture shows more than which pixels were hit.
     #[must_use]
     pub fn shows_values(&self) -> bool {
         matches!(self.paint, Paint::Values | Paint::Checker)
