@@ -40,7 +40,6 @@ pub struct Timing {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
-    /// [`FORMAT`].
     pub format: String,
     pub claim: String,
     /// Whether the claim holds: all cases done, none wrong. False for a shard of several.
@@ -48,9 +47,7 @@ pub struct Certificate {
     pub identity: Identity,
     /// Which part of it; part 0 of 1 is all of it.
     pub shard: Shard,
-    /// Counts of the whole enumeration.
     pub expected: Expected,
-    /// Counts of this part, and what was wrong.
     pub done: Tally,
     pub repeat: String,
     pub timing: Timing,
@@ -86,13 +83,11 @@ impl Certificate {
         certificate
     }
 
-    /// Whether nothing is wrong with what was done.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.done.mismatches == 0
     }
 
-    /// Whether every case of the whole was judged.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.done.cases == self.expected.cases
@@ -142,7 +137,6 @@ impl Certificate {
         self.is_as(&own).map_err(|error| format!("is inconsistent: {error}; {anew}"))
     }
 
-    /// Checks that it was issued by this code.
     fn is_by(&self, own: &Identity) -> Result<(), String> {
         let Identity { version, sources, .. } = &self.identity;
         same("the version of the program", version, &own.version)?;
@@ -261,7 +255,6 @@ fn ranges_of(numbers: &[u64]) -> String {
     text
 }
 
-/// In what two shards differ that belong to different runs.
 fn difference(a: &Certificate, b: &Certificate) -> Option<&'static str> {
     if a.identity.plan != b.identity.plan {
         return Some("what they enumerate");

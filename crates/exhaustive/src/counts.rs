@@ -63,7 +63,6 @@ const fn comparisons_of_a_case(plan: &Plan) -> Option<u64> {
     }
 }
 
-/// n choose 2.
 const fn pairs(n: u64) -> u64 {
     n * n.saturating_sub(1) / 2
 }

@@ -35,7 +35,6 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// This plan, run by the code of this program.
     #[must_use]
     pub fn of(plan: &Plan) -> Self {
         let version = env!("CARGO_PKG_VERSION").to_owned();

@@ -4,8 +4,6 @@
 //! `save` every few seconds, and whoever hands one back continues from there. A run that is killed
 //! loses the chunks since the last save and nothing else; a chunk is counted once or not at all.
 
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -14,12 +12,12 @@ use serde::{Deserialize, Serialize};
 use super::identity::{Identity, Shard};
 use super::{Plan, Tally};
 use rasterproof_core::parallel;
+use rasterproof_verify::comparison::caught;
 
 /// How far a run has come: the content of a checkpoint file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Progress {
-    /// What is being run, by which code.
     pub identity: Identity,
     pub shard: Shard,
     /// Chunks that are done, as half-open ranges in ascending order.
@@ -36,7 +34,6 @@ impl Progress {
         Self { identity, shard, done: Vec::new(), tally: Tally::default(), seconds: 0.0 }
     }
 
-    /// Whether this is a state of the same run, by the same code.
     #[must_use]
     pub fn belongs_to(&self, plan: &Plan, shard: Shard) -> bool {
         self.identity == Identity::of(plan) && self.shard == shard
@@ -68,7 +65,6 @@ impl Progress {
     }
 }
 
-/// Checks that a number from a file is a time.
 pub(crate) fn check_seconds(seconds: f64) -> Result<(), String> {
     // A thousand centuries, so that no sum of them overflows.
     if (0.0..3e12).contains(&seconds) {
@@ -135,16 +131,11 @@ pub(crate) fn judge_again(plan: &Plan, chosen: &[u64], step: &(dyn Fn(u64) + Syn
 
 /// A panic of an engine is a finding; the cases of its chunk are then missing from the count too.
 fn guarded(judge: &dyn Fn(u64) -> Tally, chunk: u64) -> Tally {
-    catch_unwind(AssertUnwindSafe(|| judge(chunk))).unwrap_or_else(|payload| {
+    caught(|| judge(chunk)).unwrap_or_else(|panic| {
         let mut tally = Tally::default();
-        tally.wrong(chunk, || format!("panic: {}", message(payload.as_ref())));
+        tally.wrong(chunk, || format!("panic: {panic}"));
         tally
     })
-}
-
-fn message(payload: &(dyn Any + Send)) -> &str {
-    let text = payload.downcast_ref::<&str>().copied();
-    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message")
 }
 
 /// The runs of `true` as half-open ranges.
