@@ -55,7 +55,6 @@ pub struct Certificate {
 
 impl Certificate {
     /// The certificate of a run that has come to its end.
-    #[must_use]
     pub fn new(progress: Progress, threads: usize) -> Self {
         let Progress { identity, shard, tally, seconds, .. } = progress;
         let enumeration = identity.plan.enumeration();

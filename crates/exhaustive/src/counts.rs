@@ -41,7 +41,6 @@ impl Sum for Counts {
 impl Counts {
     /// What these chunks of a plan hold together. The plan has passed [`Plan::check`], and each chunk
     /// comes once, so no sum overflows.
-    #[must_use]
     pub fn of(plan: &Plan, chunks: impl Iterator<Item = u64>) -> Self {
         match plan {
             Plan::Triangles(triangles) => chunks.map(|chunk| of_triangles(triangles, chunk)).sum(),

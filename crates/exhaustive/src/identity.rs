@@ -35,7 +35,6 @@ pub struct Identity {
 }
 
 impl Identity {
-    #[must_use]
     pub fn of(plan: &Plan) -> Self {
         let version = env!("CARGO_PKG_VERSION").to_owned();
         Self { plan: plan.clone(), version, sources: plan.source_hashes() }

@@ -28,7 +28,6 @@ pub struct Progress {
 }
 
 impl Progress {
-    #[must_use]
     pub fn new(plan: &Plan, shard: Shard) -> Self {
         let identity = Identity::of(plan);
         Self { identity, shard, done: Vec::new(), tally: Tally::default(), seconds: 0.0 }

@@ -44,7 +44,6 @@ pub fn clockwise(corners: &Corners) -> Option<Corners> {
     }
 }
 
-#[must_use]
 pub fn edges([a, b, c]: &Corners, x_px: i32, y_px: i32) -> [i128; 3] {
     let (x, y) = (centre(x_px), centre(y_px));
     [edge(*b, *c, x, y), edge(*c, *a, x, y), edge(*a, *b, x, y)]

@@ -27,7 +27,6 @@ pub struct Matrix {
 
 impl Matrix {
     /// Computes every cell; a pure function of the two numbers. `step` is told of every row.
-    #[must_use]
     pub fn compute(seed: u64, cases: u64, step: &(dyn Fn() + Sync)) -> Self {
         let columns: Vec<&Invariant> = CATALOGUE.iter().collect();
         let mutants = Mutant::all();

@@ -32,7 +32,6 @@ pub struct Quad {
 impl Quad {
     /// The quadrilateral with one corner on each side of a box: convex whatever the numbers are.
     /// `along` says where on the top, right, bottom and left side, in 256ths of the side.
-    #[must_use]
     pub fn inscribed([left, top, width, height]: [u16; 4], along: [u8; 4]) -> Self {
         let [left, top, width, height] = [left, top, width, height].map(i32::from);
         let part = |length: i32, k: usize| (i64::from(length) * i64::from(along[k]) / 255) as i32;
@@ -82,7 +81,6 @@ const DIRECTIONS: [[i32; 2]; 16] = [
 impl Fan {
     /// The fan with these reaches in half subpixels; `every` 1 takes all directions, 2 every other
     /// one.
-    #[must_use]
     pub fn new(centre: SubpixelPoint, reach: [u16; 16], every: usize, apex: SubpixelPoint) -> Self {
         let spokes = DIRECTIONS.iter().zip(reach).step_by(every.clamp(1, 2));
         let tip = |([dx, dy], reach): (&[i32; 2], u16)| {
@@ -112,7 +110,6 @@ pub struct Position {
 impl Position {
     /// `sub` subpixels and `part` 2^-12ths of one: ties at 2048, a short mantissa so that a shift
     /// is exact.
-    #[must_use]
     pub fn new(sub: i32, part: u16, shift_px: i32) -> Self {
         let part = f64::from(part % (1 << 12)) / f64::from(1 << 12);
         Self { px: (f64::from(sub) + part) / f64::from(SUBPIXELS), shift_px }

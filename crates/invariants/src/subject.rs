@@ -171,7 +171,6 @@ pub enum Component {
 }
 
 impl Subject {
-    #[must_use]
     pub fn real() -> Self {
         Self {
             engines: engines::Engine::CHOICES
@@ -221,7 +220,6 @@ impl Subject {
     }
 
     /// The real implementations but for one, in whose place stands the mutant.
-    #[must_use]
     pub fn with(mutant: Mutant) -> Self {
         let mut subject = Self::real();
         match mutant {

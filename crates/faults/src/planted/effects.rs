@@ -57,7 +57,6 @@ fn mixed(layers: &[Layer], most: u32, stored: u64, mut colour: Colour) -> Colour
 }
 
 impl EffectMutant {
-    #[must_use]
     pub fn formulas(self) -> Formulas {
         let mut formulas = Formulas::REAL;
         match self {

@@ -47,7 +47,6 @@ planted! {
 }
 
 impl EdgeValuesMutant {
-    #[must_use]
     pub fn function(self) -> fn(&Corners, i32, i32) -> [i128; 3] {
         match self {
             Self::ThirdOffByOne => |corners, x_px, y_px| {

@@ -55,7 +55,6 @@ macro_rules! kinds {
 
         impl Mutant {
             /// Every planted fault, those of rasterizers first.
-            #[must_use]
             pub fn all() -> Vec<Self> {
                 let mut all = Vec::new();
                 $(all.extend(<$mutant>::ALL.map(Self::$kind));)+
@@ -93,7 +92,6 @@ kinds! {
 }
 
 impl Mutant {
-    #[must_use]
     pub fn find(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|mutant| mutant.name() == name)
     }

@@ -13,7 +13,6 @@ use super::scene::{
 use rasterproof_core::arrays::MapArray as _;
 
 /// Clips by w = `boundary`, as published; the polygon has at most four corners, NaN among them.
-#[must_use]
 pub fn clip_near(triangle: [ClipVertex; 3], boundary: f64) -> Vec<ClipVertex> {
     let mut kept = Vec::new();
     for (i, a) in triangle.iter().enumerate() {

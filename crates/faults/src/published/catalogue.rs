@@ -58,7 +58,6 @@ pub struct RecordedCase {
 pub const RECORDED_SIDE_PX: u32 = 64;
 
 impl RecordedCase {
-    #[must_use]
     pub fn corners_px(&self) -> Vec<[[f64; 2]; 3]> {
         let to_window = |(x, y): (f64, f64)| [x + 0.5, f64::from(RECORDED_SIDE_PX) - y - 0.5];
         self.corners.iter().map(|corners| corners.map_array(to_window)).collect()

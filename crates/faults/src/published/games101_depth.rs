@@ -10,7 +10,6 @@ use super::games101_strict::Games101Strict;
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, either, empty, floor_triangles};
 
 /// Depth at the share t of the way on the screen between two corners, with the weights of 1/w.
-#[must_use]
 pub fn published(depths: [f64; 2], w: [f64; 2], t: f64) -> f64 {
     let (from, to) = ((1.0 - t) / w[0], t / w[1]);
     (depths[0] * from + depths[1] * to) / (from + to)

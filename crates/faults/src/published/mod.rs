@@ -56,7 +56,6 @@ pub struct RealVertex {
 pub type RealTriangle = [RealVertex; 3];
 
 /// Positions alone, with depth 0, w 1 and no values.
-#[must_use]
 pub fn bare(corners_px: [[f64; 2]; 3]) -> RealTriangle {
     corners_px.map_array(|position| RealVertex {
         position_px: DVec2::from_array(position),

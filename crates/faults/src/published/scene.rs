@@ -88,7 +88,6 @@ pub fn chequered(specimen: &impl Published, version: Version, triangles: &[RealT
 
 /// A floor from w = 1 at the lower border to `far` at the upper, no sample on any edge: the corners
 /// with (x, y) as their varying and y from -1 to 1 as their depth.
-#[must_use]
 pub fn floor_triangles(far: f64) -> [RealTriangle; 2] {
     let corner = |x_px: f64, y_px: f64, x: f64, y: f64| RealVertex {
         position_px: DVec2::new(x_px, y_px),

@@ -19,7 +19,6 @@ fn inside(v: &ClipVertex) -> bool {
 }
 
 /// The published choice: all or nothing.
-#[must_use]
 pub fn kept(triangle: [ClipVertex; 3]) -> Vec<ClipVertex> {
     if triangle.iter().any(inside) { triangle.to_vec() } else { Vec::new() }
 }

@@ -51,7 +51,6 @@ const RIGHT: [(&str, Permitted); 6] = [
 ];
 
 impl Subject {
-    #[must_use]
     pub fn all() -> Vec<Self> {
         // These two are faults by what this project declares. Specifications permit both, and they are among the right
         // rasterizers here.
@@ -67,7 +66,6 @@ impl Subject {
         all
     }
 
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Reference => "scanline",
@@ -83,7 +81,6 @@ impl Subject {
     }
 
     /// Bits below the pixel, as a device reports them.
-    #[must_use]
     pub fn subpixel_bits(&self) -> u32 {
         match self {
             Self::Right(_, permitted) => permitted.bits,
@@ -106,7 +103,6 @@ impl Subject {
     }
 
     /// The fill rule that a right rasterizer declares; the default one of all others.
-    #[must_use]
     pub fn convention(&self) -> Convention {
         match self {
             Self::Right(_, permitted) => Convention::default().rule(permitted.rule),
@@ -114,7 +110,6 @@ impl Subject {
         }
     }
 
-    #[must_use]
     pub fn placed(&self, triangle: &Triangle) -> Triangle {
         let step = 1i64 << SUBPIXEL_BITS.saturating_sub(self.subpixel_bits());
         let snap = |v: i32| {
@@ -231,7 +226,6 @@ pub struct Drawn {
 
 impl Drawn {
     /// A picture that was not drawn here.
-    #[must_use]
     pub fn of(width: usize, pixels: Vec<[u8; 3]>) -> Self {
         Self { width, pixels, fragments: Vec::new(), failed: false }
     }

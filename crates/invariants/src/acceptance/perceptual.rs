@@ -47,7 +47,6 @@ fn lab(rgb: [f64; 3]) -> [f64; 3] {
     opponent(to_xyz(rgb).map(root))
 }
 
-#[must_use]
 pub fn lab_of_all(pixels: &[[u8; 3]]) -> Vec<[f64; 3]> {
     let linear: Vec<f64> = (0..=255).map(linear).collect();
     pixels.iter().map(|pixel| lab(pixel.map(|v| linear[usize::from(v)]))).collect()
@@ -84,7 +83,6 @@ pub struct Flip {
 }
 
 impl Flip {
-    #[must_use]
     pub fn new(width: usize, pixels: &[[u8; 3]]) -> Self {
         let linear: Vec<f64> = (0..=255).map(linear).collect();
         let seen: Vec<[f64; 3]> = pixels
@@ -107,7 +105,6 @@ impl Flip {
         Self { colours, features }
     }
 
-    #[must_use]
     pub fn mean(&self, width: usize, pixels: &[[u8; 3]]) -> f64 {
         let other = Self::new(width, pixels);
         let largest = libm::pow(hyab(hunt(lab([0.0, 1.0, 0.0])), hunt(lab([0.0, 0.0, 1.0]))), 0.7);
@@ -189,7 +186,6 @@ const BINS: usize = 200;
 
 /// How far SSIM is from 1, by VTK's tight measure: the root of the mean square, or the distance of the histogram, of the
 /// worst channel.
-#[must_use]
 pub fn ssim_error(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]]) -> f64 {
     (0..3).map(|channel| ssim_error_of(width, right, drawn, channel)).fold(0.0, f64::max)
 }

@@ -30,7 +30,6 @@ pub struct Seen {
 }
 
 impl Seen {
-    #[must_use]
     pub fn new(scene: &Scene, right: &Drawn) -> Self {
         let covers = (scene.paint == Paint::White)
             .then(|| [8, 4].map(|bits| deqp::covers(&scene.triangles, scene.window, bits)));

@@ -45,7 +45,6 @@ const SIDE: f64 = 128.0;
 const CASES: u64 = 2;
 
 /// The scenes of both sets; the random ones depend on the seed.
-#[must_use]
 pub fn scenes(seed: u64) -> Vec<Scene> {
     let mut scenes = of_suites(seed);
     for family in FAMILIES {

@@ -176,7 +176,6 @@ impl Board {
         self.run(rung, column)?.errors[measure]
     }
 
-    #[must_use]
     pub fn time(&self, rung: usize, column: usize) -> Option<&Time> {
         self.run(rung, column)?.time.as_ref()
     }

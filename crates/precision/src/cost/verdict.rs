@@ -98,7 +98,6 @@ impl Board {
     }
 
     /// Rungs that are beaten in every column in which they ran.
-    #[must_use]
     pub fn dominated(&self, measure: usize) -> Vec<Dominated> {
         let beaten = |rung: usize| {
             let mut by = Vec::new();

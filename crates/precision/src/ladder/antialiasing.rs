@@ -32,7 +32,6 @@ pub struct Multisample<E, const N: usize> {
 }
 
 impl<E, const N: usize> Multisample<E, N> {
-    #[must_use]
     pub fn new(engine: E, offsets: [[i32; 2]; N]) -> Self {
         Self { engine, offsets, samples: Vec::new() }
     }
@@ -75,7 +74,6 @@ pub struct Supersample<E> {
 }
 
 impl<E> Supersample<E> {
-    #[must_use]
     pub fn new(engine: E, side: i32) -> Self {
         Self { engine, side, samples: None }
     }

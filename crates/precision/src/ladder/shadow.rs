@@ -86,14 +86,12 @@ pub struct DepthPlane {
 
 impl DepthPlane {
     #[inline]
-    #[must_use]
     pub fn at(&self, x: f64, y: f64) -> f64 {
         self.start + self.slope[0] * x + self.slope[1] * y
     }
 
     /// What is taken from the depth of a fragment of this plane.
     #[inline]
-    #[must_use]
     pub fn bias(&self) -> f64 {
         let [x, y] = self.slope;
         (x.abs() + y.abs()) * (1.5 + 1.0 / 256.0) + 1.0 / (1u64 << 36) as f64

@@ -13,13 +13,11 @@ use rasterproof_verify::cases::{Shape, Triangle};
 pub const WINDOW: PixelRect = PixelRect::window(CELL_PX, CELL_PX);
 
 /// Corners with w = 1, halfway into the view volume.
-#[must_use]
 pub fn plain(corners: &Corners, half_px: f32) -> [Vertex; 3] {
     corners.map(|p| Vertex::flat([p.x, p.y].map(|sub| sub as f32 / SUBPIXELS as f32 / half_px)))
 }
 
 /// Corners with depth, w and attributes, rounded to f32.
-#[must_use]
 pub fn valued(triangle: &Triangle, half_px: f32) -> [Vertex; 3] {
     triangle.vertices.map(|v| {
         let half = f64::from(half_px);
@@ -33,7 +31,6 @@ pub fn valued(triangle: &Triangle, half_px: f32) -> [Vertex; 3] {
     })
 }
 
-#[must_use]
 pub fn floats(pixel: &[u8]) -> [f64; 4] {
     let word = |i: usize| {
         let bytes = [pixel[4 * i], pixel[4 * i + 1], pixel[4 * i + 2], pixel[4 * i + 3]];

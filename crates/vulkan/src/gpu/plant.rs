@@ -30,7 +30,6 @@ rasterproof_core::named! {
 }
 
 impl Plant {
-    #[must_use]
     pub fn failing(self) -> Option<Failing> {
         match self {
             Self::Lost => Some(Failing::Lost(3)),

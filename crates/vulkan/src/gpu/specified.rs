@@ -16,7 +16,6 @@ pub struct Specified {
 }
 
 impl Specified {
-    #[must_use]
     pub fn new(declared: &Declared) -> Self {
         Self { declaration: declared.convention() }
     }
