@@ -1,4 +1,5 @@
 //! Specimen: DrawLine of the book (part 1, chapter 2, section 2.1), a DDA in `double`.
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptom: the last pixel is never drawn; the height is truncated instead of rounded, and the sum of slopes
 //! drifts, so that (0, 0) to (20, 2) is still in row 0 at column 10; a line of length zero draws nothing; both

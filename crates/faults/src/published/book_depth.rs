@@ -1,5 +1,6 @@
 //! Specimens: the depths that the book compares before it comes to z/w in chapter 8: w itself, with perspective
 //! (part 2, chapter 6), and -1/w, linear (chapter 7).
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptoms, of both and of z/w: the depth starts at the crossing and steps without regard to the samples, so a
 //! nearly flat span throws it far out of the range of its corners, and what is drawn later vanishes behind

@@ -1,5 +1,6 @@
 //! Specimens: the final DrawTriangle of the book (part 3, chapter 11) with its clip and viewport,
 //! before and after the last exercise (section 11.4).
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptoms: the coverage of chapter 2, every fault of it; the area is judged in device coordinates, where
 //! 1e-15 is some other size; a clipped triangle is a fan whose inner seams are drawn twice. Values (sections

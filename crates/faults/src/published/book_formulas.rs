@@ -1,5 +1,6 @@
 //! Specimen: formulas (8) and (9) of the book (part 2, chapter 5, sections 5.4 and 5.5), as its code
 //! evaluates them.
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptom: numerator and denominator are differences of products, so they cancel where w_a and w_b differ
 //! much: at t' = 1 the result is not v_b. In f32 the error is 1e-2 at a ratio of 1e6 and 0.5 at 1e7; in f64,

@@ -1,5 +1,6 @@
 //! Specimen: the near-plane clip of the book (part 2, chapter 7, section 7.4), ClipLine and
 //! ClipAndDraw.
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptom: an edge counts as kept only if both ends lie strictly inside and as dropped only if both lie
 //! strictly outside. An edge that lies in the plane is neither, so it is cut, at 0/0: the triangle gets a

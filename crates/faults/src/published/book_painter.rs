@@ -1,5 +1,6 @@
 //! Specimen: the painter's algorithm (the book, part 2, chapter 6, section 6.1, which shows that it
 //! fails): whole triangles, the farthest first.
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptom: three triangles that overlap in a ring have no order; whichever is drawn last covers a neighbour
 //! that lies before it.

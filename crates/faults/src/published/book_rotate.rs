@@ -1,4 +1,5 @@
 //! Specimen: the turns of the book (part 3, chapter 10, section 10.4) and RotateX of its companion code.
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptom: R_z turns x towards y, yet R_x turns z towards y and R_y x towards z, so the three belong to no one
 //! convention, whichever hand the axes have. The companion code's RotateX writes the cosine and then the sine

@@ -1,5 +1,6 @@
 //! Specimens: the triangle of the book as chapter 2 draws it (part 1, section 2.2, DrawTriangle2D)
 //! and as chapter 3 does (sections 3.2.4 and 3.2.5), which has no clamp.
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptoms: columns run from the truncated left edge to the right edge inclusive, so shared edges and the row
 //! of the middle corner are drawn twice; the edges start at the corner's x without a step to the row's sample,

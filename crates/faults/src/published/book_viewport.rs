@@ -1,4 +1,5 @@
 //! Specimen: the viewport of the book (part 2, chapter 8, section 8.2): (ndc + 1)/2 times (size - 1).
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see `docs/sources.md`.
 //!
 //! Symptom: with samples at pixel centres the picture is squeezed by a pixel and a screen-filling square leaves
 //! the last column and row empty; everything shifts, by up to a pixel at the far end.

@@ -1,4 +1,5 @@
 //! Specimen: the bounding box of GAMES101 homework 2 as one solution walks it: never cut to the window.
+//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see `docs/sources.md`.
 //!
 //! Symptom: a pixel is found at y times width plus x in the depth and colour buffers. One beyond the right
 //! border is the first of the next row, so what leaves on one side comes in on the other; one above or below

@@ -1,4 +1,5 @@
 //! Specimen: the repair that one solution of GAMES101 homework 2 publishes for its depth.
+//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see `docs/sources.md`.
 //!
 //! The skeleton divides depths by a w that it has set to 1, so its depth is linear on the screen. The solution
 //! takes that for the fault and puts the true w back.

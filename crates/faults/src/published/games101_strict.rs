@@ -1,4 +1,5 @@
 //! Specimen: the triangle of GAMES101 homework 2 (rasterize_triangle and insideTriangle), in f32.
+//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see `docs/sources.md`.
 //!
 //! Symptom: a sample belongs where three cross products are all above or all below zero, so a sample on an edge
 //! belongs to no triangle: meshes have holes along shared edges. Cross products in f32 round far from the

@@ -1,5 +1,6 @@
 //! Specimen: supersampling averaged inside the loop over triangles ('pitfall 1' of GAMES101 homework
 //! 2), and its right form.
+//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see `docs/sources.md`.
 //!
 //! Symptom: each triangle averages its own samples over the background and the last one to pass wins: a pixel
 //! that is 1/4 of one triangle and 3/4 of the other becomes 3/4 or 1/4 of a colour, never the whole: dark edges

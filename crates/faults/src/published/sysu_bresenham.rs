@@ -1,5 +1,6 @@
 //! Specimen: the line of SYSU assignment 2 (rasterize_wire_aux): Bresenham with the decision
 //! `flag < 0`, where its text says p <= 0.
+//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022); see `docs/sources.md`.
 //!
 //! Symptoms: a line that passes halfway between two pixels takes the step, so the side depends on the direction
 //! of drawing: of the 4,225 lines from (0, 0) to (x, y), 0 <= x, y <= 64, 1,428 change when reversed. A point

@@ -1,5 +1,6 @@
 //! Specimen: the triangle of SYSU assignment 2 (rasterize_fill_edge_function): edge functions in
 //! `int` on corners rounded to whole pixels.
+//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022); see `docs/sources.md`.
 //!
 //! Symptoms: a sample belongs where the three functions are <= 0, so samples on shared edges are drawn twice;
 //! corners are rounded to whole pixels (and towards zero left of the window), so shapes jump; products overflow

@@ -1,5 +1,6 @@
 //! Specimen: the 'simple clip' of SYSU assignment 2 (task 2): a triangle is kept whole iff at least
 //! one corner lies in [-w, w]^3 with w between near and far.
+//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022); see `docs/sources.md`.
 //!
 //! Symptom: a triangle that covers the screen with every corner outside is dropped; one with a corner behind
 //! the eye is kept whole and divided by a w of the wrong sign.

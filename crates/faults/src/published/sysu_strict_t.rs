@@ -1,5 +1,6 @@
 //! Specimen: the clip of SYSU assignment 2 (task 7): an edge is cut iff its t lies strictly between 0
 //! and 1, in f32, and the plane before the eye is w = 1e-5.
+//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022); see `docs/sources.md`.
 //!
 //! Symptom: whether an edge crosses the plane is asked of a rounded quotient: from w = 336 to w = 0 it is 1
 //! exactly, so the crossing is lost while the far end is dropped, and half of a quad is missing. With corners

@@ -1,5 +1,6 @@
 //! Specimen: pixel positions truncated after interpolation, a mistake that the report on SYSU
 //! assignment 2 (task 6) describes.
+//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022); see `docs/sources.md`.
 //!
 //! Symptom: a fragment's position is interpolated from the corners like any attribute and cut to whole numbers.
 //! Weights rounded in f32 put it just below the pixel it came from, so it lands on the neighbour: holes inside

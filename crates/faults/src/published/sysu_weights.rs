@@ -1,5 +1,6 @@
 //! Specimen: the weights in the wrong order, a mistake that the report on SYSU assignment 2 (task 6)
 //! describes.
+//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022); see `docs/sources.md`.
 //!
 //! Symptom: the function of edge ab, which belongs to the corner opposite, weighs corner a, and so on round:
 //! every value wanders to another corner and colours break at shared edges. Coverage is that of
