@@ -473,25 +473,29 @@ fn columns(
         size += property.kind.size();
     }
     let is_big = body.form == Form::Big;
-    let number = |record: &[u8], place: usize| {
-        columns[place].map(|(kind, at): (Kind, usize)| {
-            let value = kind.number(&record[at..], is_big);
-            if place < FIRST_COLOUR { value } else { value / kind.full() }
-        })
-    };
-    let vector = |record: &[u8], place: usize| {
-        let at = |place| number(record, place).unwrap_or(0.0);
-        let vector = DVec3::new(at(place), at(place + 1), at(place + 2));
-        if place == FIRST_COLOUR { vector.clamp(DVec3::ZERO, DVec3::ONE) } else { vector }
+    let number = |record: &[u8], column: Option<(Kind, usize)>| match column {
+        Some((kind, at)) => kind.number(&record[at..], is_big),
+        None => 0.0,
     };
     let has = |places: std::ops::Range<usize>| columns[places].iter().all(Option::is_some);
-    let uv = |record: &[u8]| vector(record, 6).truncate();
-    let is_transparent = |record: &&[u8]| number(record, ALPHA).is_some_and(|alpha| alpha < 1.0);
+    let [u, v, alpha] = [columns[6], columns[7], columns[ALPHA]];
+    let uv = |record: &[u8]| DVec2::new(number(record, u), number(record, v));
+    let is_transparent =
+        |record: &&[u8]| alpha.is_some_and(|(kind, _)| number(record, alpha) < kind.full());
     let mut transparent = 0;
     let whole = body.file.records(size, element.count, |bytes| {
         let records = bytes.par_chunks_exact(size).with_min_len(SHARE);
         let take = |vectors: &mut Vec<DVec3>, place: usize| {
-            vectors.par_extend(records.clone().map(|record| vector(record, place)));
+            let [x, y, z] = [columns[place], columns[place + 1], columns[place + 2]];
+            let full = [x, y, z].map(|column| column.map_or(1.0, |(kind, _)| kind.full()));
+            let full = (place == FIRST_COLOUR).then_some(DVec3::from_array(full));
+            vectors.par_extend(records.clone().map(move |record| {
+                let vector = DVec3::new(number(record, x), number(record, y), number(record, z));
+                match full {
+                    Some(full) => (vector / full).clamp(DVec3::ZERO, DVec3::ONE),
+                    None => vector,
+                }
+            }));
         };
         take(&mut part.positions, 0);
         if has(3..6) {
