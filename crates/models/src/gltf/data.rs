@@ -5,17 +5,61 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use gltf_json::accessor::{ComponentType, GenericComponentType, IndexComponentType};
-use gltf_json::validation::Checked;
-use gltf_json::{Accessor, Root};
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 
+use super::document::{Accessor, Root};
 use crate::read_bytes;
 use crate::textures::find;
 
 /// Elements of an accessor without bytes, which are zeros.
 const MOST_ZEROS: usize = 1 << 24;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum ComponentType {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl ComponentType {
+    /// By its number in OpenGL.
+    fn of(number: u64) -> Option<Self> {
+        Some(match number {
+            5120 => Self::I8,
+            5121 => Self::U8,
+            5122 => Self::I16,
+            5123 => Self::U16,
+            5125 => Self::U32,
+            5126 => Self::F32,
+            _ => return None,
+        })
+    }
+
+    fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::U32 | Self::F32 => 4,
+        }
+    }
+}
+
+/// How many numbers an element has.
+fn width_of(form: &str) -> Option<usize> {
+    Some(match form {
+        "SCALAR" => 1,
+        "VEC2" => 2,
+        "VEC3" => 3,
+        "VEC4" | "MAT2" => 4,
+        "MAT3" => 9,
+        "MAT4" => 16,
+        _ => return None,
+    })
+}
 
 /// A document with the bytes that it names.
 pub(super) struct Data<'a> {
@@ -57,21 +101,21 @@ impl<'a> Data<'a> {
     pub(super) fn view(&self, number: usize) -> Result<(&[u8], Option<usize>), String> {
         let missing = || format!("bufferViews[{number}] is not there");
         let view = self.root.buffer_views.get(number).ok_or_else(missing)?;
-        let buffer = view.buffer.value();
+        let buffer = view.buffer;
         let all = self.buffers.get(buffer);
         let all = all.ok_or_else(|| format!("buffers[{buffer}] is not there"))?;
-        let start = view.byte_offset.map_or(0, |offset| offset.0);
+        let start = view.byte_offset;
         let bytes = start
-            .checked_add(view.byte_length.0)
+            .checked_add(view.byte_length)
             .and_then(|end| all.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
         let bytes = bytes.ok_or_else(|| {
             format!(
                 "bufferViews[{number}] has {} bytes from byte {start} on, and buffers[{buffer}] has {}: the buffer is cut off",
-                view.byte_length.0,
+                view.byte_length,
                 all.len()
             )
         })?;
-        Ok((bytes, view.byte_stride.map(|stride| stride.0)))
+        Ok((bytes, view.byte_stride))
     }
 
     fn accessor(&self, number: usize) -> Result<&Accessor, String> {
@@ -82,19 +126,18 @@ impl<'a> Data<'a> {
     fn column(&self, number: usize) -> Result<Column<'_>, String> {
         let accessor = self.accessor(number)?;
         let failed = |cause: &str| format!("accessors[{number}]: {cause}");
-        let Checked::Valid(GenericComponentType(kind)) = accessor.component_type else {
+        let Some(kind) = ComponentType::of(accessor.component_type) else {
             return Err(failed("the component type is not one of glTF"));
         };
-        let Checked::Valid(form) = accessor.type_ else {
+        let Some(width) = width_of(&accessor.form) else {
             return Err(failed("the type is not one of glTF"));
         };
-        let (width, normalized) = (form.multiplicity(), accessor.normalized);
-        let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
+        let normalized = accessor.normalized;
+        let count = usize::try_from(accessor.count).unwrap_or(usize::MAX);
         let (mut stride, mut bytes) = (width * kind.size(), None);
-        match &accessor.buffer_view {
+        match accessor.buffer_view {
             Some(view) => {
-                let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-                bytes = Some((self.view(view.value())?, offset));
+                bytes = Some((self.view(view)?, accessor.byte_offset));
             }
             None if count > MOST_ZEROS => return Err(failed("has no bytes")),
             None => {}
@@ -131,10 +174,12 @@ impl<'a> Data<'a> {
         let mut vectors = column.read::<N>();
         let Some(sparse) = &self.accessor(number)?.sparse else { return Ok(vectors) };
         let failed = |cause: &str| format!("accessors[{number}].sparse: {cause}");
-        let Checked::Valid(IndexComponentType(kind)) = sparse.indices.component_type else {
+        let kind = ComponentType::of(sparse.indices.component_type);
+        let of_indices = [ComponentType::U8, ComponentType::U16, ComponentType::U32];
+        let Some(kind) = kind.filter(|kind| of_indices.contains(kind)) else {
             return Err(failed("the component type of the indices is not one of glTF"));
         };
-        let count = usize::try_from(sparse.count.0).unwrap_or(usize::MAX);
+        let count = usize::try_from(sparse.count).unwrap_or(usize::MAX);
         let size = column.width * column.kind.size();
         let part = |view: usize, offset: u64, size: usize| {
             let (bytes, _) = self.view(view)?;
@@ -145,11 +190,11 @@ impl<'a> Data<'a> {
         };
         let indices = &sparse.indices;
         let stride = kind.size();
-        let bytes = part(indices.buffer_view.value(), indices.byte_offset.0, stride)?;
+        let bytes = part(indices.buffer_view, indices.byte_offset, stride)?;
         let (width, normalized) = (1, false);
         let indices = Column { bytes: Some(bytes), count, stride, width, kind, normalized };
         let values = &sparse.values;
-        let bytes = part(values.buffer_view.value(), values.byte_offset.0, size)?;
+        let bytes = part(values.buffer_view, values.byte_offset, size)?;
         let values = Column { bytes: Some(bytes), stride: size, count, ..column };
         for ([index], value) in indices.read::<1>().into_iter().zip(values.read::<N>()) {
             let place = vectors.get_mut(index as usize);
@@ -165,8 +210,8 @@ impl<'a> Data<'a> {
         mut vectors: Vec<[f64; N]>,
     ) -> Result<Vec<[f64; N]>, String> {
         let accessor = self.accessor(number)?;
-        if let (Checked::Valid(GenericComponentType(kind)), true) =
-            (accessor.component_type, accessor.normalized)
+        if let (Some(kind), true) =
+            (ComponentType::of(accessor.component_type), accessor.normalized)
         {
             for value in vectors.as_flattened_mut() {
                 *value = (*value / most(kind)).max(-1.0);

@@ -1,10 +1,10 @@
 //! Triangles that are compressed by Draco.
 
 use draco_core::{DecoderBuffer, FaceIndex, Mesh, MeshDecoder};
-use gltf_json::mesh::{Primitive, Semantic};
 use serde_json::Value;
 
 use super::data::Data;
+use super::document::Primitive;
 
 /// The extension of a primitive that is compressed.
 pub(super) const EXTENSION: &str = "KHR_draco_mesh_compression";
@@ -18,8 +18,7 @@ pub(super) struct Decoded {
 
 /// Decodes a primitive; nothing of one that is not compressed.
 pub(super) fn decode(data: &Data<'_>, primitive: &Primitive) -> Result<Option<Decoded>, String> {
-    let extensions = primitive.extensions.as_ref();
-    let Some(value) = extensions.and_then(|all| all.others.get(EXTENSION)) else { return Ok(None) };
+    let Some(value) = &primitive.extensions.draco else { return Ok(None) };
     let view = value.get("bufferView").and_then(Value::as_u64);
     let view = view.and_then(|view| usize::try_from(view).ok());
     let (bytes, _) = data.view(view.ok_or(format!("{EXTENSION} names no bufferView"))?)?;
@@ -40,8 +39,7 @@ impl Decoded {
     }
 
     /// The values of an attribute in the order of the vertices; nothing of one that is not compressed.
-    pub(super) fn vectors<const N: usize>(&self, semantic: &Semantic) -> Option<Vec<[f64; N]>> {
-        let name = semantic.to_string();
+    pub(super) fn vectors<const N: usize>(&self, name: &str) -> Option<Vec<[f64; N]>> {
         let (_, number) = self.numbers.iter().find(|(other, _)| *other == name)?;
         let attribute = self.mesh.attribute_by_unique_id(*number)?;
         let read = attribute.read_f32s(self.mesh.num_points(), N);

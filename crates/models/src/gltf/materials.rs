@@ -5,11 +5,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2, DVec3};
-use gltf_json::Material;
-use gltf_json::extensions::texture::TextureTransform;
-use gltf_json::material::AlphaMode;
-use gltf_json::texture::{Info, MagFilter, MinFilter, WrappingMode};
-use gltf_json::validation::Checked;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
@@ -17,6 +12,10 @@ use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 use super::data::{Data, resource};
+use super::document::{
+    CLAMP_TO_EDGE, Info, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT, Material,
+    NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Transform,
+};
 use crate::Warnings;
 use crate::contents::Surface;
 use crate::textures::{Decoded, decode};
@@ -54,12 +53,12 @@ impl<'a> Pictures<'a> {
         let path = self.path;
         let read = || {
             let image = data.root.images.get(number).ok_or("is not there")?;
-            let bytes = match (&image.uri, &image.buffer_view) {
+            let bytes = match (&image.uri, image.buffer_view) {
                 (Some(uri), _) => {
                     let folder = path.parent().unwrap_or(Path::new(""));
                     resource(folder, uri, limits::TEXTURE_BYTES)?
                 }
-                (None, Some(view)) => data.view(view.value())?.0.to_vec(),
+                (None, Some(view)) => data.view(view)?.0.to_vec(),
                 (None, None) => return Err("names no picture".to_owned()),
             };
             // A TGA has no mark, so its ending is needed.
@@ -80,22 +79,21 @@ pub(super) fn describe(
 ) -> Option<Described> {
     let material = data.root.materials.get(number)?;
     let mut count = |key: &str| *not_drawn.entry(key.to_owned()).or_default() += 1;
-    let extensions = material.extensions.as_ref();
     let pbr = &material.pbr_metallic_roughness;
-    let other = extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref());
-    let unlit = extensions.is_some_and(|extensions| extensions.unlit.is_some());
+    let other = material.extensions.glossiness.as_ref();
+    let unlit = material.extensions.unlit.is_some();
     let info = colour_texture(material);
     let [r, g, b, alpha] = match other {
-        Some(other) => other.diffuse_factor.0,
-        None => pbr.base_color_factor.0,
+        Some(other) => other.diffuse_factor,
+        None => pbr.base_color_factor,
     };
     let mut specular = Specular::default();
     if let Some(other) = other {
-        let is_shiny = other.specular_factor.0.iter().any(|&channel| channel > 0.0);
+        let is_shiny = other.specular_factor.iter().any(|&channel| channel > 0.0);
         if is_shiny && other.specular_glossiness_texture.is_some() {
             count("specular colour with a map of material");
         } else if is_shiny {
-            specular = glossy(other.specular_factor.0, other.glossiness_factor.0);
+            specular = glossy(other.specular_factor, other.glossiness_factor);
             if specular.shininess <= 0.0 {
                 count("specular colour without gloss of material");
             }
@@ -104,10 +102,10 @@ pub(super) fn describe(
             count("specular map");
         }
     } else if !unlit {
-        if pbr.metallic_factor.0 > 0.0 {
+        if pbr.metallic_factor > 0.0 {
             count("metal of material");
         }
-        if pbr.roughness_factor.0 < 1.0 {
+        if pbr.roughness_factor < 1.0 {
             count("reflection of material");
         }
         if pbr.metallic_roughness_texture.is_some() {
@@ -122,14 +120,13 @@ pub(super) fn describe(
     }
     if material.emissive_texture.is_some() {
         count("emission map");
-    } else if material.emissive_factor.0.iter().any(|&channel| channel > 0.0) {
+    } else if material.emissive_factor.iter().any(|&channel| channel > 0.0) {
         count("emission of material");
     }
-    let (alpha_mode, alpha) = (material.alpha_mode, f64::from(alpha));
-    let threshold = f64::from(material.alpha_cutoff.unwrap_or_default().0);
-    let mode = match alpha_mode {
-        Checked::Valid(AlphaMode::Mask) => Some(OpacityMode::Test { threshold }),
-        Checked::Valid(AlphaMode::Blend) => Some(OpacityMode::Blend),
+    let threshold = f64::from(material.alpha_cutoff.unwrap_or(0.5));
+    let mode = match &*material.alpha_mode {
+        "MASK" => Some(OpacityMode::Test { threshold }),
+        "BLEND" => Some(OpacityMode::Blend),
         _ => None,
     };
     let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
@@ -149,7 +146,7 @@ pub(super) fn describe(
         }
     });
     let map = decoded.as_ref().and_then(Decoded::opacity);
-    let factor = alpha.clamp(0.0, 1.0);
+    let factor = f64::from(alpha).clamp(0.0, 1.0);
     // A file may let blend what is opaque everywhere.
     let is_opaque = map.is_none() && factor == 1.0;
     let opacity = mode.filter(|_| !is_opaque).map(|mode| Opacity { factor, map, mode });
@@ -171,15 +168,14 @@ pub(super) fn describe(
 }
 
 fn colour_texture(material: &Material) -> Option<&Info> {
-    let extensions = material.extensions.as_ref();
-    match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
+    match &material.extensions.glossiness {
         Some(other) => other.diffuse_texture.as_ref(),
         None => material.pbr_metallic_roughness.base_color_texture.as_ref(),
     }
 }
 
-fn transform(info: &Info) -> Option<&TextureTransform> {
-    info.extensions.as_ref()?.texture_transform.as_ref()
+fn transform(info: &Info) -> Option<&Transform> {
+    info.extensions.transform.as_ref()
 }
 
 /// The number of the texture coordinates that the texture of a material's colour is read at.
@@ -204,52 +200,43 @@ fn texture(
     pictures: &mut Pictures<'_>,
     count: &mut impl FnMut(&str),
 ) -> Result<Decoded, String> {
-    let number = info.index.value();
+    let number = info.index;
     let missing = || format!("textures[{number}] is not there");
     let texture = data.root.textures.get(number).ok_or_else(missing)?;
-    let source = texture.source.value();
-    if source >= data.root.images.len() {
-        return Err(format!("textures[{number}] has no picture that is read"));
-    }
-    let decoded = pictures.get(data, source)?;
-    let sampler = texture.sampler.as_ref().and_then(|s| data.root.samplers.get(s.value()));
-    let wraps = sampler.map_or([WrappingMode::Repeat; 2], |sampler| {
-        [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
-            Checked::Valid(wrap) => wrap,
-            Checked::Invalid => WrappingMode::Repeat,
-        })
-    });
-    if wraps.contains(&WrappingMode::MirroredRepeat) {
+    let source = texture.source.filter(|&source| source < data.root.images.len());
+    let missing = || format!("textures[{number}] has no picture that is read");
+    let decoded = pictures.get(data, source.ok_or_else(missing)?)?;
+    let sampler = texture.sampler.and_then(|sampler| data.root.samplers.get(sampler));
+    // Everything else repeats.
+    let other =
+        |wrap: Option<u64>| wrap.filter(|wrap| [CLAMP_TO_EDGE, MIRRORED_REPEAT].contains(wrap));
+    let wraps = sampler.map_or([None; 2], |sampler| [sampler.wrap_s, sampler.wrap_t].map(other));
+    if wraps.contains(&Some(MIRRORED_REPEAT)) {
         count("mirrored repetition of texture");
     } else if wraps[0] != wraps[1] {
         count("difference of repetition in u and v of texture");
     }
-    let wrap = if wraps == [WrappingMode::ClampToEdge; 2] { Wrap::Clamp } else { Wrap::Repeat };
-    let nearest =
-        sampler.and_then(|sampler| sampler.mag_filter) == Some(Checked::Valid(MagFilter::Nearest));
+    let wrap = if wraps == [Some(CLAMP_TO_EDGE); 2] { Wrap::Clamp } else { Wrap::Repeat };
+    let nearest = sampler.and_then(|sampler| sampler.mag_filter) == Some(NEAREST);
     let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
     let mut picture = Texture::clone(&decoded.texture).with(filter, wrap);
-    if let Some(Checked::Valid(min_filter)) = sampler.and_then(|sampler| sampler.min_filter) {
-        match min_filter {
-            MinFilter::Nearest | MinFilter::Linear => {}
-            MinFilter::NearestMipmapLinear | MinFilter::LinearMipmapLinear => {
-                picture = picture.with_mip_map();
-            }
-            MinFilter::NearestMipmapNearest | MinFilter::LinearMipmapNearest => {
-                // Read between two levels, where the file asks for the nearer one.
-                count("nearest level of mip map of texture");
-                picture = picture.with_mip_map();
-            }
+    match sampler.and_then(|sampler| sampler.min_filter) {
+        Some(NEAREST_MIPMAP_LINEAR | LINEAR_MIPMAP_LINEAR) => picture = picture.with_mip_map(),
+        Some(NEAREST_MIPMAP_NEAREST | LINEAR_MIPMAP_NEAREST) => {
+            // Read between two levels, where the file asks for the nearer one.
+            count("nearest level of mip map of texture");
+            picture = picture.with_mip_map();
         }
+        _ => {}
     }
     Ok(Decoded { texture: Arc::new(picture), ..decoded })
 }
 
 /// The map of texture coordinates, by a rotation that is counter-clockwise with v down.
-fn affine(transform: &TextureTransform) -> DAffine2 {
-    let [scale, offset] = [transform.scale.0, transform.offset.0]
-        .map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
-    let angle = f64::from(transform.rotation.0);
+fn affine(transform: &Transform) -> DAffine2 {
+    let [scale, offset] =
+        [transform.scale, transform.offset].map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
+    let angle = f64::from(transform.rotation);
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     DAffine2::from_cols(DVec2::new(cos, -sin) * scale.x, DVec2::new(sin, cos) * scale.y, offset)
 }

@@ -1,10 +1,11 @@
 //! glTF and GLB: the triangles of the scene that a document shows first, in its rest pose.
 //!
-//! The document is parsed by `gltf-json`, the data model of the crate `gltf`. Bytes are read by own code, since the
-//! accessors of `gltf` panic where a hostile file gives them too few, and its validation refuses documents that other
-//! programs load.
+//! The members that are read are named in [`document`]. The crate `gltf-json` names all members and also writes them; to compile
+//! it took as long as to compile the largest crate of the workspace. Bytes are read by own code too, since the accessors of
+//! `gltf` panic where a hostile file gives them too few, and its validation refuses documents that other programs load.
 
 mod data;
+mod document;
 mod draco;
 mod first;
 mod materials;
@@ -14,15 +15,15 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
-use gltf_json::material::AlphaMode;
-use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::validation::Checked;
-use gltf_json::{Node, Root};
 use rasterproof_host::text::{printable_path, printable_short};
 
 use crate::contents::{Contents, FilePart, Numbers, Polygons};
 use crate::{BadFile, Warnings, bad};
 use data::Data;
+use document::{
+    LINE_LOOP, LINE_STRIP, LINES, Node, POINTS, Primitive, Root, TRIANGLE_FAN, TRIANGLE_STRIP,
+    TRIANGLES,
+};
 use materials::{Described, Pictures, encoded};
 
 /// Corners of all parts together: a document may show one mesh many times.
@@ -72,7 +73,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         Ok(None) => Cow::Borrowed(json),
         Err(cause) => return Err(failed(cause)),
     };
-    let root = Root::from_slice(&json).map_err(|error| {
+    let root: Root = serde_json::from_slice(&json).map_err(|error| {
         let line = (!is_glb(bytes)).then(|| error.line()).filter(|&line| line > 0);
         let cause = format!("is no glTF that can be read: {error}");
         bad(path, line, cause)
@@ -162,9 +163,9 @@ impl Reader<'_> {
     /// Reads the meshes of all nodes of the scene.
     fn scene(&mut self) -> Result<(), String> {
         let root = &self.data.root;
-        let number = root.scene.map_or(0, |scene| scene.value());
+        let number = root.scene.unwrap_or(0);
         let roots: Vec<usize> = match root.scenes.get(number) {
-            Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+            Some(scene) => scene.nodes.clone(),
             None if root.scene.is_some() => return Err(format!("scenes[{number}] is not there")),
             None => self.parentless(),
         };
@@ -185,12 +186,11 @@ impl Reader<'_> {
             let world = parent * local(node);
             worlds[number] = world;
             visits.push((number, world));
-            let children = node.children.iter().flatten().rev();
-            open.extend(children.map(|child| (child.value(), world, depth + 1)));
+            open.extend(node.children.iter().rev().map(|&child| (child, world, depth + 1)));
         }
         for (number, world) in visits {
             let node = &root.nodes[number];
-            let Some(mesh) = node.mesh.map(|mesh| mesh.value()) else { continue };
+            let Some(mesh) = node.mesh else { continue };
             let missing = || format!("meshes[{mesh}] is not there");
             let primitives = &root.meshes.get(mesh).ok_or_else(missing)?.primitives;
             for (at, primitive) in primitives.iter().enumerate() {
@@ -206,8 +206,8 @@ impl Reader<'_> {
     fn parentless(&self) -> Vec<usize> {
         let nodes = &self.data.root.nodes;
         let mut is_child = vec![false; nodes.len()];
-        for child in nodes.iter().flat_map(|node| node.children.iter().flatten()) {
-            if let Some(is_child) = is_child.get_mut(child.value()) {
+        for &child in nodes.iter().flat_map(|node| &node.children) {
+            if let Some(is_child) = is_child.get_mut(child) {
                 *is_child = true;
             }
         }
@@ -220,11 +220,8 @@ impl Reader<'_> {
         self.count("animation", root.animations.len() as u64);
         let cameras = root.nodes.iter().filter(|node| node.camera.is_some()).count();
         self.count("camera", cameras as u64);
-        let has_light = |node: &&Node| {
-            let extensions = node.extensions.as_ref();
-            extensions.is_some_and(|all| all.others.contains_key(LIGHTS))
-        };
-        self.count("light", root.nodes.iter().filter(has_light).count() as u64);
+        let lights = root.nodes.iter().filter(|node| node.extensions.light.is_some()).count();
+        self.count("light", lights as u64);
         for name in &root.extensions_used {
             if !READ.contains(&name.as_str()) {
                 self.count(&format!("extension {}", printable_short(name, 60)), 1);
@@ -240,12 +237,10 @@ impl Reader<'_> {
         worlds: &[DMat4],
         place: &str,
     ) -> Result<(), String> {
-        let Checked::Valid(mode) = primitive.mode else {
-            return Err("its mode is not one of glTF".to_owned());
-        };
+        let mode = primitive.mode.unwrap_or(TRIANGLES);
         let compressed = draco::decode(self.data, primitive)?;
         let vertices = Vertices { data: self.data, primitive, compressed };
-        let Some(positions) = vertices.read(Semantic::Positions) else {
+        let Some(positions) = vertices.read("POSITION") else {
             self.count("empty primitive", 1);
             return Ok(());
         };
@@ -253,15 +248,16 @@ impl Reader<'_> {
         let count = positions.len();
         let indices = match (&vertices.compressed, &primitive.indices) {
             (Some(compressed), _) => compressed.indices(),
-            (None, Some(accessor)) => self.data.indices(accessor.value())?,
+            (None, Some(accessor)) => self.data.indices(*accessor)?,
             (None, None) => (0..count as u32).collect(),
         };
         let (key, elements) = match mode {
-            Mode::Points => ("point", indices.len()),
-            Mode::Lines => ("line", indices.len() / 2),
-            Mode::LineLoop => ("line", indices.len()),
-            Mode::LineStrip => ("line", indices.len().saturating_sub(1)),
-            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => ("", 0),
+            POINTS => ("point", indices.len()),
+            LINES => ("line", indices.len() / 2),
+            LINE_LOOP => ("line", indices.len()),
+            LINE_STRIP => ("line", indices.len().saturating_sub(1)),
+            TRIANGLES | TRIANGLE_STRIP | TRIANGLE_FAN => ("", 0),
+            _ => return Err("its mode is not one of glTF".to_owned()),
         };
         self.count(key, elements as u64);
         if !key.is_empty() {
@@ -272,20 +268,20 @@ impl Reader<'_> {
         if self.corners > MOST_CORNERS {
             return Err(format!("shows more than {MOST_CORNERS} corners of triangles"));
         }
-        let mut normals = match vertices.read(Semantic::Normals) {
+        let mut normals = match vertices.read("NORMAL") {
             Some(read) => self.optional(read.map(vectors3), count, "normals", place),
             None => Vec::new(),
         };
         self.morph(primitive, node, &mut positions, &mut normals)?;
         let mut to_file = world;
         if let Some(skin) = node.skin {
-            let skinned = [Semantic::Joints(0), Semantic::Weights(0)].map(|semantic| {
+            let skinned = ["JOINTS_0", "WEIGHTS_0"].map(|name| {
                 let none = || Err("has a skin and no joints or weights".to_owned());
-                vertices.read::<4>(semantic).unwrap_or_else(none)
+                vertices.read::<4>(name).unwrap_or_else(none)
             });
             match skinned {
                 [Ok(joints), Ok(weights)] if joints.len() == count && weights.len() == count => {
-                    let matrices = self.joints(skin.value(), worlds)?;
+                    let matrices = self.joints(skin, worlds)?;
                     bend(&mut positions, &mut normals, &matrices, &joints, &weights)?;
                     // Where the node is has no effect on what its joints move.
                     to_file = DMat4::IDENTITY;
@@ -297,15 +293,15 @@ impl Reader<'_> {
             }
         }
         self.count_attributes(primitive, &vertices);
-        let colours = match vertices.read(Semantic::Colors(0)) {
+        let colours = match vertices.read("COLOR_0") {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
         };
         let colours = colours.into_iter().map(|colour| colour.map(encoded)).collect();
-        let (material, mut uvs) = (primitive.material.map(|material| material.value()), Vec::new());
-        let material = material.and_then(|material| self.material(material, place));
+        let mut uvs = Vec::new();
+        let material = primitive.material.and_then(|material| self.material(material, place));
         if let Some((_, Some(set), transform)) = material {
-            match vertices.read(Semantic::TexCoords(set)) {
+            match vertices.read(&format!("TEXCOORD_{set}")) {
                 Some(read) => {
                     let read = read.map(|read| {
                         let turned = |[u, v]: [f64; 2]| {
@@ -341,39 +337,38 @@ impl Reader<'_> {
     }
 
     fn count_attributes(&mut self, primitive: &Primitive, vertices: &Vertices<'_>) {
-        let material = primitive.material.and_then(|material| {
-            let number = material.value();
-            Some((self.data.root.materials.get(number)?, number))
-        });
-        let is_opaque = material.is_none_or(|(material, _)| {
-            matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque) | Checked::Invalid)
-        });
+        let material = primitive
+            .material
+            .and_then(|material| Some((self.data.root.materials.get(material)?, material)));
+        let is_opaque = material
+            .is_none_or(|(material, _)| !["MASK", "BLEND"].contains(&&*material.alpha_mode));
         // The opacity of a colour has an effect where that of the material has one.
-        if !is_opaque && let Some(Ok(colours)) = vertices.read::<4>(Semantic::Colors(0)) {
+        if !is_opaque && let Some(Ok(colours)) = vertices.read::<4>("COLOR_0") {
             let transparent = colours.iter().filter(|[.., alpha]| *alpha < 1.0).count();
             self.count("transparent position", transparent as u64);
         }
         let used = material.and_then(|(_, number)| materials::uv_set(self.data, number));
-        for attribute in primitive.attributes.keys() {
-            let Checked::Valid(semantic) = attribute else {
-                self.count("values that glTF does not define of primitive", 1);
-                continue;
-            };
-            match semantic {
-                Semantic::TexCoords(set) if *set > 0 && used != Some(*set) => {
+        let mut not_defined = 0;
+        for name in primitive.attributes.keys() {
+            let set = name.split_once('_');
+            match set.and_then(|(kind, set)| Some((kind, set.parse().ok()?))) {
+                Some(("TEXCOORD", set)) if set > 0 && used != Some(set) => {
                     self.count("other texture coordinates of primitive", 1);
                 }
-                Semantic::Colors(1..) => self.count("other colours of primitive", 1),
-                Semantic::Joints(1..) => self.count("joints beyond the first four of primitive", 1),
-                _ => {}
+                Some(("COLOR", 1..)) => self.count("other colours of primitive", 1),
+                Some(("JOINTS", 1..)) => self.count("joints beyond the first four of primitive", 1),
+                Some(("TEXCOORD" | "COLOR" | "JOINTS" | "WEIGHTS", _)) => {}
+                _ if ["POSITION", "NORMAL", "TANGENT"].contains(&&**name) => {}
+                _ => not_defined = 1,
             }
         }
+        self.count("values that glTF does not define of primitive", not_defined);
     }
 
     /// The corners of triangles, three by three; those that name no position are left out.
-    fn triangles(&mut self, mode: Mode, indices: Vec<u32>, count: usize, place: &str) -> Vec<u32> {
+    fn triangles(&mut self, mode: u64, indices: Vec<u32>, count: usize, place: &str) -> Vec<u32> {
         let mut list = match mode {
-            Mode::TriangleStrip => {
+            TRIANGLE_STRIP => {
                 let turned = |(number, strip): (usize, &[u32])| {
                     let [a, b, c] = [strip[0], strip[1], strip[2]];
                     if number % 2 == 0 { [a, b, c] } else { [a, c, b] }
@@ -382,7 +377,7 @@ impl Reader<'_> {
                 let is_face = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
                 indices.windows(3).enumerate().map(turned).filter(is_face).flatten().collect()
             }
-            Mode::TriangleFan => {
+            TRIANGLE_FAN => {
                 let Some((&first, others)) = indices.split_first() else { return Vec::new() };
                 others.windows(2).flat_map(|pair| [pair[0], pair[1], first]).collect()
             }
@@ -462,22 +457,21 @@ impl Reader<'_> {
         positions: &mut [DVec3],
         normals: &mut [DVec3],
     ) -> Result<(), String> {
-        let Some(targets) = &primitive.targets else { return Ok(()) };
-        let mesh = node.mesh.and_then(|mesh| self.data.root.meshes.get(mesh.value()));
+        let mesh = node.mesh.and_then(|mesh| self.data.root.meshes.get(mesh));
         let weights = node.weights.as_ref().or(mesh.and_then(|mesh| mesh.weights.as_ref()));
         let weight =
             |number: usize| weights.and_then(|all| all.get(number)).copied().unwrap_or(0.0);
-        for (number, target) in targets.iter().enumerate() {
+        for (number, target) in primitive.targets.iter().enumerate() {
             let weight = f64::from(weight(number));
             if weight == 0.0 {
                 self.count("morph target", 1);
                 continue;
             }
             for (accessor, moved) in
-                [(&target.positions, &mut *positions), (&target.normals, &mut *normals)]
+                [(target.position, &mut *positions), (target.normal, &mut *normals)]
             {
                 let Some(accessor) = accessor else { continue };
-                for (vector, by) in moved.iter_mut().zip(self.data.vectors(accessor.value())?) {
+                for (vector, by) in moved.iter_mut().zip(self.data.vectors(accessor)?) {
                     *vector += weight * DVec3::from_array(by);
                 }
             }
@@ -489,13 +483,13 @@ impl Reader<'_> {
     fn joints(&self, number: usize, worlds: &[DMat4]) -> Result<Vec<DMat4>, String> {
         let missing = || format!("skins[{number}] is not there");
         let skin = self.data.root.skins.get(number).ok_or_else(missing)?;
-        let bound: Vec<[f64; 16]> = match &skin.inverse_bind_matrices {
-            Some(accessor) => self.data.vectors(accessor.value())?,
+        let bound: Vec<[f64; 16]> = match skin.inverse_bind_matrices {
+            Some(accessor) => self.data.vectors(accessor)?,
             None => Vec::new(),
         };
-        let matrix = |(at, joint): (usize, &gltf_json::Index<Node>)| {
-            let world = worlds.get(joint.value());
-            let world = world.ok_or_else(|| format!("nodes[{}] is not there", joint.value()))?;
+        let matrix = |(at, &joint): (usize, &usize)| {
+            let world = worlds.get(joint);
+            let world = world.ok_or_else(|| format!("nodes[{joint}] is not there"))?;
             let inverse = bound.get(at).map_or(DMat4::IDENTITY, DMat4::from_cols_array);
             Ok(*world * inverse)
         };
@@ -511,9 +505,9 @@ struct Vertices<'a> {
 
 impl Vertices<'_> {
     /// The values of an attribute; nothing where the vertices do not have it.
-    fn read<const N: usize>(&self, semantic: Semantic) -> Option<Result<Vec<[f64; N]>, String>> {
-        let vectors = self.compressed.as_ref().and_then(|decoded| decoded.vectors(&semantic));
-        let accessor = self.primitive.attributes.get(&Checked::Valid(semantic))?.value();
+    fn read<const N: usize>(&self, name: &str) -> Option<Result<Vec<[f64; N]>, String>> {
+        let vectors = self.compressed.as_ref().and_then(|decoded| decoded.vectors(name));
+        let accessor = *self.primitive.attributes.get(name)?;
         Some(match vectors {
             Some(vectors) => self.data.normalized(accessor, vectors),
             None => self.data.vectors(accessor),
@@ -533,7 +527,7 @@ fn local(node: &Node) -> DMat4 {
     let vector = |numbers: Option<[f32; 3]>, missing| {
         numbers.map_or(missing, |numbers| DVec3::from_array(numbers.map(f64::from)))
     };
-    let turn = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.0.map(f64::from));
+    let turn = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.map(f64::from));
     let turn = DQuat::from_array(turn);
     // Where the four numbers are all 0, nothing is turned.
     let turn = if turn.length_squared() > 0.0 { turn.normalize() } else { DQuat::IDENTITY };

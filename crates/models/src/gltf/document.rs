@@ -1,0 +1,314 @@
+//! What is read of a glTF document. Members that change no triangle and no colour are left out, and so is every rule that
+//! a document may break without becoming ambiguous.
+
+use std::collections::HashMap;
+
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+
+/// The default of a member that is missing or null.
+fn or_default<'de, D: Deserializer<'de>, T: Deserialize<'de> + Default>(
+    from: D,
+) -> Result<T, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or_default())
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Root {
+    /// Every document has it, and no other JSON.
+    #[serde(rename = "asset")]
+    _asset: Asset,
+    pub scene: Option<usize>,
+    #[serde(default)]
+    pub scenes: Vec<Scene>,
+    #[serde(default)]
+    pub nodes: Vec<Node>,
+    #[serde(default)]
+    pub meshes: Vec<Mesh>,
+    #[serde(default)]
+    pub skins: Vec<Skin>,
+    #[serde(default)]
+    pub materials: Vec<Material>,
+    #[serde(default)]
+    pub textures: Vec<Texture>,
+    #[serde(default)]
+    pub images: Vec<Image>,
+    #[serde(default)]
+    pub samplers: Vec<Sampler>,
+    #[serde(default)]
+    pub accessors: Vec<Accessor>,
+    #[serde(default)]
+    pub buffer_views: Vec<View>,
+    #[serde(default)]
+    pub buffers: Vec<Buffer>,
+    #[serde(default)]
+    pub animations: Vec<IgnoredAny>,
+    #[serde(default)]
+    pub extensions_used: Vec<String>,
+    #[serde(default)]
+    pub extensions_required: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct Asset {
+    #[serde(rename = "version")]
+    _version: String,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Scene {
+    #[serde(default)]
+    pub nodes: Vec<usize>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Node {
+    pub name: Option<String>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub children: Vec<usize>,
+    pub mesh: Option<usize>,
+    pub skin: Option<usize>,
+    pub camera: Option<IgnoredAny>,
+    pub matrix: Option<[f32; 16]>,
+    pub translation: Option<[f32; 3]>,
+    pub rotation: Option<[f32; 4]>,
+    pub scale: Option<[f32; 3]>,
+    pub weights: Option<Vec<f32>>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub extensions: Extensions,
+}
+
+/// The extensions of nodes, primitives, materials and textures that are read or counted.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Extensions {
+    #[serde(rename = "KHR_lights_punctual")]
+    pub light: Option<IgnoredAny>,
+    #[serde(rename = "KHR_draco_mesh_compression")]
+    pub draco: Option<Value>,
+    #[serde(rename = "KHR_materials_unlit")]
+    pub unlit: Option<IgnoredAny>,
+    #[serde(rename = "KHR_materials_pbrSpecularGlossiness")]
+    pub glossiness: Option<Glossiness>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Mesh {
+    pub primitives: Vec<Primitive>,
+    pub weights: Option<Vec<f32>>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Primitive {
+    pub attributes: HashMap<String, usize>,
+    pub indices: Option<usize>,
+    pub material: Option<usize>,
+    /// [`TRIANGLES`] where there is none.
+    pub mode: Option<u64>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub targets: Vec<Target>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub extensions: Extensions,
+}
+
+pub(super) const POINTS: u64 = 0;
+pub(super) const LINES: u64 = 1;
+pub(super) const LINE_LOOP: u64 = 2;
+pub(super) const LINE_STRIP: u64 = 3;
+pub(super) const TRIANGLES: u64 = 4;
+pub(super) const TRIANGLE_STRIP: u64 = 5;
+pub(super) const TRIANGLE_FAN: u64 = 6;
+
+/// What a shape moves.
+#[derive(Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub(super) struct Target {
+    pub position: Option<usize>,
+    pub normal: Option<usize>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Skin {
+    pub joints: Vec<usize>,
+    pub inverse_bind_matrices: Option<usize>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Material {
+    pub name: Option<String>,
+    #[serde(default)]
+    pub alpha_mode: String,
+    pub alpha_cutoff: Option<f32>,
+    #[serde(default)]
+    pub double_sided: bool,
+    #[serde(default)]
+    pub pbr_metallic_roughness: Metallic,
+    pub normal_texture: Option<IgnoredAny>,
+    pub occlusion_texture: Option<IgnoredAny>,
+    pub emissive_texture: Option<IgnoredAny>,
+    #[serde(default)]
+    pub emissive_factor: [f32; 3],
+    #[serde(default, deserialize_with = "or_default")]
+    pub extensions: Extensions,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Metallic {
+    pub base_color_factor: [f32; 4],
+    pub base_color_texture: Option<Info>,
+    pub metallic_factor: f32,
+    pub roughness_factor: f32,
+    pub metallic_roughness_texture: Option<IgnoredAny>,
+}
+
+impl Default for Metallic {
+    fn default() -> Self {
+        Self {
+            base_color_factor: [1.0; 4],
+            base_color_texture: None,
+            metallic_factor: 1.0,
+            roughness_factor: 1.0,
+            metallic_roughness_texture: None,
+        }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Glossiness {
+    pub diffuse_factor: [f32; 4],
+    pub diffuse_texture: Option<Info>,
+    pub specular_factor: [f32; 3],
+    pub glossiness_factor: f32,
+    pub specular_glossiness_texture: Option<IgnoredAny>,
+}
+
+impl Default for Glossiness {
+    fn default() -> Self {
+        Self {
+            diffuse_factor: [1.0; 4],
+            diffuse_texture: None,
+            specular_factor: [1.0; 3],
+            glossiness_factor: 1.0,
+            specular_glossiness_texture: None,
+        }
+    }
+}
+
+/// A texture of a material.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Info {
+    pub index: usize,
+    #[serde(default)]
+    pub tex_coord: u32,
+    #[serde(default, deserialize_with = "or_default")]
+    pub extensions: InfoExtensions,
+}
+
+#[derive(Default, Deserialize)]
+pub(super) struct InfoExtensions {
+    #[serde(rename = "KHR_texture_transform")]
+    pub transform: Option<Transform>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Transform {
+    pub offset: [f32; 2],
+    pub rotation: f32,
+    pub scale: [f32; 2],
+    pub tex_coord: Option<u32>,
+}
+
+impl Default for Transform {
+    fn default() -> Self {
+        Self { offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2], tex_coord: None }
+    }
+}
+
+#[derive(Deserialize)]
+pub(super) struct Texture {
+    pub sampler: Option<usize>,
+    /// None where an extension names a picture of another kind.
+    pub source: Option<usize>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Image {
+    pub uri: Option<String>,
+    pub buffer_view: Option<usize>,
+}
+
+/// Numbers of OpenGL.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Sampler {
+    pub mag_filter: Option<u64>,
+    pub min_filter: Option<u64>,
+    pub wrap_s: Option<u64>,
+    pub wrap_t: Option<u64>,
+}
+
+pub(super) const NEAREST: u64 = 9728;
+pub(super) const NEAREST_MIPMAP_NEAREST: u64 = 9984;
+pub(super) const LINEAR_MIPMAP_NEAREST: u64 = 9985;
+pub(super) const NEAREST_MIPMAP_LINEAR: u64 = 9986;
+pub(super) const LINEAR_MIPMAP_LINEAR: u64 = 9987;
+pub(super) const CLAMP_TO_EDGE: u64 = 33_071;
+pub(super) const MIRRORED_REPEAT: u64 = 33_648;
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub buffer_view: Option<usize>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub byte_offset: u64,
+    pub component_type: u64,
+    #[serde(default)]
+    pub normalized: bool,
+    pub count: u64,
+    #[serde(rename = "type")]
+    pub form: String,
+    pub sparse: Option<Sparse>,
+}
+
+/// Elements that differ from those of the buffer view.
+#[derive(Deserialize)]
+pub(super) struct Sparse {
+    pub count: u64,
+    pub indices: SparsePart,
+    pub values: SparsePart,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparsePart {
+    pub buffer_view: usize,
+    #[serde(default)]
+    pub byte_offset: u64,
+    /// Of indices.
+    #[serde(default)]
+    pub component_type: u64,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct View {
+    pub buffer: usize,
+    pub byte_length: u64,
+    #[serde(default, deserialize_with = "or_default")]
+    pub byte_offset: u64,
+    pub byte_stride: Option<usize>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Buffer {
+    pub uri: Option<String>,
+}
