@@ -16,12 +16,9 @@ use rasterproof_wasm::figures::{ALL, Figure, Grip, Language, find};
 use serde_json::{Value, json};
 
 use crate::page::{Browser, Tab as _, folder};
+use crate::pages::{Renewal, read, root};
 use crate::playground::module;
-use crate::quiz::RENEW;
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
+use crate::playground_hands::{mouse, touch};
 
 /// What a figure is for these positions of its grips, drawn by the oracle.
 fn expected(figure: &Figure, language: &str, at: &Value, is_answered: bool) -> Value {
@@ -32,49 +29,30 @@ fn expected(figure: &Figure, language: &str, at: &Value, is_answered: bool) -> V
     answer
 }
 
-/// Writes what is stale where it is asked to; the names of what was stale.
-fn renew(stale: &mut Vec<String>, path: &Path, now: &str) {
-    if fs::read_to_string(path).ok().as_deref() == Some(now) {
-        return;
-    }
-    if std::env::var_os(RENEW).is_some() {
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, now).unwrap();
-    }
-    stale.push(path.strip_prefix(root()).unwrap().display().to_string());
-}
-
 /// `RASTERPROOF_RENEW=1 cargo test --test it live_figures_stand` draws the still pictures and writes what stands
 /// between `<rp-figure scene="...">` and `</rp-figure>` anew.
 #[test]
 fn live_figures_stand_on_their_pages() {
-    let mut stale = Vec::new();
-    let docs = root().join("docs");
+    let mut renewal = Renewal::default();
     for figure in ALL.iter() {
-        let picture = docs.join(format!("figures/live/{}.svg", figure.name));
         let svg = figure.still().unwrap();
         assert!(svg.len() < 16_000, "{}: a picture of {} bytes", figure.name, svg.len());
-        renew(&mut stale, &picture, &svg);
-        for (folder, language) in [("", Language::En), ("zh", Language::Zh)] {
-            let path = docs.join(folder).join(format!("{}.md", figure.page));
-            let page = fs::read_to_string(&path).unwrap();
+        renewal.is(format!("docs/figures/live/{}.svg", figure.name), &svg);
+        for (folder, language) in [("docs", Language::En), ("docs/zh", Language::Zh)] {
+            let path = format!("{folder}/{}.md", figure.page);
+            let page = read(&path);
             let begin = format!("<rp-figure scene=\"{}\">", figure.name);
-            let end = "</rp-figure>";
             let parts: Vec<_> = page.split(&begin).collect();
-            assert_eq!(parts.len(), 2, "{} belongs on {} once", begin, path.display());
-            let (_, after) = parts[1].split_once(end).expect("a figure ends");
+            assert_eq!(parts.len(), 2, "{begin} belongs on {path} once");
+            let (_, after) = parts[1].split_once("</rp-figure>").expect("a figure ends");
             let block = figure.block(language).unwrap();
-            renew(&mut stale, &path, &[parts[0], &block, after].concat());
+            renewal.is(&path, &[parts[0], &block, after].concat());
         }
     }
     // No picture is left over, and every chapter has two figures.
-    let pictures = fs::read_dir(docs.join("figures/live")).unwrap().count();
+    let pictures = fs::read_dir(root().join("docs/figures/live")).unwrap().count();
     assert_eq!(pictures, ALL.len());
-    assert!(
-        stale.is_empty(),
-        "stale, renew with `{RENEW}=1 cargo test --test it live_figures_stand`:\n{}",
-        stale.join("\n")
-    );
+    renewal.check("live_figures_stand");
 }
 
 /// At every end of every grip: words with all numbers in them, a prediction that can be right, a picture.
@@ -512,13 +490,10 @@ fn live_figures_show_what_the_oracle_draws() {
         let last = figure.grips().len() - 1;
         for (i, by) in [(0, [37.0, 29.0]), (last, [-61.0, -45.0])] {
             let [x, y] = spot(&mut browser, figure, "[role=slider]", i);
-            for (kind, [x, y]) in [
-                ("mousePressed", [x, y]),
-                ("mouseMoved", [x + by[0], y + by[1]]),
-                ("mouseReleased", [x + by[0], y + by[1]]),
-            ] {
-                let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1 });
-                browser.call("Input.dispatchMouseEvent", event);
+            let to = [x + by[0], y + by[1]];
+            for (kind, at) in [("mousePressed", [x, y]), ("mouseMoved", to), ("mouseReleased", to)]
+            {
+                mouse(&mut browser, kind, at);
             }
             assert_eq!(wrong(&mut browser, figure), [""; 0]);
             states.insert(browser.eval(&format!("{of}.dataset.at")).to_string());
@@ -617,24 +592,16 @@ fn keys_predict(browser: &mut Browser) {
 
 /// A grip follows a finger.
 fn fingers_drag(browser: &mut Browser) {
-    browser.call(
-        "Emulation.setTouchEmulationEnabled",
-        json!({ "enabled": true, "maxTouchPoints": 1 }),
-    );
+    let touching = json!({ "enabled": true, "maxTouchPoints": 1 });
+    browser.call("Emulation.setTouchEmulationEnabled", touching);
     let figure = find("shared-edge").unwrap();
     let at = format!("{}.dataset.at", of(figure));
     let before = browser.eval(&at);
     let [x, y] = spot(browser, figure, "[role=slider]", 0);
-    for (kind, spots) in [
-        ("touchStart", vec![[x, y]]),
-        ("touchMove", vec![[x - 20.0, y - 30.0]]),
-        ("touchMove", vec![[x - 40.0, y - 60.0]]),
-        ("touchEnd", vec![]),
-    ] {
-        let points: Vec<_> =
-            spots.iter().map(|[x, y]| json!({ "x": x, "y": y, "id": 0 })).collect();
-        browser.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
-    }
+    touch(browser, "touchStart", &[[x, y]]);
+    touch(browser, "touchMove", &[[x - 20.0, y - 30.0]]);
+    touch(browser, "touchMove", &[[x - 40.0, y - 60.0]]);
+    touch(browser, "touchEnd", &[]);
     assert_ne!(browser.eval(&at), before);
     assert_eq!(wrong(browser, figure), [""; 0]);
 }

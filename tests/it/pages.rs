@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use crate::figures::{ALL, cost_cell};
 
 /// The variable of the environment that lets tests write pages anew.
-pub const RENEW: &str = "RASTERPROOF_RENEW";
+const RENEW: &str = "RASTERPROOF_RENEW";
 
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -4,34 +4,37 @@
 //! Needs the module that `crates/playground/build` leaves, and Chromium. Without them these tests say so and
 //! pass, unless `RASTERPROOF_NEEDS_PLAYGROUND` or `RASTERPROOF_NEEDS_CHROMIUM` is set, as `.ci/run` does.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
-use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
-use rasterproof_core::frame::Coverage;
+use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::edge_function::probe::edges_at;
-use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
 use rasterproof_core::raster::edge_function_exact::probe::edges_at as exact_edges_at;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::raster::scanline::steps::walked_rows;
-use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::raster::scanline_exact::probe::crossings_at;
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_playground as pages;
-use rasterproof_verify::cases::{Shape, triangles, unsnapped};
+use rasterproof_registry::engines::ExactEngine;
+use rasterproof_verify::cases::unsnapped::{self, OffGridCase};
+use rasterproof_verify::cases::{Shape, triangles};
+use rasterproof_verify::comparison::unsnapped::exact_coverage;
 use rasterproof_wasm::answer::answer;
 use serde_json::{Value, json};
 
 use crate::page::{Browser, Tab as _, folder};
+use crate::pages::root;
+use crate::program::{Folder, PROGRAM, Run, shared};
+use crate::recorded::hits;
 
 pub const SCENES: [&str; 9] =
     ["triangle", "line", "weights", "perspective", "depth", "near", "samples", "culling", "figure"];
 
 /// The compiled engines, or nothing where nobody has built them and nobody demands them.
 pub fn module() -> Option<PathBuf> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/rasterproof/playground.wasm");
+    let path = root().join("target/rasterproof/playground.wasm");
     if path.is_file() {
         return Some(path);
     }
@@ -41,25 +44,13 @@ pub fn module() -> Option<PathBuf> {
     None
 }
 
-/// Runs the program in a folder; the status, and what it printed to both streams.
-fn run(folder: &Path, words: &[&str]) -> (i32, String, String) {
-    let program = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .args(words)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (program.status.code().unwrap(), text(program.stdout), text(program.stderr))
-}
-
 /// The page that a command writes, for a test of this name.
 pub fn written(command: &str, name: &str) -> Option<PathBuf> {
     let module = module()?;
     let folder = folder(&format!("{command}-{name}"));
-    let (status, printed, complaint) =
-        run(&folder, &[command, "--module", module.to_str().unwrap()]);
-    assert_eq!(status, 0, "{complaint}");
-    assert_eq!(printed, format!("{command}: target/rasterproof/{command}.html\n"));
+    let mut program = shared().command([command, "--module"]);
+    let run = Run::of(program.arg(module).current_dir(&folder)).has(0);
+    assert_eq!(run.out, format!("{command}: target/rasterproof/{command}.html\n"));
     let page = folder.join(format!("target/rasterproof/{command}.html"));
     assert!(std::fs::metadata(&page).unwrap().len() <= pages::MOST_BYTES as u64);
     Some(page)
@@ -117,9 +108,7 @@ fn walked_rows_are_the_engines() {
 #[test]
 fn edges_at_a_pixel_decide_as_the_engine() {
     for (corners, window) in hazards(8) {
-        let mut hits = Coverage::new(window, 0);
-        EdgeFunction.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-        for (y_px, row) in hits.rows() {
+        for (y_px, row) in hits(&EdgeFunction, &[corners], window).rows() {
             for (x_px, hit) in (window.x0..).zip(row) {
                 let inside = edges_at(&corners, x_px, y_px).is_some_and(|edges| {
                     edges.iter().all(|e| e.value > 0 || e.value == 0 && e.is_top_left)
@@ -137,14 +126,9 @@ fn exact_probes_decide_as_the_engines() {
     for family in unsnapped::FAMILIES {
         for case in (0..20).map(|index| family.case(7, index)) {
             for corners in &case.triangles {
-                let mut by_edges = Coverage::new(case.window, 0);
-                EdgeFunctionExact.cover_exact(corners, case.window, &mut |s: Span| {
-                    by_edges.hit(s.y_px, s.x0_px, s.x1_px);
-                });
-                let mut by_rows = Coverage::new(case.window, 0);
-                ScanlineExact.cover_exact(corners, case.window, &mut |s: Span| {
-                    by_rows.hit(s.y_px, s.x0_px, s.x1_px);
-                });
+                let alone = OffGridCase { triangles: vec![*corners], ..case.clone() };
+                let [by_edges, by_rows] = [ExactEngine::EdgeFunction, ExactEngine::Scanline]
+                    .map(|engine| exact_coverage(&engine, &alone).unwrap().0);
                 for (y_px, row) in by_edges.rows() {
                     let columns = crossings_at(corners, y_px).map(|c| c.map(|c| c.column));
                     for (x_px, hit) in (case.window.x0..).zip(row) {
@@ -339,13 +323,9 @@ fn playground_says_its_command() {
         let [bare, with] =
             [words.split(' ').filter(bare).count(), words.split(' ').filter(with).count()];
         assert!(bare == 0 || with == 0, "{said}");
-        let program = Command::new("sh")
-            .args(["-c", &format!("\"$0\" {words} --report"), env!("CARGO_BIN_EXE_rasterproof")])
-            .current_dir(&folder)
-            .output()
-            .unwrap();
-        let wrong = i32::from(words.contains("--plant"));
-        assert_eq!(program.status.code(), Some(wrong), "{said}: {program:?}");
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &format!("\"$0\" {words} --report"), PROGRAM]).current_dir(&folder);
+        Run::of(&mut shell).has(u8::from(words.contains("--plant")));
         let report =
             std::fs::read_to_string(folder.join("target/rasterproof/inspect.html")).unwrap();
         let (_, json) = report.split_once("id=\"data\">").unwrap();
@@ -393,39 +373,32 @@ fn playground_says_its_command() {
 fn playground_opens_cases_of_the_report() {
     let Some((mut browser, page)) = opened("report") else { return };
     for (words, shown) in [
-        (&["T2"][..], "state.named === 'T2' && state.triangles.length === 2"),
-        (&["sliver#3", "--seed", "7"], "state.generated.index === 3 && state.generated.seed === 7"),
-        (&["0.5,0.5", "5.5,0.5", "5.5,5.5"], "state.triangles[0][2].y === 5.5 && !state.named"),
-        (&["--line", "0,0", "8,3"], "state.scene === 'line' && state.lines[0][1][0] === 8"),
-        (&["--line", "0,0", "8,3", "8,3", "2,9"], "state.lines.length === 2"),
-        (&["0,0", "4,0", "0,4", "4,0", "4,4", "0,4"], "state.triangles.length === 2 && state.snap"),
-        (
-            &["0.1,0.2", "5.3,0.7", "2,6.1", "--exact"],
-            "state.triangles[0][0].x === 0.1 && !state.snap",
-        ),
+        ("T2", "state.named === 'T2' && state.triangles.length === 2"),
+        ("sliver#3 --seed 7", "state.generated.index === 3 && state.generated.seed === 7"),
+        ("0.5,0.5 5.5,0.5 5.5,5.5", "state.triangles[0][2].y === 5.5 && !state.named"),
+        ("--line 0,0 8,3", "state.scene === 'line' && state.lines[0][1][0] === 8"),
+        ("--line 0,0 8,3 8,3 2,9", "state.lines.length === 2"),
+        ("0,0 4,0 0,4 4,0 4,4 0,4", "state.triangles.length === 2 && state.snap"),
+        ("0.1,0.2 5.3,0.7 2,6.1 --exact", "state.triangles[0][0].x === 0.1 && !state.snap"),
         // A fault is shown beside what is right.
         (
-            &["T2", "--plant", "inclusive-edges"],
+            "T2 --plant inclusive-edges",
             "state.by[0] === 'inclusive-edges' && state.named === 'T2' && document.querySelector('#look .say')?.textContent.includes('hit twice')",
         ),
         // So large a window is cut to what the playground can show.
-        (&["T2", "--window", "0,0,300x20"], "state.triangles.length === 2 && shown.length === 2"),
+        ("T2 --window 0,0,300x20", "state.triangles.length === 2 && shown.length === 2"),
     ] {
         let folder = folder("playground-report-inspect");
-        let program = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-            .args(["inspect", "--report"])
-            .args(words)
-            .current_dir(&folder)
-            .output()
-            .unwrap();
-        assert_eq!(program.status.success(), !words.contains(&"--plant"), "{words:?}");
+        let mut program = shared().command(format!("inspect --report {words}"));
+        let status = u8::from(words.contains("--plant"));
+        Run::of(program.current_dir(&folder)).has(status);
         browser.open(&folder.join("target/rasterproof/inspect.html"), "");
         let link =
             browser.eval("document.querySelector('#case-playground a').getAttribute('href')");
         let fragment = link.as_str().unwrap().strip_prefix("playground.html").unwrap().to_owned();
         browser.open(&page, &fragment);
         settle(&mut browser);
-        assert_eq!(browser.eval(shown), true, "{words:?}: {fragment}");
+        assert_eq!(browser.eval(shown), true, "{words}: {fragment}");
         assert_eq!(browser.eval("document.getElementById('trouble').hidden"), true);
     }
 }
@@ -435,11 +408,10 @@ fn playground_opens_cases_of_the_report() {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn playground_is_where_chapters_lead() {
     let links = |folder: &str| -> Vec<(String, String)> {
-        let mut pages: Vec<_> = (1..=11).map(|n| format!("ch{n:02}.md")).collect();
-        pages.push("games101.md".to_owned());
+        let mut pages: Vec<_> = (1..=11).map(|n| format!("ch{n:02}")).collect();
+        pages.push("games101".to_owned());
         let link = |page: String| {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(&page);
-            let text = std::fs::read_to_string(path).unwrap();
+            let text = crate::pages::page(folder, &page);
             let found: Vec<_> = text
                 .split("](playground.md#scene=")
                 .skip(1)
@@ -464,13 +436,10 @@ fn playground_is_where_chapters_lead() {
 /// Without its module the command says how to get one; what is no module is refused, nothing written.
 #[test]
 fn playground_says_what_it_needs() {
-    let folder = folder("playground-none");
-    let (status, printed, complaint) = run(&folder, &["playground"]);
-    assert_eq!((status, printed.as_str()), (2, ""));
-    assert!(complaint.contains("crates/playground/build"), "{complaint}");
-    std::fs::write(folder.join("x.wasm"), "no module").unwrap();
-    let (status, _, complaint) = run(&folder, &["playground", "--module", "x.wasm"]);
-    assert_eq!(status, 2);
-    assert!(complaint.contains("x.wasm is no WebAssembly module"), "{complaint}");
+    let folder = Folder::new("playground-none");
+    folder.check("playground", 2).without_output().says("crates/playground/build");
+    folder.put("x.wasm", "no module");
+    let run = folder.check("playground --module x.wasm", 2);
+    run.says("x.wasm is no WebAssembly module");
     assert!(!folder.join("target").exists());
 }

@@ -20,7 +20,7 @@ fn grip(browser: &mut Browser, i: usize, name: &str) -> [f64; 2] {
     serde_json::from_value(spot).unwrap()
 }
 
-fn mouse(browser: &mut Browser, kind: &str, [x, y]: [f64; 2]) {
+pub fn mouse(browser: &mut Browser, kind: &str, [x, y]: [f64; 2]) {
     let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1,
         "clickCount": 1 });
     browser.call("Input.dispatchMouseEvent", event);
@@ -37,7 +37,7 @@ fn drag(browser: &mut Browser, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) {
     settle(browser);
 }
 
-fn touch(browser: &mut Browser, kind: &str, spots: &[[f64; 2]]) {
+pub fn touch(browser: &mut Browser, kind: &str, spots: &[[f64; 2]]) {
     let points: Vec<_> =
         (0..).zip(spots).map(|(id, [x, y])| json!({ "x": x, "y": y, "id": id })).collect();
     browser.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));

@@ -5,7 +5,6 @@ use std::fs;
 use rasterproof_teaching::quiz::page::{HEADINGS, section};
 use rasterproof_teaching::quiz::{Answer, CHAPTERS, Chapter, Language};
 
-pub use crate::pages::RENEW;
 use crate::pages::{Renewal, read};
 use crate::program::{Run, shared};
 

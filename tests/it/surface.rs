@@ -2,17 +2,9 @@
 //! are stated, in `src/lib.rs` and in the table of `docs/ARCHITECTURE.md`, in both languages.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn read(path: impl AsRef<Path>) -> String {
-    let path = root().join(path);
-    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
+use crate::pages::{files, read, root};
 
 /// The modules that a file declares for everyone, those left out that documentation does not show.
 fn shown(text: &str) -> Vec<String> {
@@ -122,18 +114,11 @@ fn surface_reads_attributes() {
 /// Whoever calls a library wants to match an error, so it is a type of its own and not a text.
 #[test]
 fn surface_has_no_text_for_an_error() {
-    let mut wrong = Vec::new();
-    let mut open = vec![root().join("crates/core/src"), root().join("crates/verify/src")];
-    while let Some(folder) = open.pop() {
-        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if path.is_dir() {
-                open.push(path);
-            } else if has_text_for_an_error(&fs::read_to_string(&path).unwrap()) {
-                wrong.push(path);
-            }
-        }
+    for path in
+        ["crates/core/src", "crates/verify/src"].map(|src| files(&root().join(src), ".rs")).concat()
+    {
+        assert!(!has_text_for_an_error(&read(&path)), "{}", path.display());
     }
-    assert_eq!(wrong, Vec::<PathBuf>::new());
     assert!(has_text_for_an_error("pub fn f(\n    x: u8,\n) -> Result<u8, String> {\n"));
     assert!(!has_text_for_an_error("fn f() -> Result<u8, String> {}\npub fn g() -> String {\n"));
 }

@@ -11,25 +11,9 @@ use rasterproof_invariants::CATALOGUE;
 use rasterproof_render::scene::chapters::SCENES;
 use rasterproof_verify::cases;
 
+use crate::pages::{files, read, root};
+use crate::program::Run;
 use crate::protocol::ask;
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(files(&path, ending));
-        } else if path.extension().is_some_and(|e| e == ending) {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
 
 fn source_folders() -> Vec<String> {
     let crates = fs::read_dir(root().join("crates")).unwrap();
@@ -41,12 +25,13 @@ fn source_folders() -> Vec<String> {
     folders
 }
 
+fn cargo(arguments: &[&str]) -> Run {
+    Run::of(Command::new(env!("CARGO")).args(arguments).current_dir(root())).has(0)
+}
+
 /// Each crate with the crates of the workspace that its manifest names as dependencies.
 fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
-    let arguments = ["metadata", "--locked", "--no-deps", "--format-version", "1"];
-    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let data: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let data = cargo(&["metadata", "--locked", "--no-deps", "--format-version", "1"]).json();
     let short = |name: &serde_json::Value| {
         name.as_str().unwrap().strip_prefix("rasterproof-").map(str::to_owned)
     };
@@ -65,7 +50,7 @@ fn the_table_of_crates_is_cargos() {
     let dependencies = dependencies();
     assert!(dependencies.len() > 10, "{dependencies:?}");
     for page in ["docs/ARCHITECTURE.md", "docs/zh/ARCHITECTURE.md"] {
-        let text = fs::read_to_string(root().join(page)).unwrap();
+        let text = read(page);
         let stated: BTreeMap<String, BTreeSet<String>> = rows(&text)
             .filter(|row| row.len() == 3 && row[0].starts_with("[`crates/"))
             .map(|row| {
@@ -92,9 +77,9 @@ fn what_is_compared_is_independent() {
         ("crates/verify/src/oracle/rational", &["orient2d"]),
     ];
     let mut looked_at = 0;
-    for path in source_folders().iter().flat_map(|folder| files(&root().join(folder), "rs")) {
+    for path in source_folders().iter().flat_map(|folder| files(&root().join(folder), ".rs")) {
         let name = path.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/");
-        let text = fs::read_to_string(&path).unwrap();
+        let text = read(&path);
         for (_, others) in rules.iter().filter(|(beginning, _)| name.starts_with(beginning)) {
             looked_at += 1;
             let named = others.iter().find(|other| names_module(without_tests(&text), other));
@@ -103,7 +88,7 @@ fn what_is_compared_is_independent() {
     }
     assert!(looked_at > 15, "{looked_at} files");
     let exact = root().join("crates/core/src/raster/edge_function_exact.rs");
-    assert!(names_module(&fs::read_to_string(exact).unwrap(), "orient2d"));
+    assert!(names_module(&read(exact), "orient2d"));
     assert!(names_module("use super::dda::Dda;", "dda"));
     assert!(names_module("use crate::line::{bresenham, dda};", "dda"));
     assert!(!names_module("// like dda::Dda\nlet dda_like = 1;", "dda"));
@@ -123,11 +108,9 @@ fn names_module(text: &str, module: &str) -> bool {
 
 /// Crates with their features, as the program (`no-dev`) or the tests (`all`) ask for them.
 fn features(edges: &str) -> BTreeSet<String> {
-    let arguments =
-        ["tree", "--locked", "--prefix", "none", "--format", "{p}|{f}", "--edges", edges];
-    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text =
+        cargo(&["tree", "--locked", "--prefix", "none", "--format", "{p}|{f}", "--edges", edges])
+            .out;
     text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
 }
 
@@ -147,13 +130,13 @@ fn samples_of_every_crate_are_run() {
     let mut without = 0;
     for folder in fs::read_dir(root().join("crates")).unwrap() {
         let folder = folder.unwrap().path();
-        let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        let manifest = read(folder.join("Cargo.toml"));
         if !manifest.contains("\ndoctest = false\n") {
             continue;
         }
         without += 1;
-        for path in files(&folder.join("src"), "rs") {
-            let text = fs::read_to_string(&path).unwrap();
+        for path in files(&folder.join("src"), ".rs") {
+            let text = read(&path);
             assert!(!has_sample(&text), "{}: delete `doctest = false`", path.display());
         }
     }
@@ -171,9 +154,9 @@ fn has_sample(text: &str) -> bool {
 
 /// The pages under `docs/` and those beside the README, with their text.
 pub fn pages() -> Vec<(PathBuf, String)> {
-    let mut pages = files(&root().join("docs"), "md");
+    let mut pages = files(&root().join("docs"), ".md");
     pages.extend(["README.md", "CHANGELOG.md", "CONTRIBUTING.md"].map(|name| root().join(name)));
-    pages.into_iter().map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()
+    pages.into_iter().map(|page| (page.clone(), read(page))).collect()
 }
 
 /// The anchors that GitHub gives the headings of a page.
@@ -232,7 +215,7 @@ fn broken_links(page: &Path, text: &str) -> Vec<String> {
         let target =
             if file.is_empty() { page.to_owned() } else { page.parent().unwrap().join(file) };
         let exists = target.exists() && is_kept(&target);
-        let found = || anchors(&fs::read_to_string(&target).unwrap()).iter().any(|a| a == anchor);
+        let found = || anchors(&read(&target)).iter().any(|a| a == anchor);
         if !exists || !anchor.is_empty() && !is_state(file, anchor) && !found() {
             broken.push(format!("{}: {link}", page.display()));
         }
@@ -290,7 +273,7 @@ struct Known {
 }
 
 fn functions(path: &Path) -> Vec<String> {
-    let text = fs::read_to_string(path).unwrap();
+    let text = read(path);
     let names = text.split("fn ").skip(1).filter_map(|rest| rest.split('(').next());
     names.map(str::to_owned).collect()
 }
@@ -299,7 +282,7 @@ impl Known {
     fn new() -> Self {
         let beside = ["tests", "benches", "crates/vulkan/tests"].map(str::to_owned);
         let folders = source_folders().into_iter().chain(beside);
-        let sources = folders.flat_map(|folder| files(&root().join(folder), "rs"));
+        let sources = folders.flat_map(|folder| files(&root().join(folder), ".rs"));
         let invariants: Vec<_> = CATALOGUE.iter().map(|invariant| invariant.name).collect();
         Self {
             functions: sources.flat_map(|path| functions(&path)).collect(),
@@ -378,8 +361,8 @@ fn docs_name_what_exists() {
 /// The architecture page says of every file of tests what it is for.
 #[test]
 fn lists_its_tests() {
-    let page = fs::read_to_string(root().join("docs/ARCHITECTURE.md")).unwrap();
-    for path in files(&root().join("tests/it"), "rs") {
+    let page = read("docs/ARCHITECTURE.md");
+    for path in files(&root().join("tests/it"), ".rs") {
         let name = path.strip_prefix(root()).unwrap().display().to_string();
         let folder = name.rsplit_once('/').unwrap().0;
         let is_listed =
@@ -408,9 +391,9 @@ fn missing_names_are_found() {
 #[test]
 fn specimens_credit_their_source() {
     let of_all = ["mod.rs", "catalogue.rs", "scene.rs"];
-    for path in files(&root().join("crates/faults/src/published"), "rs") {
+    for path in files(&root().join("crates/faults/src/published"), ".rs") {
         let name = path.file_name().unwrap().to_str().unwrap();
-        let text = fs::read_to_string(&path).unwrap();
+        let text = read(&path);
         assert!(of_all.contains(&name) || text.contains("\n//! Source: "), "{name}");
     }
 }
@@ -447,7 +430,7 @@ const SECTIONS: &str = "1.1 1.2 1.3 1.4 1.5 1.5.1 1.5.2 1.6 2.1 2.2 3.1 3.2 3.2.
 /// page names the section. Code, snapshots and specimens of the rows exist.
 #[test]
 fn table_has_every_section() {
-    let table = fs::read_to_string(root().join("docs/sections.md")).unwrap();
+    let table = read("docs/sections.md");
     let table = table.as_str();
     let specimens: Vec<_> = CARDS.iter().map(|card| card.name).collect();
     let mut listed = Vec::new();
@@ -467,7 +450,7 @@ fn table_has_every_section() {
         let page = page.unwrap_or_else(|| panic!("{section} is not in the table"));
         // A chapter may have several pages: ch02.md, ch02-scanline.md.
         assert!(page.starts_with(&format!("ch{chapter:02}")), "{section} leads to {page}");
-        let text = fs::read_to_string(root().join("docs").join(page)).unwrap();
+        let text = read(format!("docs/{page}"));
         let mut words = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
         assert!(words.any(|word| word.trim_matches('.') == section), "{page} lacks {section}");
     }
@@ -482,7 +465,7 @@ fn table_has_every_section() {
 
 #[test]
 fn stability_lists_the_invariants() {
-    let text = fs::read_to_string(root().join("docs/stability.md")).unwrap();
+    let text = read("docs/stability.md");
     let text = text.replace("\\|", "/");
     let table: Vec<_> = rows(section(&text, "The invariants")).collect();
     for invariant in CATALOGUE {
@@ -499,7 +482,7 @@ fn stability_lists_the_invariants() {
 /// The conversation on the page of the protocol is what an engine says.
 #[test]
 fn protocol_is_spoken() {
-    let text = fs::read_to_string(root().join("docs/protocol.md")).unwrap();
+    let text = read("docs/protocol.md");
     let lines = |sign: &str| -> Vec<String> {
         let spoken = section(&text, "A conversation").lines();
         spoken.filter_map(|line| line.strip_prefix(sign).map(str::to_owned)).collect()
