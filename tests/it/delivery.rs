@@ -5,7 +5,7 @@
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::os::unix::ffi::OsStrExt as _;
-use std::os::unix::fs::{PermissionsExt as _, symlink};
+use std::os::unix::fs::symlink;
 use std::path::Path;
 
 use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
@@ -235,20 +235,4 @@ fn names_need_not_be_utf8() {
     run("course start --language python", &[&name(b"\xffmine")]).has(AGREES);
     // Where text is expected, the word is named.
     run("--family", &[Path::new(OsStr::from_bytes(b"f\xffn"))]).has(USAGE).says("not UTF-8: f");
-}
-
-/// The mode of a file that is written over is kept, a link stays one, a device stays one.
-#[test]
-fn files_are_replaced_as_they_are() {
-    let folder = folder("replaced");
-    let file = folder.join("a.json");
-    fs::write(&file, "old").unwrap();
-    fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
-    symlink("a.json", folder.join("link.json")).unwrap();
-    fs::write(folder.join("link.json.part"), "mine").unwrap();
-    folder.run("exhaust lines --reach 2 -o link.json").has(AGREES);
-    assert!(fs::symlink_metadata(folder.join("link.json")).unwrap().is_symlink());
-    assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
-    assert!(fs::read_to_string(&file).unwrap().contains("claim"));
-    assert_eq!(fs::read(folder.join("link.json.part")).unwrap(), b"mine");
 }

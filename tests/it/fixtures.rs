@@ -40,11 +40,8 @@ fn fixtures_are_a_thousand_small_cases() {
     let fixtures = fixtures();
     assert_eq!((fixtures.cases.len(), fixtures.format.as_str()), (1_000, FORMAT));
     for (kind, quota) in QUOTAS {
-        assert_eq!(
-            fixtures.cases.iter().filter(|case| case.kind == kind).count(),
-            quota,
-            "{kind:?}"
-        );
+        let count = fixtures.cases.iter().filter(|case| case.kind == kind).count();
+        assert_eq!(count, quota, "{kind:?}");
     }
     assert_eq!(fixtures.to_json(), text);
     let with_choices = fixtures.cases.iter().filter(|case| case.expected.len() > 1).count();
@@ -59,11 +56,8 @@ fn fixtures_hold_what_is_right() {
         assert_eq!(case.anew(), *case, "case {number}");
         for engine in Engine::CHOICES {
             for line in LineEngine::JUDGED {
-                assert!(
-                    case.accepts(Drawer::Engines(engine, line)),
-                    "case {number}: {}",
-                    engine.name()
-                );
+                let is_accepted = case.accepts(Drawer::Engines(engine, line));
+                assert!(is_accepted, "case {number}: {}", engine.name());
             }
         }
     }
@@ -93,12 +87,6 @@ fn fixtures_kill_planted_faults() {
 /// The parts of JSON Schema that the schema uses.
 fn violation(value: &Value, schema: &Value, root: &Value, at: &str) -> Option<String> {
     let here = |what: &str| Some(format!("{at}: {what}"));
-    if let Some(name) = schema["$ref"].as_str() {
-        let found = violation(value, root.pointer(name.trim_start_matches('#')).unwrap(), root, at);
-        if found.is_some() {
-            return found;
-        }
-    }
     let is_type = match schema["type"].as_str() {
         Some("object") => value.is_object(),
         Some("array") => value.is_array(),
@@ -121,28 +109,29 @@ fn violation(value: &Value, schema: &Value, root: &Value, at: &str) -> Option<St
             return here(&format!("{size} is out of range"));
         }
     }
-    for name in schema["required"].as_array().into_iter().flatten() {
-        if value.get(name.as_str().unwrap()).is_none() {
-            return here(&format!("{name} is missing"));
-        }
+    let mut required = schema["required"].as_array().into_iter().flatten();
+    if let Some(name) = required.find(|name| value.get(name.as_str().unwrap()).is_none()) {
+        return here(&format!("{name} is missing"));
     }
+    // What else a value has to follow: the schema that this one names, and those of its parts.
+    let named = schema["$ref"].as_str();
+    let named = named.map(|name| root.pointer(name.trim_start_matches('#')).unwrap());
+    let mut parts: Vec<_> =
+        named.map(|schema| (value, schema, at.to_owned())).into_iter().collect();
     for (name, part) in value.as_object().into_iter().flatten() {
         match schema["properties"].get(name) {
-            Some(schema) => {
-                let found = violation(part, schema, root, &format!("{at}/{name}"));
-                if found.is_some() {
-                    return found;
-                }
-            }
+            Some(schema) => parts.push((part, schema, format!("{at}/{name}"))),
             None if schema["additionalProperties"] == false => {
                 return here(&format!("{name} is not known"));
             }
             None => {}
         }
     }
-    let items = value.as_array().into_iter().flatten().enumerate();
-    let mut items = items.filter(|_| schema.get("items").is_some());
-    items.find_map(|(i, item)| violation(item, &schema["items"], root, &format!("{at}/{i}")))
+    let items = schema.get("items").into_iter().flat_map(|schema| {
+        let items = value.as_array().into_iter().flatten().enumerate();
+        items.map(move |(i, item)| (item, schema, format!("{at}/{i}")))
+    });
+    parts.into_iter().chain(items).find_map(|(part, schema, at)| violation(part, schema, root, &at))
 }
 
 #[test]
@@ -153,7 +142,6 @@ fn fixtures_follow_their_schema() {
     assert_eq!(violation(&file, &schema, &schema, ""), None);
     file["cases"][3]["points"][0][0] = "1".into();
     assert!(violation(&file, &schema, &schema, "").is_some());
-    file["cases"] = Value::Array(Vec::new());
     file["cases"] = serde_json::json!([{ "kind": "triangle" }]);
     assert!(violation(&file, &schema, &schema, "").unwrap().contains("window"));
 }
