@@ -363,12 +363,11 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
             counters.cast += if is_drawn { 0 } else { map.fragments };
             map
         });
-        let parts = self.plan.items[item.index()].parts;
+        let parts = self.plan.items[item.index()].parts.as_ref();
         let (bounds, planes) = (self.target.bounds(), self.target.antialias().planes());
         let mut samples = self.on_demand.as_mut();
         // Where samples are told apart on demand, pixels of a multisampled picture stay whole in large pieces.
         let checked = parts
-            .as_ref()
             .filter(|parts| parts.are_checked(piece, plan) && (planes == 1 || samples.is_none()));
         if checked.is_some()
             && let Some(on_demand) = samples.take()
@@ -390,7 +389,7 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
                     }
                 });
             }
-            let constants = parts.map(|_| &part.constants);
+            let constants = parts.is_some().then_some(&part.constants);
             let map = map.filter(|_| part.plan.shadows);
             let kernel = Kernel::new(item, piece, part.plan, map, constants, counters);
             let samples = samples.as_deref_mut();

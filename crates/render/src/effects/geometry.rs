@@ -19,7 +19,8 @@ use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
 use crate::pipeline::shade::{ALL, Light};
 use crate::pipeline::texture::Texture;
-use crate::scene::{Corner, Hidden, Scene};
+use crate::scene::{Hidden, Scene};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::{Corners, ScreenVertex};
@@ -159,8 +160,7 @@ impl<'a> Whole<'a> {
                 continue;
             }
             if a.code | b.code | c.code != 0 {
-                let triangle = triangles.at(number as usize - item.first);
-                self.cut(item, &triangle, &mut |part, surface| {
+                self.cut(item, number as usize - item.first, &mut |part, surface| {
                     emit(outline(&surface.corners, number | (part + 1) << FACE_BITS));
                 });
                 continue;
@@ -198,18 +198,20 @@ impl<'a> Whole<'a> {
             [item] => item,
             items => &items[items.partition_point(|item| item.first <= face as usize) - 1],
         };
-        let triangle = &item.prepared.item.mesh.triangles.at(face as usize - item.first);
+        let triangle = face as usize - item.first;
         if part != 0 {
             return self.part(item, triangle, part - 1);
         }
-        let [a, b, c] = item.corners(triangle);
-        let values = item.prepared.varyings(self.scene, triangle);
-        Surface { material: &item.material, corners: [a.place, b.place, c.place], values }
+        let positions = item.prepared.item.mesh.triangles.positions()[triangle];
+        let corners = positions.map_array(|number| item.vertices[number as usize].place);
+        let varyings = item.prepared.varyings(self.scene, triangle);
+        let values = varyings.map_array(|varying| without_place(&varying));
+        Surface { material: &item.material, corners, values }
     }
 
     /// A part of a triangle that a plane cuts.
     #[cold]
-    fn part<'s>(&'s self, item: &'s Item<'_>, triangle: &[Corner; 3], number: u32) -> Surface<'s> {
+    fn part<'s>(&'s self, item: &'s Item<'_>, triangle: usize, number: u32) -> Surface<'s> {
         let mut found = None;
         self.cut(item, triangle, &mut |part, surface| {
             if part == number {
@@ -224,7 +226,7 @@ impl<'a> Whole<'a> {
     fn cut<'s>(
         &'s self,
         item: &'s Item<'_>,
-        triangle: &[Corner; 3],
+        triangle: usize,
         emit: &mut dyn FnMut(u32, Surface<'s>),
     ) {
         let mut parts = 0;
@@ -264,12 +266,6 @@ impl<'a> Item<'a> {
             veil: scene.fog.map(|_| prepared.veil),
         };
         Ok(Self { material, prepared, vertices, first })
-    }
-
-    #[inline]
-    fn corners(&self, [a, b, c]: &[Corner; 3]) -> [&Vertex; 3] {
-        let vertex = |corner: &Corner| &self.vertices[corner.position as usize];
-        [vertex(a), vertex(b), vertex(c)]
     }
 }
 

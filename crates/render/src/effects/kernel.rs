@@ -36,6 +36,18 @@ const SHORT: usize = 4;
 /// Where a piece is drawn and how far, with the pixels where their samples are told apart on demand, and what is counted.
 type To<'a> = (&'a mut Target, PixelRect, Option<&'a mut OnDemand>, &'a mut Counters);
 
+/// What was counted before a piece was drawn.
+struct Before {
+    fragments: u64,
+    shaded: u64,
+}
+
+impl Before {
+    fn of(counters: &Counters) -> Self {
+        Self { fragments: counters.fragments, shaded: counters.shaded }
+    }
+}
+
 /// Where attributes begin among the numbers of a fragment, if they are interpolated.
 struct Starts {
     colour: usize,
@@ -260,7 +272,7 @@ impl<'a> Kernel<'a> {
         piece: &Piece,
         (target, bounds, samples, counters): To<'_>,
     ) {
-        let shade = || brightened(self.shade::<0, 0, false>(&Packed([]), 0.0), self.shine);
+        let shade = || brightened(self.shade::<0, 0, true>(&Packed([]), 0.0), self.shine);
         let colour = self.fogged.unwrap_or_else(shade);
         let shaded = counters.shaded;
         if let Some(on_demand) = samples {
@@ -310,16 +322,16 @@ impl<'a> Kernel<'a> {
             colour: &|varying, depth| self.shade_all(&varying.0, depth),
         };
         let way = Way { affine: !perspective, depth_test: depth };
-        let before = *counters;
+        let before = Before::of(counters);
         let visible = see_through::fill(engine, &packed, target, bounds, way, &look, counters);
-        self.count(&before, if interpolates.is_empty() { 0 } else { N }, counters);
+        self.count(before, if interpolates.is_empty() { 0 } else { N }, counters);
         let of = |drawn: Drawn| if drawn == Drawn::Mixed { visible } else { 0 };
         counters.alpha_tests += of(self.plan.alpha_test);
         counters.blended += of(self.plan.blending);
     }
 
     /// Counts what the fragments since `before`, of so many components each, have paid for.
-    fn count(&self, before: &Counters, components: usize, counters: &mut Counters) {
+    fn count(&self, before: Before, components: usize, counters: &mut Counters) {
         let fragments = counters.fragments - before.fragments;
         let shaded = counters.shaded - before.shaded;
         counters.components += fragments * components as u64;
@@ -341,10 +353,15 @@ impl<'a> Kernel<'a> {
         piece: &Piece,
         to: To<'_>,
     ) {
-        let (plain, levels) = (self.stage::<N, MASK, false>(), self.stage::<N, MASK, true>());
-        let stage: &FragmentStage<'_, Packed<N>> =
-            if self.reading.is_some() { &levels } else { &plain };
+        let (plain, other) = (self.plain_stage::<N, MASK>(), self.stage::<N, MASK>());
+        let stage: &FragmentStage<'_, Packed<N>> = if self.is_plain() { &plain } else { &other };
         self.draw_by(engine, piece, to, stage);
+    }
+
+    /// Whether a fragment has no highlight and no fog, and reads its texture once, without the texels of the last one.
+    fn is_plain(&self) -> bool {
+        let reads_once = self.reading.is_none() && self.last.is_none();
+        reads_once && self.highlight.is_none() && self.shine == [0; 3] && self.veil.is_none()
     }
 
     /// The kernel for any attributes of at most `N` components.
@@ -363,13 +380,13 @@ impl<'a> Kernel<'a> {
     ) {
         let packed = pack::<N>(piece, self.plan.interpolates);
         let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
-        let before = *counters;
+        let before = Before::of(counters);
         if let Some(on_demand) = samples {
             on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
         } else {
             fill(engine, &packed, target, bounds, way, stage, counters);
         }
-        self.count(&before, N, counters);
+        self.count(before, N, counters);
     }
 
     /// The colour of any attributes, for what has no kernel of its own; `values` are those of a fragment as [`pack`] puts them.
@@ -380,19 +397,12 @@ impl<'a> Kernel<'a> {
         self.shade_texel(values, depth, texel)
     }
 
-    #[inline]
-    fn read(&self, texture: &Texture, uv: DVec2) -> DVec3 {
-        match &self.last {
-            Some(last) => texture.at_again(uv, &mut last.borrow_mut()),
-            None => texture.at(uv),
-        }
-    }
-
     /// What a fragment reads of its texture, at a level of detail and several times where the plan pays for it.
     fn texel(&self, texture: &Texture, uv: DVec2, depth: f64) -> DVec3 {
-        match &self.reading {
-            None => self.read(texture, uv),
-            Some((reading, veil)) => {
+        match (&self.reading, &self.last) {
+            (None, None) => texture.at(uv),
+            (None, Some(last)) => texture.at_again(uv, &mut last.borrow_mut()),
+            (Some((reading, veil)), _) => {
                 let w = veil.map_or(1.0, |veil| veil.w(depth));
                 let (texel, taps) = reading.texel(texture, uv, w);
                 if self.plan.anisotropy {
@@ -430,12 +440,19 @@ impl<'a> Kernel<'a> {
         self.veil.map_or(colour, |veil| veil.before(colour, veil.distance(depth)))
     }
 
-    /// The fragment stage of the attributes in `MASK`: a function of its own, so that there is one
-    /// copy for all rasterizers. What only some scenes call for comes after the loop that all have.
-    fn stage<const N: usize, const MASK: u8, const LEVELS: bool>(
+    /// The fragment stage of the attributes in `MASK`, where [`Self::is_plain`]: a function of its own, so that there is one
+    /// copy for all rasterizers.
+    fn plain_stage<const N: usize, const MASK: u8>(
         &self,
     ) -> impl Fn(&[Packed<N>], &[f64], u32, &mut [Colour]) {
-        let shade = each(|varying, depth| self.shade::<N, MASK, LEVELS>(varying, depth));
+        each(|varying, depth| self.shade::<N, MASK, true>(varying, depth))
+    }
+
+    /// The same with all that only some scenes call for.
+    fn stage<const N: usize, const MASK: u8>(
+        &self,
+    ) -> impl Fn(&[Packed<N>], &[f64], u32, &mut [Colour]) {
+        let shade = each(|varying, depth| self.shade::<N, MASK, false>(varying, depth));
         move |varyings, depths, wanted, colours| {
             shade(varyings, depths, wanted, colours);
             if self.highlight.is_some() || self.shine != [0; 3] {
@@ -483,7 +500,7 @@ impl<'a> Kernel<'a> {
 
     /// base x colour x texel x light; what is not in `MASK` is constant.
     #[inline]
-    fn shade<const N: usize, const MASK: u8, const LEVELS: bool>(
+    fn shade<const N: usize, const MASK: u8, const PLAIN: bool>(
         &self,
         varying: &Packed<N>,
         depth: f64,
@@ -502,7 +519,7 @@ impl<'a> Kernel<'a> {
         let texel = match self.texture {
             Some(texture) if MASK & Attributes::UV != 0 => {
                 let uv = DVec2::new(next(), next());
-                if LEVELS { self.texel(texture, uv, depth) } else { self.read(texture, uv) }
+                if PLAIN { texture.at(uv) } else { self.texel(texture, uv, depth) }
             }
             _ => self.texel,
         };

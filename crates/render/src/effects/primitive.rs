@@ -1,5 +1,6 @@
 //! Items to pieces: the vertex stage and assembly, with the effects that a plan names for an item.
 
+use std::cell::LazyCell;
 use std::fmt;
 use std::sync::{Arc, LazyLock};
 
@@ -15,7 +16,7 @@ use crate::pipeline::shadow::LightView;
 use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
 use crate::pipeline::{ClipVertex, Counters};
-use crate::scene::{Corner, Item, Scene, Shading};
+use crate::scene::{Item, Scene, Shading};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
@@ -140,59 +141,43 @@ impl<'a> Prepared<'a> {
         Ok(self.assembler.point(position))
     }
 
-    /// The vertex stage of the corners of a triangle: all but their positions and places.
+    /// The vertex stage of the corners of a triangle: all but their positions. What the material has no use for is not read.
     #[inline]
-    pub fn varyings(&self, scene: &Scene, triangle: &[Corner; 3]) -> [[f64; ALL]; 3] {
-        let face = self.face(triangle);
-        let [a, b, c] = triangle;
-        let varying = |corner: &Corner| without_place(&self.varying(scene, corner, face));
-        [varying(a), varying(b), varying(c)]
-    }
-
-    /// The normal of a triangle, where it is asked for.
-    fn face(&self, triangle: &[Corner; 3]) -> DVec3 {
-        match self.item.material.shading {
-            Shading::Flat => {
-                self.item.mesh.face_normal(triangle.map_array(|corner| corner.position))
+    pub fn varyings(&self, scene: &Scene, triangle: usize) -> [Packed<PLACED>; 3] {
+        let (material, mesh) = (&self.item.material, &self.item.mesh);
+        let (triangles, positions) = (&mesh.triangles, mesh.triangles.positions()[triangle]);
+        let mut colours =
+            if material.vertex_colours { triangles.colours(triangle) } else { [DVec3::ONE; 3] };
+        let mut normals = [DVec3::ZERO; 3];
+        match material.shading {
+            Shading::Unlit => {}
+            Shading::Flat => normals = [self.normals * mesh.face_normal(positions); 3],
+            Shading::Phong => {
+                normals = triangles.normals(triangle).map_array(|normal| self.normals * normal);
             }
-            _ => DVec3::ZERO,
+            Shading::Gouraud => {
+                // Light of the corners is light too.
+                for (colour, normal) in colours.iter_mut().zip(triangles.normals(triangle)) {
+                    *colour *= scene.light.intensity(self.normals * normal);
+                }
+            }
         }
+        let has_uv = material.texture.is_some() || material.has_opacity_map();
+        let uvs = if has_uv { triangles.uvs(triangle) } else { [DVec2::ZERO; 3] };
+        [0, 1, 2].map_array(|i: usize| {
+            let view = self.light_view.as_ref();
+            let place = view.map_or(DVec3::ZERO, |view| view.place(self.index, positions[i]));
+            Surface { colour: colours[i], normal: normals[i], uv: uvs[i], place }.into()
+        })
     }
 
     /// Emits the pieces of one triangle, whose positions are transformed for it alone.
-    pub fn assemble_one(
-        &self,
-        scene: &Scene,
-        triangle: &[Corner; 3],
-        emit: &mut dyn FnMut(&Piece),
-    ) {
-        let point = |i: usize| {
-            let at = triangle[i].position as usize;
-            self.point(at, self.item.mesh.positions[at])
-        };
-        let (Ok(a), Ok(b), Ok(c)) = (point(0), point(1), point(2)) else { return };
-        let varying = |i: usize| self.varying(scene, &triangle[i], self.face(triangle));
-        self.assembler.assemble([&a, &b, &c], varying, &mut Counters::default(), emit);
-    }
-
-    /// The vertex stage of one corner: all but its position.
-    fn varying(&self, scene: &Scene, corner: &Corner, face: DVec3) -> Packed<PLACED> {
-        let material = &self.item.material;
-        let mut colour = if material.vertex_colours { corner.colour } else { DVec3::ONE };
-        if material.shading == Shading::Gouraud {
-            // Light of the corners is light too.
-            colour *= scene.light.intensity(self.normals * corner.normal);
-        }
-        let normal = match material.shading {
-            Shading::Flat => self.normals * face,
-            Shading::Phong => self.normals * corner.normal,
-            Shading::Unlit | Shading::Gouraud => DVec3::ZERO,
-        };
-        let has_uv = material.texture.is_some() || material.has_opacity_map();
-        let uv = if has_uv { corner.uv } else { DVec2::ZERO };
-        let light_view = self.light_view.as_ref();
-        let place = light_view.map_or(DVec3::ZERO, |v| v.place(self.index, corner.position));
-        Surface { colour, normal, uv, place }.into()
+    pub fn assemble_one(&self, scene: &Scene, triangle: usize, emit: &mut dyn FnMut(&Piece)) {
+        let mesh = &self.item.mesh;
+        let point = |number: u32| self.point(number as usize, mesh.positions[number as usize]);
+        let [Ok(a), Ok(b), Ok(c)] = mesh.triangles.positions()[triangle].map(point) else { return };
+        let varyings = LazyCell::new(|| self.varyings(scene, triangle));
+        self.assembler.assemble([&a, &b, &c], |i| varyings[i], &mut Counters::default(), emit);
     }
 
     /// Emits the pieces of every triangle.
@@ -203,11 +188,11 @@ impl<'a> Prepared<'a> {
         emit: &mut dyn FnMut(&Piece, &mut Counters),
     ) {
         let mut fills = Counters::default();
-        for triangle in self.item.mesh.triangles.iter() {
-            let point = |i: usize| &self.points[triangle[i].position as usize];
-            let varying = |i: usize| self.varying(scene, &triangle[i], self.face(&triangle));
-            let points = [point(0), point(1), point(2)];
-            self.assembler.assemble(points, varying, counters, |piece| emit(piece, &mut fills));
+        for (triangle, positions) in self.item.mesh.triangles.positions().iter().enumerate() {
+            let points = positions.map_array(|number| &self.points[number as usize]);
+            let varyings = LazyCell::new(|| self.varyings(scene, triangle));
+            let emit = |piece: &Piece| emit(piece, &mut fills);
+            self.assembler.assemble(points, |i| varyings[i], counters, emit);
         }
         *counters += fills;
     }

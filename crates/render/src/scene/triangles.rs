@@ -169,8 +169,8 @@ impl Triangles {
     #[must_use]
     pub fn at(&self, triangle: usize) -> [Corner; 3] {
         let of = self.positions()[triangle];
-        let colours = self.colours.get(triangle, of);
-        let (normals, uvs) = (self.normals.get(triangle, of), self.uvs.get(triangle, of));
+        let (colours, normals, uvs) =
+            (self.colours(triangle), self.normals(triangle), self.uvs(triangle));
         let corner = |i: usize| Corner {
             position: of[i],
             colour: colours[i],
@@ -178,6 +178,21 @@ impl Triangles {
             uv: uvs[i],
         };
         [corner(0), corner(1), corner(2)]
+    }
+
+    #[inline]
+    pub(crate) fn colours(&self, triangle: usize) -> [DVec3; 3] {
+        self.colours.get(triangle, self.positions()[triangle])
+    }
+
+    #[inline]
+    pub(crate) fn normals(&self, triangle: usize) -> [DVec3; 3] {
+        self.normals.get(triangle, self.positions()[triangle])
+    }
+
+    #[inline]
+    pub(crate) fn uvs(&self, triangle: usize) -> [DVec2; 3] {
+        self.uvs.get(triangle, self.positions()[triangle])
     }
 
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [Corner; 3]> + DoubleEndedIterator + Clone {

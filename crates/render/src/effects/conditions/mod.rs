@@ -25,14 +25,16 @@ pub(super) mod shadows;
 pub(super) mod specular;
 pub(super) mod wide_words;
 
+use glam::DVec2;
+
 use self::account::Account;
 use super::plan::{Attributes, Decision, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w};
 use super::{Effect, Effects, Mode};
-use crate::pipeline::assemble::twice_area;
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
 use crate::scene::{Item, Scene};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
 
 /// What is known of a piece before it is planned. What no mode asks for is not looked at, and is as in
@@ -75,10 +77,12 @@ const LEAST_PLAIN: f64 = 6.0;
 /// A piece of so many samples is looked at with any texture.
 const ALWAYS_PLAIN: i64 = 256;
 
-/// About how many samples a piece covers.
+/// About how many samples a piece covers: exact in all but pieces that reach far out of the window.
 pub(super) fn samples_of(piece: &Piece) -> i64 {
-    let subpixels = 2 * i128::from(SUBPIXELS).pow(2);
-    i64::try_from(twice_area(piece.corners()).abs() / subpixels).unwrap_or(i64::MAX)
+    let [a, b, c] =
+        piece.corners().map_array(|corner| DVec2::new(corner.x.into(), corner.y.into()));
+    let subpixels = 2.0 * f64::from(SUBPIXELS).powi(2);
+    ((b - a).perp_dot(c - a).abs() / subpixels) as i64
 }
 
 impl Facts {

@@ -95,11 +95,11 @@ pub fn search_all(scene: &Scene, rules: &[Rule], assembled: &Assembled<'_>, fact
 /// Looks at the first triangles of pieces that are drawn as they come, for one that needs the map.
 pub fn look_ahead(scene: &Scene, item: &Prepared<'_>, rule: &Rule) {
     let Some(view) = item.light_view.as_ref().filter(|_| rule.shadows.is_open()) else { return };
-    for triangle in item.item.mesh.triangles.iter().take(LOOKED_AT) {
+    for triangle in 0..item.item.mesh.triangles.len().min(LOOKED_AT) {
         if view.is_needed() {
             return;
         }
-        item.assemble_one(scene, &triangle, &mut |piece| {
+        item.assemble_one(scene, triangle, &mut |piece| {
             foresee(rule, item, piece, &Facts::of(rule, item, piece));
         });
     }
