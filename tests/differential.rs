@@ -18,8 +18,8 @@ use libtest_mimic::{Arguments, Failed, Trial};
 mod next;
 use rasterproof_registry::comparison;
 use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_report::differential;
 use rasterproof_report::summary::chapter;
-use rasterproof_report::table;
 use rasterproof_verify::cases;
 use rasterproof_verify::comparison::{FamilyReport, Options, Verdict, tolerance};
 
@@ -46,13 +46,13 @@ fn main() -> ExitCode {
     let all = families.len() == cases::families().count();
     let options = Options::default().cases(CASES);
     let verdict = Verdict { options, families, failures: Vec::new(), convention: None };
-    println!("{}{}", table::table(&verdict), table::quota_line(&verdict));
+    println!("{}{}", differential::text(&verdict), differential::quota_line(&verdict));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {
         println!("FAILED: a quota is not met, so the families prove less than they claim");
     }
     if conclusion.has_failed() {
-        print!("{}", table::disagreements(&verdict));
+        print!("{}", differential::disagreements(&verdict));
         if all {
             show_snapshots();
         }
@@ -142,7 +142,9 @@ fn judge(
             )
         });
         let failures: Vec<_> = told.collect();
-        return Err(format!("{}\n{}", table::disagreements(&verdict), failures.join("\n")).into());
+        return Err(
+            format!("{}\n{}", differential::disagreements(&verdict), failures.join("\n")).into()
+        );
     }
     Ok(())
 }

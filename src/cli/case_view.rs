@@ -9,17 +9,14 @@ use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_core::triangle::PixelPoint;
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_faults::published::from_screen;
-use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Specimen};
-use rasterproof_registry::published_check::{specimen_coverage, specimen_line_coverage};
-use rasterproof_report::page_cases::added;
+use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine};
+use rasterproof_report::drawn::{self, Hits};
 use rasterproof_report::{ascii, panels};
 use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::tolerance::{self, Tolerance};
 use rasterproof_verify::comparison::unsnapped::exact_coverage;
-use rasterproof_verify::comparison::{Tally, engine_coverage, line_coverage, oracle_coverage};
-use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 
 /// Who is judged: the engines of each kind, or a planted fault alone.
@@ -54,19 +51,6 @@ impl JudgedEngines {
     }
 }
 
-/// A case off the lattice as every engine for such corners draws it.
-pub fn picture_off_grid(
-    title: &str,
-    case: &OffGridCase,
-    engines: &[ExactEngine],
-) -> Option<RgbImage> {
-    let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
-    let hits = engines.iter().filter_map(|engine| {
-        Some((engine.name().to_owned(), exact_coverage(engine, case).ok()?.0))
-    });
-    Some(panels::of_off_grid(title, case, &hits.collect::<Vec<_>>(), &target).image)
-}
-
 /// The hits in a window; none where the other one has no pixels.
 pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
     let mut cropped = Coverage::new(window, 0);
@@ -79,69 +63,34 @@ pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
 }
 
 pub struct Shown {
-    engines: Vec<(String, Result<Coverage, String>)>,
+    engines: Vec<(String, Hits)>,
+    oracle: &'static str,
     target: Coverage,
 }
 
 pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
-    match &case.shape {
-        Shape::Triangles { list, .. } => Shown {
-            engines: engines
-                .iter()
-                .map(|(e, _)| {
-                    (
-                        e.name().to_owned(),
-                        engine_coverage(e, list, case.window).map_err(String::from),
-                    )
-                })
-                .collect(),
-            target: oracle_coverage(list, case.window),
-        },
-        Shape::Lines(list) => {
-            let mut target = Coverage::new(case.window, 0);
-            for line in list {
-                Oracle.line_pixels(line, case.window, |p, _| target.hit(p.y, p.x, p.x + 1));
-            }
-            Shown {
-                engines: lines
-                    .iter()
-                    .map(|e| {
-                        (
-                            e.name().to_owned(),
-                            line_coverage(e, list, case.window).map_err(String::from),
-                        )
-                    })
-                    .collect(),
-                target,
-            }
-        }
-    }
+    let engines = engines.iter().map(|(engine, _)| *engine);
+    let engines = drawn::by_engines(case, engines, lines.iter().copied());
+    Shown { engines, oracle: "oracle", target: drawn::by_oracle(case) }
+}
+
+pub fn draw_off_grid(case: &OffGridCase, engines: &[ExactEngine]) -> Result<Shown, Failure> {
+    let oracle = ExactEngine::Oracle;
+    let hits = |engine: &ExactEngine| exact_coverage(engine, case).map(|(hits, _)| hits);
+    let engines = engines.iter().map(|e| (e.name().to_owned(), hits(e).map_err(String::from)));
+    let engines = engines.collect();
+    Ok(Shown { engines, oracle: oracle.name(), target: hits(&oracle).map_err(usage)? })
 }
 
 impl Shown {
     pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
-        let window = case.window;
-        let hits = match (&case.shape, entry.specimen) {
-            (Shape::Triangles { list, .. }, Some(Specimen::Triangle(specimen))) => {
-                let list: Vec<_> = list.iter().map(from_screen).collect();
-                specimen_coverage(specimen, &list, window)
-            }
-            (Shape::Lines(lines), Some(Specimen::Line(specimen))) => {
-                let mut hits = Ok(Coverage::new(window, 0));
-                for line in lines {
-                    let more = specimen_line_coverage(specimen, line, window);
-                    hits = hits.and_then(|hits| Ok(added(hits, &more?)));
-                }
-                hits
-            }
-            _ => return Err(usage(format!("{} does not draw what this case holds", entry.name))),
-        };
-        self.engines.insert(0, (entry.name.to_owned(), hits));
+        let hits = drawn::by_specimen(entry, case);
+        let refused = || usage(format!("{} does not draw what this case holds", entry.name));
+        self.engines.insert(0, (entry.name.to_owned(), hits.ok_or_else(refused)?));
         Ok(())
     }
 
     /// Puts somebody else before the engines, who draws the case so; and how it differs.
-    #[cfg(feature = "vulkan")]
     pub fn add_drawn(&mut self, name: &str, hits: Coverage) -> Tally {
         let tally = Tally::between(&hits, &self.target);
         self.engines.insert(0, (name.to_owned(), Ok(hits)));
@@ -158,23 +107,26 @@ impl Shown {
             Ok(hits) => format!("{name} {}", of(hits)),
             Err(_) => format!("{name} panics"),
         });
-        engines.chain([format!("oracle {}", of(&self.target))]).collect::<Vec<_>>().join(", ")
+        let oracle = format!("{} {}", self.oracle, of(&self.target));
+        engines.chain([oracle]).collect::<Vec<_>>().join(", ")
     }
 
     /// A titled grid for each engine; one that panicked has its message instead.
     pub fn blocks(&self) -> Vec<(String, Vec<String>)> {
         let blocks = self.engines.iter().map(|(name, hits)| match hits {
             Ok(hits) => {
-                let tally = Tally::between(hits, &self.target);
-                (
-                    format!("{name}: {} px, {} wrong", hits.covered(), tally.total()),
-                    ascii::grid(hits, &self.target),
-                )
+                let (covered, tally) = (hits.covered(), Tally::between(hits, &self.target));
+                // What is said of engines off the lattice stands in lines of its own.
+                let title = match self.oracle {
+                    "oracle" => format!("{name}: {covered} px, {} wrong", tally.total()),
+                    _ => format!("{name}: {covered} px"),
+                };
+                (title, ascii::grid(hits, &self.target))
             }
             Err(message) => (format!("{name}: panics"), vec![message.clone()]),
         });
         let oracle = (
-            format!("oracle: {} px", self.target.covered()),
+            format!("{}: {} px", self.oracle, self.target.covered()),
             ascii::grid(&self.target, &self.target),
         );
         blocks.chain([oracle]).collect()
@@ -189,9 +141,16 @@ impl Shown {
 
     /// A panel for each engine that did not panic, then the oracle.
     pub fn picture(&self, title: &str, case: &Case) -> RgbImage {
+        panels::of_case(title, case, &self.drawn(), &self.target).image
+    }
+
+    pub fn picture_off_grid(&self, title: &str, case: &OffGridCase) -> RgbImage {
+        panels::of_off_grid(title, case, &self.drawn(), &self.target).image
+    }
+
+    fn drawn(&self) -> Vec<panels::Drawn> {
         let drawn = self.engines.iter();
-        let drawn = drawn.filter_map(|(name, hits)| Some((name.clone(), hits.clone().ok()?)));
-        panels::of_case(title, case, &drawn.collect::<Vec<_>>(), &self.target).image
+        drawn.filter_map(|(name, hits)| Some((name.clone(), hits.clone().ok()?))).collect()
     }
 }
 

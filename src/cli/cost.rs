@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum as _;
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
@@ -21,56 +20,33 @@ use rasterproof_report::html::{Figure, Report};
 use rasterproof_report::{board, cost_plots, json, picture};
 
 /// What is measured together under one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Which {
-    /// Coverage by scanline and by edge function
-    Coverage,
-    /// Attributes at covered pixels
-    Interpolation,
-    /// Formats of the depth buffer
-    Depth,
-    /// Formats of a shadow map
-    Shadows,
-    /// Levels of detail of a texture
-    Levels,
-    /// Samples for each pixel
-    Antialiasing,
-    /// Line drawers
-    Lines,
-}
-
-impl Which {
-    fn ladders(self) -> &'static [Ladder] {
-        match self {
-            Self::Coverage => &[Ladder::Scanline, Ladder::EdgeFunction],
-            Self::Interpolation => &[Ladder::Interpolation],
-            Self::Depth => &[Ladder::Depth],
-            Self::Shadows => &[Ladder::Shadows],
-            Self::Levels => &[Ladder::Levels],
-            Self::Antialiasing => &[Ladder::Antialiasing],
-            Self::Lines => &[Ladder::Lines],
-        }
-    }
-}
+const LADDERS: [(&str, &[Ladder]); 7] = [
+    ("coverage", &[Ladder::Scanline, Ladder::EdgeFunction]),
+    ("interpolation", &[Ladder::Interpolation]),
+    ("depth", &[Ladder::Depth]),
+    ("shadows", &[Ladder::Shadows]),
+    ("levels", &[Ladder::Levels]),
+    ("antialiasing", &[Ladder::Antialiasing]),
+    ("lines", &[Ladder::Lines]),
+];
 
 /// What is measured on: scenes that isolate one cost each, or a model.
 #[derive(Clone, Debug)]
 enum Subject {
-    Ladder(Which),
+    Ladders(&'static [Ladder]),
     Model(PathBuf),
 }
 
 fn parse_subject() -> impl TypedValueParser<Value = Subject> {
     OsStringValueParser::new().try_map(|word| {
-        let which = word.to_str().and_then(|word| Which::from_str(word, false).ok());
+        let known = LADDERS.iter().find(|(name, _)| *name == word);
         let path = PathBuf::from(word);
-        match which {
-            Some(which) => Ok(Subject::Ladder(which)),
+        match known {
+            Some((_, ladders)) => Ok(Subject::Ladders(ladders)),
             None if path.extension().is_some() || path.is_file() => Ok(Subject::Model(path)),
             None => {
-                let names = Which::value_variants().iter().filter_map(Which::to_possible_value);
-                let names: Vec<_> = names.map(|value| value.get_name().to_owned()).collect();
-                Err(format!("neither a file nor one of the ladders {}", names.join(", ")))
+                let names = LADDERS.map(|(name, _)| name).join(", ");
+                Err(format!("neither a file nor one of the ladders {names}"))
             }
         }
     })
@@ -147,7 +123,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
             let how = (arguments.quick, arguments.json);
             return study::cost(path, &arguments.view, how, typed, streams);
         }
-        Some(Subject::Ladder(which)) => which.ladders(),
+        Some(Subject::Ladders(ladders)) => ladders,
         None => &Ladder::ALL[..],
     };
     study::refuse_view(typed)?;

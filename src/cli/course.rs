@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::page::{Place, save_page};
 use super::progress::Progress as Shown;
-use super::view::SceneArguments;
+use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_host::shell::quote;
 use rasterproof_host::text::printable_path;
@@ -22,8 +22,6 @@ use rasterproof_teaching::course::examine::{self, Amount};
 use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::verdict::{self, indented};
 use rasterproof_teaching::course::{self, STEPS, Step, sandbox, show};
-
-pub const HELP: &str = include_str!("help/course.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct CourseArguments {
@@ -50,7 +48,7 @@ enum CourseCommand {
     /// Draw what the program draws at a step, beside the right picture and the difference
     Show(Box<ShowArguments>),
     /// Points by step: of a program, or of a folder of submissions
-    #[command(long_flag = "grade", after_help = course_grade::HELP)]
+    #[command(long_flag = "grade", after_help = super::help!("course_grade"))]
     Grade(Box<GradeArguments>),
 }
 
@@ -220,7 +218,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         (None, None) => vec![progress.current()],
     };
     let model = match &arguments.model {
-        Some(path) => Some(SceneArguments::of_model(path, size).maker(streams)?.scene(0.0)),
+        Some(path) => Some(ViewArguments::of(size).maker(path, streams)?.scene(0.0)),
         None => None,
     };
     let name = match (word, &model) {

@@ -14,12 +14,11 @@ use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group;
 use rasterproof_judge::text::printable;
+use rasterproof_report::json::pretty;
 use rasterproof_teaching::course::examine::{self, Amount};
 use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::sandbox::{self, Bounds};
 use rasterproof_teaching::course::{self, STEPS, verdict};
-
-pub const HELP: &str = include_str!("help/course_grade.txt").trim_ascii_end();
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
@@ -323,9 +322,4 @@ fn gradescope(grade: &Grade) -> Value {
         "output": format!("{} of {} steps are passed", grade.points(), STEPS.len()),
         "tests": tests.collect::<Vec<_>>(),
     })
-}
-
-fn pretty(value: &Value) -> String {
-    // Numbers and strings only: this cannot fail.
-    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }

@@ -4,8 +4,6 @@ use super::progress::Progress;
 use super::{Status, Streams, exit};
 use rasterproof_registry::digest::{self, Options};
 
-pub const HELP: &str = include_str!("help/digest.txt").trim_ascii_end();
-
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
     /// Decides every generated case

@@ -8,8 +8,6 @@ use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_judge::server;
 use rasterproof_registry::engines::{self, Entry};
 
-pub const HELP: &str = include_str!("help/engine.txt").trim_ascii_end();
-
 /// The engine of this name, planted faults among them.
 pub(super) fn find(name: &str) -> Result<Entry, Failure> {
     let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));

@@ -23,8 +23,6 @@ use rasterproof_exhaustive::triangles::Triangles;
 
 const SAVE_EVERY: Duration = Duration::from_secs(3);
 
-pub const HELP: &str = include_str!("help/exhaust.txt").trim_ascii_end();
-
 #[derive(clap::Args, Debug)]
 pub struct ExhaustArguments {
     #[command(subcommand)]
@@ -203,7 +201,6 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     Ok(status)
 }
 
-/// The state in the checkpoint file, if there is one.
 fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<run::Progress>, Failure> {
     let name = printable_path(path);
     let text = match input::read_text(path, limits::DOCUMENT_BYTES) {

@@ -4,8 +4,6 @@ use super::progress::Progress;
 use super::{Status, Streams, exit};
 use rasterproof_registry::fixtures::{QUOTAS, generate};
 
-pub const HELP: &str = include_str!("help/fixtures.txt").trim_ascii_end();
-
 #[derive(clap::Args, Debug)]
 pub struct FixturesArguments {
     /// Decides every case

@@ -14,9 +14,7 @@ use super::inspect_case::{
 use super::page::{PageArguments, as_file, save_page};
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{
-    Failure, Status, Streams, exit, explain, png_name, program, study, usage, write_unasked,
-};
+use super::{Failure, Status, Streams, exit, explain, png_name, program, study, usage};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 use rasterproof_faults::published::bare;
@@ -24,14 +22,14 @@ use rasterproof_faults::published::catalogue::{RECORDED_SIDE_PX, RecordedCase};
 use rasterproof_registry::engines::{Entry, ExactEngine, SPECIMENS, Specimen};
 use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::{ascii, page_cases, panels, picture, summary};
+use rasterproof_report::{ascii, page_cases, picture, summary};
 use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
-use rasterproof_verify::comparison::unsnapped::{describe, exact_coverage, judge_exact_case};
+use rasterproof_verify::comparison::unsnapped::{describe, judge_exact_case};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
 
 #[derive(clap::Args, Debug)]
-#[command(after_help = include_str!("help/inspect.txt").trim_ascii_end())]
+#[command(after_help = super::help!("inspect"))]
 pub struct InspectArguments {
     #[command(flatten)]
     case: CaseArguments,
@@ -352,13 +350,8 @@ fn off_grid_alone(
     writeln!(out, "triangles {}\n", describe(&case.triangles))?;
     if let Some(at) = arguments.pixel {
         writeln!(out, "{}", explain::free_pixel(&case.triangles, w, at))?;
-        let drawn = exact.iter().chain([&ExactEngine::Oracle]);
-        let hits = drawn.map(|engine| {
-            let hits =
-                exact_coverage(engine, &case).ok().and_then(|(hits, _)| hits.get(at.x, at.y));
-            format!("{} {}", engine.name(), hits.map_or("none".to_owned(), |h| h.to_string()))
-        });
-        writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, hits.collect::<Vec<_>>().join(", "))?;
+        let hits = case_view::draw_off_grid(&case, &exact)?.hits(at);
+        writeln!(out, "hits of ({}, {}): {hits}\n", at.x, at.y)?;
     }
     let recorded = recorded(&arguments.case.what);
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
@@ -380,14 +373,8 @@ fn write_picture(
     drawn: &RgbImage,
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
-    let bytes = picture::png(drawn);
-    let Some(path) = &arguments.output else {
-        return write_unasked(&arguments.page.place.out.join("inspect.png"), &bytes, streams);
-    };
-    if streams.save(path, &bytes) {
-        writeln!(streams.output, "drawn in {}", printable_path(path))?;
-    }
-    Ok(())
+    let unasked = arguments.page.place.out.join("inspect.png");
+    super::write_picture(arguments.output.as_deref(), &unasked, &picture::png(drawn), streams)
 }
 
 /// The specimen to show: the one asked for, or the one of a recorded input.
@@ -408,29 +395,24 @@ fn off_grid(
     specimen: Option<(&Entry, PixelRect)>,
     (out, columns): (&mut dyn std::io::Write, usize),
 ) -> Result<(bool, RgbImage), Failure> {
-    let target = exact_coverage(&ExactEngine::Oracle, case).map_err(usage)?.0;
-    let mut agrees = true;
-    let mut drawn = Vec::new();
-    let mut blocks = Vec::new();
+    let mut shown = case_view::draw_off_grid(case, engines)?;
     if let Some((Entry { name, specimen: Some(Specimen::Triangle(specimen)), .. }, screen)) =
         specimen
     {
         let triangles: Vec<_> = case.triangles.iter().map(|t| bare(t.px())).collect();
         match specimen_coverage(*specimen, &triangles, screen) {
             Ok(hits) => {
-                let hits = case_view::crop(&hits, case.window);
-                let Tally { missing, extra, twice, .. } = Tally::between(&hits, &target);
+                let Tally { missing, extra, twice, .. } =
+                    shown.add_drawn(name, case_view::crop(&hits, case.window));
                 writeln!(
                     out,
                     "{name}, published: {missing} missing, {extra} extra, {twice} twice"
                 )?;
-                blocks
-                    .push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
-                drawn.push(((*name).to_owned(), hits));
             }
             Err(reason) => writeln!(out, "{name}, published: {reason}")?,
         }
     }
+    let mut agrees = true;
     for engine in engines {
         let (name, finding) = (engine.name(), judge_exact_case(engine, case));
         agrees &= !finding.is_wrong();
@@ -441,15 +423,9 @@ fn off_grid(
             "{name} against oracle-exact: {what}; {} of {all} decisions took exact arithmetic",
             decisions.by_fallback
         )?;
-        if let Ok((hits, _)) = exact_coverage(engine, case) {
-            blocks.push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
-            drawn.push((name.to_owned(), hits));
-        }
     }
-    let oracle = format!("oracle-exact: {} px", target.covered());
-    blocks.push((oracle, ascii::grid(&target, &target)));
-    writeln!(out, "\n{}", ascii::side_by_side(&blocks, columns))?;
-    Ok((agrees, panels::of_off_grid(title, case, &drawn, &target).image))
+    writeln!(out, "\n{}", ascii::side_by_side(&shown.blocks(), columns))?;
+    Ok((agrees, shown.picture_off_grid(title, case)))
 }
 
 fn refused(title: &str, corners: &[[[f64; 2]; 3]], out: &mut dyn std::io::Write) -> Status {

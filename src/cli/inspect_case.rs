@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Failure, program, usage};
+use super::{Failure, did_you_mean, program, usage};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
 use rasterproof_core::triangle::{
     FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, check_value, refused_number,
@@ -253,15 +253,7 @@ fn recorded_case(case: &RecordedCase) -> Found {
 
 /// An error for a name that is not there, with the nearest one that is.
 fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> Failure {
-    let distance =
-        |a: &str, b: &str| strsim::levenshtein(&a.to_ascii_lowercase(), &b.to_ascii_lowercase());
-    let nearest = names.map(|name| (distance(word, name), name)).min();
-    let hint = match nearest {
-        Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {
-            format!("; did you mean '{name}'?")
-        }
-        _ => ".".to_owned(),
-    };
+    let hint = did_you_mean(word, names);
     usage(format!("no {kind} is called '{word}'{hint} See: {} list", program()))
 }
 

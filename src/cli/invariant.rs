@@ -178,8 +178,7 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     Ok(if problems.is_empty() { exit::AGREES } else { exit::DISAGREES })
 }
 
-pub fn list(streams: &mut Streams<'_>) -> Result<(), Failure> {
-    let out = &mut streams.output;
+pub fn list(out: &mut dyn Write) -> Result<(), Failure> {
     writeln!(out, "\nInvariants (rasterproof verify --invariant NAME, or all):")?;
     for i in CATALOGUE {
         write_entry(out, &format!("{:>2} {:<20}", i.number, i.name), i.statement)?;

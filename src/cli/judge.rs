@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use rasterproof_host::text::printable_path;
 
 use super::files::{Use, distinct};
@@ -18,8 +17,6 @@ use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::{Options, adapt_case, process_group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
-
-pub const HELP: &str = include_str!("help/judge.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
@@ -53,7 +50,7 @@ pub struct JudgeArguments {
     #[arg(long, value_name = "WORDS")]
     declare: Vec<String>,
     /// What to print
-    #[arg(long, value_parser = format_words(), default_value = "text")]
+    #[arg(long, value_parser = super::one_of_explained(Format::ALL), default_value = "text")]
     format: Format,
     /// The same as --format json
     #[arg(long, conflicts_with = "format")]
@@ -75,13 +72,6 @@ pub struct JudgeArguments {
     /// The program and its arguments, after --
     #[arg(last = true, required_unless_present = "league", value_name = "CMD")]
     command: Vec<String>,
-}
-
-fn format_words() -> impl TypedValueParser<Value = Format> {
-    let words = Format::ALL.map(|(word, _, help)| PossibleValue::new(word).help(help));
-    PossibleValuesParser::new(words).map(|chosen| {
-        Format::ALL.iter().find(|(word, ..)| *word == chosen).map_or(Format::Text, |named| named.1)
-    })
 }
 
 fn families() -> Vec<&'static str> {

@@ -13,6 +13,7 @@ use rasterproof_judge::league::{Adapter, League, Standing, date};
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::{Options, process_group};
+use rasterproof_report::json::pretty;
 use rasterproof_report::league::tables;
 
 const ADAPTERS: &str = "adapters/league.json";
@@ -76,7 +77,7 @@ pub fn run(
         cases: options.cases,
         rows,
     };
-    let json = serde_json::to_string_pretty(&league).unwrap_or_default() + "\n";
+    let json = pretty(&league);
     let pages = PAGES.map(|(path, chinese)| (path, tables(&league, chinese)));
     for (path, text) in [(JSON, json)].into_iter().chain(pages) {
         if streams.save(Path::new(path), text.as_bytes()) {

@@ -43,7 +43,7 @@ use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::path::Path;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
@@ -62,11 +62,17 @@ pub mod exit {
     pub const USAGE: u8 = 2;
 }
 
-const EXAMPLES: &str = include_str!("help/rasterproof.txt").trim_ascii_end();
+/// A text below the options of a command.
+macro_rules! help {
+    ($name:literal) => {
+        include_str!(concat!("help/", $name, ".txt")).trim_ascii_end()
+    };
+}
+use help;
 
 /// Two rasterizers, two line drawers and an exact oracle, compared pixel for pixel.
 #[derive(Parser, Debug)]
-#[command(name = "rasterproof", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+#[command(name = "rasterproof", version, after_help = help!("rasterproof"), args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -84,7 +90,7 @@ enum Command {
     /// Explain one case: coordinates, a named case, or FAMILY#NUMBER
     Inspect(Box<inspect::InspectArguments>),
     /// Answer requests of the line protocol on standard input
-    #[command(after_help = engine::HELP)]
+    #[command(after_help = help!("engine"))]
     Engine {
         /// The engine that answers
         #[arg(value_parser = engine::names())]
@@ -94,10 +100,10 @@ enum Command {
         plant: Option<misbehave::Fault>,
     },
     /// Judge any program that speaks the line protocol: rasterproof judge -- CMD
-    #[command(after_help = judge::HELP)]
+    #[command(after_help = help!("judge"))]
     Judge(Box<judge::JudgeArguments>),
     /// Twelve steps from a pixel to four samples, for students; points, for teachers
-    #[command(after_help = course::HELP)]
+    #[command(after_help = help!("course"))]
     Course(course::CourseArguments),
     /// Show the published algorithms, how often they fail, and a picture of each fault
     Specimens(specimens::SpecimensArguments),
@@ -106,15 +112,15 @@ enum Command {
     /// Show which effects a scene calls for, why, and what leaving out the rest saves
     Plan(Box<plan::PlanArguments>),
     /// Show which hard cases a model contains, where, and what each choice costs on it
-    #[command(after_help = study::HELP)]
+    #[command(after_help = help!("study"))]
     Study(Box<study::StudyArguments>),
     /// Show which invariant kills which planted fault
     Mutants(invariant::MutantsArguments),
     /// Show which faults the acceptance rules of test suites let through
-    #[command(after_help = tolerances::HELP)]
+    #[command(after_help = help!("tolerances"))]
     Tolerances(tolerances::TolerancesArguments),
     /// Judge every case of a finite set, and certify it
-    #[command(after_help = exhaust::HELP)]
+    #[command(after_help = help!("exhaust"))]
     Exhaust(exhaust::ExhaustArguments),
     /// Join the certificates of the shards of `exhaust`
     Merge(exhaust::MergeArguments),
@@ -123,17 +129,17 @@ enum Command {
     /// Show what accuracy costs in time: every rung of every ladder, verified, then timed
     Cost(Box<cost::CostArguments>),
     /// Hash everything the engines compute for a seed, to compare machines
-    #[command(after_help = digest::HELP)]
+    #[command(after_help = help!("digest"))]
     Digest(digest::DigestArguments),
     /// Print small hard cases with their pixels as JSON, for the test suites of other projects
-    #[command(after_help = fixtures::HELP)]
+    #[command(after_help = help!("fixtures"))]
     Fixtures(fixtures::FixturesArguments),
     /// Write the playground: a page to drag corners on, with these engines inside
     #[command(after_help = playground::HELP)]
     Playground(playground::PlaygroundArguments),
     /// Write the page that judges the graphics card of whoever opens it, in a browser
     #[command(after_help = playground::HELP)]
-    YourGpu(playground::YourGpuArguments),
+    YourGpu(playground::PlaygroundArguments),
     /// Ask the exercises of the pages, and explain each answer with its pixel grid
     Quiz(quiz::QuizArguments),
     /// List families, named cases, engines, planted faults and invariants
@@ -171,13 +177,23 @@ fn usage(message: impl ToString) -> Failure {
 }
 
 /// A parser that takes one of these words for the value beside it.
-fn one_of<T: Clone + Send + Sync>(
-    choices: &'static [(&'static str, T)],
+fn one_of<T: Clone + Send + Sync + 'static>(
+    choices: impl IntoIterator<Item = (&'static str, T)>,
 ) -> impl TypedValueParser<Value = T> {
-    let words = PossibleValuesParser::new(choices.iter().map(|(word, _)| *word));
-    words.try_map(|word| {
-        let found = choices.iter().find(|(choice, _)| **choice == word);
-        found.map(|(_, value)| value.clone()).ok_or("no such word")
+    one_of_explained(choices.into_iter().map(|(word, value)| (word, value, "")))
+}
+
+/// The same for words that the help explains.
+fn one_of_explained<T: Clone + Send + Sync + 'static>(
+    choices: impl IntoIterator<Item = (&'static str, T, &'static str)>,
+) -> impl TypedValueParser<Value = T> {
+    let choices: Vec<_> = choices.into_iter().collect();
+    let words = PossibleValuesParser::new(choices.iter().map(|(word, _, help)| {
+        PossibleValue::new(*word).help(Some(*help).filter(|help| !help.is_empty()))
+    }));
+    words.try_map(move |word| {
+        let found = choices.iter().find(|(choice, ..)| **choice == word);
+        found.map(|(_, value, _)| value.clone()).ok_or("no such word")
     })
 }
 
@@ -393,8 +409,12 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
         Command::Cost(arguments) => cost::run(arguments, typed, streams),
         Command::Digest(arguments) => digest::run(arguments, streams),
         Command::Fixtures(arguments) => fixtures::run(arguments, streams),
-        Command::Playground(arguments) => playground::run(arguments, streams),
-        Command::YourGpu(arguments) => playground::run_your_gpu(arguments, streams),
+        Command::Playground(arguments) => {
+            playground::run(("playground", &rasterproof_playground::PLAYGROUND), arguments, streams)
+        }
+        Command::YourGpu(arguments) => {
+            playground::run(("your-gpu", &rasterproof_playground::YOUR_GPU), arguments, streams)
+        }
         Command::Quiz(arguments) => quiz::run(arguments, streams),
         Command::List => list(streams),
     }
@@ -414,36 +434,41 @@ pub fn quiet_engines() {
 }
 
 fn list(streams: &mut Streams<'_>) -> Status {
-    let out = &mut streams.output;
-    writeln!(out, "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER):")?;
-    for family in cases::families() {
-        write_entry(out, &format!("{:<16}", family.name), family.about)?;
-    }
-    writeln!(out, "\nFamilies off the grid, for the engines that do not snap:")?;
-    for family in cases::unsnapped::FAMILIES {
-        write_entry(out, &format!("{:<16}", family.name), family.about)?;
-    }
-    writeln!(out, "\nNamed cases (rasterproof inspect NAME):")?;
-    for case in rasterproof_render::scene::named::named() {
-        write_entry(out, &format!("{:<5}", case.name), case.about)?;
-    }
-    writeln!(out, "\nEngines (rasterproof engine NAME):")?;
-    for entry in engines::ENTRIES.iter().chain(&engines::SPECIMENS) {
-        write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
-    }
+    let out = &mut *streams.output;
+    let off_grid = &cases::unsnapped::FAMILIES;
+    let named = rasterproof_render::scene::named::named();
+    let speaking = engines::ENTRIES.iter().chain(&engines::SPECIMENS);
+    let scenes = rasterproof_render::scene::chapters::entries();
+    let title = "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER)";
+    write_list(out, title, 16, cases::families().map(|f| (f.name, f.about)))?;
+    let title = "\nFamilies off the grid, for the engines that do not snap";
+    write_list(out, title, 16, off_grid.iter().map(|f| (f.name, f.about)))?;
+    let title = "\nNamed cases (rasterproof inspect NAME)";
+    write_list(out, title, 5, named.iter().map(|case| (case.name, case.about)))?;
+    let title = "\nEngines (rasterproof engine NAME)";
+    write_list(out, title, 19, speaking.map(|entry| (entry.name, entry.about)))?;
     #[cfg(feature = "vulkan")]
     vulkan::list(out)?;
-    writeln!(out, "\nPlanted faults (rasterproof --plant NAME; rasterproof mutants):")?;
-    for (name, about) in rasterproof_faults::planted::all() {
-        write_entry(out, &format!("{name:<26}"), about)?;
-    }
-    invariant::list(streams)?;
-    let out = &mut streams.output;
-    writeln!(out, "\nScenes (rasterproof render --scene NAME):")?;
-    for entry in rasterproof_render::scene::chapters::entries() {
-        write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
-    }
+    let title = "\nPlanted faults (rasterproof --plant NAME; rasterproof mutants)";
+    write_list(out, title, 26, rasterproof_faults::planted::all())?;
+    invariant::list(out)?;
+    let title = "\nScenes (rasterproof render --scene NAME)";
+    write_list(out, title, 19, scenes.map(|entry| (entry.name, entry.about)))?;
     Ok(exit::AGREES)
+}
+
+/// Writes a list under a title, what an entry is about beside its name.
+fn write_list<'a>(
+    out: &mut dyn Write,
+    title: &str,
+    width: usize,
+    entries: impl Iterator<Item = (&'a str, &'a str)>,
+) -> io::Result<()> {
+    writeln!(out, "{title}:")?;
+    for (name, about) in entries {
+        write_entry(out, &format!("{name:<width$}"), about)?;
+    }
+    Ok(())
 }
 
 /// Writes an entry of a list, what it is about beside its name.
@@ -470,6 +495,18 @@ fn parse_count(text: &str) -> Result<u64, String> {
     count.ok_or_else(|| "expected a whole number from 1, for example 1000000".to_owned())
 }
 
+/// The nearest of some names as a question, where one is near, then a full stop.
+fn did_you_mean(word: &str, names: impl Iterator<Item = &'static str>) -> String {
+    let distance =
+        |name: &str| strsim::levenshtein(&word.to_ascii_lowercase(), &name.to_ascii_lowercase());
+    match names.map(|name| (distance(name), name)).min() {
+        Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {
+            format!("; did you mean '{name}'?")
+        }
+        _ => ".".to_owned(),
+    }
+}
+
 /// Refuses a name that promises another format than the bytes have.
 fn png_name(path: &Path) -> Result<(), Failure> {
     match path.extension().and_then(|ending| ending.to_str()) {
@@ -481,12 +518,26 @@ fn png_name(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Writes a picture that nobody asked for, and says where: a folder that cannot be written costs a
-/// warning, and not the verdict.
-fn write_unasked(path: &Path, bytes: &[u8], streams: &mut Streams<'_>) -> Result<(), Failure> {
-    match write_file(path, bytes) {
-        Ok(()) => writeln!(streams.output, "drawn in {}", printable_path(path))?,
-        Err(failure) => writeln!(streams.errors, "warning: no picture: {failure}")?,
+/// Writes a picture and says where: a file that was asked for, or else one that costs a warning, and not the
+/// verdict, where it cannot be written.
+fn write_picture(
+    asked: Option<&Path>,
+    unasked: &Path,
+    bytes: &[u8],
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
+    let written = match asked {
+        Some(path) => streams.save(path, bytes).then_some(path),
+        None => match write_file(unasked, bytes) {
+            Ok(()) => Some(unasked),
+            Err(failure) => {
+                writeln!(streams.errors, "warning: no picture: {failure}")?;
+                None
+            }
+        },
+    };
+    if let Some(path) = written {
+        writeln!(streams.output, "drawn in {}", printable_path(path))?;
     }
     Ok(())
 }

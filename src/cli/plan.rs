@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use super::page::{PageArguments, write_page};
-use super::plan_table::{grouped, plan_rows};
+use super::plan_table::{self, grouped};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::SceneArguments;
@@ -17,22 +17,16 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison;
-use rasterproof_report::html::{
-    Chapter, Column, Outcome, PictureLayer, PictureView, Report, Row, Table,
-};
-
-const HELP: &str = include_str!("help/plan.txt").trim_ascii_end();
-
-const RASTERIZERS: &[(&str, Drawer)] =
-    &[("scanline", Drawer::Scanline), ("edge-function", Drawer::EdgeFunction)];
+use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
+use rasterproof_report::table::{Column, Table};
 
 #[derive(clap::Args, Debug)]
-#[command(after_help = HELP)]
+#[command(after_help = super::help!("plan"))]
 pub struct PlanArguments {
     #[command(flatten)]
     what: SceneArguments,
     /// The rasterizer
-    #[arg(long, default_value = "scanline", value_parser = super::one_of(RASTERIZERS))]
+    #[arg(long, default_value = "scanline", value_parser = super::one_of(Drawer::ALL.map(|drawer| (drawer.name(), drawer))))]
     engine: Drawer,
     /// Rounds of measuring, each with every mixture of effects in turn [default: 9, fewer for a large model]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -165,6 +159,34 @@ impl Savings {
         [&self.everything, &self.usual, &self.planned].into_iter().chain(&self.mixtures)
     }
 
+    fn table(&self) -> Table {
+        let row = |s: &Saving| {
+            vec![
+                s.effect.name().to_owned(),
+                format!("{:.0}", s.alone_us),
+                percent(s.saves_alone, s.noise_alone),
+                format!("{:.0}", s.all_but_us),
+                percent(s.saves_last, s.noise_last),
+                s.wrong_without.to_string(),
+            ]
+            .into()
+        };
+        let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
+        let number = |label, about, least| Column::numbers(label, about).least(least);
+        Table {
+            caption: caption.to_owned(),
+            columns: vec![
+                Column::words("planned").least(14),
+                number("alone us", "it is planned, the rest paid for", 10),
+                number("saves", "compared with paying for everything", 9),
+                number("last us", "it is paid for, the rest planned", 10),
+                number("saves", "when it is planned too", 9),
+                number("wrong without", "pixels that change when it is left out everywhere", 14),
+            ],
+            rows: self.effects.iter().map(row).collect(),
+        }
+    }
+
     /// How many times as fast the plan is as everything on, and as usual.
     fn factors(&self) -> [f64; 2] {
         [&self.everything, &self.usual].map(|other| other.time_us / self.planned.time_us)
@@ -175,7 +197,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     if arguments.without.is_none() {
         arguments.page.refuse_idle_folder(typed)?;
     }
-    let maker = arguments.what.maker(streams)?;
+    let maker = arguments.what.maker(typed, streams)?;
     let scene = maker.scene(0.0);
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
@@ -360,14 +382,7 @@ fn describe(
     is_whole: bool,
 ) -> String {
     let mut text = format!("{}: {}\n\n", scene.name, scene.about);
-    text += "effect        item            on      off     open  unit\n";
-    for line in grouped(&planned.plan.decisions) {
-        let (items, effect) = (line.items(), line.effect.name());
-        let [on, off, open] = line.counts;
-        let (unit, reason) = (line.unit.name(), line.reason);
-        let _ = writeln!(text, "{effect:<13} {items:<9} {on:>8} {off:>8} {open:>8}  {unit}");
-        let _ = writeln!(text, "    {reason}");
-    }
+    text += &plan_table::table(&planned.plan.decisions).text([0, 4]);
     text += "open: decided while it is drawn; several items: the sums of them\n";
     text += "\ncounts               everything     planned\n";
     for ((name, all), (_, planned)) in everything.shown().into_iter().zip(planned.counters.shown())
@@ -384,19 +399,8 @@ fn describe(
         text += &whole(savings);
         return text;
     }
-    text += "\nplanned          alone us     saves    last us     saves  wrong without\n";
-    for s in &savings.effects {
-        let _ = writeln!(
-            text,
-            "{:<14} {:>10.0} {:>9} {:>10.0} {:>9} {:>14}",
-            s.effect.name(),
-            s.alone_us,
-            percent(s.saves_alone, s.noise_alone),
-            s.all_but_us,
-            percent(s.saves_last, s.noise_last),
-            s.wrong_without
-        );
-    }
+    text.push('\n');
+    text += &savings.table().text([0; 2]);
     text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap, or there are fewer than four\nwrong without: pixels that change when it is left out everywhere;\n  --without EFFECT draws them\n\n";
     text + &whole(savings)
 }
@@ -434,19 +438,6 @@ fn report_page(
     same: bool,
 ) -> Report {
     let command = typed.line();
-    let column =
-        |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };
-    let row = |s: &Saving| Row {
-        cells: vec![
-            s.effect.name().to_owned(),
-            format!("{:.0}", s.alone_us),
-            percent(s.saves_alone, s.noise_alone),
-            format!("{:.0}", s.all_but_us),
-            percent(s.saves_last, s.noise_last),
-            s.wrong_without.to_string(),
-        ],
-        ..Row::default()
-    };
     let [all, usual] = savings.factors();
     let sentence = if same {
         format!(
@@ -460,24 +451,7 @@ fn report_page(
         title: format!("What the scene {} calls for", scene.name),
         outcome: Some(Outcome::of(same, sentence)),
         command: command.clone(),
-        tables: (!savings.effects.is_empty())
-            .then(|| Table {
-                caption:
-                    "What planning one effect saves: alone, the rest always paid for; as the last, \
-                      the rest planned"
-                        .to_owned(),
-                columns: vec![
-                    column("effect", false),
-                    column("alone us", true),
-                    column("saves", true),
-                    column("all but it us", true),
-                    column("saves", true),
-                    column("pixels wrong without it", true),
-                ],
-                rows: savings.effects.iter().map(row).collect(),
-            })
-            .into_iter()
-            .collect(),
+        tables: Some(savings.table()).filter(|table| !table.rows.is_empty()).into_iter().collect(),
         frames: vec![PictureView {
             name: scene.name.clone(),
             about: scene.about.clone(),
@@ -491,7 +465,7 @@ fn report_page(
                 })
                 .collect(),
         }],
-        plan: plan_rows(&frames[1].plan.decisions),
+        plan: Some(plan_table::table(&frames[1].plan.decisions)),
         ..Report::default()
     }
 }

@@ -1,8 +1,8 @@
-//! The account of a plan, as lines for the terminal and as rows of a page.
+//! The account of a plan as a table.
 
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::plan::{Decision, Unit};
-use rasterproof_report::html::PlanRow;
+use rasterproof_report::table::{Column, Table};
 
 /// A decision that some items share, or one about the frame.
 pub(super) struct Line<'a> {
@@ -61,22 +61,29 @@ pub(super) fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
     lines
 }
 
-pub(super) fn plan_rows(decisions: &[Decision]) -> Vec<PlanRow> {
-    let row = |line: Line<'_>| PlanRow {
-        effect: line.effect.name().to_owned(),
-        is_on: line.counts[0] + line.counts[2] > 0,
-        reason: match line.items().as_str() {
-            "frame" => line.reason.to_owned(),
-            items => format!("item {items}: {}", line.reason),
-        },
-        counters: ["on", "off", "open"]
-            .into_iter()
-            .zip(line.counts)
-            .filter(|(name, count)| *name != "open" || *count > 0)
-            .map(|(name, count)| (name.to_owned(), format!("{count} {}", line.unit.name())))
-            .collect(),
+/// How much of each effect is on, off, or decided while it is drawn, and why.
+pub(super) fn table(decisions: &[Decision]) -> Table {
+    let row = |line: Line<'_>| {
+        let counts = line.counts.map(|count| count.to_string());
+        let mut cells = vec![line.effect.name().to_owned(), line.items()];
+        cells.extend(counts);
+        cells.extend([format!(" {}", line.unit.name()), line.reason.to_owned()]);
+        cells.into()
     };
-    grouped(decisions).into_iter().map(row).collect()
+    let number = |label| Column::numbers(label, "how many of the unit").least(8);
+    Table {
+        caption: "Effects, in order".to_owned(),
+        columns: vec![
+            Column::words("effect").least(13),
+            Column::words("item").least(9),
+            number("on"),
+            number("off"),
+            number("open"),
+            Column::words("unit").short(" unit").least(5),
+            Column::words("reason"),
+        ],
+        rows: grouped(decisions).into_iter().map(row).collect(),
+    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use rasterproof_host::{input, limits};
 
 use super::files::{Use, distinct};
 use super::{Status, Streams, exit, usage, write_file};
-use rasterproof_playground::{PLAYGROUND, Parts, YOUR_GPU, page};
+use rasterproof_playground::{Parts, page};
 
 pub(super) const HELP: &str =
     "The page is one file that loads nothing: open it in a browser. The engines inside
@@ -18,44 +18,22 @@ or Debian's packages; nothing else needs it.";
 
 #[derive(Args, Debug)]
 pub(super) struct PlaygroundArguments {
-    #[command(flatten)]
-    module: Module,
-    /// Where the page goes
-    #[arg(short, long, value_name = "FILE", default_value = "target/rasterproof/playground.html")]
-    output: PathBuf,
-}
-
-#[derive(Args, Debug)]
-pub(super) struct YourGpuArguments {
-    #[command(flatten)]
-    module: Module,
-    /// Where the page goes
-    #[arg(short, long, value_name = "FILE", default_value = "target/rasterproof/your-gpu.html")]
-    output: PathBuf,
-}
-
-#[derive(Args, Debug)]
-struct Module {
     /// The compiled engines, as crates/playground/build leaves them
     #[arg(long, value_name = "FILE", default_value = "target/rasterproof/playground.wasm")]
     module: PathBuf,
+    /// Where the page goes [default: a file with the name of the command in target/rasterproof]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
-pub(super) fn run(arguments: &PlaygroundArguments, streams: &mut Streams<'_>) -> Status {
-    write("playground", &PLAYGROUND, &arguments.module, &arguments.output, streams)
-}
-
-pub(super) fn run_your_gpu(arguments: &YourGpuArguments, streams: &mut Streams<'_>) -> Status {
-    write("your-gpu", &YOUR_GPU, &arguments.module, &arguments.output, streams)
-}
-
-fn write(
-    name: &str,
-    parts: &Parts,
-    Module { module }: &Module,
-    output: &Path,
+/// Writes a page around the compiled engines.
+pub(super) fn run(
+    (name, parts): (&str, &Parts),
+    PlaygroundArguments { module, output }: &PlaygroundArguments,
     streams: &mut Streams<'_>,
 ) -> Status {
+    let usual = || Path::new("target/rasterproof").join(name).with_extension("html");
+    let output = &output.clone().unwrap_or_else(usual);
     distinct(&[("--module", module, Use::Reads), ("--output", output, Use::Writes)])?;
     let refused = |why: String| {
         usage(format!("{why}\nCompile the engines for the page: crates/playground/build"))

@@ -3,7 +3,6 @@
 use std::io::{BufRead, Write};
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
@@ -12,9 +11,7 @@ use rasterproof_teaching::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend,
 use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
 
 #[derive(clap::Args, Debug)]
-#[command(
-    after_help = include_str!("help/quiz.txt").trim_ascii_end()
-)]
+#[command(after_help = super::help!("quiz"))]
 pub struct QuizArguments {
     /// The chapter: 2, or the name of its page, ch02 or effects [default: all of them]
     chapter: Option<String>,
@@ -35,18 +32,12 @@ pub struct QuizArguments {
     #[arg(long, value_name = "FILE", default_value = "-")]
     answers: PathBuf,
     /// The language of the questions
-    #[arg(long, value_name = "LANGUAGE", default_value = "en")]
-    language: Words,
+    #[arg(long, value_name = "LANGUAGE", default_value = "en", value_parser = super::one_of_explained(LANGUAGES))]
+    language: Language,
 }
 
-/// The languages by their codes.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Words {
-    /// English
-    En,
-    /// Chinese
-    Zh,
-}
+const LANGUAGES: [(&str, Language, &str); 2] =
+    [("en", Language::English, "English"), ("zh", Language::Chinese, "Chinese")];
 
 /// How many exercises were asked, answered, and answered rightly.
 #[derive(Default)]
@@ -56,10 +47,7 @@ struct Score {
 }
 
 pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
-    let language = match arguments.language {
-        Words::En => Language::English,
-        Words::Zh => Language::Chinese,
-    };
+    let language = arguments.language;
     let wanted: Vec<&Chapter> = match &arguments.chapter {
         None => CHAPTERS.iter().collect(),
         Some(word) => vec![chapter(word).ok_or_else(|| unknown(word))?],

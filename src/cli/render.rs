@@ -10,7 +10,7 @@ use rasterproof_host::{input, limits};
 
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
-use super::plan_table::plan_rows;
+use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, SceneArguments};
@@ -33,10 +33,8 @@ use rasterproof_report::picture;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
 
-pub const HELP: &str = include_str!("help/render.txt").trim_ascii_end();
-
 #[derive(clap::Args, Debug)]
-#[command(after_help = HELP)]
+#[command(after_help = super::help!("render"))]
 pub struct RenderArguments {
     #[command(flatten)]
     what: SceneArguments,
@@ -113,7 +111,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         as_file(&page),
     ];
     distinct(&files.into_iter().flatten().collect::<Vec<_>>())?;
-    let maker = what.maker(streams)?;
+    let maker = what.maker(typed, streams)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
@@ -276,7 +274,7 @@ fn report_page(
         outcome,
         command,
         frames: vec![view],
-        plan: drawings.first().map_or(Vec::new(), |d| plan_rows(&d.rendered.plan.decisions)),
+        plan: drawings.first().map(|d| plan_table::table(&d.rendered.plan.decisions)),
         ..Report::default()
     }
 }
@@ -319,12 +317,14 @@ fn draw(
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.view.target()?;
         let start = Instant::now();
-        let incomplete = |name, rendered, time, target, changed| {
-            Ok(Drawing { name, rendered, time, target, unplanned: 0, changed, is_complete: false })
+        // Alone, or with what was asked for, a frame is what it is.
+        let alone = |name, rendered, time, target| {
+            let (unplanned, changed, is_complete) = (0, 0, false);
+            Drawing { name, rendered, time, target, unplanned, changed, is_complete }
         };
         if arguments.wireframe {
             let rendered = drawer.render_wireframe(scene, &mut target).map_err(usage)?;
-            return incomplete(drawer.line_name(), rendered, start.elapsed(), target, 0);
+            return Ok(alone(drawer.line_name(), rendered, start.elapsed(), target));
         }
         let asked = |target: &mut Target| match (&plan, &arguments.plan) {
             (Some(plan), Some(path)) => drawer
@@ -332,27 +332,20 @@ fn draw(
                 .map_err(|error| usage(format!("{}: {error}", printable_path(path)))),
             _ => drawer.render(scene, &effects, target).map_err(usage),
         };
-        let (name, rendered) = (drawer.name(), asked(&mut target)?);
+        let rendered = asked(&mut target)?;
         let time = start.elapsed();
         if engines.len() < 2 {
-            return incomplete(name, rendered, time, target, 0);
+            return Ok(alone(drawer.name(), rendered, time, target));
         }
         let whole = drawer.render(scene, &complete, &mut target).map_err(usage)?;
-        let unplanned = frame_comparison::differing(&rendered.picture, &whole.picture);
-        if is_free || unplanned == 0 {
-            return Ok(Drawing {
-                name,
-                rendered,
-                time,
-                target,
-                unplanned,
-                changed: 0,
-                is_complete: true,
-            });
+        let differing = frame_comparison::differing(&rendered.picture, &whole.picture);
+        if is_free || differing == 0 {
+            let drawn = alone(drawer.name(), rendered, time, target);
+            return Ok(Drawing { unplanned: differing, is_complete: true, ..drawn });
         }
         // What was asked for changes the picture: the frame is compared as it is, without ties.
         let rendered = asked(&mut target)?;
-        incomplete(name, rendered, time, target, unplanned)
+        Ok(Drawing { changed: differing, ..alone(drawer.name(), rendered, time, target) })
     };
     engines.iter().map(drawing).inspect(|_| progress.done(1)).collect()
 }

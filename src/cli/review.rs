@@ -13,7 +13,8 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, RgbImage};
-use rasterproof_host::input::{self, InputError};
+use rasterproof_host::error::FileError;
+use rasterproof_host::input;
 use rasterproof_host::limits::{self, DOCUMENT_BYTES};
 use rasterproof_host::shell;
 use rasterproof_host::text::{printable, printable_path, printable_short};
@@ -21,10 +22,9 @@ use rasterproof_host::text::{printable, printable_path, printable_short};
 use super::files::{Use, distinct};
 use super::page::{Place, save_page};
 use super::{Status, Streams, exit, program, usage};
-use rasterproof_report::html::{
-    Column, Outcome, PictureLayer, PictureView, Report, Row, Table, TextDiff,
-};
+use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report, TextDiff};
 use rasterproof_report::panels::{self, Sheet};
+use rasterproof_report::table::{Column, Row, Table};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Exit status: 0 nothing is pending, 1 something is, 2 usage or bad input.")]
@@ -177,11 +177,11 @@ fn walk(top: &Path, found: &mut Vec<PathBuf>, unread: &mut Vec<String>) {
     }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, InputError> {
+fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     input::read(path, DOCUMENT_BYTES)
 }
 
-fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, InputError> {
+fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
     match read(path) {
         Err(error) if error.missing => Ok(None),
         other => other.map(Some),
@@ -228,7 +228,7 @@ fn look_into(
     new_path: &Path,
     path: &Path,
     left_px: &mut u64,
-) -> Result<Option<Pending>, InputError> {
+) -> Result<Option<Pending>, FileError> {
     let text = text_of(&read(new_path)?);
     let (head, new) = parse(&text);
     let source = field(head, "source").unwrap_or("").to_owned();

@@ -2,17 +2,15 @@
 
 use std::path::PathBuf;
 
-use rasterproof_host::text::printable_path;
-
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Status, Streams, exit, png_name, write_unasked};
+use super::{Status, Streams, exit, png_name, write_picture};
 use rasterproof_faults::published::catalogue::{CARDS, Card};
 use rasterproof_registry::published_check::{SpecimenReport, survey};
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::{counts, json, page_cases, picture, specimen_sheet, specimens};
+use rasterproof_report::{json, page_cases, picture, specimen_sheet, specimens};
 
 #[derive(clap::Args, Debug)]
 pub struct SpecimensArguments {
@@ -58,7 +56,7 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
     drop(progress);
     let (drawn, text) = match (cards.as_slice(), reports.as_slice()) {
         ([card], [report]) => (specimen_sheet::alone(card).image, specimens::detail(report)),
-        _ => (specimen_sheet::contact_sheet(), specimens::table(&reports)),
+        _ => (specimen_sheet::contact_sheet(), specimens::text(&reports)),
     };
     if arguments.json {
         let json = json::specimens(arguments.seed, arguments.cases, &reports);
@@ -66,17 +64,11 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
     } else {
         writeln!(streams.output, "{text}")?;
     }
+    let (png, unasked) = (picture::png(&drawn), arguments.page.place.out.join("specimens.png"));
     match &arguments.output {
-        Some(path) => {
-            if streams.save(path, &picture::png(&drawn)) && !arguments.json {
-                writeln!(streams.output, "drawn in {}", printable_path(path))?;
-            }
-        }
+        Some(path) if arguments.json => drop(streams.save(path, &png)),
         None if arguments.json => {}
-        None => {
-            let path = arguments.page.place.out.join("specimens.png");
-            write_unasked(&path, &picture::png(&drawn), streams)?;
-        }
+        asked => write_picture(asked.as_deref(), &unasked, &png, streams)?,
     }
     if let Some(path) = page {
         write_page(&path, report_page(arguments, typed, &reports), streams);
@@ -116,7 +108,7 @@ fn report_page(
             typed.first("seed", arguments.seed).line()
         },
         seed: Some(arguments.seed),
-        tables: vec![counts::of_specimens(reports)],
+        tables: vec![specimens::table(reports)],
         cases,
         frames,
         ..Report::default()

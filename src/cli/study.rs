@@ -18,6 +18,7 @@ use rasterproof_report::study::{
     self as report, Subject, costs, costs_json, hard_cases, hard_cases_json, needs_json, ties_json,
 };
 use rasterproof_report::summary::thousands;
+use rasterproof_report::table::{Column, Table};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::hard::{self, HardCases, Kind};
 use rasterproof_study::view::{Piece, Sampled};
@@ -35,8 +36,6 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
 use super::{Failure, Status, Streams, exit, usage};
-
-pub const HELP: &str = include_str!("help/study.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct StudyArguments {
@@ -119,7 +118,6 @@ pub(super) fn cost(
     Ok(exit::AGREES)
 }
 
-/// The command that shows a face of a model.
 fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
     let mut word = OsString::from(path);
     word.push(format!("#{face}"));
@@ -129,7 +127,7 @@ fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
 pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     arguments.page.refuse_idle_folder(typed)?;
-    let maker = what.maker(streams)?;
+    let maker = what.maker(typed, streams)?;
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
@@ -240,17 +238,13 @@ fn all_around(
     }
     let columns = ["turn", "kinds", "slivers", "order", "by_rounding", "equal"];
     writeln!(out, "pixels that hard cases touch, by the turn of the model in degrees\n")?;
-    for column in columns {
-        write!(out, "{column:>12}")?;
-    }
-    writeln!(out)?;
-    for line in lines {
-        for column in columns {
-            let value = line[column].as_f64().unwrap_or(0.0);
-            write!(out, "{:>12}", number(value, 9))?;
-        }
-        writeln!(out)?;
-    }
+    let cells = |line: &serde_json::Value| {
+        columns.map(|column| number(line[column].as_f64().unwrap_or(0.0), 9)).to_vec().into()
+    };
+    let rows = lines.iter().map(cells).collect();
+    let least = |label: &str| if label == "turn" { 12 } else { 11 };
+    let columns = columns.map(|label| Column::numbers(label, "").least(least(label))).to_vec();
+    write!(out, "{}", Table { columns, rows, ..Table::default() }.text([0; 2]))?;
     writeln!(out, "\ncheapest exact choice, and in how many of the views")?;
     for ((place, name), count) in best {
         writeln!(out, "  {:<28}{name:<24}{count:>6}", titles[place])?;

@@ -4,12 +4,10 @@ use std::path::{Path, PathBuf};
 
 use rasterproof_invariants::acceptance::rules::RULES;
 use rasterproof_invariants::acceptance::{Report, Row, report};
-use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT, Shape};
+use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
 
 use super::progress::Progress;
 use super::{Status, Streams, exit, usage};
-
-pub const HELP: &str = include_str!("help/tolerances.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct TolerancesArguments {
@@ -177,10 +175,9 @@ fn plot(report: &Report) -> Drawing {
     const TOP: f64 = 92.0;
     const ROW: f64 = 34.0;
     let bottom = TOP + ROW * RULES.len() as f64;
-    let title = "What acceptance rules catch, and which right rasterizers they refuse".to_owned();
-    let mut drawing =
-        Drawing { title: title.clone(), size: [800.0, bottom + 40.0], shapes: vec![] };
-    drawing.text([12.0, 18.0], &title, INK);
+    let title = "What acceptance rules catch, and which right rasterizers they refuse";
+    let mut drawing = Drawing::new(title, [800.0, bottom + 40.0]);
+    drawing.text([12.0, 18.0], title, INK);
     let (faults, right) = (report.faults.len(), report.right.len());
     let legend = [
         (CAUGHT, format!("caught of {faults} faults, scenes such as test suites draw")),
@@ -189,7 +186,7 @@ fn plot(report: &Report) -> Drawing {
     ];
     for (i, (ink, words)) in legend.iter().enumerate() {
         let y = 38.0 + 16.0 * i as f64;
-        drawing.shapes.push(Shape::Box { at: [14.0, y - 4.0], size: [18.0, 8.0], ink: *ink });
+        drawing.filled_box([14.0, y - 4.0], [18.0, 8.0], *ink);
         drawing.text([40.0, y], words, SOFT);
     }
     let x = |share: f64| LEFT + (RIGHT - LEFT) * share;
@@ -197,7 +194,7 @@ fn plot(report: &Report) -> Drawing {
         let share = f64::from(quarter) / 4.0;
         drawing.line([x(share), TOP], [x(share), bottom], GRID);
         let label = format!("{}%", 25 * quarter);
-        drawing.text([x(share) - canvas::width(&label) / 2.0, bottom + 16.0], &label, SOFT);
+        drawing.text_about([x(share), bottom + 16.0], &label, SOFT);
     }
     for (i, rule) in RULES.iter().enumerate() {
         let y = TOP + ROW * i as f64 + 6.0;
@@ -211,7 +208,7 @@ fn plot(report: &Report) -> Drawing {
         for (bar, (ink, part, whole)) in bars.into_iter().enumerate() {
             let size = [(RIGHT - LEFT) * part as f64 / whole as f64, 6.0];
             if part > 0 {
-                drawing.shapes.push(Shape::Box { at: [LEFT, y + 8.0 * bar as f64], size, ink });
+                drawing.filled_box([LEFT, y + 8.0 * bar as f64], size, ink);
             }
         }
     }

@@ -12,10 +12,10 @@ use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{Failure, Status, Streams, exit, invariant, program, study, usage, write_unasked};
+use super::{Failure, Status, Streams, exit, invariant, program, study, usage, write_picture};
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::Report;
-use rasterproof_report::{ascii, counts, exact, json, page_cases, picture, summary, table};
+use rasterproof_report::{ascii, differential, json, page_cases, picture, summary};
 use rasterproof_verify::cases::{self, Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{self, ExactVerdict};
 use rasterproof_verify::comparison::{self, Options, Shard, Verdict};
@@ -100,7 +100,6 @@ fn judged_names() -> Vec<&'static str> {
 /// The beginning of an engine's name that means a Vulkan device.
 const VULKAN: &str = "vulkan:";
 
-/// The name of an engine, or of a Vulkan device.
 #[derive(Clone)]
 struct EngineName;
 
@@ -183,7 +182,6 @@ impl VerifyArguments {
     }
 }
 
-/// Judges, prints, and writes what was asked for.
 pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     if !arguments.invariant.is_empty() {
         let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
@@ -313,13 +311,13 @@ impl Run<'_> {
         let engines: Vec<_> = judged.engines.iter().map(|(engine, _)| *engine).collect();
         let judged =
             page_cases::Judged { engines: &engines, lines: &judged.lines, exact: &judged.exact };
-        let mut tables = counts::of_verdict(verdict, off_grid);
-        tables.push(counts::refused());
-        let quotas = table::quota_line(verdict).trim_end().to_owned();
+        let mut tables = differential::tables(verdict, off_grid);
+        tables.push(differential::refused());
+        let quotas = differential::quota_line(verdict).trim_end().to_owned();
         let repeat = |family: &str, index| self.repeat(family, index);
         Report {
             title: "Verdict of rasterproof".to_owned(),
-            outcome: Some(counts::outcome(verdict, off_grid)),
+            outcome: Some(differential::outcome(verdict, off_grid)),
             command: self.repeat_all().line(),
             seed: Some(self.arguments.seed),
             notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
@@ -344,9 +342,11 @@ impl Run<'_> {
         writeln!(out, "{mark} rasterproof {version}, seed {seed}{shard}: {answer}\n")?;
         writeln!(out, "{}", summary::lines(verdict, off_grid, streams.colour))?;
         if arguments.table || !agrees {
-            writeln!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
-            write!(out, "{}{}", table::disagreements(verdict), exact::table(off_grid))?;
-            write!(out, "{}", exact::disagreements(off_grid))?;
+            let [table, off_table] =
+                [differential::text(verdict), differential::text_off_grid(off_grid)];
+            writeln!(out, "{table}{}", differential::quota_line(verdict))?;
+            write!(out, "{}{off_table}", differential::disagreements(verdict))?;
+            write!(out, "{}", differential::disagreements_off_grid(off_grid))?;
         }
         if verdict.agrees() {
             pictures.push(("worst.png", self.worst_cases(out)?));
@@ -403,9 +403,10 @@ impl Run<'_> {
         }
         let mut exact = Vec::new();
         for (rank, failure) in self.off_grid.failures.iter().enumerate() {
-            let engines = &self.judged.exact;
-            let picture = case_view::picture_off_grid(&heading(failure), &failure.case, engines);
-            exact.extend(picture.filter(|_| rank < MOST_DRAWN));
+            if rank < MOST_DRAWN {
+                let shown = case_view::draw_off_grid(&failure.case, &self.judged.exact)?;
+                exact.push(shown.picture_off_grid(&heading(failure), &failure.case));
+            }
             if rank == 0 {
                 writeln!(out, "{failure}")?;
                 writeln!(out, "  repeat with: {}", self.repeat(&failure.family, failure.index))?;
@@ -492,5 +493,5 @@ fn write_sheet(path: &Path, drawn: &[RgbImage], streams: &mut Streams<'_>) -> Re
     if drawn.is_empty() {
         return Ok(());
     }
-    write_unasked(path, &picture::png(&picture::stack(drawn)), streams)
+    write_picture(None, path, &picture::png(&picture::stack(drawn)), streams)
 }

@@ -9,7 +9,8 @@ use clap::Args as _;
 use glam::{DMat4, DVec3};
 
 use super::progress::Progress;
-use super::{Failure, Streams, program, usage};
+use super::typed::Typed;
+use super::{Failure, Streams, did_you_mean, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_models::{Model, Normals, Options, Origin, Up};
 use rasterproof_render::pipeline::assemble::Cull;
@@ -41,6 +42,9 @@ pub(super) static VIEW_OPTIONS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let view = ViewArguments::augment_args(clap::Command::new("view"));
     view.get_arguments().filter_map(|option| option.get_long().map(str::to_owned)).collect()
 });
+
+/// Those of them that say how scenes are drawn, too.
+const OF_SCENES: [&str; 4] = ["size", "aa", "cull", "depth"];
 
 /// How a scene or a model is seen.
 #[derive(clap::Args, Debug, Default)]
@@ -93,7 +97,7 @@ pub struct ViewArguments {
     #[arg(long, value_name = "FROM", value_parser = super::one_of(NORMALS))]
     normals: Option<Normals>,
     /// How depths are stored
-    #[arg(long, default_value = "unorm32", value_parser = super::one_of(DEPTHS))]
+    #[arg(long, default_value = "unorm32", value_parser = super::one_of(DepthFormat::ALL.map(|depth| (depth.name(), depth))))]
     pub(super) depth: DepthFormat,
     /// Turn the model by this many degrees, to the right [default: 30]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
@@ -109,31 +113,24 @@ pub struct ViewArguments {
     fov: Option<f64>,
 }
 
-const ANTIALIAS: &[(&str, Antialias)] = &[
+const ANTIALIAS: [(&str, Antialias); 5] = [
     ("none", Antialias::None),
     ("msaa4", Antialias::Multisample4),
     ("ssaa2", Antialias::Supersample(2)),
     ("ssaa4", Antialias::Supersample(4)),
     ("ssaa8", Antialias::Supersample(8)),
 ];
-const WINDINGS: &[(&str, Cull)] =
-    &[("none", Cull::None), ("cw", Cull::Clockwise), ("ccw", Cull::CounterClockwise)];
-const SHADINGS: &[(&str, Shading)] = &[
+const WINDINGS: [(&str, Cull); 3] =
+    [("none", Cull::None), ("cw", Cull::Clockwise), ("ccw", Cull::CounterClockwise)];
+const SHADINGS: [(&str, Shading); 4] = [
     ("unlit", Shading::Unlit),
     ("flat", Shading::Flat),
     ("gouraud", Shading::Gouraud),
     ("phong", Shading::Phong),
 ];
-const DEPTHS: &[(&str, DepthFormat)] = &[
-    ("unorm32", DepthFormat::Unorm32),
-    ("unorm24", DepthFormat::Unorm24),
-    ("f32", DepthFormat::F32),
-    ("f32-reversed", DepthFormat::F32Reversed),
-    ("f64", DepthFormat::F64),
-];
-const UPS: &[(&str, Up)] = &[("y", Up::Y), ("z", Up::Z)];
-const NORMALS: &[(&str, Normals)] =
-    &[("file", Normals::File), ("flat", Normals::Flat), ("smooth", Normals::Smooth)];
+const UPS: [(&str, Up); 2] = [("y", Up::Y), ("z", Up::Z)];
+const NORMALS: [(&str, Normals); 3] =
+    [("file", Normals::File), ("flat", Normals::Flat), ("smooth", Normals::Smooth)];
 
 fn scene_names() -> Vec<&'static str> {
     chapters::entries().map(|entry| entry.name).collect()
@@ -203,12 +200,6 @@ fn parse_fog(text: &str) -> Result<Growth, &'static str> {
 }
 
 impl SceneArguments {
-    /// A model of a file, as it is drawn where nothing else is said.
-    pub(super) fn of_model(path: &Path, size: (u32, u32)) -> Self {
-        let view = ViewArguments { size, ..ViewArguments::default() };
-        Self { what: Some(path.to_owned()), scene: None, view }
-    }
-
     /// The name of the scene, or the path of the model.
     pub(super) fn source(&self) -> Result<&str, &Path> {
         if let Some(name) = &self.scene {
@@ -226,23 +217,24 @@ impl SceneArguments {
     }
 
     /// The scene, turned by a share of a full turn, as a function that makes it.
-    pub(super) fn maker(&self, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
+    pub(super) fn maker(&self, typed: &Typed, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
         let view = &self.view;
         match self.source() {
             Ok(name) => {
                 let aspect = view.aspect()?;
-                view.refuse_eye(name)?;
+                // A scene has an eye and a light of its own: what would move them is refused, not ignored.
+                let is_of_models = |option: &&String| !OF_SCENES.contains(&option.as_str());
+                let of_models: Vec<_> = VIEW_OPTIONS.iter().filter(is_of_models).collect();
+                if let Some(option) = typed.given(&of_models) {
+                    return Err(usage(format!(
+                        "--{option} is for models; the scene '{name}' has an eye and a light of its own"
+                    )));
+                }
                 Ok(Maker { base: Base::Chapter(name.to_owned()), aspect, cull: view.cull })
             }
             Err(path) if path.extension().is_none() && !path.exists() => {
                 let word = path.to_string_lossy();
-                let near = scene_names().into_iter().filter(|name| {
-                    let steps = strsim::levenshtein(&word.to_ascii_lowercase(), name);
-                    steps * 2 <= name.len().max(word.len())
-                });
-                let nearest = near.min_by_key(|name| strsim::levenshtein(&word, name));
-                let hint =
-                    nearest.map_or(".".to_owned(), |name| format!("; did you mean '{name}'?"));
+                let hint = did_you_mean(&word, scene_names().into_iter());
                 Err(usage(format!(
                     "{word} is neither a file nor a scene{hint} See: {} list",
                     program()
@@ -254,6 +246,11 @@ impl SceneArguments {
 }
 
 impl ViewArguments {
+    /// A picture of this size, of a model as it is drawn where nothing else is said.
+    pub(super) fn of(size: (u32, u32)) -> Self {
+        Self { size, ..Self::default() }
+    }
+
     /// An empty target of the size and kind asked for.
     pub(super) fn target(&self) -> Result<Target, Failure> {
         let (width, height) = self.size;
@@ -270,33 +267,6 @@ impl ViewArguments {
         let aspect = self.aspect()?;
         let base = Base::Model(Box::new(self.frame_model(path, aspect, streams)?));
         Ok(Maker { base, aspect, cull: self.cull })
-    }
-
-    /// A scene has an eye and a light of its own: what would move them is refused, not ignored.
-    fn refuse_eye(&self, scene: &str) -> Result<(), Failure> {
-        let given = [
-            ("--yaw", self.yaw.is_some()),
-            ("--pitch", self.pitch.is_some()),
-            ("--zoom", self.zoom.is_some()),
-            ("--fov", self.fov.is_some()),
-            ("--shading", self.shading.is_some()),
-            ("--specular", self.specular.is_some()),
-            ("--alpha-threshold", self.alpha_threshold.is_some()),
-            ("--opacity", self.opacity.is_some()),
-            ("--layers", self.layers.is_some()),
-            ("--mip-maps", self.mip_maps),
-            ("--anisotropy", self.anisotropy.is_some()),
-            ("--shadows", self.shadows.is_some()),
-            ("--fog", self.fog.is_some()),
-            ("--up", self.up.is_some()),
-            ("--normals", self.normals.is_some()),
-        ];
-        match given.iter().find(|(_, is_given)| *is_given) {
-            Some((option, _)) => Err(usage(format!(
-                "{option} is for models; the scene '{scene}' has an eye and a light of its own"
-            ))),
-            None => Ok(()),
-        }
     }
 
     fn frame_model(
@@ -418,9 +388,7 @@ struct Framed {
     scene: Scene,
     centre: DVec3,
     origins: Vec<Origin>,
-    /// What the file contains and is not drawn.
     not_drawn: String,
-    /// How long it took to read the file.
     loading: Duration,
 }
 
@@ -444,7 +412,6 @@ impl Maker {
         }
     }
 
-    /// How long it took to read the model.
     pub(super) fn loading_s(&self) -> Option<f64> {
         self.framed().map(|framed| framed.loading.as_secs_f64())
     }
@@ -454,7 +421,6 @@ impl Maker {
         self.framed().map_or("", |framed| &framed.not_drawn)
     }
 
-    /// Where each item of a model comes from.
     pub(super) fn origins(&self) -> &[Origin] {
         self.framed().map_or(&[], |framed| &framed.origins)
     }

@@ -30,7 +30,6 @@ pub struct Job<'a> {
     /// What to judge; its number of cases is that of `cases`.
     pub options: Options,
     pub json: bool,
-    /// Whether a page is written, and where.
     pub page: &'a PageArguments,
 }
 
@@ -109,7 +108,6 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
     look::coverage(&mut gpu, list, window).map_err(failed)
 }
 
-/// A device for a ladder of coverage.
 pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, Failure> {
     Ok(Box::new(OnLadder::new(engine).map_err(usage)?))
 }

@@ -159,8 +159,8 @@ fn cost_plots_name_every_rung() {
             let labels = svg.matches(&format!(">{}</text>", rung.name)).count();
             assert_eq!(labels, ran, "{}", rung.name);
         }
-        for shape in &drawing.shapes {
-            if let canvas::Shape::Text { at, text, .. } = shape {
+        for (shape, _) in &drawing.shapes {
+            if let canvas::Shape::Text(at, text) = shape {
                 assert!(at[0] >= 0.0 && at[0] + canvas::width(text) <= drawing.size[0], "{text}");
             }
         }

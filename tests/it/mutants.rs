@@ -6,7 +6,7 @@ use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varyin
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_registry::comparison;
 use rasterproof_registry::engines::{Engine, LineEngine};
-use rasterproof_report::{counts, json, table};
+use rasterproof_report::{differential, json};
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{FamilyName, Shape, lines};
 use rasterproof_verify::comparison::shrink::has_plain_values;
@@ -78,12 +78,12 @@ fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
     };
     assert_eq!(kinds.map(by_family), sums, "{name}");
     if mismatches > 0 {
-        let sentence = counts::outcome(verdict, &off_grid).sentence;
+        let sentence = differential::outcome(verdict, &off_grid).sentence;
         assert!(sentence.starts_with(&format!("{mismatches} wrong pixels in ")), "{sentence}");
     }
     // The terminal's table: the fourth column of counts.
     let mut printed = 0;
-    for line in table::table(verdict).lines().filter(|line| !line.starts_with("all ")) {
+    for line in differential::text(verdict).lines().filter(|line| !line.starts_with("all ")) {
         let cells: Vec<_> = line.split_whitespace().collect();
         let is_row = cells.len() > 5 && cells[4].ends_with('%');
         printed += if is_row { cells[5].parse().unwrap_or(0) } else { 0 };

@@ -11,7 +11,7 @@ use rasterproof_registry::published_check::{
     SpecimenReport, exposing_name, judge_recorded, survey, wrong,
 };
 use rasterproof_report::specimen_sheet::{SHEETS, alone, sheet};
-use rasterproof_report::specimens::{detail, table};
+use rasterproof_report::specimens::{detail, text};
 
 use crate::snapshots::{check_sheet, each, settings};
 
@@ -56,7 +56,7 @@ fn specimens_are_caught_by_families_as_recorded() {
         assert!(report.all.percent() > 10.0, "{}: {:?}", report.name, report.all);
     }
     let details: Vec<_> = reports.iter().map(detail).collect();
-    let texts = [("specimens-text", table(&reports)), ("specimens-detail", details.join("\n"))];
+    let texts = [("specimens-text", text(&reports)), ("specimens-detail", details.join("\n"))];
     each(texts, |(name, text)| {
         let widest = text.lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(100), "{widest:?} columns");

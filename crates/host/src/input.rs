@@ -1,36 +1,14 @@
 //! Opening files: regular files only, at most a stated size, and never with waiting.
 
-use std::fmt;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::text::printable_path;
+use crate::error::{FileError, refused};
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct InputError {
-    pub path: PathBuf,
-    /// What is wrong, in words that follow the name of the file.
-    pub cause: String,
-    /// Whether nothing has this name.
-    pub missing: bool,
-}
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", printable_path(&self.path), self.cause)
-    }
-}
-
-impl std::error::Error for InputError {}
-
-fn refused(path: &Path, cause: impl Into<String>) -> InputError {
-    InputError { path: path.to_owned(), cause: cause.into(), missing: false }
-}
-
-fn failed(path: &Path, error: &io::Error) -> InputError {
+fn failed(path: &Path, error: &io::Error) -> FileError {
     let missing = error.kind() == io::ErrorKind::NotFound;
-    InputError { missing, ..refused(path, format!("cannot be read: {error}")) }
+    FileError { missing, ..refused(path, format!("cannot be read: {error}")) }
 }
 
 /// Why something that is not a regular file is refused, or nothing for a regular one.
@@ -63,9 +41,9 @@ fn wrong_kind(kind: std::fs::FileType) -> Option<&'static str> {
 /// again afterwards, since the name may mean another file by then.
 ///
 /// # Errors
-/// [`InputError`] where the file is missing, is not a regular file, is too large, or may not be read.
+/// [`FileError`] where the file is missing, is not a regular file, is too large, or may not be read.
 #[allow(clippy::disallowed_methods, reason = "this is the one function that opens an input file")]
-pub fn open(path: &Path, limit_bytes: u64) -> Result<File, InputError> {
+pub fn open(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
     let before = std::fs::metadata(path).map_err(|error| failed(path, &error))?;
     if let Some(cause) = wrong_kind(before.file_type()) {
         return Err(refused(path, cause));
@@ -89,7 +67,7 @@ pub fn open(path: &Path, limit_bytes: u64) -> Result<File, InputError> {
     Ok(file)
 }
 
-fn too_large(path: &Path, limit_bytes: u64) -> InputError {
+fn too_large(path: &Path, limit_bytes: u64) -> FileError {
     let size = match limit_bytes {
         bytes if bytes >= 1 << 30 => format!("{} GiB", bytes >> 30),
         bytes if bytes >= 1 << 20 => format!("{} MiB", bytes >> 20),
@@ -102,7 +80,7 @@ fn too_large(path: &Path, limit_bytes: u64) -> InputError {
 ///
 /// # Errors
 /// As [`open`]; also where a file grows beyond the limit while it is read, as those below `/proc` may.
-pub fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, InputError> {
+pub fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, FileError> {
     let file = open(path, limit_bytes)?;
     let expected = file.metadata().map_or(0, |data| data.len());
     let mut bytes = Vec::with_capacity(usize::try_from(expected).unwrap_or(0));
@@ -126,7 +104,7 @@ pub struct Pieces {
 impl Pieces {
     /// # Errors
     /// Those of [`open`], such as for a file that is larger than the limit.
-    pub fn open(path: &Path, limit_bytes: u64) -> Result<Self, InputError> {
+    pub fn open(path: &Path, limit_bytes: u64) -> Result<Self, FileError> {
         let file = open(path, limit_bytes)?;
         Ok(Self { path: path.to_owned(), file, limit_bytes, read_bytes: 0 })
     }
@@ -141,7 +119,7 @@ impl Pieces {
     ///
     /// # Errors
     /// Those of [`read`], such as for a file that has grown beyond the limit since it was opened.
-    pub fn read_more(&mut self, into: &mut Vec<u8>, most_bytes: u64) -> Result<usize, InputError> {
+    pub fn read_more(&mut self, into: &mut Vec<u8>, most_bytes: u64) -> Result<usize, FileError> {
         let more = (&mut self.file).take(most_bytes).read_to_end(into);
         let more = more.map_err(|error| failed(&self.path, &error))?;
         self.read_bytes += more as u64;
@@ -157,7 +135,7 @@ impl Pieces {
 ///
 /// # Errors
 /// As [`read`]; also where the bytes are not UTF-8.
-pub fn read_text(path: &Path, limit_bytes: u64) -> Result<String, InputError> {
+pub fn read_text(path: &Path, limit_bytes: u64) -> Result<String, FileError> {
     let bytes = read(path, limit_bytes)?;
     let mut text = String::from_utf8(bytes).map_err(|error| {
         let good = error.utf8_error().valid_up_to();

@@ -8,6 +8,7 @@
 //! crate can open or write a file by itself.
 #![forbid(unsafe_code)]
 
+pub mod error;
 pub mod identity;
 pub mod input;
 pub mod limits;

@@ -5,8 +5,9 @@ use std::io::{Read as _, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::error::{FileError, refused};
 use crate::identity::place;
-use crate::output::{OutputError, create_folder, remove};
+use crate::output::{create_folder, remove};
 use crate::text::printable_path;
 
 /// How often a lock is opened again, each 5 ms, whose holder has not written its number yet.
@@ -33,11 +34,11 @@ impl Lock {
     /// Locks `path`, or says which process has it. The folder of `path` is made where it is missing.
     ///
     /// # Errors
-    /// [`OutputError`] where another process holds the lock, where the file of the lock cannot be
+    /// [`FileError`] where another process holds the lock, where the file of the lock cannot be
     /// made, or where a file that is not a lock has its name.
     #[allow(clippy::disallowed_methods, reason = "the lock has to be the file that was opened")]
-    pub fn acquire(path: &Path) -> Result<Self, OutputError> {
-        let refused = |cause: String| OutputError { path: path.to_owned(), cause };
+    pub fn acquire(path: &Path) -> Result<Self, FileError> {
+        let refused = |cause: String| refused(path, cause);
         let failed = |error: std::io::Error| refused(format!("cannot be locked: {error}"));
         let lock = Self::file_of(path);
         create_folder(&lock)?;

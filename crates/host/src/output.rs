@@ -5,43 +5,24 @@
 //! file that it names is replaced, and the link stays. A pipe or a device is written to where it
 //! is, and never replaced.
 
-use std::fmt;
 use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use crate::error::{FileError, refused};
 use crate::limits::STALLED_WRITE_SECONDS;
 use crate::text::printable_path;
 
-/// Why a file was not written. The file that was there before is unchanged.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OutputError {
-    pub path: PathBuf,
-    /// What is wrong, in words that follow the name of the file.
-    pub cause: String,
-}
-
-impl fmt::Display for OutputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", printable_path(&self.path), self.cause)
-    }
-}
-
-impl std::error::Error for OutputError {}
-
-fn refused(path: &Path, cause: impl Into<String>) -> OutputError {
-    OutputError { path: path.to_owned(), cause: cause.into() }
-}
-
 /// Writes `bytes` to `path`, and makes the folder of `path` where it is missing.
 ///
-/// The mode and, where that is permitted, the owner of a file that is replaced are kept.
+/// The mode and, where that is permitted, the owner of a file that is replaced are kept. Where the file cannot be
+/// written, the one that was there before is unchanged.
 ///
 /// # Errors
-/// [`OutputError`] where the file cannot be written; a link that leads nowhere is refused.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+/// [`FileError`] where the file cannot be written; a link that leads nowhere is refused.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let failed = |error: io::Error| refused(path, format!("cannot be written: {error}"));
     match std::fs::metadata(path) {
         Ok(data) if data.is_file() => {
@@ -63,7 +44,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 }
 
 /// Makes the folder of a file where it is missing.
-pub(crate) fn create_folder(path: &Path) -> Result<(), OutputError> {
+pub(crate) fn create_folder(path: &Path) -> Result<(), FileError> {
     let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) else {
         return Ok(());
     };
@@ -75,9 +56,9 @@ pub(crate) fn create_folder(path: &Path) -> Result<(), OutputError> {
 /// Removes a file that this program wrote. It is not an error if nothing has this name.
 ///
 /// # Errors
-/// [`OutputError`] where the file is there and cannot be removed.
+/// [`FileError`] where the file is there and cannot be removed.
 #[allow(clippy::disallowed_methods, reason = "this is the one function that removes a file")]
-pub fn remove(path: &Path) -> Result<(), OutputError> {
+pub fn remove(path: &Path) -> Result<(), FileError> {
     match std::fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
             Err(refused(path, format!("cannot be removed: {error}")))

@@ -1,7 +1,8 @@
 //! A file of records that is read piece by piece, each piece while another thread looks at the one before it.
 
 use rasterproof_core::parallel;
-use rasterproof_host::input::{InputError, Pieces};
+use rasterproof_host::error::FileError;
+use rasterproof_host::input::Pieces;
 
 /// How many bytes are read at once: enough for several threads.
 const PIECE: u64 = 1 << 22;
@@ -40,7 +41,7 @@ impl Ahead {
     }
 
     /// Reads what is left of the file, for readers that cannot say how long an element is.
-    pub(crate) fn read_all(&mut self) -> Result<(), InputError> {
+    pub(crate) fn read_all(&mut self) -> Result<(), FileError> {
         if self.ended {
             return Ok(());
         }
@@ -58,7 +59,7 @@ impl Ahead {
         size: usize,
         most: u64,
         mut read: impl FnMut(&[u8]) -> usize + Send,
-    ) -> Result<u64, InputError> {
+    ) -> Result<u64, FileError> {
         let mut taken = 0;
         loop {
             let whole = (self.left().len() / size) as u64;

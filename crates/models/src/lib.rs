@@ -20,7 +20,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use rasterproof_host::input::{InputError, Pieces};
+use rasterproof_host::error::FileError;
+use rasterproof_host::input::Pieces;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_host::{input, limits};
 use rasterproof_render::scene::{Item, Shading};
@@ -157,7 +158,7 @@ pub(crate) const PIECE_BYTES: u64 = 1 << 20;
 /// is out of range, a model without faces. A material file or a texture that is missing or cannot be read is a
 /// warning: the surface is drawn in its colour, or grey.
 pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
-    let failed = |error: InputError| bad(path, None, error.cause);
+    let failed = |error: FileError| bad(path, None, error.cause);
     let mut file = Pieces::open(path, limits::MODEL_BYTES).map_err(failed)?;
     let length = file.length_bytes();
     let mut bytes = Vec::new();

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use glam::{DMat4, DVec2, DVec3};
-use rasterproof_host::input::InputError;
+use rasterproof_host::error::FileError;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 
@@ -384,7 +384,7 @@ fn refused(path: &Path, line: usize, cause: &str) -> BadFile {
 }
 
 fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, BadFile> {
-    let unread = |error: InputError| bad(path, None, error.cause);
+    let unread = |error: FileError| bad(path, None, error.cause);
     let mut read = Lines::default();
     let mut state = State { is_new: true, ..State::default() };
     let mut joined = Vec::new();

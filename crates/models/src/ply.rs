@@ -8,7 +8,7 @@ use std::path::Path;
 
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::parallel::{self, SHARE};
-use rasterproof_host::input::InputError;
+use rasterproof_host::error::FileError;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
@@ -286,7 +286,7 @@ type Wrong = (u64, String);
 
 /// Reads the text or the bytes of a PLY.
 pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
-    let unread = |error: InputError| bad(path, None, error.cause);
+    let unread = |error: FileError| bad(path, None, error.cause);
     let ends = |line_break| memchr::memmem::find(&file.bytes, line_break).is_some();
     if !ends(b"\nend_header") && !ends(b"\rend_header") {
         file.read_all().map_err(unread)?;
@@ -458,7 +458,7 @@ fn columns(
     element: &Element,
     places: &[Option<usize>],
     part: &mut FilePart,
-) -> Result<(u64, u64), InputError> {
+) -> Result<(u64, u64), FileError> {
     let has_list = element.properties.iter().any(|property| property.length.is_some());
     if body.form == Form::Text || has_list {
         return Ok((0, 0));
@@ -606,7 +606,7 @@ fn triangles(
     element: &Element,
     most: u64,
     part: &mut FilePart,
-) -> Result<u64, InputError> {
+) -> Result<u64, FileError> {
     const RECORD: usize = 13;
     let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
         element.properties[..]

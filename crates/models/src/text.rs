@@ -1,7 +1,8 @@
 //! The lines of a file that is read piece by piece.
 
 use memchr::memchr;
-use rasterproof_host::input::{InputError, Pieces};
+use rasterproof_host::error::FileError;
+use rasterproof_host::input::Pieces;
 
 use crate::PIECE_BYTES;
 
@@ -31,7 +32,7 @@ impl Text {
     }
 
     /// The next line without its end; nothing after the last one.
-    pub(crate) fn next_line(&mut self) -> Result<Option<&[u8]>, InputError> {
+    pub(crate) fn next_line(&mut self) -> Result<Option<&[u8]>, FileError> {
         let mut searched = self.at;
         loop {
             if let Some(length) = memchr(self.newline, &self.buffer[searched..]) {

@@ -7,7 +7,8 @@
 use std::fmt::Write as _;
 
 use super::judge_text::hanging;
-use rasterproof_precision::cost::{Board, Cell, Measure, Run, Time, prices};
+use super::table::{Column, Table};
+use rasterproof_precision::cost::{Board, Cell, Measure, Price, Priced, Run, Time, prices};
 
 const WIDTH: usize = 100;
 const NAME: usize = 16;
@@ -219,25 +220,19 @@ pub fn price_text(boards: &[Board]) -> String {
         return out;
     }
     out += "Exact coverage over the cheapest rung, by ns for each covered pixel\n\n";
-    let _ = writeln!(
-        out,
-        "{:8}{:>31}{:>29}{:>32}",
-        "", "cheapest in floats", "exact on the lattice", "exact as given"
-    );
-    for price in &prices {
-        let cell = |p: &Option<rasterproof_precision::cost::Priced>| {
-            p.as_ref().map_or("not run".to_owned(), |p| format!("{} {:.2}x", p.name, p.ratio))
-        };
-        let _ = writeln!(
-            out,
-            "{:8}{:>31}{:>29}{:>32}",
-            price.column,
-            cell(&price.unpromised),
-            cell(&price.snapped),
-            cell(&price.given)
-        );
-    }
-    out
+    let columns =
+        [("cheapest in floats", 30), ("exact on the lattice", 28), ("exact as given", 31)];
+    let columns = columns.map(|(label, least)| Column::numbers(label, "").least(least));
+    let cell = |p: &Option<Priced>| {
+        p.as_ref().map_or("not run".to_owned(), |p| format!("{} {:.2}x", p.name, p.ratio))
+    };
+    let row = |price: &Price| {
+        let costs = [&price.unpromised, &price.snapped, &price.given].map(cell);
+        [price.column.to_string()].into_iter().chain(costs).collect::<Vec<_>>().into()
+    };
+    let columns = [Column::words("").least(8)].into_iter().chain(columns).collect();
+    let rows = prices.iter().map(row).collect();
+    out + &Table { columns, rows, ..Table::default() }.text([0; 2])
 }
 
 /// Breaks a line at spaces so that it fits, with an indent of two.

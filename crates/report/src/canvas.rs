@@ -32,34 +32,17 @@ pub enum Shape {
         from: [f64; 2],
         to: [f64; 2],
         width: f64,
-        ink: Ink,
     },
-    Box {
-        /// Left and top.
-        at: [f64; 2],
-        /// Width and height.
-        size: [f64; 2],
-        ink: Ink,
-    },
-    Disc {
+    /// A filled rectangle by its left upper corner and its width and height.
+    Box([f64; 2], [f64; 2]),
+    /// A ring is a circle 2 units wide, and the radius that of the middle of its line.
+    Circle {
         at: [f64; 2],
         radius: f64,
-        ink: Ink,
+        is_ring: bool,
     },
-    /// A circle 2 units wide.
-    Ring {
-        at: [f64; 2],
-        /// Radius of the middle of the line.
-        radius: f64,
-        ink: Ink,
-    },
-    /// A line of text, its middle height at y.
-    Text {
-        /// Left end, middle height.
-        at: [f64; 2],
-        text: String,
-        ink: Ink,
-    },
+    /// A line of text: its left end, at its middle height.
+    Text([f64; 2], String),
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -68,20 +51,45 @@ pub struct Drawing {
     pub title: String,
     pub size: [f64; 2],
     /// From back to front.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<(Shape, Ink)>,
 }
 
 impl Drawing {
+    #[must_use]
+    pub fn new(title: &str, size: [f64; 2]) -> Self {
+        Self { title: title.to_owned(), size, shapes: Vec::new() }
+    }
+
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
-        self.shapes.push(Shape::Line { from, to, width: 1.0, ink });
+        self.shapes.push((Shape::Line { from, to, width: 1.0 }, ink));
+    }
+
+    pub fn wide_line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
+        self.shapes.push((Shape::Line { from, to, width: 2.0 }, ink));
+    }
+
+    pub fn filled_box(&mut self, at: [f64; 2], size: [f64; 2], ink: Ink) {
+        self.shapes.push((Shape::Box(at, size), ink));
+    }
+
+    pub fn disc(&mut self, at: [f64; 2], radius: f64, ink: Ink) {
+        self.shapes.push((Shape::Circle { at, radius, is_ring: false }, ink));
+    }
+
+    pub fn ring(&mut self, at: [f64; 2], radius: f64, ink: Ink) {
+        self.shapes.push((Shape::Circle { at, radius, is_ring: true }, ink));
     }
 
     pub fn text(&mut self, at: [f64; 2], text: &str, ink: Ink) {
-        self.shapes.push(Shape::Text { at, text: text.to_owned(), ink });
+        self.shapes.push((Shape::Text(at, text.to_owned()), ink));
     }
 
     pub fn text_before(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text), at[1]], text, ink);
+    }
+
+    pub fn text_about(&mut self, at: [f64; 2], text: &str, ink: Ink) {
+        self.text([at[0] - width(text) / 2.0, at[1]], text, ink);
     }
 }
 
@@ -98,34 +106,29 @@ pub fn svg(drawing: &Drawing) -> String {
         escaped(&drawing.title),
         dark_style(drawing)
     );
-    for shape in &drawing.shapes {
+    for (shape, ink) in &drawing.shapes {
+        let (fill, stroke) = (fill(*ink), stroke(*ink));
         // Writing to a string does not fail.
         let _ = match shape {
-            Shape::Line { from: [x1, y1], to: [x2, y2], width, ink } => writeln!(
+            Shape::Line { from: [x1, y1], to: [x2, y2], width } => writeln!(
                 out,
-                "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" {} stroke-width=\"{width}\"/>",
-                stroke(*ink)
+                "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" {stroke} stroke-width=\"{width}\"/>"
             ),
-            Shape::Box { at: [x, y], size: [w, h], ink } => writeln!(
+            Shape::Box([x, y], [w, h]) => writeln!(
                 out,
-                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" {}/>",
-                fill(*ink)
+                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" {fill}/>"
             ),
-            Shape::Disc { at: [x, y], radius, ink } => {
-                writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {}/>", fill(*ink))
+            Shape::Circle { at: [x, y], radius, is_ring } => {
+                let ring = format!("fill=\"none\" {stroke} stroke-width=\"2\"");
+                let paint = if *is_ring { ring } else { fill };
+                writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {paint}/>")
             }
-            Shape::Ring { at: [x, y], radius, ink } => writeln!(
-                out,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"none\" {} stroke-width=\"2\"/>",
-                stroke(*ink)
-            ),
             // The length is stated, so that another font cannot make labels overlap.
-            Shape::Text { at: [x, y], text, ink } => writeln!(
+            Shape::Text([x, y], text) => writeln!(
                 out,
-                "<text x=\"{x:.1}\" y=\"{:.1}\" textLength=\"{}\" {}>{}</text>",
+                "<text x=\"{x:.1}\" y=\"{:.1}\" textLength=\"{}\" {fill}>{}</text>",
                 y + 4.5,
                 self::width(text),
-                fill(*ink),
                 escaped(text)
             ),
         };
@@ -158,14 +161,8 @@ fn dark([r, g, b]: Ink) -> Ink {
 }
 
 fn dark_style(drawing: &Drawing) -> String {
-    let ink = |shape: &Shape| match shape {
-        Shape::Line { ink, .. }
-        | Shape::Box { ink, .. }
-        | Shape::Disc { ink, .. }
-        | Shape::Ring { ink, .. }
-        | Shape::Text { ink, .. } => *ink,
-    };
-    let inks: BTreeSet<Ink> = drawing.shapes.iter().map(ink).chain([[255; 3]]).collect();
+    let inks: BTreeSet<Ink> =
+        drawing.shapes.iter().map(|(_, ink)| *ink).chain([[255; 3]]).collect();
     let rules = inks.iter().map(|ink| {
         let (name, dark) = (hex(*ink), hex(dark(*ink)));
         format!(".f{name}{{fill:#{dark}}}.s{name}{{stroke:#{dark}}}")
@@ -184,13 +181,13 @@ pub fn picture(drawing: &Drawing) -> RgbImage {
     let [width, height] = drawing.size.map(|v| (v * zoom).clamp(1.0, 16384.0) as u32);
     let mut image = RgbImage::from_pixel(width, height, Rgb([255, 255, 255]));
     let scale = |p: [f64; 2]| p.map(|v| v * zoom);
-    for shape in &drawing.shapes {
+    for (shape, ink) in &drawing.shapes {
         match shape {
-            Shape::Line { from, to, width, ink } => {
+            Shape::Line { from, to, width } => {
                 let (a, b, reach) = (scale(*from), scale(*to), width * zoom / 2.0);
                 blend(&mut image, [a, b], reach, *ink, |p| reach - distance(p, a, b));
             }
-            Shape::Box { at, size, ink } => {
+            Shape::Box(at, size) => {
                 let ([x, y], [w, h]) = (scale(*at), scale(*size));
                 let inside = |p: [f64; 2]| {
                     let sides = [p[0] - x, x + w - p[0], p[1] - y, y + h - p[1]];
@@ -198,15 +195,15 @@ pub fn picture(drawing: &Drawing) -> RgbImage {
                 };
                 blend(&mut image, [[x, y], [x + w, y + h]], 0.0, *ink, inside);
             }
-            Shape::Disc { at, radius, ink } => {
+            Shape::Circle { at, radius, is_ring } => {
                 let (c, r) = (scale(*at), radius * zoom);
-                blend(&mut image, [c, c], r, *ink, |p| r - distance(p, c, c));
+                let inside = |p: [f64; 2]| match (r - distance(p, c, c), is_ring) {
+                    (inward, true) => zoom - inward.abs(),
+                    (inward, false) => inward,
+                };
+                blend(&mut image, [c, c], r + zoom, *ink, inside);
             }
-            Shape::Ring { at, radius, ink } => {
-                let (c, r) = (scale(*at), radius * zoom);
-                blend(&mut image, [c, c], r + zoom, *ink, |p| zoom - (r - distance(p, c, c)).abs());
-            }
-            Shape::Text { at, text, ink } => {
+            Shape::Text(at, text) => {
                 let [x, y] = scale(*at);
                 let top = y - f64::from(Size::Plot.cell()[1]) / 2.0;
                 lettering::write(&mut image, (x as i64, top as i64), text, Size::Plot, Rgb(*ink));
@@ -254,11 +251,10 @@ mod tests {
     use super::*;
 
     fn sample() -> Drawing {
-        let mut drawing =
-            Drawing { title: "a < b".to_owned(), size: [40.0, 20.0], shapes: Vec::new() };
+        let mut drawing = Drawing::new("a < b", [40.0, 20.0]);
         drawing.line([0.0, 10.0], [40.0, 10.0], [255, 0, 0]);
-        drawing.shapes.push(Shape::Disc { at: [10.0, 10.0], radius: 4.0, ink: [0, 0, 255] });
-        drawing.shapes.push(Shape::Ring { at: [30.0, 10.0], radius: 5.0, ink: [0, 128, 0] });
+        drawing.disc([10.0, 10.0], 4.0, [0, 0, 255]);
+        drawing.ring([30.0, 10.0], 5.0, [0, 128, 0]);
         drawing.text([1.0, 15.0], "<&", [0, 0, 0]);
         drawing
     }

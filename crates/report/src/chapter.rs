@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-/// Where the docs explain something.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Chapter {
     /// In words; nothing where there is no such place.

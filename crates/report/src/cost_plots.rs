@@ -4,7 +4,7 @@
 //! without any error, each in a row of its own. Labels stand beside their dots and never overlap.
 
 use super::board::number;
-use super::canvas::{self, Drawing, GRID, INK, Ink, SOFT, Shape};
+use super::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
 use super::lettering;
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced, prices};
 
@@ -65,8 +65,7 @@ fn pareto_in(board: &Board, in_row: usize) -> Drawing {
     let titles = wrapped(&title, width - 24.0);
     let head = 10.0 + 16.0 * (titles.len() + legend.len()) as f64 + 12.0;
     let rows = panels.len().div_ceil(in_row) as f64;
-    let mut drawing =
-        Drawing { title: title.clone(), size: [width, head + rows * panel_height], shapes: vec![] };
+    let mut drawing = Drawing::new(&title, [width, head + rows * panel_height]);
     let lines = titles.iter().map(|text| (text, INK)).chain(legend.iter().map(|l| (l, SOFT)));
     for (line, (text, ink)) in lines.enumerate() {
         drawing.text([12.0, 16.0 + 16.0 * line as f64], text, ink);
@@ -118,20 +117,10 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
         let above = (first > 0.0).then_some(first);
         // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
         // vertices as given is the error of snapping, a line of its own.
-        if snapped {
-            let label = format!("{} (snapped)", info.name);
-            dots.push(Dot {
-                label,
-                time,
-                quartiles,
-                error: None,
-                good: true,
-                hollow: true,
-                cracked,
-            });
-            continue;
-        }
-        dots.push(Dot { label, time, quartiles, error: above, good, hollow: false, cracked });
+        let label = if snapped { format!("{} (snapped)", info.name) } else { label };
+        let error = above.filter(|_| !snapped);
+        let (good, hollow) = (good || snapped, snapped);
+        dots.push(Dot { label, time, quartiles, error, good, hollow, cracked });
     }
     dots
 }
@@ -194,8 +183,8 @@ fn panel(
         drawing.text([left + 12.0, y0 - line], text, SOFT);
     }
     let right = "right: time in ns for each pixel";
-    drawing.text([x1 - canvas::width(right), y1 + shelf + 24.0], right, SOFT);
-    drawing.shapes.push(Shape::Box { at: [x0, y1], size: [x1 - x0, shelf], ink: SHELF });
+    drawing.text_before([x1, y1 + shelf + 24.0], right, SOFT);
+    drawing.filled_box([x0, y1], [x1 - x0, shelf], SHELF);
     let times = dots.iter().flat_map(|d| [d.quartiles[0], d.time, d.quartiles[1]]);
     let time = Axis::new(times.filter(|t| *t > 0.0), 0.12, [x0, x1]);
     let snapping = snapping(board, column);
@@ -204,7 +193,7 @@ fn panel(
         let x = time.place(value);
         drawing.line([x, y0], [x, bottom], GRID);
         let text = tick(value);
-        drawing.text([x - canvas::width(&text) / 2.0, bottom + 9.0], &text, SOFT);
+        drawing.text_about([x, bottom + 9.0], &text, SOFT);
     }
     if snapping.is_some() || dots.iter().any(|d| d.error.is_some()) {
         for value in error.ticks(5) {
@@ -244,18 +233,17 @@ fn ends(dot: &Dot, time: &Axis) -> [f64; 2] {
 /// A line from the first to the last quartile of a dot's time.
 fn spread(drawing: &mut Drawing, dot: &Dot, time: &Axis, y: f64) {
     let [from, to] = ends(dot, time).map(|x| [x, y]);
-    drawing.shapes.push(Shape::Line { from, to, width: 2.0, ink: SOFT });
+    drawing.wide_line(from, to, SOFT);
 }
 
 fn mark(drawing: &mut Drawing, at: [f64; 2], dot: &Dot) -> Ink {
     let ink = if dot.good { GOOD } else { OTHER };
-    drawing.shapes.push(if dot.hollow {
-        Shape::Ring { at, radius: RADIUS - 0.5, ink }
-    } else {
-        Shape::Disc { at, radius: RADIUS, ink }
-    });
+    match dot.hollow {
+        true => drawing.ring(at, RADIUS - 0.5, ink),
+        false => drawing.disc(at, RADIUS, ink),
+    }
     if dot.cracked {
-        drawing.shapes.push(Shape::Ring { at, radius: RADIUS + 3.0, ink: CRACKED });
+        drawing.ring(at, RADIUS + 3.0, CRACKED);
         return CRACKED;
     }
     ink
@@ -365,17 +353,16 @@ pub fn price(boards: &[Board]) -> Drawing {
     let (x0, x1, head) = (84.0, WIDTH - 24.0, 104.0);
     let bottom = head + BAND * prices.len() as f64;
     let title = "What exact coverage costs over the cheapest rung";
-    let mut drawing =
-        Drawing { title: title.to_owned(), size: [WIDTH, bottom + 44.0], shapes: vec![] };
+    let mut drawing = Drawing::new(title, [WIDTH, bottom + 44.0]);
     drawing.text([12.0, 16.0], title, INK);
     let legend = "time over that of the cheapest rung of any accuracy, by class of scenes";
     drawing.text([12.0, 32.0], legend, SOFT);
-    for (row, kind) in Kind::ALL.into_iter().enumerate() {
+    for (row, kind) in KINDS.iter().enumerate() {
         let y = 50.0 + 15.0 * row as f64;
         kind.mark(&mut drawing, [17.0, y]);
-        drawing.text([28.0, y], kind.about(), kind.ink());
+        drawing.text([28.0, y], kind.about, kind.ink);
     }
-    let all = prices.iter().flat_map(|p| Kind::ALL.map(|kind| kind.of(p)));
+    let all = prices.iter().flat_map(|p| KINDS.each_ref().map(|kind| (kind.of)(p)));
     let ratios = all.flatten().map(|p| p.ratio);
     // Room for a label right of the last mark.
     let axis = Axis::new(ratios.chain([1.0, 4.0]), 0.0, [x0 + 8.0, x1 - 210.0]);
@@ -384,7 +371,7 @@ pub fn price(boards: &[Board]) -> Drawing {
             let x = axis.place(value);
             drawing.line([x, head - 6.0], [x, bottom], GRID);
             let text = format!("{value}x");
-            drawing.text([x - canvas::width(&text) / 2.0, bottom + 12.0], &text, SOFT);
+            drawing.text_about([x, bottom + 12.0], &text, SOFT);
         }
     }
     drawing.line([x0, bottom], [x1, bottom], SOFT);
@@ -395,42 +382,40 @@ pub fn price(boards: &[Board]) -> Drawing {
 }
 
 /// What a mark of the picture stands for.
-#[derive(Clone, Copy)]
-enum Kind {
-    Unpromised,
-    Snapped,
-    Given,
+struct Kind {
+    about: &'static str,
+    of: fn(&Price) -> Option<&Priced>,
+    ink: Ink,
+    is_ring: bool,
 }
 
+const KINDS: [Kind; 3] = [
+    Kind {
+        about: "the cheapest rung that promises nothing (floats)",
+        of: |price| price.unpromised.as_ref(),
+        ink: OTHER,
+        is_ring: false,
+    },
+    Kind {
+        about: "the cheapest that is exact on the 1/256-px lattice (snaps)",
+        of: |price| price.snapped.as_ref(),
+        ink: GOOD,
+        is_ring: true,
+    },
+    Kind {
+        about: "the cheapest that is exact for the vertices as given",
+        of: |price| price.given.as_ref(),
+        ink: GOOD,
+        is_ring: false,
+    },
+];
+
 impl Kind {
-    const ALL: [Self; 3] = [Self::Unpromised, Self::Snapped, Self::Given];
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Unpromised => "the cheapest rung that promises nothing (floats)",
-            Self::Snapped => "the cheapest that is exact on the 1/256-px lattice (snaps)",
-            Self::Given => "the cheapest that is exact for the vertices as given",
+    fn mark(&self, drawing: &mut Drawing, at: [f64; 2]) {
+        match self.is_ring {
+            true => drawing.ring(at, RADIUS, self.ink),
+            false => drawing.disc(at, RADIUS + 1.0, self.ink),
         }
-    }
-
-    fn of(self, price: &Price) -> Option<&Priced> {
-        match self {
-            Self::Unpromised => price.unpromised.as_ref(),
-            Self::Snapped => price.snapped.as_ref(),
-            Self::Given => price.given.as_ref(),
-        }
-    }
-
-    fn ink(self) -> Ink {
-        if matches!(self, Self::Unpromised) { OTHER } else { GOOD }
-    }
-
-    fn mark(self, drawing: &mut Drawing, at: [f64; 2]) {
-        let ink = self.ink();
-        drawing.shapes.push(match self {
-            Self::Snapped => Shape::Ring { at, radius: RADIUS, ink },
-            _ => Shape::Disc { at, radius: RADIUS + 1.0, ink },
-        });
     }
 }
 
@@ -438,21 +423,16 @@ fn band(drawing: &mut Drawing, axis: &Axis, x1: f64, top: f64, price: &Price) {
     drawing.line([12.0, top - 6.0], [x1, top - 6.0], GRID);
     drawing.text([12.0, top + 15.0], &price.column, INK);
     let start = axis.place(1.0);
-    for (row, kind) in Kind::ALL.into_iter().enumerate() {
-        let Some(Priced { name, ratio, pixel_ns }) = kind.of(price) else { continue };
+    for (row, kind) in KINDS.iter().enumerate() {
+        let Some(Priced { name, ratio, pixel_ns }) = (kind.of)(price) else { continue };
         let at = [axis.place(*ratio), top + 3.0 + ROW * row as f64];
-        drawing.shapes.push(Shape::Line {
-            from: [start, at[1]],
-            to: at,
-            width: 2.0,
-            ink: [200, 214, 206],
-        });
+        drawing.wide_line([start, at[1]], at, [200, 214, 206]);
         kind.mark(drawing, at);
         let label = if *ratio == 1.0 {
             format!("{name} {} ns/px", number(*pixel_ns, 8))
         } else {
             format!("{name} {ratio:.2}x")
         };
-        drawing.text([at[0] + 10.0, at[1]], &label, kind.ink());
+        drawing.text([at[0] + 10.0, at[1]], &label, kind.ink);
     }
 }

@@ -8,6 +8,8 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
+use super::html;
+use super::json::pretty;
 use rasterproof_judge::verdict::{Outcome, Property, Verdict};
 use rasterproof_verify::comparison::shrink;
 
@@ -55,11 +57,6 @@ pub fn write(
         Format::Gradescope => pretty(&gradescope(verdict, repeat)),
         Format::GithubClassroom => pretty(&classroom(verdict, repeat_all, repeat)),
     }
-}
-
-fn pretty(value: &Value) -> String {
-    // Numbers and strings only: this cannot fail.
-    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
 /// What was found, and where it fails the smallest case.
@@ -124,22 +121,9 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
     })
 }
 
-/// Text between tags and in quoted attributes. What programs said is printable by now; what XML has
-/// no place for is replaced all the same.
+/// Text between tags and in quoted attributes, where the ends of lines are kept.
 fn xml(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' => out.push_str("&#10;"),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
+    html::escape(text).replace('\n', "&#10;")
 }
 
 fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {

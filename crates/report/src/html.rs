@@ -19,6 +19,7 @@ use similar::{ChangeTag, TextDiff as Lines};
 pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
+use super::table::{Mark, Table};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
@@ -44,7 +45,8 @@ pub struct Report {
     pub cases: Vec<CaseView>,
     pub frames: Vec<PictureView>,
     pub figures: Vec<Figure>,
-    pub plan: Vec<PlanRow>,
+    /// The effects of a plan, and why each is paid for or not.
+    pub plan: Option<Table>,
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
@@ -67,52 +69,6 @@ impl Outcome {
     }
 }
 
-/// A table with a header and a row head in its first column.
-#[derive(Clone, Debug, Default)]
-pub struct Table {
-    pub caption: String,
-    pub columns: Vec<Column>,
-    pub rows: Vec<Row>,
-}
-
-#[derive(Clone, Debug, Default)]
-pub struct Column {
-    pub label: String,
-    /// The head in more words, or nothing.
-    pub about: String,
-    pub is_number: bool,
-}
-
-impl Column {
-    #[must_use]
-    pub fn words(label: &str) -> Self {
-        Self { label: label.to_owned(), about: String::new(), is_number: false }
-    }
-
-    /// A column of numbers; `about` says what is counted.
-    #[must_use]
-    pub fn numbers(label: &str, about: &str) -> Self {
-        Self { label: label.to_owned(), about: about.to_owned(), is_number: true }
-    }
-}
-
-#[derive(Clone, Debug, Default)]
-pub struct Row {
-    pub cells: Vec<String>,
-    pub mark: Mark,
-    /// What to search the cases for when its head is chosen, if anything.
-    pub search: Option<String>,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mark {
-    #[default]
-    Plain,
-    Wrong,
-    /// As the sum of the others; always shown.
-    Sum,
-}
-
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
     /// What it shows; also its text for who does not see it.
@@ -122,15 +78,6 @@ pub struct Figure {
     pub svg: String,
     /// The same for narrow pages, where it differs.
     pub narrow: Option<String>,
-}
-
-/// A row of the table of a plan: an effect, whether it is on, why, and what was counted.
-#[derive(Clone, Debug, Default)]
-pub struct PlanRow {
-    pub effect: String,
-    pub is_on: bool,
-    pub reason: String,
-    pub counters: Vec<(String, String)>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -199,7 +146,8 @@ pub fn escape(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            // Characters that HTML has no place for.
+            // Characters that HTML and XML have no place for.
+            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
             c if c.is_control() && c != '\n' && c != '\t' => out.push('\u{fffd}'),
             c => out.push(c),
         }
@@ -214,7 +162,7 @@ pub fn page(report: &Report) -> String {
     let mut left_out = Vec::new();
     let head = head(report);
     let tables: String = report.tables.iter().map(table).collect();
-    let plan = plan(&report.plan);
+    let plan: String = report.plan.iter().map(table).collect();
     room = room.saturating_sub(head.len() + tables.len() + plan.len() + report.command.len());
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
@@ -412,7 +360,8 @@ fn table(table: &Table) -> String {
     }
     out.push_str("</tr></thead>\n<tbody>\n");
     let mut left_out = table.rows.len();
-    for row in &table.rows {
+    let others = table.rows.iter().filter(|row| row.mark != Mark::Sum);
+    for row in table.rows.iter().filter(|row| row.mark == Mark::Sum).chain(others) {
         if out.len() > MOST_TABLE_BYTES {
             break;
         }
@@ -425,7 +374,12 @@ fn table(table: &Table) -> String {
         let _ = write!(out, "<tr{class}>");
         for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
             let text = escape(cell);
-            let number = if column.is_number { " class=\"number\"" } else { "" };
+            let rest = table.columns.len() - row.cells.len().min(table.columns.len());
+            let number = match column.is_number {
+                _ if rest > 0 && i + 1 == row.cells.len() => format!(" colspan=\"{}\"", rest + 1),
+                true => " class=\"number\"".to_owned(),
+                false => String::new(),
+            };
             let _ = match (i, &row.search) {
                 (0, Some(search)) => write!(
                     out,
@@ -433,7 +387,7 @@ fn table(table: &Table) -> String {
                     escape(search)
                 ),
                 (0, None) => write!(out, "<th scope=\"row\">{text}</th>"),
-                _ => write!(out, "<td{number}>{text}</td>"),
+                _ => write!(out, "<td{number}>{}</td>", text.replace('\n', "<br>")),
             };
         }
         out.push_str("</tr>\n");
@@ -443,21 +397,6 @@ fn table(table: &Table) -> String {
         let _ = writeln!(out, "<p>{left_out} more rows are left out.</p>");
     }
     out
-}
-
-fn plan(rows: &[PlanRow]) -> String {
-    if rows.is_empty() {
-        return String::new();
-    }
-    let columns = ["effect", "state", "reason", "counted"].map(Column::words).to_vec();
-    let rows = rows.iter().map(|row| {
-        let counters = row.counters.iter().map(|(name, n)| format!("{name} {n}"));
-        let state = if row.is_on { "on" } else { "off" };
-        let counters = counters.collect::<Vec<_>>().join(", ");
-        let cells = vec![row.effect.clone(), state.to_owned(), row.reason.clone(), counters];
-        Row { cells, ..Row::default() }
-    });
-    table(&Table { caption: "Effects, in order".to_owned(), columns, rows: rows.collect() })
 }
 
 fn figure(figure: &Figure) -> String {
@@ -526,6 +465,7 @@ fn text_diff(diff: &TextDiff, deadline: Instant) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::{Column, Row};
 
     /// Found line by line, the differences of these take minutes.
     #[test]
@@ -546,7 +486,7 @@ mod tests {
 
     #[test]
     fn a_page_stays_small_whatever_it_lists() {
-        let row = |i: usize| Row { cells: vec![format!("{i}"), "x".repeat(200)], ..Row::default() };
+        let row = |i: usize| Row::from(vec![format!("{i}"), "x".repeat(200)]);
         let columns = ["a", "b"].map(Column::words).to_vec();
         let rows = (0..20_000).map(row).collect();
         let table = Table { caption: "many".to_owned(), columns, rows };

@@ -7,6 +7,11 @@ use rasterproof_registry::published_check::SpecimenReport;
 use rasterproof_verify::comparison::unsnapped::{self, ExactFamilyReport, ExactVerdict};
 use rasterproof_verify::comparison::{Comparisons, FamilyReport, Verdict, shrink};
 
+pub fn pretty(value: &impl Serialize) -> String {
+    // Numbers and strings only: this cannot fail.
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+}
+
 #[derive(Serialize)]
 struct Json<'a> {
     version: &'static str,
@@ -20,17 +25,17 @@ struct Json<'a> {
     triangles: u64,
     lines: u64,
     families: &'a [FamilyReport],
-    failures: Vec<FailureJson>,
+    failures: Vec<FailureJson<'a>>,
     off_grid_triangles: u64,
     off_grid_families: &'a [ExactFamilyReport],
 }
 
 #[derive(Serialize)]
-struct FailureJson {
-    family: String,
+struct FailureJson<'a> {
+    family: &'a str,
     index: u64,
-    pair: [String; 2],
-    what: String,
+    pair: [&'a str; 2],
+    what: &'a str,
     shrunk: String,
     window: rasterproof_core::grid::PixelRect,
     repeat: String,
@@ -43,23 +48,17 @@ pub fn verdict(
     off_grid: &ExactVerdict,
     repeat: impl Fn(&str, u64) -> String,
 ) -> String {
-    let failures = verdict.failures.iter().map(|f| FailureJson {
-        family: f.family.clone(),
-        index: f.index,
-        pair: f.pair.clone(),
-        what: f.what.clone(),
-        shrunk: shrink::describe(&f.case),
-        window: f.case.window,
-        repeat: repeat(&f.family, f.index),
+    let failure = |family, index, pair, what, (shrunk, window)| {
+        let repeat = repeat(family, index);
+        FailureJson { family, index, pair, what, shrunk, window, repeat }
+    };
+    let failures = verdict.failures.iter().map(|f| {
+        let (shrunk, pair) = (shrink::describe(&f.case), f.pair.each_ref().map(String::as_str));
+        failure(&f.family, f.index, pair, &f.what, (shrunk, f.case.window))
     });
-    let off_grid_failures = off_grid.failures.iter().map(|f| FailureJson {
-        family: f.family.clone(),
-        index: f.index,
-        pair: [f.engine.clone(), "oracle-exact".to_owned()],
-        what: f.what.clone(),
-        shrunk: unsnapped::describe(&f.case.triangles),
-        window: f.case.window,
-        repeat: repeat(&f.family, f.index),
+    let off_grid_failures = off_grid.failures.iter().map(|f| {
+        let (shrunk, pair) = (unsnapped::describe(&f.case.triangles), [&*f.engine, "oracle-exact"]);
+        failure(&f.family, f.index, pair, &f.what, (shrunk, f.case.window))
     });
     let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
     let json = Json {
@@ -77,8 +76,7 @@ pub fn verdict(
         off_grid_triangles: off_grid.triangles(),
         off_grid_families: &off_grid.families,
     };
-    // Numbers and strings only: this cannot fail.
-    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+    pretty(&json)
 }
 
 /// The survey of the specimens as JSON; an infinite error is `null`.
@@ -86,7 +84,7 @@ pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
     let json = serde_json::json!({
         "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports,
     });
-    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+    pretty(&json)
 }
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the rungs that nobody needs.
@@ -122,5 +120,5 @@ pub fn cost(recorded: &Recorded) -> String {
         "quick": recorded.quick, "boards": boards,
         "verdicts": verdicts, "price_of_exact_coverage": prices(boards),
     });
-    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+    pretty(&json)
 }

@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::html::{Chapter, Column, Mark, Outcome, Report, Row, Table};
+use super::html::{Chapter, Outcome, Report};
+use super::table::{Column, Mark, Row, Table};
 use super::{ascii, page_cases, summary};
 use rasterproof_judge::check::Check;
 use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::run::{self, MOST_DEATHS, Row as FamilyRow};
 use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
-use rasterproof_verify::comparison::Tally;
 
 const MOST_EXCHANGES: usize = 3;
 const MOST_INCIDENTS: usize = 2;
@@ -79,20 +79,14 @@ fn dangers(out: &mut String, verdict: &Verdict, colour: bool) {
     let rows = &verdict.found.rows;
     for danger in summary::DANGERS {
         let of = || rows.iter().filter(|row| danger.families.contains(&row.name));
-        let sum = |number: fn(&FamilyRow) -> u64| of().map(number).sum::<u64>();
-        let cases = summary::thousands(sum(|row| row.cases));
-        let mut tally = Tally::default();
-        of().for_each(|row| tally += row.tally);
-        let what = match sum(|row| row.wrong_cases) {
-            0 => format!("{cases} cases, all right"),
-            n => {
-                let counts = format!("\npixels: {}", tally.describe());
-                let counts = if tally.total() > 0 { counts } else { String::new() };
-                format!("wrong in {} of {cases} cases{counts}", summary::thousands(n))
-            }
-        };
+        let mut sum = summary::Sum::default();
+        for row in of() {
+            sum.cases += row.cases;
+            sum.wrong_cases += row.wrong_cases;
+            sum.tally += row.tally;
+        }
         if of().next().is_some() {
-            entry(of().all(|row| is_good(row.name)), danger.name, &what);
+            entry(of().all(|row| is_good(row.name)), danger.name, &sum.describe());
         }
     }
     let in_a_danger = |name: &str| summary::DANGERS.iter().any(|d| d.families.contains(&name));
@@ -156,24 +150,23 @@ fn scores(out: &mut String, verdict: &Verdict) {
 }
 
 fn table(out: &mut String, verdict: &Verdict) {
-    let header = ["cases", "shapes", "pixels", "missing", "extra", "twice", "order", "refused"];
-    let _ = write!(out, "{:<16}", "property");
-    header.iter().for_each(|name| {
-        let _ = write!(out, " {name:>8}");
-    });
-    let _ = writeln!(out, " {:>7}", "wrong");
+    let numbers = ["cases", "shapes", "pixels", "missing", "extra", "twice", "order", "refused"];
+    let numbers = numbers.map(|label| Column::numbers(label, "").least(8));
+    let columns = [Column::words("property").least(16)].into_iter().chain(numbers);
+    let columns = columns.chain([Column::numbers("wrong", "").least(7)]).collect();
     let mut rows: Vec<_> = verdict.found.rows.iter().collect();
     rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
-    for row in rows {
+    let row = |row: &FamilyRow| {
         let t = &row.tally;
         let numbers =
             [row.cases, row.shapes, row.pixels, t.missing, t.extra, t.twice, t.order, row.refused];
-        let _ = write!(out, "{:<16}", row.name);
-        numbers.iter().for_each(|n| {
-            let _ = write!(out, " {n:>8}");
-        });
-        let _ = writeln!(out, " {:>6.2}%", 100.0 * row.share());
-    }
+        let mut cells = vec![row.name.to_owned()];
+        cells.extend(numbers.map(|n| n.to_string()));
+        cells.push(format!("{:.2}%", 100.0 * row.share()));
+        cells.into()
+    };
+    let rows = rows.into_iter().map(row).collect();
+    *out += &Table { columns, rows, ..Table::default() }.text([0; 2]);
     *out += "(wrong: share of the cases with anything wrong; of meshes, missing are holes)\n";
     for row in verdict.found.rows.iter().filter(|row| row.values > 0) {
         let _ = writeln!(

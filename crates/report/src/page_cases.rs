@@ -6,24 +6,22 @@
 use serde::Serialize;
 
 use super::chapter::{Chapter, chapter_of_source};
+use super::drawn::{self, Hits};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
+use rasterproof_faults::planted;
 use rasterproof_faults::published::catalogue::{CARDS, Exhibit, TriangleCase};
-use rasterproof_faults::published::{RealTriangle, RealVertex, from_screen};
+use rasterproof_faults::published::{RealTriangle, RealVertex};
 use rasterproof_judge::pictured::Pictured;
-use rasterproof_registry::engines::{self, Engine, ExactEngine, LineEngine, Specimen};
-use rasterproof_registry::published_check::{
-    line_case, real_triangles, specimen_coverage, specimen_line_coverage,
-};
+use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine, SPECIMENS};
+use rasterproof_registry::published_check::{line_case, real_triangles};
 use rasterproof_render::scene::named;
 use rasterproof_verify::cases::named::Input;
 use rasterproof_verify::cases::unsnapped::{self, OffGridCase};
 use rasterproof_verify::cases::{self, Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{ExactVerdict, exact_coverage};
-use rasterproof_verify::comparison::{
-    Tally, Verdict, engine_coverage, line_coverage, oracle_coverage,
-};
+use rasterproof_verify::comparison::{Tally, Verdict};
 
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseView {
@@ -89,7 +87,7 @@ enum Role {
     Specimen,
 }
 
-type Drawn = (String, Role, Result<Coverage, String>);
+type Drawn = (String, Role, Hits);
 
 /// Who is judged, besides those that are always shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -258,11 +256,7 @@ pub fn of_program(
 ) -> CaseView {
     let mut view = on_grid(name, about, Kind::Failing, case, Judged::default());
     let Some(Pictured { drawn, expected, of, moved }) = picture else { return view };
-    let truth = match &case.shape {
-        Shape::Triangles { list, .. } => Some(oracle_coverage(list, case.window)),
-        Shape::Lines(lines) => line_coverage(&LineEngine::Oracle, lines, case.window).ok(),
-    };
-    let truth = truth.unwrap_or_else(|| Coverage::new(case.window, 0));
+    let truth = drawn::by_oracle(case);
     if !of.is_empty() || *expected != truth {
         let drawn = layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), expected);
         let target = layer("expected".to_owned(), Role::Expected, Ok(expected.clone()), expected);
@@ -301,72 +295,34 @@ pub fn on_grid(
     case: &Case,
     judged: Judged<'_>,
 ) -> CaseView {
-    let (shape, drawn) = match &case.shape {
+    let engines = with_others(judged.engines, Engine::JUDGED, Engine::name);
+    let lines = with_others(judged.lines, LineEngine::JUDGED, LineEngine::name);
+    let engines = drawn::by_engines(case, engines, lines).into_iter();
+    let oracle = ("oracle".to_owned(), Role::Oracle, Ok(drawn::by_oracle(case)));
+    let specimens = SPECIMENS.iter().filter_map(|entry| {
+        Some((entry.name.to_owned(), Role::Specimen, drawn::by_specimen(entry, case)?))
+    });
+    let drawn = engines.map(with_role).chain([oracle]).chain(specimens);
+    let shape = match &case.shape {
         Shape::Triangles { list, .. } => {
-            let corners = list.iter().map(|t| t.corners().map(|p| [p.x, p.y])).collect();
-            let real: Vec<RealTriangle> = list.iter().map(from_screen).collect();
-            let others = Engine::JUDGED
-                .into_iter()
-                .filter(|e| judged.engines.iter().all(|j| j.name() != e.name()));
-            let engines = judged.engines.iter().copied().chain(others);
-            let mut drawn: Vec<Drawn> = engines
-                .map(|e| {
-                    let hits = engine_coverage(&e, list, case.window).map_err(String::from);
-                    (e.name().to_owned(), role(matches!(e, Engine::Mutant(_))), hits)
-                })
-                .collect();
-            drawn.push(("oracle".to_owned(), Role::Oracle, Ok(oracle_coverage(list, case.window))));
-            drawn.extend(engines::SPECIMENS.iter().filter_map(|entry| match entry.specimen {
-                Some(Specimen::Triangle(s)) => Some((
-                    entry.name.to_owned(),
-                    Role::Specimen,
-                    specimen_coverage(s, &real, case.window),
-                )),
-                _ => None,
-            }));
-            (ShapeView::Triangles(corners), drawn)
+            ShapeView::Triangles(list.iter().map(|t| t.corners().map(|p| [p.x, p.y])).collect())
         }
         Shape::Lines(list) => {
-            let ends = list.iter().map(|l| l.ends.map(|e| [e.pixel.x, e.pixel.y])).collect();
-            (ShapeView::Lines(ends), drawn_lines(list, case.window, judged))
+            let ends = list.iter().map(|l| l.ends.map(|e| [e.pixel.x, e.pixel.y]));
+            ShapeView::Lines(ends.collect())
         }
     };
-    view(name, about, kind, case.window, shape, drawn)
+    view(name, about, kind, case.window, shape, drawn.collect())
 }
 
-fn drawn_lines(list: &[cases::Line], window: PixelRect, judged: Judged<'_>) -> Vec<Drawn> {
-    let others = LineEngine::JUDGED
-        .into_iter()
-        .filter(|e| judged.lines.iter().all(|j| j.name() != e.name()));
-    let engines = judged.lines.iter().copied().chain(others).chain([LineEngine::Oracle]);
-    let mut drawn: Vec<Drawn> = engines
-        .map(|e| {
-            let role = match e {
-                LineEngine::Oracle => Role::Oracle,
-                LineEngine::Mutant(_) => Role::Planted,
-                _ => Role::Engine,
-            };
-            (e.name().to_owned(), role, line_coverage(&e, list, window).map_err(String::from))
-        })
-        .collect();
-    drawn.extend(engines::SPECIMENS.iter().filter_map(|entry| {
-        let Some(Specimen::Line(specimen)) = entry.specimen else { return None };
-        let hits = list.iter().try_fold(Coverage::new(window, 0), |sum, line| {
-            Ok::<_, String>(added(sum, &specimen_line_coverage(specimen, line, window)?))
-        });
-        Some((entry.name.to_owned(), Role::Specimen, hits))
-    }));
-    drawn
-}
-
-/// Hits of both.
-pub fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
-    for (y_px, row) in more.rows() {
-        for (sum, more) in sum.row_mut(y_px).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*more);
-        }
-    }
-    sum
+/// Those that are judged, then the others of all by their names.
+fn with_others<'a, E: Copy + 'a, const N: usize>(
+    judged: &'a [E],
+    all: [E; N],
+    name: fn(&E) -> &'static str,
+) -> impl Iterator<Item = E> + 'a {
+    let is_other = move |e: &E| judged.iter().all(|judged| name(judged) != name(e));
+    judged.iter().copied().chain(all.into_iter().filter(is_other))
 }
 
 /// A case off the lattice, drawn by those that are judged, the engines and the oracle.
@@ -377,27 +333,18 @@ pub fn off_lattice(
     case: &OffGridCase,
     judged: Judged<'_>,
 ) -> CaseView {
-    let others = ExactEngine::JUDGED
-        .into_iter()
-        .filter(|e| judged.exact.iter().all(|j| j.name() != e.name()));
-    let engines = judged.exact.iter().copied().chain(others).chain([ExactEngine::Oracle]);
-    let drawn = engines.map(|e| {
-        let role = match e {
-            ExactEngine::Oracle => Role::Oracle,
-            _ => role(matches!(e, ExactEngine::Mutant(_))),
-        };
-        (
-            e.name().to_owned(),
-            role,
-            exact_coverage(&e, case).map(|(hits, _)| hits).map_err(String::from),
-        )
-    });
+    let engines = with_others(judged.exact, ExactEngine::JUDGED, ExactEngine::name);
+    let hits = |e: &ExactEngine| exact_coverage(e, case).map(|(hits, _)| hits);
+    let drawn = |e: &ExactEngine| (e.name().to_owned(), hits(e).map_err(String::from));
+    let (oracle, hits) = drawn(&ExactEngine::Oracle);
+    let drawn = engines.map(|e| with_role(drawn(&e))).chain([(oracle, Role::Oracle, hits)]);
     let points = case.triangles.iter().map(|t| t.px()).collect();
     view(name, about, kind, case.window, ShapeView::Free(points), drawn.collect())
 }
 
-fn role(is_planted: bool) -> Role {
-    if is_planted { Role::Planted } else { Role::Engine }
+fn with_role((name, hits): (String, Hits)) -> Drawn {
+    let role = if planted::about(&name).is_some() { Role::Planted } else { Role::Engine };
+    (name, role, hits)
 }
 
 fn view(
@@ -445,7 +392,7 @@ fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
     Chapter { title, path }
 }
 
-fn layer(name: String, role: Role, hits: Result<Coverage, String>, truth: &Coverage) -> Layer {
+fn layer(name: String, role: Role, hits: Hits, truth: &Coverage) -> Layer {
     let (runs, covered, tally, refused) = match hits {
         Ok(hits) => (runs(&hits), hits.covered(), Tally::between(&hits, truth), String::new()),
         Err(message) => (Vec::new(), 0, Tally::default(), message),

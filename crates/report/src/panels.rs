@@ -25,7 +25,7 @@ const MOST_PX: [u32; 2] = [1400, 1000];
 /// Larger cases are cropped to the pixels that differ.
 const MOST_CROPPED_PX: u32 = 48;
 /// Picture pixels of a pixel's side from which the dot of its sample is shown.
-const SAMPLED: u32 = 8;
+pub(super) const SAMPLED: u32 = 8;
 /// Room around everything and between panels.
 const GAP: u32 = 12;
 /// Room for the numbers of the columns, and the least for those of the rows.
@@ -223,7 +223,12 @@ fn panel(
     write(&mut image, (left.into(), 20), &counts, Size::Small, FAINT);
     let at = [left, HEAD + ABOVE];
     numbers(&mut image, at, shown, zoom);
-    squares(&mut image, at, (shown, zoom), (hits, target, owners));
+    let colour = |x_px, y_px| {
+        let of = |hits: &Coverage| hits.get(x_px, y_px).unwrap_or(0);
+        colour(of(hits), of(target), owners.map_or(0, of))
+    };
+    let squares = squares((shown, zoom), (4, Some(zoom / 32)), colour);
+    imageops::replace(&mut image, &squares, at[0].into(), at[1].into());
     for segment in segments {
         line(*segment, PixelRect::window(width, height), |x, y| {
             image.put_pixel(at[0] + x, at[1] + y, EDGE);
@@ -270,36 +275,27 @@ pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelR
     }
 }
 
-fn squares(
-    image: &mut RgbImage,
-    [left, top]: [u32; 2],
+/// Each pixel as a square of its colour, with a border; from so many picture pixels of a side on with a grid between
+/// them; and with a dot for each sample, where samples are shown, that reaches so far from its middle.
+pub(super) fn squares(
     (shown, zoom): (PixelRect, u32),
-    (actual, target, owners): (&Coverage, &Coverage, Option<&Coverage>),
-) {
+    (least_grid, dot): (u32, Option<u32>),
+    colour: impl Fn(i32, i32) -> Rgb<u8>,
+) -> RgbImage {
     let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
-    for y in 0..height {
-        for x in 0..width {
-            let on_border = x == 0 || y == 0 || x + 1 == width || y + 1 == height;
-            let on_grid = zoom >= 4 && (x % zoom == 0 || y % zoom == 0);
-            let (x_px, y_px) = (shown.x0 + (x / zoom) as i32, shown.y0 + (y / zoom) as i32);
-            let hits = |c: &Coverage| c.get(x_px, y_px).unwrap_or(0);
-            let colour = if on_border {
-                BORDER
-            } else if on_grid {
-                GRID
-            } else if zoom >= SAMPLED && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
-                SAMPLE
-            } else {
-                colour(hits(actual), hits(target), owners.map_or(0, hits))
-            };
-            image.put_pixel(left + x, top + y, colour);
+    let dot = dot.filter(|_| zoom >= SAMPLED);
+    let is_dot = |offset: u32| dot.is_some_and(|reach| offset.abs_diff(zoom / 2) <= reach);
+    RgbImage::from_fn(width, height, |x, y| {
+        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+            BORDER
+        } else if zoom >= least_grid && (x % zoom == 0 || y % zoom == 0) {
+            GRID
+        } else if is_dot(x % zoom) && is_dot(y % zoom) {
+            SAMPLE
+        } else {
+            colour(shown.x0 + (x / zoom) as i32, shown.y0 + (y / zoom) as i32)
         }
-    }
-}
-
-/// Whether a picture pixel lies on the dot in the middle of a square.
-fn is_sample(offset: u32, zoom: u32) -> bool {
-    offset.abs_diff(zoom / 2) <= zoom / 32
+    })
 }
 
 fn colour(actual: u8, target: u8, owner: u8) -> Rgb<u8> {

@@ -10,8 +10,9 @@ use image::{Rgb, RgbImage, imageops};
 use super::chapter::chapter_of_source;
 use super::html::{PictureLayer, PictureView};
 use super::lettering::{self, Size, write};
-use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, SAMPLE, TWICE, line};
-use super::{panels, picture};
+use super::panels::{self, SAMPLED, squares};
+use super::picture;
+use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, MISSING, SAMPLE, TWICE, line};
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
@@ -38,8 +39,6 @@ const BEYOND: Colour = [40, 170, 60];
 /// Largest side of a panel, and the space between panels and around them.
 const PANEL: u32 = 161;
 const GAP: u32 = 8;
-/// Picture pixels of a pixel's side from which the dot of its sample is shown.
-const SAMPLED: u32 = 8;
 const STRIP: u32 = 3 * (BESIDE + PANEL) + 4 * GAP;
 /// Space for the numbers of the rows, left of each panel.
 const BESIDE: u32 = 22;
@@ -271,47 +270,42 @@ fn strip(card: &Card) -> panels::Sheet {
 /// Each pixel a square, the outline and the samples over it.
 fn enlarged(picture: &Image, zoom: u32, panels: &Panels) -> RgbImage {
     let bounds = picture.bounds();
-    let (width, height) = (bounds.width() * zoom + 1, bounds.height() * zoom + 1);
-    let middle = |offset: u32| zoom >= SAMPLED && offset == zoom / 2;
-    let mut image = RgbImage::from_fn(width, height, |x, y| {
-        let (x_px, y_px) = (bounds.x0 + (x / zoom) as i32, bounds.y0 + (y / zoom) as i32);
-        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
-            BORDER
-        } else if zoom >= 6 && (x % zoom == 0 || y % zoom == 0) {
-            GRID
-        } else if panels.has_samples && middle(x % zoom) && middle(y % zoom) {
-            SAMPLE
-        } else {
-            Rgb(picture.get(x_px, y_px).unwrap_or_default())
-        }
+    let dot = panels.has_samples.then_some(0);
+    let mut image = squares((bounds, zoom), (6, dot), |x_px, y_px| {
+        Rgb(picture.get(x_px, y_px).unwrap_or_default())
     });
     let origin = DVec2::new(bounds.x0.into(), bounds.y0.into());
     for segment in &panels.outline {
         // Saturating: a corner far outside stays far outside.
         let ends = segment.map(|p| ((p - origin) * f64::from(zoom)).floor());
         let ends = ends.map(|p| PixelPoint::new(p.x as i32, p.y as i32));
-        line(ends, PixelRect::window(width, height), |x, y| image.put_pixel(x, y, EDGE));
+        let panel = PixelRect::window(image.width(), image.height());
+        line(ends, panel, |x, y| image.put_pixel(x, y, EDGE));
     }
     image
 }
 
 /// Red missing, orange extra, violet twice, blue drawn by both but not alike, grey the same.
 fn difference(panels: &Panels) -> Image {
-    let bounds = panels.published.bounds();
+    image_of(panels.published.bounds(), |x, y| {
+        let [published, repaired] =
+            [&panels.published, &panels.repaired].map(|image| image.get(x, y).unwrap_or_default());
+        match (published, repaired) {
+            (p, r) if p == r && r == panels.background => BACKGROUND,
+            (p, r) if p == r => AGREES,
+            (p, _) if p == panels.background => MISSING,
+            (p, _) if p == TWICE.0 => TWICE,
+            (_, r) if r == panels.background => EXTRA,
+            _ => WRONG,
+        }
+    })
+}
+
+fn image_of(bounds: PixelRect, colour: impl Fn(i32, i32) -> Rgb<u8>) -> Image {
     let mut image = Frame::new(bounds, BACKGROUND.0);
     for y in bounds.y0..bounds.y1 {
-        for x in bounds.x0..bounds.x1 {
-            let [published, repaired] = [&panels.published, &panels.repaired]
-                .map(|image| image.get(x, y).unwrap_or_default());
-            let colour = match (published, repaired) {
-                (p, r) if p == r && r == panels.background => BACKGROUND,
-                (p, r) if p == r => AGREES,
-                (p, _) if p == panels.background => MISSING,
-                (p, _) if p == TWICE.0 => TWICE,
-                (_, r) if r == panels.background => EXTRA,
-                _ => WRONG,
-            };
-            image.span_mut(y, x, x + 1)[0] = colour.0;
+        for (x, pixel) in (bounds.x0..).zip(image.row_mut(y)) {
+            *pixel = colour(x, y).0;
         }
     }
     image
@@ -339,18 +333,11 @@ fn versions(card: &Card) -> Option<Panels> {
 }
 
 fn hits_image(hits: &Coverage) -> Image {
-    let bounds = hits.bounds();
-    let mut image = Frame::new(bounds, BACKGROUND.0);
-    for (y, row) in hits.rows() {
-        for (x, &hits) in (bounds.x0..).zip(row) {
-            image.span_mut(y, x, x + 1)[0] = match hits {
-                0 => BACKGROUND.0,
-                1 => AGREES.0,
-                _ => TWICE.0,
-            };
-        }
-    }
-    image
+    image_of(hits.bounds(), |x, y| match hits.get(x, y) {
+        None | Some(0) => BACKGROUND,
+        Some(1) => AGREES,
+        Some(_) => TWICE,
+    })
 }
 
 fn line_panels(specimen: &dyn PublishedLine, case: &Case) -> Option<Panels> {

@@ -1,7 +1,8 @@
-//! The survey of the specimens as text: a summary of all, or all families of one.
+//! The survey of the specimens: a summary of all, as text and as a table of a page, or all families of one.
 
 use std::fmt::Write as _;
 
+use super::table::{Column, Row, Table};
 use rasterproof_registry::published_check::{Counts, SpecimenReport};
 
 const UNITS: &str = "\
@@ -12,20 +13,9 @@ corner values' spread; shared: as twice, but pixels that two triangles of a mesh
 
 /// The survey: a block for each specimen with its sums and its worst family, then coverage by family
 /// in percent; at most 100 columns.
-pub fn table(reports: &[SpecimenReport]) -> String {
-    let mut out = String::from(UNITS);
-    let _ = writeln!(out, "{:<17}{} worst family", "specimen", heads());
-    for r in reports {
-        let worst = r.families.iter().max_by(|(_, a), (_, b)| {
-            let rank = |c: &Counts| (c.percent(), c.per_million(c.tally.total()));
-            rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal)
-        });
-        let worst = worst.map_or(String::new(), |(name, c)| format!("{name} {:.0}%", c.percent()));
-        let _ = writeln!(out, "{}", format!("{:<17}{} {worst}", r.name, cells(&r.all)).trim_end());
-        let _ = writeln!(out, "  {}: {}", r.source, r.fault);
-        let _ = writeln!(out, "  cure: {}", r.cure);
-        let _ = writeln!(out, "  shown by: {}: {} pixels", r.case, r.case_wrong);
-    }
+pub fn text(reports: &[SpecimenReport]) -> String {
+    let all: Vec<_> = reports.iter().collect();
+    let mut out = format!("{UNITS}{}", of_specimens(&all).text([0, 2]));
     for lines in [false, true] {
         let columns: Vec<_> = reports
             .iter()
@@ -36,6 +26,39 @@ pub fn table(reports: &[SpecimenReport]) -> String {
         by_family(&mut out, &columns, if lines { "lines" } else { "triangles" });
     }
     out
+}
+
+/// The survey as a table of a page, the most often wrong first.
+pub fn table(reports: &[SpecimenReport]) -> Table {
+    let mut sorted: Vec<_> = reports.iter().collect();
+    sorted.sort_by(|a, b| b.all.percent().total_cmp(&a.all.percent()));
+    of_specimens(&sorted)
+}
+
+fn of_specimens(reports: &[&SpecimenReport]) -> Table {
+    let row = |r: &&SpecimenReport| {
+        let worst = r.families.iter().max_by(|(_, a), (_, b)| {
+            let rank = |c: &Counts| (c.percent(), c.per_million(c.tally.total()));
+            rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal)
+        });
+        let worst = worst.map_or(String::new(), |(name, c)| format!("{name} {:.0}%", c.percent()));
+        let mut cells = cells(r.name, &r.all);
+        cells.extend([
+            worst,
+            format!("{}: {}", r.source, r.fault),
+            format!("cure: {}", r.cure),
+            format!("shown by: {}: {} pixels", r.case, r.case_wrong),
+        ]);
+        Row { search: Some(r.name.to_owned()), ..cells.into() }
+    };
+    let mut columns = columns("specimen", 16);
+    columns.push(Column::words("worst family").least(12));
+    columns.extend(["from, and its fault", "cure", "shown by"].map(Column::words));
+    Table {
+        caption: "Published algorithms and how often each is wrong, worst first".to_owned(),
+        columns,
+        rows: reports.iter().map(row).collect(),
+    }
 }
 
 /// One specimen: its card, every family, every recorded input.
@@ -52,17 +75,16 @@ pub fn detail(report: &SpecimenReport) -> String {
         out.push_str("no rasterizer and no line drawer: its fault shows in its case alone\n");
         return out;
     }
-    let head = |what: &str| format!("{what:<24}{} {:>6} {:>6}", heads(), "pixels", "values");
-    let row = |name: &str, c: &Counts| {
-        let [pixels, values] = [c.wrong_pixels, c.wrong_values].map(|n| c.percent_of(n));
-        format!("{name:<24}{} {pixels:>5.1}% {values:>5.1}%", cells(c))
-    };
     let _ = writeln!(out, "pixels, values: percent with a wrong pixel, with a wrong value");
-    let _ = writeln!(out, "{}", head("family"));
-    for (name, counts) in &r.families {
-        let _ = writeln!(out, "{}", row(name, counts));
-    }
-    let _ = writeln!(out, "{}", row("all", &r.all));
+    let mut columns = columns("family", 23);
+    columns.extend(["pixels", "values"].map(|what| Column::numbers(what, "").least(6)));
+    let row = |(name, c): (&str, &Counts)| {
+        let percents = [c.wrong_pixels, c.wrong_values].map(|n| format!("{:.1}%", c.percent_of(n)));
+        cells(name, c).into_iter().chain(percents).collect::<Vec<_>>().into()
+    };
+    let families = r.families.iter().map(|(name, counts)| (*name, counts));
+    let rows = families.chain([("all", &r.all)]).map(row).collect();
+    out += &Table { columns, rows, ..Table::default() }.text([0; 2]);
     if !r.recorded.is_empty() {
         let _ = writeln!(out, "\nrecorded inputs of the book's code, wrong pixels:");
     }
@@ -80,16 +102,22 @@ pub fn detail(report: &SpecimenReport) -> String {
     out
 }
 
-/// Heads of [`cells`].
-fn heads() -> String {
-    format!(
-        "{:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "differ", "extra", "missing", "twice", "value", "depth", "shared"
-    )
+fn columns(of: &str, least: usize) -> Vec<Column> {
+    let numbers = [
+        ("differ", "percent of the triangles or lines with a wrong pixel or value"),
+        ("extra", "pixels outside the shape, per million covered"),
+        ("missing", "missing pixels, per million covered"),
+        ("twice", "hits beyond the first, each triangle for itself, per million covered"),
+        ("value", "worst error of a value as a fraction of the corner values' spread"),
+        ("depth", "worst error of a depth as a fraction of the corner values' spread"),
+        ("shared", "as twice, but pixels that two triangles of a mesh draw"),
+    ];
+    let numbers = numbers.map(|(label, about)| Column::numbers(label, about).least(7));
+    [Column::words(of).least(least)].into_iter().chain(numbers).collect()
 }
 
-/// Percent, pixels per million, worst errors; dashes where nothing was drawn.
-fn cells(counts: &Counts) -> String {
+/// A row of [`columns`], in which dashes stand where nothing was drawn.
+fn cells(name: &str, counts: &Counts) -> Vec<String> {
     let drawn = counts.shapes > 0;
     let rate = |n: u64| match (drawn, counts.per_million(n)) {
         (false, _) | (_, None) => "-".to_owned(),
@@ -103,40 +131,35 @@ fn cells(counts: &Counts) -> String {
         e if (0.01..100.0).contains(&e) => format!("{e:.2}"),
         e => format!("{e:.0e}"),
     };
-    let percent = if drawn { format!("{:.1}%", counts.percent()) } else { "-".to_owned() };
     let tally = &counts.tally;
-    format!(
-        "{percent:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
+    vec![
+        name.to_owned(),
+        if drawn { format!("{:.1}%", counts.percent()) } else { "-".to_owned() },
         rate(tally.extra),
         rate(tally.missing),
         rate(tally.twice),
         error(counts.worst_attribute),
         error(counts.worst_depth),
-        rate(counts.shared)
-    )
+        rate(counts.shared),
+    ]
 }
 
 /// Percent of shapes with a wrong pixel, a row for each family, a letter for each specimen.
-fn by_family(out: &mut String, columns: &[&SpecimenReport], shapes: &str) {
-    let Some(first) = columns.first() else { return };
-    let letter = |i: usize| char::from(b'A' + i as u8);
+fn by_family(out: &mut String, reports: &[&SpecimenReport], shapes: &str) {
+    let Some(first) = reports.first() else { return };
+    let letters = || ('A'..).map(String::from);
     let legend: Vec<_> =
-        columns.iter().enumerate().map(|(i, r)| format!("{} {}", letter(i), r.name)).collect();
+        letters().zip(reports).map(|(letter, r)| format!("{letter} {}", r.name)).collect();
     let _ = writeln!(out, "\n{shapes} with a wrong pixel in percent, by family:");
     for names in legend.chunks(5) {
         let _ = writeln!(out, "  {}", names.join(", "));
     }
-    let _ = write!(out, "{:<16}", "family");
-    (0..columns.len()).for_each(|i| {
-        let _ = write!(out, " {:>5}", letter(i));
+    let columns = letters().take(reports.len()).map(|of| Column::numbers(&of, "").least(5));
+    let rows = first.families.iter().enumerate().map(|(row, (family, _))| {
+        let counts = reports.iter().map(|report| &report.families[row].1);
+        let cells = counts.map(|c| format!("{:.1}", c.percent_of(c.wrong_pixels)));
+        [(*family).to_owned()].into_iter().chain(cells).collect::<Vec<_>>().into()
     });
-    out.push('\n');
-    for (row, (family, _)) in first.families.iter().enumerate() {
-        let _ = write!(out, "{family:<16}");
-        for report in columns {
-            let counts = &report.families[row].1;
-            let _ = write!(out, " {:>5.1}", counts.percent_of(counts.wrong_pixels));
-        }
-        out.push('\n');
-    }
+    let columns = [Column::words("family").least(16)].into_iter().chain(columns).collect();
+    *out += &Table { columns, rows: rows.collect(), ..Table::default() }.text([0; 2]);
 }

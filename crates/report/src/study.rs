@@ -15,8 +15,9 @@ use serde_json::{Value, json};
 
 use super::board::number;
 use super::chapter::Chapter;
-use super::html::{Column, Outcome, PictureLayer, PictureView, Report, Row, Table};
+use super::html::{Outcome, PictureLayer, PictureView, Report};
 use super::summary::thousands;
+use super::table::{Column, Table};
 
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
@@ -65,28 +66,10 @@ fn compared_in(costs: &[Group]) -> Option<String> {
 }
 
 pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> String {
-    let mut out = String::new();
-    if found.cases.is_empty() {
-        out += "hard cases: none\n";
-    } else {
-        let _ = writeln!(out, "{:<32}{:>12}{:>14}", "hard cases", "count", "pixels");
-    }
-    for case in &found.cases {
-        let (count, pixels) = (thousands(case.count), thousands(case.pixels));
-        let _ = writeln!(out, "  {:<30}{count:>12}{pixels:>14}", case.kind.name());
-        let _ = writeln!(out, "    {}", case.kind.about());
-        let Some(&face) = case.triangles.first() else { continue };
-        let note = if case.note.is_empty() { String::new() } else { format!("; {}", case.note) };
-        let _ = writeln!(out, "    {}{note}", subject.place(face));
-        let _ = writeln!(out, "    {}", subject.command(face));
-        let wrong = wrong_on(found, case.kind, costs);
-        if !wrong.is_empty() {
-            out += "    wrong on such triangles:\n";
-        }
-        for line in wrong {
-            let _ = writeln!(out, "      {line}");
-        }
-    }
+    let mut out = match found.cases.len() {
+        0 => "hard cases: none\n".to_owned(),
+        _ => hard_table(subject, found, costs).text([2, 4]),
+    };
     let missing: Vec<&str> = Kind::ALL
         .into_iter()
         .filter(|kind| found.cases.iter().all(|case| case.kind != *kind))
@@ -149,34 +132,8 @@ fn ms(ns: f64) -> String {
 pub fn costs(subject: &Subject<'_>, groups: &[Group]) -> String {
     let mut out = String::new();
     for group in groups {
-        let [items, pixels] = group.timed.map(thousands);
-        let _ = writeln!(out, "{}, ms for {items} triangles and {pixels} pixels", group.title);
-        let _ = write!(out, "{:23}", "");
-        for measure in &group.measures {
-            let _ = write!(out, "{:>10}", measure.short);
-        }
-        let _ = writeln!(out, "{:>8} {:>13}{:>7}{:>7}", "ms", "quartiles", "times", "MB");
-        let least = group.cheapest(&|_| true).and_then(|best| group.choices[best].time);
-        for choice in &group.choices {
-            let _ = write!(out, "  {:21}", choice.name);
-            if let Some(why) = &choice.refused {
-                let _ = writeln!(out, " not run: {why}");
-                continue;
-            }
-            for error in &choice.errors {
-                let text = error.map_or("-".to_owned(), |error| number(error, 9));
-                let _ = write!(out, "{text:>10}");
-            }
-            if let (Some(time), Some(least)) = (choice.time, least) {
-                let [low, high] = [time.low, time.high].map(|ns| number(ns / 1e6, 7));
-                let times = number(time.median / least.median, 6);
-                let range = format!("{low}-{high}");
-                let _ = write!(out, "{:>8} {range:>13}{times:>7}", number(time.median / 1e6, 7));
-            }
-            let bytes = choice.bytes.map_or("-".to_owned(), |bytes| number(bytes as f64 / 1e6, 7));
-            let _ = write!(out, "{bytes:>7}");
-            out.push('\n');
-        }
+        let table = cost_table(group);
+        let _ = write!(out, "{}\n{}", table.caption, table.text([2, 4]));
         for line in advice(subject, group) {
             let _ = writeln!(out, "  {line}");
         }
@@ -346,21 +303,7 @@ fn reasons(need: &Need) -> String {
 
 /// What a scene calls for, as text; `not_drawn` is what its file asks for besides.
 pub fn needs(needs: &Needs, not_drawn: &str) -> String {
-    let mut out = format!(
-        "{:<17}{:>14}{:>18}{:>12}\n",
-        "effects called for", "pixels", "wrong without", "takes ms"
-    );
-    for need in needs.needs.iter().filter(|need| need.is_called_for) {
-        let pixels = need.pixels.map_or("-".to_owned(), thousands);
-        let time = takes(needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
-        let (name, wrong) = (need.effect.name(), thousands(need.wrong));
-        let _ = writeln!(out, "  {name:<16}{pixels:>14}{wrong:>18}{time:>12}");
-        let who = by_whom(need);
-        if !who.is_empty() {
-            let _ = writeln!(out, "    by {who}");
-        }
-        let _ = writeln!(out, "    {}", reasons(need));
-    }
+    let mut out = needs_table(needs, true).text([2, 4]);
     for need in needs.needs.iter().filter(|need| !need.is_called_for) {
         let _ = writeln!(out, "not called for: {}: {}", need.effect.name(), reasons(need));
         if need.wrong > 0 {
@@ -482,7 +425,7 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
     if !cases.is_empty() {
         tables.push(hard_table(subject, found.hard, found.costs));
     }
-    tables.push(needs_table(found.needs));
+    tables.extend([true, false].map(|is_called_for| needs_table(found.needs, is_called_for)));
     let mut notes = vec![
         ties(subject, found.classes).replace('\n', " "),
         "A face is shown by the command beside it; the same judgements alone: verify and cost with \
@@ -543,20 +486,20 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
 
 fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Table {
     let row = |case: &HardCase| {
-        let (place, command) = match case.triangles.first() {
+        let (mut place, command) = match case.triangles.first() {
             Some(&triangle) => (subject.place(triangle), subject.command(triangle)),
             None => (String::new(), String::new()),
         };
-        let cells = vec![
-            case.kind.name().to_owned(),
-            thousands(case.count),
-            thousands(case.pixels),
-            case.kind.about().to_owned(),
-            wrong_on(found, case.kind, costs).join("; "),
-            if case.note.is_empty() { place } else { format!("{place}; {}", case.note) },
-            command,
-        ];
-        Row { cells, ..Row::default() }
+        if !case.note.is_empty() {
+            let _ = write!(place, "; {}", case.note);
+        }
+        let wrong = match wrong_on(found, case.kind, costs).as_slice() {
+            [] => String::new(),
+            rungs => format!("wrong on such triangles:\n  {}", rungs.join("\n  ")),
+        };
+        let [count, pixels] = [case.count, case.pixels].map(thousands);
+        let (kind, about) = (case.kind.name().to_owned(), case.kind.about().to_owned());
+        vec![kind, count, pixels, about, place, command, wrong].into()
     };
     Table {
         caption: match compared_in(costs) {
@@ -564,83 +507,78 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
             None => "Hard cases".to_owned(),
         },
         columns: vec![
-            Column::words("kind"),
-            Column::numbers("count", "how many there are"),
-            Column::numbers("pixels", "pixels of the picture that they touch"),
+            Column::words("kind").short("hard cases").least(32),
+            Column::numbers("count", "how many there are").least(11),
+            Column::numbers("pixels", "pixels of the picture that they touch").least(13),
             Column::words("what one sees"),
-            Column::words("rungs that are wrong there"),
             Column::words("where"),
             Column::words("command"),
+            Column::words("rungs"),
         ],
         rows: found.cases.iter().map(row).collect(),
     }
 }
 
-fn needs_table(needs: &Needs) -> Table {
+/// The effects that are called for, or those that are not.
+fn needs_table(needs: &Needs, is_called_for: bool) -> Table {
     let row = |need: &Need| {
         let time = takes(needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
-        let cells = vec![
-            need.effect.name().to_owned(),
-            if need.is_called_for { "yes" } else { "no" }.to_owned(),
-            need.pixels.map_or("-".to_owned(), thousands),
-            thousands(need.wrong),
-            time,
-            by_whom(need),
-            reasons(need),
-        ];
-        Row { cells, ..Row::default() }
+        let pixels = need.pixels.map_or("-".to_owned(), thousands);
+        let (name, wrong) = (need.effect.name().to_owned(), thousands(need.wrong));
+        let who = by_whom(need);
+        let who = if who.is_empty() { who } else { format!("by {who}") };
+        vec![name, pixels, wrong, time, who, reasons(need)].into()
     };
+    let is_here = |need: &&Need| need.is_called_for == is_called_for;
+    let not = if is_called_for { "" } else { "not " };
     Table {
-        caption: "Effects".to_owned(),
+        caption: format!("Effects {not}called for"),
         columns: vec![
-            Column::words("effect"),
-            Column::words("called for"),
-            Column::numbers("pixels", "pixels that pay for it"),
-            Column::numbers("wrong", "pixels that change when it is switched off"),
-            Column::numbers("ms", "what it takes of a planned frame"),
+            Column::words("effect").short("effects called for").least(18),
+            Column::numbers("pixels", "pixels that pay for it").least(13),
+            Column::numbers("wrong without", "pixels that change when it is switched off")
+                .least(17),
+            Column::numbers("takes ms", "what it takes of a planned frame").least(11),
             Column::words("by"),
             Column::words("why"),
         ],
-        rows: needs.needs.iter().map(row).collect(),
+        rows: needs.needs.iter().filter(is_here).map(row).collect(),
     }
 }
 
 fn cost_table(group: &Group) -> Table {
-    let has_bytes = group.choices.iter().any(|choice| choice.bytes.is_some());
     let least = group.cheapest(&|_| true).and_then(|best| group.choices[best].time);
     let row = |choice: &Choice| {
         let mut cells = vec![choice.name.clone()];
-        let error = |error: &Option<f64>| error.map_or("-".to_owned(), |error| number(error, 9));
-        match &choice.refused {
-            Some(why) => {
-                cells.push(format!("not run: {why}"));
-                cells.resize(group.measures.len() + 1, String::new());
+        if let Some(why) = &choice.refused {
+            cells.push(format!("not run: {why}"));
+            return cells.into();
+        }
+        let or_none =
+            |value: Option<f64>, width| value.map_or("-".to_owned(), |value| number(value, width));
+        cells.extend(choice.errors.iter().map(|error| or_none(*error, 9)));
+        cells.extend(match choice.time.zip(least) {
+            Some((time, least)) => {
+                let [low, median, high] =
+                    [time.low, time.median, time.high].map(|ns| number(ns / 1e6, 7));
+                [median, format!("{low}-{high}"), number(time.median / least.median, 6)]
             }
-            None => cells.extend(choice.errors.iter().map(error)),
-        }
-        let time = choice.time.zip(least);
-        cells.push(time.map_or(String::new(), |(time, _)| ms(time.median)));
-        cells.push(time.map_or(String::new(), |(t, _)| format!("{}-{}", ms(t.low), ms(t.high))));
-        cells.push(time.map_or(String::new(), |(t, l)| format!("{:.2}", t.median / l.median)));
-        if has_bytes {
-            cells.push(choice.bytes.map_or(String::new(), thousands));
-        }
-        Row { cells, ..Row::default() }
+            None => Default::default(),
+        });
+        cells.push(or_none(choice.bytes.map(|bytes| bytes as f64 / 1e6), 7));
+        cells.into()
     };
-    let mut columns = vec![Column::words("choice")];
-    columns.extend(group.measures.iter().map(|m| Column::numbers(m.short, m.title)));
+    let mut columns = vec![Column::words("choice").short("").least(23)];
+    columns.extend(group.measures.iter().map(|m| Column::numbers(m.short, m.title).least(9)));
+    let quartiles = "a quarter of the rounds took less, a quarter more, in ms";
+    let bytes = "at the peak, from the sizes of its buffers; the scene is not in it";
     columns.extend([
-        Column::numbers("ms", "median"),
-        Column::numbers("quartiles", "a quarter of the rounds took less, a quarter more, in ms"),
-        Column::numbers("times", "times the cheapest"),
+        Column::numbers("ms", "median").least(7),
+        Column::numbers("quartiles", quartiles).least(13),
+        Column::numbers("times", "times the cheapest").least(6),
+        Column::numbers("MB", bytes).least(6),
     ]);
-    if has_bytes {
-        columns.push(Column::numbers(
-            "bytes",
-            "at the peak, from the sizes of its buffers; the scene is not in it",
-        ));
-    }
     let [items, pixels] = group.timed.map(thousands);
-    let caption = format!("{}, timed on {items} triangles and {pixels} pixels", group.title);
+    let caption = format!("{}, ms for {items} triangles and {pixels} pixels", group.title);
     Table { caption, columns, rows: group.choices.iter().map(row).collect() }
 }

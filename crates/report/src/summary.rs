@@ -61,10 +61,10 @@ pub fn chapter(failure: &Failure) -> &'static str {
 }
 
 #[derive(Default)]
-struct Sum {
-    cases: u64,
-    wrong_cases: u64,
-    tally: Tally,
+pub(super) struct Sum {
+    pub cases: u64,
+    pub wrong_cases: u64,
+    pub tally: Tally,
     fragments: Tally,
     panics: u64,
     oracle: u64,
@@ -96,7 +96,7 @@ fn sum(danger: &Danger, verdict: &Verdict, off_grid: &ExactVerdict) -> Sum {
 }
 
 impl Sum {
-    fn describe(&self) -> String {
+    pub fn describe(&self) -> String {
         let cases = thousands(self.cases);
         if self.wrong_cases == 0 && self.oracle == 0 {
             return format!("{cases} cases, all right");

@@ -1,162 +1,141 @@
-//! The differential table: a line for each family, a column for each pair.
+//! Tables as values, from which both the text of a terminal and the tables of a page are written.
 
 use std::fmt::Write as _;
 
-use rasterproof_verify::comparison::{FamilyReport, PairReport, Verdict};
-
-/// The whole table with its legend and its sums; at most 100 columns wide for two engines.
-pub fn table(verdict: &Verdict) -> String {
-    let mut out = String::new();
-    for lines in [false, true] {
-        let families: Vec<_> = verdict.families.iter().filter(|f| f.lines == lines).collect();
-        if let Some(first) = families.first() {
-            section(&mut out, &families, first, lines);
-        }
-    }
-    out
+/// A table with a header and a row head in its first column.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    pub caption: String,
+    pub columns: Vec<Column>,
+    pub rows: Vec<Row>,
 }
 
-fn section(out: &mut String, families: &[&FamilyReport], first: &FamilyReport, lines: bool) {
-    let shapes = if lines { "lines" } else { "triangles" };
-    let judged: Vec<_> = first.pairs.iter().filter(|p| p.target == "oracle").collect();
-    let letter = |name: &str| {
-        let at = judged.iter().position(|p| p.actual == name);
-        at.map_or('O', |i| char::from(b'A' + i as u8))
-    };
-    let legend: Vec<_> =
-        judged.iter().map(|p| format!("{} {}", letter(&p.actual), p.actual)).collect();
-    let _ = writeln!(
-        out,
-        "{shapes}: {}, O oracle\n(A:O wrong pixels of A against O; val, dep: worst value and depth as a fraction of its bound)",
-        legend.join(", ")
-    );
-    let _ =
-        write!(out, "{:<15} {:>6} {:>9} {:>9} {:>4}", "family", "cases", shapes, "pixels", "ties");
-    for pair in &first.pairs {
-        let _ = write!(out, " {:>6}", format!("{}:{}", letter(&pair.actual), letter(&pair.target)));
-    }
-    for what in ["val", "dep"] {
-        for pair in &judged {
-            let _ = write!(out, " {:>6}", format!("{what} {}", letter(&pair.actual)));
-        }
-    }
-    out.push('\n');
-    for family in families {
-        row(out, family);
-    }
-    if families.len() > 1 {
-        row(out, &sum(families));
-    }
-    out.push('\n');
+#[derive(Clone, Debug, Default)]
+pub struct Column {
+    pub label: String,
+    /// What stands over it in a terminal, where the label would be too wide.
+    short: String,
+    /// The head in more words, or nothing.
+    pub about: String,
+    pub is_number: bool,
+    /// How many characters it has at least in a terminal; 0 where its cells stand below the row there.
+    least: usize,
 }
 
-fn row(out: &mut String, f: &FamilyReport) {
-    let _ = write!(
-        out,
-        "{:<15} {:>6} {:>9} {:>9} {:>3}%",
-        f.family,
-        f.cases,
-        f.shapes,
-        f.pixels,
-        percent(f.tie_cases, f.cases)
-    );
-    for pair in &f.pairs {
-        let cell =
-            if pair.panics > 0 { "panic".to_owned() } else { pair.tally.total().to_string() };
-        let _ = write!(out, " {cell:>6}");
+impl Column {
+    #[must_use]
+    pub fn words(label: &str) -> Self {
+        Self { label: label.to_owned(), short: label.to_owned(), ..Self::default() }
     }
-    let judged = || f.pairs.iter().filter(|p| p.target == "oracle");
-    let ratio = |out: &mut String, values: u64, worst: f64| {
-        let cell = match (values, worst) {
-            (0, _) => "-".to_owned(),
-            (_, w) if w < 100.0 => format!("{w:.2}"),
-            (_, w) => format!("{w:.0e}"),
+
+    /// A column of numbers; `about` says what is counted.
+    #[must_use]
+    pub fn numbers(label: &str, about: &str) -> Self {
+        Self { about: about.to_owned(), is_number: true, ..Self::words(label) }
+    }
+
+    /// The same with a column in a terminal, of so many characters at least.
+    #[must_use]
+    pub fn least(self, least: usize) -> Self {
+        Self { least, ..self }
+    }
+
+    /// The same with another head in a terminal.
+    #[must_use]
+    pub fn short(self, label: impl Into<String>) -> Self {
+        Self { short: label.into(), ..self }
+    }
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Row {
+    /// Where there are fewer cells than columns, the last one takes the rest of the row.
+    pub cells: Vec<String>,
+    pub mark: Mark,
+    /// What to search the cases for when its head is chosen, if anything.
+    pub search: Option<String>,
+}
+
+impl From<Vec<String>> for Row {
+    fn from(cells: Vec<String>) -> Self {
+        Self { cells, ..Self::default() }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mark {
+    #[default]
+    Plain,
+    Wrong,
+    /// As the sum of the others; always shown.
+    Sum,
+}
+
+impl Table {
+    /// The table in a terminal: a line of heads, and for each row a line of cells side by side, then a line for
+    /// each of its other cells that is not empty. Rows begin at column `rows`, their other cells at column `below`.
+    #[must_use]
+    pub fn text(&self, [rows, below]: [usize; 2]) -> String {
+        let heads = self.columns.iter().map(|column| match column.least {
+            0 => String::new(),
+            _ => column.short.clone(),
+        });
+        let indented = |row: &Row| {
+            let mut cells = row.cells.clone();
+            if let Some(first) = cells.first_mut() {
+                first.insert_str(0, &" ".repeat(rows));
+            }
+            cells
         };
-        let _ = write!(out, " {cell:>6}");
-    };
-    judged().for_each(|p| ratio(out, p.values, p.worst_attribute));
-    judged().for_each(|p| ratio(out, p.values, p.worst_depth));
-    out.push('\n');
-}
-
-/// The numbers of all families together, called "all".
-pub(super) fn sum(families: &[&FamilyReport]) -> FamilyReport {
-    let mut total = families[0].clone();
-    total.family = "all".to_owned();
-    for f in &families[1..] {
-        total.cases += f.cases;
-        total.shapes += f.shapes;
-        total.pixels += f.pixels;
-        total.tie_cases += f.tie_cases;
-        for (a, b) in total.pairs.iter_mut().zip(&f.pairs) {
-            a.tally += b.tally;
-            a.worst_attribute = a.worst_attribute.max(b.worst_attribute);
-            a.worst_depth = a.worst_depth.max(b.worst_depth);
-            a.values += b.values;
-            a.panics += b.panics;
+        let lines: Vec<Vec<String>> =
+            std::iter::once(heads.collect()).chain(self.rows.iter().map(indented)).collect();
+        let is_whole = |cells: &&Vec<String>| cells.len() == self.columns.len();
+        let width = |(i, column): (usize, &Column)| {
+            let cells = lines.iter().filter(is_whole).map(|cells| cells[i].chars().count());
+            if column.least == 0 { 0 } else { cells.fold(column.least, usize::max) }
+        };
+        let widths: Vec<usize> = self.columns.iter().enumerate().map(width).collect();
+        let mut out = String::new();
+        for cells in &lines {
+            let mut line = String::new();
+            let mut others = String::new();
+            for (i, ((cell, column), &width)) in
+                cells.iter().zip(&self.columns).zip(&widths).enumerate()
+            {
+                let gap = if i > 0 { " " } else { "" };
+                let takes_rest = i + 1 == cells.len() && !is_whole(&cells);
+                let _ = match (width, column.is_number && !takes_rest) {
+                    (0, _) => {
+                        cell.lines().try_for_each(|part| writeln!(others, "{:below$}{part}", ""))
+                    }
+                    (_, true) => write!(line, "{gap}{cell:>width$}"),
+                    (_, false) => write!(line, "{gap}{cell:<width$}"),
+                };
+            }
+            let _ = writeln!(out, "{}", line.trim_end());
+            out += &others;
         }
+        out
     }
-    total
 }
 
-fn percent(part: u64, whole: u64) -> u64 {
-    (100 * part + whole / 2).checked_div(whole).unwrap_or(0)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The quotas in a sentence; empty where no triangles were judged.
-pub fn quota_line(verdict: &Verdict) -> String {
-    if verdict.sum(false, |f| f.cases) == 0 {
-        return String::new();
+    #[test]
+    fn text_stands_in_columns() {
+        let columns = vec![
+            Column::words("name").least(6),
+            Column::numbers("pixels", "").short("px").least(3),
+            Column::words("why"),
+        ];
+        let row =
+            |cells: &[&str]| Row::from(cells.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let rows =
+            vec![row(&["a", "12345", "one\ntwo"]), row(&["b", "not run"]), row(&["c", "7", ""])];
+        let table = Table { columns, rows, ..Table::default() };
+        let text = "name      px\n  a    12345\n    one\n    two\n  b    not run\n  c        7\n";
+        assert_eq!(table.text([2, 4]), text);
     }
-    let parts =
-        verdict.quotas().map(|(what, is, wanted)| format!("{what} {is}% (quota {wanted}%)"));
-    format!("of the triangle cases: {}\n", parts.join(", "))
-}
-
-/// A sentence for each pair that disagrees, and for oracles that overlap themselves.
-pub fn disagreements(verdict: &Verdict) -> String {
-    let mut out = String::new();
-    for f in &verdict.families {
-        for pair in f.pairs.iter().filter(|pair| !pair.agrees()) {
-            let _ = writeln!(
-                out,
-                "{}: {} against {}: wrong in {} of {} cases{}",
-                f.family,
-                pair.actual,
-                pair.target,
-                pair.wrong_cases,
-                f.cases,
-                kinds(pair)
-            );
-        }
-        if f.oracle_overlap > 0 {
-            let _ = writeln!(
-                out,
-                "{}: the oracle hits {} pixels of disjoint shapes twice",
-                f.family, f.oracle_overlap
-            );
-        }
-    }
-    out
-}
-
-/// What is wrong with a pair, each comparison named, after a colon.
-fn kinds(pair: &PairReport) -> String {
-    let mut parts = Vec::new();
-    if pair.tally.total() > 0 {
-        parts.push(format!(": {}", pair.tally.describe()));
-    }
-    if pair.panics > 0 {
-        parts.push(format!(": {} panics", pair.panics));
-    }
-    for (what, worst) in [("attribute", pair.worst_attribute), ("depth", pair.worst_depth)] {
-        if worst > 1.0 {
-            parts.push(format!("\n    worst {what} {worst:.3e} times its bound"));
-        }
-    }
-    if pair.fragments.total() > 0 {
-        let what = pair.fragments.describe();
-        parts.push(format!("\n    its fragments against its own coverage: {what}"));
-    }
-    parts.concat()
 }

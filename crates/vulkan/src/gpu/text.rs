@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use super::campaign::DeviceReport;
 use super::rules::{Class, Finding};
 use crate::device::find::About;
-use rasterproof_report::html::{Column, Mark, Outcome, Report, Row, Table};
+use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::judge_text::{self, wrapped};
+use rasterproof_report::table::{Column, Mark, Row, Table};
 
 /// A device in a line or two, as `list` has it.
 pub fn device(about: &About) -> String {
