@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 use rasterproof_models::{BadFile, Format, Model, Options, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
+use rasterproof_render::pipeline::texture::{Filter, Wrap};
 use rasterproof_render::scene::{Item, Material, Shading};
 use rasterproof_verify::cases::Rng;
 use serde_json::{Value, json};
@@ -472,6 +473,39 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
 }
 
 /// What vertices and nodes have beside what is drawn, and the two last bytes of each triangle of an STL.
+#[test]
+fn the_numbers_of_samplers_are_those_of_opengl() {
+    let uri = format!("data:image/png;base64,{}", STANDARD.encode(picture()));
+    let (smooth, nearest) = (Filter::Bilinear, Filter::Nearest);
+    let (usual, mip_map) = ((smooth, Wrap::Repeat, false), (smooth, Wrap::Repeat, true));
+    for (sampler, expected, counted) in [
+        (json!({}), usual, ""),
+        (json!({ "magFilter": 9728 }), (nearest, Wrap::Repeat, false), ""),
+        (json!({ "magFilter": 9729, "minFilter": 9729 }), usual, ""),
+        (json!({ "minFilter": 9984 }), mip_map, "nearest level of mip map of 1 texture"),
+        (json!({ "minFilter": 9985 }), mip_map, "nearest level of mip map of 1 texture"),
+        (json!({ "minFilter": 9986 }), mip_map, ""),
+        (json!({ "minFilter": 9987 }), mip_map, ""),
+        (json!({ "wrapS": 33648 }), usual, "mirrored repetition of 1 texture"),
+        (json!({ "wrapS": 33071 }), usual, "difference of repetition in u and v of 1 texture"),
+        (json!({ "wrapS": 33071, "wrapT": 33071 }), (smooth, Wrap::Clamp, false), ""),
+    ] {
+        let document = document(|d| {
+            d["images"] = json!([{ "uri": uri }]);
+            d["samplers"] = json!([sampler]);
+            d["textures"] = json!([{ "source": 0, "sampler": 0 }]);
+            let colour = json!({ "baseColorTexture": { "index": 0 }, "metallicFactor": 0 });
+            d["materials"] = json!([{ "pbrMetallicRoughness": colour }]);
+            d["meshes"][0]["primitives"][0]["material"] = json!(0);
+        });
+        let (model, [item]) = items("samplers.glb", &glb(document));
+        let texture = item.material.texture.as_ref().unwrap();
+        let of_file = (texture.filter, texture.wrap, texture.has_mip_map());
+        assert_eq!((of_file, &*model.not_drawn), (expected, counted), "{sampler}");
+        assert_eq!(item.material.colour, DVec3::ONE, "no factor changes the texture");
+    }
+}
+
 #[test]
 fn what_is_not_drawn_of_vertices_and_nodes_is_counted() {
     let file = |mode: &str| {

@@ -346,6 +346,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn types_of_numbers_are_those_of_opengl() {
+        let read = |number| {
+            let (bytes, count, stride, width) = (Some(&[0xfe, 0xff, 0x7f, 0x3f][..]), 1, 4, 1);
+            let kind = ComponentType::of(number)?;
+            let column = Column { bytes, count, stride, width, kind, normalized: false };
+            Some(column.read::<1>()[0][0])
+        };
+        let whole = [-2.0, 254.0, -2.0, 65_534.0, f64::from(0x3f7f_fffe_u32)];
+        assert_eq!([5120, 5121, 5122, 5123, 5125].map(read), whole.map(Some));
+        assert_eq!(read(5126), Some(f64::from(f32::from_bits(0x3f7f_fffe))));
+        assert_eq!(read(5124), None);
+    }
+
+    #[test]
     fn resources_are_found_in_the_address_itself() {
         let read = |uri| resource(Path::new("."), uri, 100);
         assert_eq!(read("data:;base64,AAECAw==").unwrap(), [0, 1, 2, 3]);

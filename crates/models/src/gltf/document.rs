@@ -312,3 +312,22 @@ pub(super) struct View {
 pub(super) struct Buffer {
     pub uri: Option<String>,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_material_leaves_out_is_as_in_the_specification() {
+        let glossiness: Glossiness = serde_json::from_str("{}").unwrap();
+        assert_eq!((glossiness.diffuse_factor, glossiness.glossiness_factor), ([1.0; 4], 1.0));
+        assert_eq!(glossiness.specular_factor, [1.0; 3]);
+        let metallic: Metallic = serde_json::from_str("{}").unwrap();
+        assert_eq!((metallic.metallic_factor, metallic.roughness_factor), (1.0, 1.0));
+        let transform: Transform = serde_json::from_str("{}").unwrap();
+        assert_eq!((transform.offset, transform.scale), ([0.0; 2], [1.0; 2]));
+        assert_eq!((transform.rotation, transform.tex_coord), (0.0, None));
+        let node: Node = serde_json::from_str(r#"{"children": null, "extensions": null}"#).unwrap();
+        assert!(node.children.is_empty() && node.extensions.light.is_none());
+    }
+}
