@@ -84,6 +84,13 @@ impl Folder {
         Run::of(&mut self.command(words))
     }
 
+    /// With a file of these bytes as standard input.
+    pub fn run_on(&self, input: impl AsRef<[u8]>, words: impl Words) -> Run {
+        // Tests of several threads share a folder.
+        let file = self.put(&format!("input-{:?}", std::thread::current().id()), input);
+        Run::of(self.command(words).stdin(std::fs::File::open(file).unwrap()))
+    }
+
     #[track_caller]
     pub fn check(&self, words: impl Words, status: u8) -> Run {
         self.run(words).has(status)

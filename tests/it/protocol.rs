@@ -1,27 +1,12 @@
 //! The line protocol, through the program itself: answers, refusals, robustness.
 
-use std::io::Write;
-use std::process::{Command, Stdio};
-
-use crate::program::PROGRAM;
+use crate::program::shared;
 use crate::snapshots::check_words;
 
 /// What the program answers to these bytes; it must end with status 0.
 pub fn ask(engine: &str, requests: &[u8]) -> Vec<String> {
-    let mut child = Command::new(PROGRAM)
-        .args(["engine", engine])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // Both at once: a pipe that is full in one direction must not stop the other.
-    let mut stdin = child.stdin.take().unwrap();
-    let output = std::thread::scope(|scope| {
-        scope.spawn(move || stdin.write_all(requests).unwrap());
-        child.wait_with_output().unwrap()
-    });
-    assert_eq!(output.status.code(), Some(0));
-    String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
+    let run = shared().run_on(requests, ["engine", engine]).has(0);
+    run.out.lines().map(str::to_owned).collect()
 }
 
 /// Engines, and a request that each of them answers alike, in a conversation of its own.
