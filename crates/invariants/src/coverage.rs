@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use robust::{Coord, orient2d};
 
 use super::Outcome;
-use super::exact::{self, Nudge, TOP_LEFT, around, centre, owns, pixels};
+use super::exact::{self, Nudge, TOP_LEFT, U, around, centre, owns, pixels};
 use super::source::{Fan, Position, Quad, TriangleInput};
 use super::subject::{Engine, Subject, hits};
 use rasterproof_core::arrays::MapArray as _;
@@ -625,9 +625,6 @@ pub(super) fn snapping(subject: &Subject, input: &Position) -> Outcome {
     }
     Ok(2 + refused.len() as u64)
 }
-
-/// Unit roundoff of f64.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// 19: pixels against area. A convex region of area A and perimeter P, in general position to the
 /// lattice (the nudge puts it there), has A - P/2 < N < A + P/2 + 1 lattice points (Nosarzewska

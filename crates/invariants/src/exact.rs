@@ -7,6 +7,9 @@
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
+/// Unit roundoff of f64.
+pub const U: f64 = f64::EPSILON / 2.0;
+
 pub fn centre(px: i32) -> i64 {
     i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
 }

@@ -5,7 +5,7 @@ use std::fmt;
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_verify::cases::{self, Case, Line, Rng, Shape, Triangle, named};
+use rasterproof_verify::cases::{self, Case, Family, Line, Rng, Shape, Triangle, named};
 use rasterproof_verify::comparison::shrink;
 
 use super::subject::MakeCase;
@@ -139,15 +139,20 @@ pub enum Input {
     },
 }
 
-pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
-    let families = cases::triangles::FAMILIES;
+/// A case of the families in turn, and the number of the shape in it that is meant.
+fn pick(families: &[Family], make_case: MakeCase, seed: u64, index: u64) -> (Case, usize) {
     let count = families.len() as u64;
-    let case = make_case(&families[(index % count) as usize], seed, index / count);
+    let (family, number) = (&families[(index % count) as usize], index / count);
+    (make_case(family, seed, number), number as usize)
+}
+
+pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
+    let (case, number) = pick(cases::triangles::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Triangles { list, .. } } = case else {
         unreachable!("a family of triangles makes triangles");
     };
     // Meshes have a triangle or more; each is a case of its own here.
-    let triangle = list[(index / count) as usize % list.len()];
+    let triangle = list[number % list.len()];
     let salt = Rng::new("salt", seed, index).next() as u32;
     Input::Triangle(TriangleInput { triangle, window, salt })
 }
@@ -194,13 +199,11 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
 }
 
 pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
-    let families = cases::lines::FAMILIES;
-    let count = families.len() as u64;
-    let case = make_case(&families[(index % count) as usize], seed, index / count);
+    let (case, number) = pick(cases::lines::FAMILIES, make_case, seed, index);
     let Case { window, shape: Shape::Lines(lines) } = case else {
         unreachable!("a family of lines makes lines");
     };
-    Input::Line(LineInput { line: lines[(index / count) as usize % lines.len()], window })
+    Input::Line(LineInput { line: lines[number % lines.len()], window })
 }
 
 /// Coordinates, a third of them ties, with shifts that often cross zero.
@@ -248,11 +251,8 @@ pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
             let found = shrink::shrink(case, |case| wrap(case).as_ref().is_some_and(&fails));
             wrap(&found).unwrap_or(Input::Line(LineInput { line, window }))
         }
-        Input::Quad(quad) => greedy(Input::Quad(quad), &fails),
-        Input::Fan(fan) => greedy(Input::Fan(fan), &fails),
-        Input::Position(position) => greedy(Input::Position(position), &fails),
-        Input::Clip(clip) => greedy(Input::Clip(clip), &fails),
-        run @ Input::Run { .. } => run,
+        // A run has no neighbours.
+        other => greedy(other, &fails),
     }
 }
 

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::Outcome;
 use super::coverage::ORDERS;
-use super::exact;
+use super::exact::{self, U};
 use super::source::TriangleInput;
 use super::subject::Subject;
 use rasterproof_core::arrays::MapArray as _;
@@ -17,9 +17,6 @@ use rasterproof_core::triangle::{Fragment, MAX_VALUE, MAX_W, MIN_W, ScreenTriang
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::tolerance::{self, Bound, Tolerance};
 use rasterproof_verify::oracle::values::ExactTriangle;
-
-/// Unit roundoff of f64.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// The number of fragments, or the first that is not `good`.
 fn all_are(

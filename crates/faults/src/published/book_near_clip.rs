@@ -33,7 +33,6 @@ pub fn clip_near(triangle: [ClipVertex; 3], boundary: f64) -> Vec<ClipVertex> {
     kept
 }
 
-/// A triangle with an edge in the plane, or with a corner behind it.
 pub fn draw(version: Version, setting: Setting) -> Image {
     let near = if setting == Setting::Exposing { [20.0, 15.0, 15.0] } else { [20.0, 16.0, 12.0] };
     let places = [(-0.8, -0.7), (0.8, -0.6), (-0.2, 0.8)];

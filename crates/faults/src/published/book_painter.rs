@@ -28,7 +28,6 @@ fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
     })
 }
 
-/// The blades by their mean depth, or by the depth of each pixel.
 pub fn draw(version: Version, setting: Setting) -> Image {
     let blades = blades(setting);
     let mut image = empty(SIDE);

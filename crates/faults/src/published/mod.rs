@@ -161,7 +161,6 @@ impl Columns {
 /// The function that receives the spans of a triangle, in the published order.
 pub type Spans<'a> = &'a mut dyn FnMut(Span);
 pub type Fragments<'a> = &'a mut dyn FnMut(Fragment<DVec2>);
-/// Why nothing is drawn, if it is not.
 pub type Drawn = Result<(), Refused>;
 
 pub trait Published: fmt::Debug + Sync {
@@ -230,7 +229,6 @@ impl BookScreen {
         (i64::from(self.bounds.width()), i64::from(self.bounds.height()))
     }
 
-    /// The window's pixel for the book's.
     fn pixel(self, x: i64, y: i64) -> (i32, i32) {
         // Only pixels within the window are asked for.
         (self.bounds.x0 + x as i32, self.bounds.y1 - 1 - y as i32)

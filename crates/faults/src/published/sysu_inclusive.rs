@@ -38,7 +38,6 @@ fn whole(triangle: &RealTriangle) -> Result<[[i32; 2]; 3], Refused> {
     Ok(corners)
 }
 
-/// The order of the corners that the published sign test accepts.
 pub(super) fn front(triangle: &RealTriangle) -> Result<RealTriangle, Refused> {
     let [a, b, c] = whole(triangle)?.map_array(|corner| corner.map_array(i128::from));
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

@@ -19,7 +19,6 @@ fn inside(v: &ClipVertex) -> bool {
     (0.1..=100.0).contains(&p.w) && p.truncate().abs().max_element() <= p.w
 }
 
-/// The published choice: all or nothing.
 pub fn kept(triangle: [ClipVertex; 3]) -> Vec<ClipVertex> {
     if triangle.iter().any(inside) { triangle.to_vec() } else { Vec::new() }
 }

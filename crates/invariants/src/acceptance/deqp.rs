@@ -164,7 +164,6 @@ impl Outline {
     }
 }
 
-/// Which edges of a triangle are edges of another one, too.
 fn shared_edges(outlines: &[Outline], of: usize) -> [bool; 3] {
     let ends = |i: usize, edge: usize| [outlines[i].exact[edge], outlines[i].exact[(edge + 1) % 3]];
     [0, 1, 2].map(|edge| {

@@ -78,7 +78,6 @@ fn filtered(plane: &[f64], width: usize, along_rows: &[f64], along_columns: &[f6
 pub struct Flip {
     /// The filtered picture in L*a*b*, with colours less vivid where it is dark (Hunt).
     colours: Vec<[f64; 3]>,
-    /// Strengths of edges and of points.
     features: Vec<[f64; 2]>,
 }
 

@@ -14,7 +14,6 @@ use super::scenes::{Paint, Scene};
 
 pub struct View<'a> {
     pub scene: &'a Scene,
-    /// What is known of the scene, whoever draws it.
     pub seen: &'a Seen,
     pub right: &'a Drawn,
     pub drawn: &'a Drawn,

@@ -34,6 +34,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// A hard case of this project, which leaves pixels free and shows the last fragment of the others.
+    pub fn new(name: String, paint: Paint, window: PixelRect, triangles: Vec<Triangle>) -> Self {
+        let (of_suites, fills_window, depth_test) = (false, false, false);
+        Self { name, of_suites, paint, window, triangles, fills_window, depth_test }
+    }
+
     #[must_use]
     pub fn shows_values(&self) -> bool {
         matches!(self.paint, Paint::Values | Paint::Checker)
@@ -57,15 +63,8 @@ pub fn scenes(seed: u64) -> Vec<Scene> {
                     continue;
                 }
                 let triangles = list.iter().map(|triangle| scaled(triangle, paint)).collect();
-                scenes.push(Scene {
-                    name: format!("{}#{number}, {}", family.name, word(paint)),
-                    of_suites: false,
-                    paint,
-                    window: case.window,
-                    triangles,
-                    fills_window: false,
-                    depth_test: false,
-                });
+                let name = format!("{}#{number}, {}", family.name, word(paint));
+                scenes.push(Scene::new(name, paint, case.window, triangles));
             }
         }
     }
@@ -116,14 +115,10 @@ fn turned(centre: [f64; 2], half: f64, t: f64) -> [Triangle; 2] {
 }
 
 fn of_suites(seed: u64) -> Vec<Scene> {
+    let window = PixelRect::window(SIDE as u32, SIDE as u32);
     let scene = |name: &str, paint: Paint, triangles: Vec<Triangle>| Scene {
-        name: name.to_owned(),
         of_suites: true,
-        paint,
-        window: PixelRect::window(SIDE as u32, SIDE as u32),
-        triangles,
-        fills_window: false,
-        depth_test: false,
+        ..Scene::new(name.to_owned(), paint, window, triangles)
     };
     let mut rng = Rng::new("tolerances", seed, 0);
     let mut list = Vec::new();

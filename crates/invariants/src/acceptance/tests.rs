@@ -27,15 +27,8 @@ fn triangle(corners_px: [[i32; 2]; 3]) -> Triangle {
 }
 
 fn scene(paint: Paint, side: u32, triangles: Vec<Triangle>) -> Scene {
-    Scene {
-        name: "by hand".to_owned(),
-        of_suites: true,
-        paint,
-        window: PixelRect::window(side, side),
-        triangles,
-        fills_window: false,
-        depth_test: false,
-    }
+    let window = PixelRect::window(side, side);
+    Scene { of_suites: true, ..Scene::new("by hand".to_owned(), paint, window, triangles) }
 }
 
 fn accepts_of(rule: &str, scene: &Scene, right: &Drawn, drawn: &Drawn) -> Option<bool> {

@@ -88,7 +88,6 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
     measure_on(&scenes, options, (progress, &mut |_, _| ()))
 }
 
-/// The same on other scenes.
 pub(super) fn measure_on(
     scenes: &[Scene],
     options: &Options,

@@ -14,7 +14,6 @@ pub enum Bound {
     Affine,
     /// The same for pieces of 16 pixels.
     EverySixteen,
-    /// The book's formula, accumulated.
     BookFormula,
     /// 1/w and v/w accumulated along the row.
     Accumulated,

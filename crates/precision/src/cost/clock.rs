@@ -52,15 +52,13 @@ impl Spread {
         Self { low: at(1), median: at(2), high: at(3) }
     }
 
-    /// The same so many times.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
         Self { low: self.low * factor, median: self.median * factor, high: self.high * factor }
     }
 
     fn over(self, count: u64) -> Self {
-        let count = count.max(1) as f64;
-        Self { low: self.low / count, median: self.median / count, high: self.high / count }
+        self.times(1.0 / count.max(1) as f64)
     }
 }
 

@@ -49,7 +49,6 @@ fn measures() -> Vec<Measure> {
     ]
 }
 
-/// A published specimen as a rung.
 #[derive(Clone, Copy, Debug)]
 struct AsPublished(BookChapter2);
 

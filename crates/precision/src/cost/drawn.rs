@@ -33,7 +33,6 @@ pub(super) fn dress<T>(
     dressed.collect()
 }
 
-/// The pixels of all triangles together.
 pub(super) fn pixels<T>(drawn: &[Drawn<T>]) -> usize {
     drawn.iter().flat_map(|of_this| &of_this.spans).map(Span::pixels).sum()
 }

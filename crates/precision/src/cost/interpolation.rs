@@ -269,7 +269,6 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
 
 pub(super) const SAMPLES: usize = 4000;
 
-/// The same on other scenes.
 pub(super) fn measure_on(
     scenes: &[Scene],
     options: &Options,

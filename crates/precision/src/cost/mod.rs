@@ -55,7 +55,6 @@ rasterproof_core::named! {
 }
 
 impl Ladder {
-    /// What it is a ladder of.
     pub fn title(self) -> &'static str {
         match self {
             Self::Scanline => "Coverage by scanline",
@@ -241,7 +240,6 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// A board before it is timed.
 struct Draft<'a> {
     ladder: Ladder,
     rungs: Vec<Rung>,

@@ -100,7 +100,6 @@ pub fn race(passes: &mut [&mut Pass<'_>], budget: Duration, keeps_all: bool) -> 
     decide(repeats.len(), run, &mut has_time, keeps_all)
 }
 
-/// The same with rounds of any origin.
 fn decide(
     count: usize,
     mut run: impl FnMut(usize, &[usize]) -> Vec<(usize, f64)>,

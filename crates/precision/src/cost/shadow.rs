@@ -5,9 +5,7 @@
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
 use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
-use crate::ladder::shadow::{
-    DepthPlane, Double, Fixed16, Fixed24, Fixed32, Format, Single, Unbiased,
-};
+use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_verify::cases::Rng;
 
 struct Class {
@@ -139,12 +137,12 @@ impl<F: Format + 'static> AnyFormat for F {
 fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
     let rung = |name, about| Rung::new(name, about, &[]);
     vec![
-        (rung("24-bit, no bias", "depths are compared as they are"), Box::new(Unbiased)),
-        (rung("16-bit", "whole numbers"), Box::new(Fixed16)),
-        (rung("24-bit", "whole numbers"), Box::new(Fixed24)),
-        (rung("32-bit", "whole numbers, as the renderer here"), Box::new(Fixed32)),
-        (rung("f32", "a float"), Box::new(Single)),
-        (rung("f64", "a double"), Box::new(Double)),
+        (rung("24-bit, no bias", "depths are compared as they are"), Box::new(Unbiased::default())),
+        (rung("16-bit", "whole numbers"), Box::new(Fixed16::default())),
+        (rung("24-bit", "whole numbers"), Box::new(Fixed24::default())),
+        (rung("32-bit", "whole numbers, as the renderer here"), Box::new(Fixed32::default())),
+        (rung("f32", "a float"), Box::new(Floats::<f32>::default())),
+        (rung("f64", "a double"), Box::new(Floats::<f64>::default())),
     ]
 }
 
@@ -200,8 +198,8 @@ mod tests {
             assert_eq!(errors_of::<Fixed16>(name)[1], 0.0);
             assert_eq!(errors_of::<Fixed24>(name)[1], 0.0);
             assert_eq!(errors_of::<Fixed32>(name)[1], 0.0);
-            assert_eq!(errors_of::<Single>(name)[1], 0.0);
-            assert_eq!(errors_of::<Double>(name)[1], 0.0);
+            assert_eq!(errors_of::<Floats<f32>>(name)[1], 0.0);
+            assert_eq!(errors_of::<Floats<f64>>(name)[1], 0.0);
         }
         assert!(errors_of::<Unbiased>("10d 2^-8")[1] > 9e5);
     }

@@ -9,7 +9,6 @@ use rasterproof_core::triangle::{Corners, FreeCorners, ScreenVertex, Span};
 use rasterproof_tiles::coverage::{CoverList, Tiles};
 use rasterproof_tiles::frames::planes::{self, ATTRIBUTES};
 
-/// Coverage of lists.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lists(Tiles);
 
@@ -40,7 +39,6 @@ impl Cover for Lists {
     }
 }
 
-/// Values by planes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Planes(Tiles);
 

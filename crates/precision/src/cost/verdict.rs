@@ -19,7 +19,6 @@ pub struct Best {
 /// A rung that another one beats in every class of scenes in which it ran.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dominated {
-    /// The rung, by number.
     pub rung: usize,
     /// Rungs that beat it, by number: at most as wrong and clearly faster.
     pub by: Vec<usize>,
@@ -28,7 +27,6 @@ pub struct Dominated {
 /// What no error costs over the cheapest rung, for one class of scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Price {
-    /// The class.
     pub column: String,
     pub cheapest: Priced,
     /// The cheapest that promises nothing, so computes in floats.

@@ -19,13 +19,11 @@ pub trait Format {
     type Stored: Copy + PartialOrd;
     const REVERSED: bool;
     type Float: Real;
-    /// What is stored for an interpolated depth.
     fn store(depth: Self::Float) -> Self::Stored;
 
     /// The depth of a distance from the eye, before it is rounded to the format.
     fn depth(z: f64) -> f64;
 
-    /// Whether a surface stored as `a` hides one stored as `b`.
     #[inline]
     #[must_use]
     fn hides(a: Self::Stored, b: Self::Stored) -> bool {

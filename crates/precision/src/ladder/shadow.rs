@@ -4,6 +4,12 @@
 //! [`rasterproof_render::pipeline::shadow`], derived there: what a plane's depth may change by between the fragment and the
 //! centre of a texel. Depths are computed in f64, so that the format alone is seen.
 
+use std::marker::PhantomData;
+
+use num_traits::AsPrimitive;
+
+use super::Real;
+
 /// What a texel holds; smaller is nearer to the light.
 pub trait Format {
     type Stored: Copy + PartialOrd;
@@ -12,68 +18,37 @@ pub trait Format {
     fn store(depth: f64) -> Self::Stored;
 }
 
-/// The range from 0 to 1 in 2^16 - 1 equal steps.
+/// The range from 0 to 1 in 2^BITS - 1 equal steps.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Fixed16;
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Fixed24;
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Fixed32;
+pub struct Fixed<T, const BITS: u32, const BIASED: bool = true>(PhantomData<T>);
+pub type Fixed16 = Fixed<u16, 16>;
+pub type Fixed24 = Fixed<u32, 24>;
+pub type Fixed32 = Fixed<u32, 32>;
+/// The steps of [`Fixed24`], compared without a bias.
+pub type Unbiased = Fixed<u32, 24, false>;
+
 /// Floats, whose steps are finer near the light.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Single;
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Double;
-/// The steps of [`Fixed24`], compared without a bias.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Unbiased;
+pub struct Floats<T>(PhantomData<T>);
 
-impl Format for Fixed16 {
-    type Stored = u16;
+impl<T, const BITS: u32, const BIASED: bool> Format for Fixed<T, BITS, BIASED>
+where
+    T: Copy + PartialOrd + 'static,
+    f64: AsPrimitive<T>,
+{
+    type Stored = T;
+    const BIASED: bool = BIASED;
     #[inline]
-    fn store(depth: f64) -> u16 {
-        (depth * f64::from(u16::MAX) + 0.5) as u16
+    fn store(depth: f64) -> T {
+        (depth * ((1u64 << BITS) - 1) as f64 + 0.5).as_()
     }
 }
 
-impl Format for Fixed24 {
-    type Stored = u32;
+impl<T: Real> Format for Floats<T> {
+    type Stored = T;
     #[inline]
-    fn store(depth: f64) -> u32 {
-        (depth * f64::from((1 << 24) - 1) + 0.5) as u32
-    }
-}
-
-impl Format for Fixed32 {
-    type Stored = u32;
-    #[inline]
-    fn store(depth: f64) -> u32 {
-        (depth * f64::from(u32::MAX) + 0.5) as u32
-    }
-}
-
-impl Format for Single {
-    type Stored = f32;
-    #[inline]
-    fn store(depth: f64) -> f32 {
-        depth as f32
-    }
-}
-
-impl Format for Double {
-    type Stored = f64;
-    #[inline]
-    fn store(depth: f64) -> f64 {
-        depth
-    }
-}
-
-impl Format for Unbiased {
-    type Stored = u32;
-    const BIASED: bool = false;
-    #[inline]
-    fn store(depth: f64) -> u32 {
-        Fixed24::store(depth)
+    fn store(depth: f64) -> T {
+        T::of(depth)
     }
 }
 

@@ -15,7 +15,6 @@ const MOST_BYTES: usize = 1 << 26;
 /// Seconds that a submission may take.
 const PATIENCE_S: u64 = 120;
 
-/// A vertex: clip coordinates, and two attributes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vertex {
     pub clip: [f32; 4],

@@ -33,7 +33,6 @@ pub struct Listed {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct About {
     pub device: String,
-    /// The name of the driver, where it is said.
     pub driver: String,
     /// The driver's version: in its own words where there are any.
     pub version: String,

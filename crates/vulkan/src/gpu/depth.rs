@@ -14,7 +14,6 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 
 const _: () = assert!(CELL_PX == clipped::CELL_PX);
 
-/// The largest depth of 16 bits.
 const MOST_16: f64 = 65535.0;
 
 /// Triangles of the families whose depths stay off both ends, so that what is cleared is told from what
@@ -46,7 +45,6 @@ fn kept(pictures: &Pictures, kind: Kind, cell: usize, (x, y): (i32, i32)) -> Opt
     (word != clear).then_some(word)
 }
 
-/// Depths of the families, against exact ones.
 pub(super) fn stored(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result<Outcome, Error> {
     let triangles = triangles(gpu, seed, cases);
     let list = draws(gpu, &triangles);
@@ -116,7 +114,6 @@ pub(super) fn nearer(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Er
     Ok((Class::of(wrong == 0, false), said))
 }
 
-/// Triangles that the near and the far plane cut.
 pub(super) fn clipped(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     let mut rng = Rng::new("vulkan-planes", seed, 0);
     let triangles: Vec<([Whole; 3], [Linear; 5])> = (0..cases)

@@ -71,7 +71,6 @@ pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Vec<Finding
     findings
 }
 
-/// The stage of triangles that reach far up and left.
 const LARGE: &str = "far up and left";
 
 /// Triangles within the viewport that reach from the window far beyond its upper left corner. Nothing is

@@ -14,7 +14,6 @@ pub enum Class {
     Allowed,
     /// Outside the specification, as the baseline of known faults says.
     Known,
-    /// The device does not offer it.
     NotOffered,
     /// Fixed: the baseline names a fault that no case shows any more.
     Stale,

@@ -9,7 +9,6 @@ use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::judge_text::{self, wrapped};
 use rasterproof_report::table::{Column, Mark, Row, Table};
 
-/// A device in a line or two, as `list` has it.
 pub fn device(about: &About) -> String {
     let lines = [
         (about.strict_lines, "strict"),
