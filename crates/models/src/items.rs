@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::parallel;
-use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene;
@@ -71,8 +70,7 @@ pub(crate) fn model(
             let why = contents.warnings.first().map_or(String::new(), |why| format!(" ({why})"));
             return Err(bad(path, None, format!("has no faces, so there is nothing to draw{why}")));
         }
-        let path = printable_path(path);
-        warnings.line(&path, &format!("{path}: has no faces, so the picture is empty"));
+        warnings.add(path, None, "faces", "has no faces, so the picture is empty");
     }
     let mut all = contents.warnings;
     all.extend(warnings.finish());
@@ -257,17 +255,16 @@ fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warning
             origin.concave.extend(first..triangles.len() as u32 / 3);
         }
         if let Err(odd) = shape {
-            let path = printable_path(path);
             let (what, kind) = match odd {
                 Odd::Crosses => ("crosses itself", "faces that cross themselves"),
                 Odd::TooManyCorners => ("has more than 65536 corners", "faces of many corners"),
             };
-            let place = match line {
-                0 => format!("{path}: face {face} {what}"),
-                line => format!("{path}:{line}: the face {what}"),
+            let (line, face) = match line {
+                0 => (None, format!("face {face}")),
+                line => (Some(line as usize), "the face".to_owned()),
             };
             let drawn = "so it is drawn as triangles around its first corner: split it";
-            warnings.line(&format!("{path}: {kind}"), &format!("{place}, {drawn}"));
+            warnings.add(path, line, kind, &format!("{face} {what}, {drawn}"));
         }
     }
     origin.faces = Some(faces);

@@ -202,9 +202,16 @@ impl Warnings {
     /// Warnings of one kind that are shown; of the rest the number is.
     const MOST: u64 = 8;
 
-    /// A warning that may come for every line. Its kind is in the plural.
-    pub(crate) fn line(&mut self, kind: &str, text: &str) {
-        let count = self.counts.entry(kind.to_owned()).or_default();
+    /// A warning about a file, and about a line of it, from 1, where it has lines. Its kind is in the plural.
+    pub(crate) fn add(&mut self, path: &Path, line: Option<usize>, kind: &str, text: &str) {
+        let place = line.map_or(String::new(), |line| format!(":{line}"));
+        self.add_as_it_is(path, kind, &format!("{}{place}: {text}", printable_path(path)));
+    }
+
+    /// The same with a text that names the file, or another one.
+    pub(crate) fn add_as_it_is(&mut self, path: &Path, kind: &str, text: &str) {
+        let kind = format!("{}: {kind}", printable_path(path));
+        let count = self.counts.entry(kind).or_default();
         *count += 1;
         if *count <= Self::MOST {
             self.shown.push(text.to_owned());

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use glam::DVec3;
-use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::Warnings;
@@ -47,12 +47,8 @@ pub(crate) fn read(path: &Path, text: &str, warnings: &mut Warnings) -> Vec<Desc
         let line = without_comment(line).trim();
         let (kind, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         if let Err(cause) = read_line(kind, rest.trim(), &mut materials) {
-            let path = printable_path(path);
-            let place = format!("{path}:{}", index + 1);
-            warnings.line(
-                &format!("{path}: lines"),
-                &format!("{place}: {cause}; the line is left out"),
-            );
+            let text = format!("{cause}; the line is left out");
+            warnings.add(path, Some(index + 1), "lines", &text);
         }
     }
     for material in &mut materials {
@@ -97,80 +93,46 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
     let material = materials.last_mut().ok_or_else(|| format!("'{kind}' before any 'newmtl'"))?;
     // Of what is not drawn a wrong number is no loss.
     let number = rest.split_whitespace().next_back().and_then(|word| word.parse::<f64>().ok());
-    if lower == "map_ks" {
-        material.has_specular_map = true;
-    }
-    let is_lit = || colour("", rest).is_ok_and(|colour| colour.max_element() > 0.0);
-    let key = match lower.as_str() {
-        "kd" => {
-            material.colour = Some(colour(kind, rest)?);
-            return Ok(());
-        }
-        "ka" => {
-            material.ambient = colour(kind, rest).ok();
-            return Ok(());
-        }
-        "map_kd" => {
-            material.texture = textures::Described::parse(rest);
-            return Ok(());
-        }
-        "map_d" | "map_tr" | "map_opacity" => {
-            material.opacity_map = textures::Described::parse(rest);
-            return Ok(());
-        }
-        "map_ka" => {
-            material.ambient_map = textures::Described::parse(rest);
-            return Ok(());
-        }
-        _ if is_map => {
-            if textures::Described::parse(rest).is_none() {
-                return Ok(());
-            }
-            match lower.as_str() {
-                "bump" | "map_bump" => "bump map",
-                "norm" | "map_kn" => "normal map",
-                "disp" | "map_disp" => "displacement map",
-                "decal" | "map_decal" => "decal",
-                "refl" | "map_refl" => "reflection map",
-                "map_ks" => "specular map",
-                "map_ns" => "shininess map",
-                "map_ke" => "emission map",
-                _ => "other map",
-            }
-        }
-        "ks" => {
-            material.specular.colour = colour(kind, rest)?.max(DVec3::ZERO);
-            return Ok(());
-        }
-        "ns" => {
-            material.specular.shininess = number.unwrap_or_default();
-            return Ok(());
-        }
-        "ke" if is_lit() => "emission of material",
-        "km" | "kt" if is_lit() => "reflection or transmission colour of material",
-        "tf" if colour("", rest)
-            .is_ok_and(|colour| colour != DVec3::ONE && colour != DVec3::ZERO) =>
-        {
-            "transmission filter of material"
-        }
+    let parsed = || textures::Described::parse(rest);
+    match lower.as_str() {
+        "kd" => material.colour = Some(colour(kind, rest)?),
+        "ka" => material.ambient = colour(kind, rest).ok(),
+        "ks" => material.specular.colour = colour(kind, rest)?.max(DVec3::ZERO),
+        "ns" => material.specular.shininess = number.unwrap_or_default(),
+        "map_kd" => material.texture = parsed(),
+        "map_ka" => material.ambient_map = parsed(),
+        "map_d" | "map_tr" | "map_opacity" => material.opacity_map = parsed(),
+        "map_ks" => material.has_specular_map = true,
         "d" => {
-            material.opacity =
-                number.filter(|number| number.is_finite()).map(|d| d.clamp(0.0, 1.0));
-            return Ok(());
+            let finite = number.filter(|number| number.is_finite());
+            material.opacity = finite.map(|d| d.clamp(0.0, 1.0));
         }
         // Some programs write the opposite, so a 1 means nothing for sure.
         "tr" if number.is_some_and(|number| number > 0.0 && number < 1.0) => {
             material.opacity = number.map(|number| 1.0 - number);
-            return Ok(());
         }
-        "illum" if number == Some(1.0) => {
-            material.is_matt = true;
-            return Ok(());
+        "illum" if number == Some(0.0) || number == Some(1.0) => material.is_matt = true,
+        _ => {}
+    }
+    let is_lit = || colour("", rest).is_ok_and(|colour| colour.max_element() > 0.0);
+    let key = match lower.as_str() {
+        "map_kd" | "map_ka" | "map_d" | "map_tr" | "map_opacity" => return Ok(()),
+        _ if is_map && parsed().is_none() => return Ok(()),
+        "bump" | "map_bump" => "bump map",
+        "norm" | "map_kn" => "normal map",
+        "disp" | "map_disp" => "displacement map",
+        "decal" | "map_decal" => "decal",
+        "refl" | "map_refl" => "reflection map",
+        "map_ks" => "specular map",
+        "map_ns" => "shininess map",
+        "map_ke" => "emission map",
+        _ if is_map => "other map",
+        "ke" if is_lit() => "emission of material",
+        "km" | "kt" if is_lit() => "reflection or transmission colour of material",
+        "tf" if colour("", rest).is_ok_and(|c| c != DVec3::ONE && c != DVec3::ZERO) => {
+            "transmission filter of material"
         }
-        "illum" if number == Some(0.0) => {
-            material.is_matt = true;
-            "constant light (illum 0) of material"
-        }
+        "illum" if number == Some(0.0) => "constant light (illum 0) of material",
         "illum" if number.is_some_and(|number| number > 2.0) => "reflection (illum) of material",
         _ if is_physical && number.is_some_and(|number| number != 0.0) => {
             "physically based value of material"

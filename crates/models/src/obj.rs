@@ -139,12 +139,10 @@ pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
             Some((name, line)) => {
                 let number = numbers.get(name.as_str()).copied();
                 if number.is_none() && all_read && unknown.insert(name.clone()) {
-                    let path = printable_path(path);
                     let name = printable_short(name, 40);
-                    warnings.line(
-                        &format!("{path}: materials that no file describes"),
-                        &format!("{path}:{line}: no material file describes '{name}'; its faces are drawn grey"),
-                    );
+                    let text =
+                        format!("no material file describes '{name}'; its faces are drawn grey");
+                    warnings.add(path, Some(*line), "materials that no file describes", &text);
                 }
                 number
             }
@@ -244,10 +242,8 @@ fn surface(
         let read = textures.get(&described.name, described.clamp);
         read.map_err(|error| {
             let name = printable_short(&material.name, 40);
-            warnings.line(
-                &format!("{}: textures", printable_path(path)),
-                &format!("{error}; the material '{name}' is drawn {without}"),
-            );
+            let text = format!("{error}; the material '{name}' is drawn {without}");
+            warnings.add_as_it_is(path, "textures", &text);
         })
         .ok()
     };
@@ -286,9 +282,8 @@ fn read_libraries(
     let (mut materials, mut left_bytes) = (Vec::new(), limits::MATERIAL_BYTES);
     let (mut seen, mut all_read) = (HashSet::new(), true);
     if libraries.len() > MOST_LIBRARIES {
-        let path = printable_path(path);
-        let text = format!("{path}: only the first {MOST_LIBRARIES} material files are read");
-        warnings.line(&path, &text);
+        let text = format!("only the first {MOST_LIBRARIES} material files are read");
+        warnings.add(path, None, "material files", &text);
     }
     for names in libraries.iter().take(MOST_LIBRARIES) {
         for name in library_names(folder, names) {
@@ -298,14 +293,10 @@ fn read_libraries(
             let file = named.clone().or_else(beside);
             let file = file.unwrap_or_else(|| folder.join(name.replace('\\', "/")));
             if named.is_none() && file.is_file() {
-                let (path, name) = (printable_path(path), printable_short(&name, 60));
-                let file = printable_path(&file);
-                warnings.line(
-                    &format!("{path}: material files"),
-                    &format!(
-                        "{path}: there is no material file '{name}'; {file} is read in its place"
-                    ),
-                );
+                let (name, file) = (printable_short(&name, 60), printable_path(&file));
+                let text =
+                    format!("there is no material file '{name}'; {file} is read in its place");
+                warnings.add(path, None, "material files", &text);
             }
             if !seen.insert(file.clone()) {
                 continue;
@@ -318,12 +309,9 @@ fn read_libraries(
                 }
                 Err(error) => {
                     all_read = false;
-                    warnings.line(
-                        &format!("{}: material files", printable_path(path)),
-                        &format!(
-                            "{error}; what it describes is drawn grey until the file is there"
-                        ),
-                    );
+                    let text =
+                        format!("{error}; what it describes is drawn grey until the file is there");
+                    warnings.add_as_it_is(path, "material files", &text);
                 }
             }
         }
@@ -406,11 +394,8 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
         }
         let result = read_line(line, first, &mut read, &mut state);
         if let Some(cause) = result.map_err(|cause| refused(path, first, &cause))? {
-            let path = printable_path(path);
-            warnings.line(
-                &format!("{path}: lines"),
-                &format!("{path}:{first}: {cause}; the line is left out"),
-            );
+            let text = format!("{cause}; the line is left out");
+            warnings.add(path, Some(first), "lines", &text);
         }
     }
     if read.runs.is_empty() && read.not_drawn.is_empty() {
@@ -669,10 +654,8 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
             }
         }
     }
-    let path = printable_path(path);
     for (line, cause) in lines.broken.values() {
-        warnings
-            .line(&format!("{path}: lines"), &format!("{path}:{line}: {cause}; no face uses it"));
+        warnings.add(path, Some(*line), "lines", &format!("{cause}; no face uses it"));
     }
     Ok(())
 }

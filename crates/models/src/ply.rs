@@ -9,7 +9,7 @@ use std::path::Path;
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::parallel::{self, SHARE};
 use rasterproof_host::error::FileError;
-use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
 
@@ -335,24 +335,19 @@ pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
     }
     let mut warnings = Warnings::default();
     for (line, shown) in &header.unknown {
-        let path = printable_path(path);
-        let what = format!("{path}:{line}: '{shown}' is no line of a header; it is left out");
-        warnings.line(&format!("{path}: lines of the header"), &what);
+        let text = format!("'{shown}' is no line of a header; it is left out");
+        warnings.add(path, Some(*line), "lines of the header", &text);
     }
     body.file.read_all().map_err(unread)?;
     let left = body.file.left().trim_ascii().len();
     if left > 0 {
-        let path = printable_path(path);
-        warnings.line(
-            &path,
-            &format!("{path}: {left} bytes follow the last element; they are left out"),
-        );
+        let text = format!("{left} bytes follow the last element; they are left out");
+        warnings.add(path, None, "bytes", &text);
     }
     body.end_element();
     if body.long > 0 {
-        let path = printable_path(path);
         let what = "lines have more numbers than the header says; the rest of them is left out";
-        warnings.line(&path, &format!("{path}: {} {what}", body.long));
+        warnings.add(path, None, "lines", &format!("{} {what}", body.long));
     }
     check(path, &part)?;
     if part.normals.len() == part.positions.len() {
@@ -744,9 +739,9 @@ fn surface(
                 both_sides: true,
             });
         }
-        Err(error) => warnings.line(
-            &format!("{}: textures", printable_path(path)),
-            &format!("{error}; the model is drawn without it"),
-        ),
+        Err(error) => {
+            let text = format!("{error}; the model is drawn without it");
+            warnings.add_as_it_is(path, "textures", &text);
+        }
     }
 }

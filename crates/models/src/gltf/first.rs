@@ -48,15 +48,16 @@ impl<'a> List<'a> {
     }
 }
 
-/// Copies those members of an object that have one of the names.
-fn members(value: &Value, names: &[&str]) -> Map<String, Value> {
+/// An object with those members of another one that have one of the names.
+fn members(value: &Value, names: &[&str]) -> Value {
     let member = |name: &&str| Some(((*name).to_owned(), value.get(name)?.clone()));
-    names.iter().filter_map(member).collect()
+    Value::Object(names.iter().filter_map(member).collect())
 }
 
-fn put(map: &mut Map<String, Value>, name: &str, value: Option<usize>) {
+/// Sets a member of an object, where there is a value for it.
+fn put(object: &mut Value, name: &str, value: Option<usize>) {
     if let Some(value) = value {
-        map.insert(name.to_owned(), value.into());
+        object[name] = value.into();
     }
 }
 
@@ -81,39 +82,31 @@ pub(super) fn upgraded(
     let (images, samplers, textures) = (list("images"), list("samplers"), list("textures"));
     let (materials, meshes, nodes) = (list("materials"), list("meshes"), list("nodes"));
     let scenes = list("scenes");
-    let mut out = Map::new();
-    out.insert("asset".to_owned(), json!({ "version": "2.0" }));
-    let whole = |name: &&str| *name == "binary_glTF" || *name == "KHR_binary_glTF";
+    let mut out = json!({ "asset": { "version": "2.0" } });
     let made = buffers.names.iter().zip(&buffers.values).map(|(name, buffer)| {
-        let mut made = members(buffer, &["byteLength", "uri"]);
-        if whole(name) {
-            made.remove("uri");
-        }
-        made.into()
+        let is_whole = *name == "binary_glTF" || *name == "KHR_binary_glTF";
+        members(buffer, if is_whole { &["byteLength"] } else { &["byteLength", "uri"] })
     });
     insert(&mut out, "buffers", made.collect());
     let (made_views, made_accessors) = columns(&accessors, &views, &buffers);
     insert(&mut out, "bufferViews", made_views);
     insert(&mut out, "accessors", made_accessors);
     let made = images.values.iter().map(|image| {
-        let mut made = members(image, &["uri", "name"]);
         let binary = image.get("extensions").and_then(|all| all.get("KHR_binary_glTF"));
-        if let Some(binary) = binary {
-            made.remove("uri");
-            put(&mut made, "bufferView", views.number(binary, "bufferView"));
-            made.extend(members(binary, &["mimeType"]));
-        }
-        made.into()
+        let Some(binary) = binary else { return members(image, &["uri", "name"]) };
+        let mut made = members(binary, &["mimeType"]);
+        put(&mut made, "bufferView", views.number(binary, "bufferView"));
+        made
     });
     insert(&mut out, "images", made.collect());
     let made = samplers.values.iter();
-    let made = made.map(|s| members(s, &["magFilter", "minFilter", "wrapS", "wrapT"]).into());
+    let made = made.map(|s| members(s, &["magFilter", "minFilter", "wrapS", "wrapT"]));
     insert(&mut out, "samplers", made.collect());
     let made = textures.values.iter().map(|texture| {
-        let mut made = Map::new();
+        let mut made = json!({});
         put(&mut made, "sampler", samplers.number(texture, "sampler"));
         put(&mut made, "source", images.number(texture, "source"));
-        made.into()
+        made
     });
     insert(&mut out, "textures", made.collect());
     let made = materials.values.iter().map(|value| material(value, &textures, not_drawn));
@@ -136,22 +129,21 @@ pub(super) fn upgraded(
                 let mut made = members(primitive, &["mode"]);
                 let attributes: Map<String, Value> =
                     names.into_iter().flatten().filter_map(attribute).collect();
-                made.insert("attributes".to_owned(), attributes.into());
+                made["attributes"] = attributes.into();
                 put(&mut made, "indices", accessors.number(primitive, "indices"));
                 put(&mut made, "material", materials.number(primitive, "material"));
-                made.into()
+                made
             })
             .collect();
         let mut made = members(mesh, &["name"]);
-        made.insert("primitives".to_owned(), primitives.into());
-        made.into()
+        made["primitives"] = primitives.into();
+        made
     });
     insert(&mut out, "meshes", made.collect());
     let mut made_nodes: Vec<Value> = Vec::new();
     let mut more: Vec<Value> = Vec::new();
     for node in &nodes.values {
-        let kept = ["name", "matrix", "rotation", "scale", "translation"];
-        let mut made = members(node, &kept);
+        let mut made = members(node, &["name", "matrix", "rotation", "scale", "translation"]);
         let mut children = nodes.all(node, "children");
         let shown = meshes.all(node, "meshes");
         put(&mut made, "mesh", shown.first().copied());
@@ -160,13 +152,12 @@ pub(super) fn upgraded(
             more.push(json!({ "mesh": mesh }));
         }
         if !children.is_empty() {
-            made.insert("children".to_owned(), children.into());
+            made["children"] = children.into();
         }
-        let counts = [("camera", "camera"), ("skin", "skin")];
-        for (_, key) in counts.iter().filter(|(member, _)| node.get(member).is_some()) {
-            *not_drawn.entry((*key).to_owned()).or_default() += 1;
+        for key in ["camera", "skin"].into_iter().filter(|key| node.get(key).is_some()) {
+            *not_drawn.entry(key.to_owned()).or_default() += 1;
         }
-        made_nodes.push(made.into());
+        made_nodes.push(made);
     }
     made_nodes.extend(more);
     insert(&mut out, "nodes", made_nodes);
@@ -177,12 +168,12 @@ pub(super) fn upgraded(
     if animations > 0 {
         *not_drawn.entry("animation".to_owned()).or_default() += animations as u64;
     }
-    serde_json::to_vec(&Value::from(out)).map(Some).map_err(|error| error.to_string())
+    serde_json::to_vec(&out).map(Some).map_err(|error| error.to_string())
 }
 
-fn insert(out: &mut Map<String, Value>, name: &str, list: Vec<Value>) {
+fn insert(out: &mut Value, name: &str, list: Vec<Value>) {
     if !list.is_empty() {
-        out.insert(name.to_owned(), list.into());
+        out[name] = list.into();
     }
 }
 
@@ -193,7 +184,7 @@ fn columns(accessors: &List<'_>, views: &List<'_>, buffers: &List<'_>) -> (Vec<V
         put(&mut made, "buffer", buffers.number(view, "buffer"));
         made
     };
-    let mut made_views: Vec<Value> = views.values.iter().map(|value| view(value).into()).collect();
+    let mut made_views: Vec<Value> = views.values.iter().map(|&value| view(value)).collect();
     let made = accessors.values.iter().map(|accessor| {
         let kept = ["byteOffset", "componentType", "count", "normalized", "type"];
         let mut made = members(accessor, &kept);
@@ -201,12 +192,12 @@ fn columns(accessors: &List<'_>, views: &List<'_>, buffers: &List<'_>) -> (Vec<V
         let stride = accessor.get("byteStride").and_then(Value::as_u64).filter(|&s| s > 0);
         if let (Some(stride), Some(of)) = (stride, number) {
             let mut apart = view(views.values[of]);
-            apart.insert("byteStride".to_owned(), stride.into());
+            apart["byteStride"] = stride.into();
             number = Some(made_views.len());
-            made_views.push(apart.into());
+            made_views.push(apart);
         }
         put(&mut made, "bufferView", number);
-        made.into()
+        made
     });
     let made = made.collect();
     (made_views, made)
@@ -215,20 +206,16 @@ fn columns(accessors: &List<'_>, views: &List<'_>, buffers: &List<'_>) -> (Vec<V
 fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String, u64>) -> Value {
     let common = value.get("extensions").and_then(|all| all.get("KHR_materials_common"));
     let values = common.unwrap_or(value).get("values").unwrap_or(&Value::Null);
-    let mut pbr = Map::new();
-    pbr.insert("metallicFactor".to_owned(), 0.into());
+    let mut pbr = json!({ "metallicFactor": 0 });
     if let Some(number) = textures.number(values, "diffuse") {
-        pbr.insert("baseColorTexture".to_owned(), json!({ "index": number }));
+        pbr["baseColorTexture"] = json!({ "index": number });
     } else if let Some(colour) = values.get("diffuse").and_then(Value::as_array) {
         // Its colours are those of the screen.
         let channel = |at: usize| {
             let channel = colour.get(at).and_then(Value::as_f64).unwrap_or(1.0);
             if at < 3 { decoded(channel) } else { channel }
         };
-        pbr.insert(
-            "baseColorFactor".to_owned(),
-            json!([channel(0), channel(1), channel(2), channel(3)]),
-        );
+        pbr["baseColorFactor"] = json!([channel(0), channel(1), channel(2), channel(3)]);
     }
     let shiny = shiny(values, &mut pbr);
     for (member, key) in [
@@ -249,21 +236,18 @@ fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String,
         }
     }
     let mut made = members(value, &["name"]);
-    made.insert("pbrMetallicRoughness".to_owned(), pbr.into());
+    made["pbrMetallicRoughness"] = pbr;
     if let Some(shiny) = shiny {
-        made.insert(
-            "extensions".to_owned(),
-            json!({ "KHR_materials_pbrSpecularGlossiness": shiny }),
-        );
+        made["extensions"] = json!({ "KHR_materials_pbrSpecularGlossiness": shiny });
     }
     // Culling is a state of the technique, which is not read.
-    made.insert("doubleSided".to_owned(), true.into());
-    made.into()
+    made["doubleSided"] = true.into();
+    made
 }
 
 /// A material with a specular colour and an exponent as one of the extension that has gloss, with the diffuse part of
 /// `pbr`: of such a gloss that [`super::materials`] makes the exponent of it again.
-fn shiny(values: &Value, pbr: &mut Map<String, Value>) -> Option<Value> {
+fn shiny(values: &Value, pbr: &mut Value) -> Option<Value> {
     let channels = values.get("specular")?.as_array()?;
     let channel = |at: usize| channels.get(at).and_then(Value::as_f64).unwrap_or(0.0);
     let exponent = values.get("shininess")?.as_f64().filter(|&exponent| exponent > 0.0)?;
@@ -271,17 +255,15 @@ fn shiny(values: &Value, pbr: &mut Map<String, Value>) -> Option<Value> {
         return None;
     }
     let gloss = 1.0 - libm::pow(2.0 / (exponent + 2.0), 0.25);
-    let mut shiny = Map::new();
-    let factor = json!([decoded(channel(0)), decoded(channel(1)), decoded(channel(2))]);
-    shiny.insert("specularFactor".to_owned(), factor);
-    shiny.insert("glossinessFactor".to_owned(), gloss.into());
+    let factor = [0, 1, 2].map(|at| decoded(channel(at)));
+    let mut shiny = json!({ "specularFactor": factor, "glossinessFactor": gloss });
     for (from, to) in [("baseColorFactor", "diffuseFactor"), ("baseColorTexture", "diffuseTexture")]
     {
-        if let Some(part) = pbr.remove(from) {
-            shiny.insert(to.to_owned(), part);
+        if let Some(part) = pbr.as_object_mut().and_then(|pbr| pbr.remove(from)) {
+            shiny[to] = part;
         }
     }
-    Some(shiny.into())
+    Some(shiny)
 }
 
 /// The inverse of [`super::encoded`].

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2, DVec3};
 use rasterproof_host::limits;
-use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
@@ -98,30 +98,22 @@ pub(super) fn describe(
                 count("specular colour without gloss of material");
             }
         }
-        if other.specular_glossiness_texture.is_some() {
-            count("specular map");
-        }
-    } else if !unlit {
-        if pbr.metallic_factor > 0.0 {
-            count("metal of material");
-        }
-        if pbr.roughness_factor < 1.0 {
-            count("reflection of material");
-        }
-        if pbr.metallic_roughness_texture.is_some() {
-            count("metal and roughness map");
-        }
     }
-    if material.normal_texture.is_some() {
-        count("normal map");
-    }
-    if material.occlusion_texture.is_some() {
-        count("occlusion map");
-    }
-    if material.emissive_texture.is_some() {
-        count("emission map");
-    } else if material.emissive_factor.iter().any(|&channel| channel > 0.0) {
-        count("emission of material");
+    let is_physical = other.is_none() && !unlit;
+    let emits = material.emissive_factor.iter().any(|&channel| channel > 0.0);
+    for (key, is_there) in [
+        ("specular map", other.is_some_and(|other| other.specular_glossiness_texture.is_some())),
+        ("metal of material", is_physical && pbr.metallic_factor > 0.0),
+        ("reflection of material", is_physical && pbr.roughness_factor < 1.0),
+        ("metal and roughness map", is_physical && pbr.metallic_roughness_texture.is_some()),
+        ("normal map", material.normal_texture.is_some()),
+        ("occlusion map", material.occlusion_texture.is_some()),
+        ("emission map", material.emissive_texture.is_some()),
+        ("emission of material", material.emissive_texture.is_none() && emits),
+    ] {
+        if is_there {
+            count(key);
+        }
     }
     let threshold = f64::from(material.alpha_cutoff.unwrap_or(0.5));
     let mode = match &*material.alpha_mode {
@@ -135,12 +127,9 @@ pub(super) fn describe(
         match read {
             Ok(decoded) => Some(decoded),
             Err(cause) => {
-                let path = printable_path(pictures.path);
                 let name = printable_short(&name, 40);
-                warnings.line(
-                    &format!("{path}: textures"),
-                    &format!("{path}: {cause}; the material '{name}' is drawn in its colour"),
-                );
+                let text = format!("{cause}; the material '{name}' is drawn in its colour");
+                warnings.add(pictures.path, None, "textures", &text);
                 None
             }
         }

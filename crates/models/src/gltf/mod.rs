@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
-use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::text::printable_short;
 
 use crate::contents::{Contents, FilePart, Numbers, Polygons};
 use crate::{BadFile, Warnings, bad};
@@ -156,8 +156,7 @@ impl Reader<'_> {
     }
 
     fn warn(&mut self, kind: &str, text: &str) {
-        let path = printable_path(self.path);
-        self.warnings.line(&format!("{path}: {kind}"), &format!("{path}: {text}"));
+        self.warnings.add(self.path, None, kind, text);
     }
 
     /// Reads the meshes of all nodes of the scene.
