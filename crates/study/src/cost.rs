@@ -10,7 +10,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
 use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex, Span};
+use rasterproof_core::triangle::Span;
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
     Board, Finish, Ladder, Options, Pass, Race, Spread, Variant, measure_on, race, time, variants,
@@ -28,6 +28,7 @@ use rasterproof_verify::comparison::tolerance::SCANLINE;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
+use crate::effects::differing;
 use crate::hard::HardCases;
 use crate::memory;
 use crate::view::{NOTHING, Piece, Sampled, seen};
@@ -288,12 +289,15 @@ struct Wrong {
 /// Pieces whose coverage is compared at once.
 const CHUNK: usize = 256;
 
+fn chunks(sampled: &Sampled) -> Vec<&[Piece]> {
+    sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect()
+}
+
 /// Coverage of all pieces against the oracle, as they are and snapped; times of a sample.
 fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
     let (window, pieces) = (sampled.window, &sampled.planes[0]);
     let rungs = variants(ladder);
-    let chunks: Vec<&[Piece]> =
-        sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect();
+    let chunks = chunks(sampled);
     let of_chunks = parallel::map(chunks.len(), |number| {
         let mut wrong = vec![Wrong::default(); rungs.len()];
         for piece in chunks[number] {
@@ -406,8 +410,7 @@ fn first_difference(a: &[Span], b: &[Span]) -> Option<[i32; 2]> {
 /// the errors of both products and u times itself. A sample is decided by the edge that is farthest outside of it, or,
 /// inside, by the nearest of all.
 fn margin(sampled: &Sampled, u: f64) -> f64 {
-    let chunks: Vec<&[Piece]> =
-        sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect();
+    let chunks = chunks(sampled);
     let of_chunks = parallel::map(chunks.len(), |number| {
         let each = chunks[number].iter().map(|piece| margin_of(piece.px, sampled.window, u));
         each.fold(f64::INFINITY, f64::min)
@@ -637,13 +640,7 @@ pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
     for (number, piece) in pieces.iter().enumerate() {
         let depths = piece.triangle.vertices.map_array(|vertex| vertex.depth);
         let bound = SCANLINE.depth.at(depths);
-        let depth_only = ScreenTriangle {
-            vertices: piece.triangle.vertices.map_array(|vertex| {
-                let ScreenVertex { position, depth, inv_w, .. } = vertex;
-                ScreenVertex { position, depth, inv_w, varying: 0.0 }
-            }),
-        };
-        Scanline.runs(&depth_only, window, true, &mut |run| {
+        Scanline.runs(&piece.depth_only(), window, true, &mut |run| {
             for (x, &depth) in (run.x0_px..).zip(run.depths) {
                 let at = |frame: &Frame<f64>| frame.get(x, run.y_px).unwrap_or(f64::INFINITY);
                 let (old, reach) = (at(&nearest), bound + at(&error));
@@ -717,16 +714,9 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
         }
     }
     for (choice, picture) in choices.iter_mut().zip(&pictures) {
-        let mut wrong = 0;
-        for (y, row) in picture.rows() {
-            for ((x, colour), exact) in (window.x0..).zip(row).zip(pictures[0].row(y)) {
-                if colour != exact {
-                    wrong += 1;
-                    choice.first_wrong = choice.first_wrong.or(Some((None, [x, y])));
-                }
-            }
-        }
-        choice.errors = vec![Some(f64::from(wrong))];
+        let wrong: Vec<_> = differing(picture, &pictures[0], 0).collect();
+        choice.first_wrong = wrong.first().map(|&(x, y)| (None, [x, y]));
+        choice.errors = vec![Some(wrong.len() as f64)];
     }
     let target = RefCell::new(target);
     let mut passes = Vec::new();
@@ -768,6 +758,7 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
 mod tests {
     use super::*;
     use glam::DVec2;
+    use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
     fn piece(face: u32, px: [[f64; 2]; 3], depths: [f64; 3]) -> Piece {
         let vertices = [0, 1, 2]

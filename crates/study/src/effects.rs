@@ -156,7 +156,7 @@ fn seen_items(pieces: &[Piece], seen: &Frame<u32>) -> Frame<u32> {
 }
 
 /// Pixels in which a channel differs by more than so many steps.
-fn differing<'a>(
+pub(crate) fn differing<'a>(
     a: &'a Frame<Colour>,
     b: &'a Frame<Colour>,
     steps: u8,

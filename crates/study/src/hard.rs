@@ -21,6 +21,7 @@ use rasterproof_render::pipeline::clip::outcode;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_render::scene::{Mesh, Scene};
 
+use crate::effects::differing;
 use crate::face_of;
 use crate::shape::{Edge, SLIVER, Shape};
 use crate::view::{Piece, Sampled, pieces, seen};
@@ -209,6 +210,13 @@ impl Search<'_> {
         self.found.push(HardCase { kind, count: count as u64, pixels: 0, note, triangles: first });
     }
 
+    /// Notes faces with how bad each is, in any order; `note` gets that of the worst one.
+    fn note_worst(&mut self, kind: Kind, mut found: Vec<(f64, u32)>, note: fn(&str) -> String) {
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let worst = found.first().map_or(0.0, |(worst, _)| *worst);
+        self.note(kind, found.len(), note(&short(worst)), found.iter().map(|(_, face)| *face));
+    }
+
     fn shape(&mut self, shape: &Shape, origins: &[Origin]) {
         self.note(Kind::NoArea, shape.no_area.len(), String::new(), shape.no_area.iter().copied());
         let worst = shape.slivers.first().map_or(SLIVER, |(aspect, _)| *aspect);
@@ -282,12 +290,9 @@ impl Search<'_> {
             let [a, b, c] = piece.w;
             a.max(b).max(c) / a.min(b).min(c)
         };
-        let mut wide: Vec<(f64, u32)> =
-            self.pieces.iter().map(|p| (ratio(p), p.face)).filter(|(r, _)| *r > WIDE_W).collect();
-        wide.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let worst = wide.first().map_or(0.0, |(ratio, _)| *ratio);
-        let note = format!("the widest one has a ratio of {}", short(worst));
-        self.note(Kind::WideW, wide.len(), note, wide.iter().map(|(_, face)| *face));
+        let wide = self.pieces.iter().map(|p| (ratio(p), p.face)).filter(|(r, _)| *r > WIDE_W);
+        let note = |worst: &str| format!("the widest one has a ratio of {worst}");
+        self.note_worst(Kind::WideW, wide.collect(), note);
     }
 
     /// Faces of textured materials with a coordinate whose rounding to f32 may be half a texel.
@@ -312,10 +317,8 @@ impl Search<'_> {
                 face += 1;
             }
         }
-        far.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let worst = far.first().map_or(0.0, |(texels, _)| *texels);
-        let note = format!("the farthest one is {} texels from 0", short(worst));
-        self.note(Kind::FarTexture, far.len(), note, far.iter().map(|(_, face)| *face));
+        let note = |worst: &str| format!("the farthest one is {worst} texels from 0");
+        self.note_worst(Kind::FarTexture, far, note);
     }
 
     /// Pixels that have another colour when all triangles are drawn in the opposite order.
@@ -334,12 +337,9 @@ impl Search<'_> {
         let other = draw(&turned, target)?;
         let mut differs = Frame::new(self.window, false);
         let mut count = 0;
-        for (y, row) in picture.rows() {
-            let pairs = row.iter().zip(other.row(y)).zip(differs.row_mut(y));
-            for (_, differs) in pairs.filter(|((a, b), _)| a != b) {
-                *differs = true;
-                count += 1;
-            }
+        for (x, y) in differing(picture, &other, 0) {
+            differs.span_mut(y, x, x + 1)[0] = true;
+            count += 1;
         }
         if count > 0 {
             let mut faces = Vec::new();
@@ -403,13 +403,9 @@ impl Search<'_> {
                 }
             }
         }
-        far.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let worst = far.first().map_or(0.0, |(px, _)| *px);
-        let note = format!("the farthest corner moves by {} px", short(worst));
-        self.note(Kind::SinglePrecision, far.len(), note, far.iter().map(|(_, face)| *face));
-        let other = draw(&rounded, target)?;
-        let pairs = picture.rows().flat_map(|(y, row)| row.iter().zip(other.row(y)));
-        Ok(pairs.filter(|(a, b)| a != b).count() as u64)
+        let note = |worst: &str| format!("the farthest corner moves by {worst} px");
+        self.note_worst(Kind::SinglePrecision, far, note);
+        Ok(differing(picture, &draw(&rounded, target)?, 0).count() as u64)
     }
 
     /// For each pixel the kinds of the faces that cover its centre, and of the edges that pass through it.
@@ -539,12 +535,16 @@ mod tests {
         Item::new(mesh, material)
     }
 
-    fn kinds(items: Vec<Item>) -> (Vec<(Kind, Vec<u32>)>, HardCases) {
+    fn found(items: Vec<Item>) -> HardCases {
         let mut scene = Scene::new("test", "", perspective(1.0, 1.0, 1e-5, 1e6).unwrap());
         scene.items = items;
         let mut target = Target::new(64, 64, Antialias::None, DepthFormat::Unorm32).unwrap();
         let sampled = Sampled::of(&scene, &target).unwrap();
-        let found = find(&scene, &[], &sampled, &mut target).unwrap();
+        find(&scene, &[], &sampled, &mut target).unwrap()
+    }
+
+    fn kinds(items: Vec<Item>) -> (Vec<(Kind, Vec<u32>)>, HardCases) {
+        let found = found(items);
         let kinds = found.cases.iter().map(|case| (case.kind, case.triangles.clone()));
         (kinds.filter(|(kind, _)| *kind != Kind::Border).collect(), found)
     }
@@ -578,11 +578,7 @@ mod tests {
             let faces = [[1, 3, 2], [0, 1, 2], [0, 3, 1], [0, 2, 3]].map(face);
             mesh.triangles = faces.into_iter().collect();
             item.mesh = mesh.into();
-            let mut scene = Scene::new("test", "", perspective(1.0, 1.0, 1e-5, 1e6).unwrap());
-            scene.items = vec![item];
-            let mut target = Target::new(64, 64, Antialias::None, DepthFormat::Unorm32).unwrap();
-            let sampled = Sampled::of(&scene, &target).unwrap();
-            find(&scene, &[], &sampled, &mut target).unwrap()
+            found(vec![item])
         };
         assert!(of([0.0, -1e-4, 1e5]).cases.is_empty());
         let found = of(positions[0]);

@@ -37,6 +37,15 @@ impl Piece {
         self.triangle.corners()
     }
 
+    /// The triangle with its depths alone.
+    pub(crate) fn depth_only(&self) -> ScreenTriangle<f64> {
+        let vertices = self.triangle.vertices.map_array(|vertex| {
+            let ScreenVertex { position, depth, inv_w, .. } = vertex;
+            ScreenVertex { position, depth, inv_w, varying: 0.0 }
+        });
+        ScreenTriangle { vertices }
+    }
+
     /// The corners as they are; none beyond the domain of the engines.
     pub fn free(&self) -> Option<FreeCorners> {
         FreeCorners::new(self.px).ok()
@@ -209,13 +218,7 @@ pub fn seen(
     let mut keys = Frame::new(window, u64::MAX);
     let mut seen = Frame::new(window, NOTHING);
     for number in order {
-        let depth_only = ScreenTriangle {
-            vertices: pieces[number].triangle.vertices.map_array(|vertex| {
-                let ScreenVertex { position, depth, inv_w, .. } = vertex;
-                ScreenVertex { position, depth, inv_w, varying: 0.0 }
-            }),
-        };
-        Scanline.runs(&depth_only, window, true, &mut |run| {
+        Scanline.runs(&pieces[number].depth_only(), window, true, &mut |run| {
             let (x0, x1) = (run.x0_px, run.x1_px());
             let keys = keys.span_mut(run.y_px, x0, x1);
             let seen = seen.span_mut(run.y_px, x0, x1);
