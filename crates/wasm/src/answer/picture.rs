@@ -86,6 +86,11 @@ impl Picture {
         self.triangles.iter().map(triangle).collect()
     }
 
+    /// The corners on the lattice in pixels, for the outlines of what was drawn.
+    pub fn outlines(&self) -> Result<Vec<[[f64; 2]; 3]>, String> {
+        Ok(self.on_lattice()?.iter().map(|triangle| in_px(triangle.corners())).collect())
+    }
+
     /// The corners as they are given.
     pub fn as_given(&self) -> Result<Vec<FreeCorners>, String> {
         let corners = |t: &[Corner; 3]| FreeCorners::new(t.map(|c| [c.x, c.y]));

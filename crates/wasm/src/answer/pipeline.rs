@@ -4,7 +4,7 @@ use glam::{DVec2, DVec4};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::picture::{Picture, in_px};
+use super::picture::Picture;
 use super::pixels::{digits, lattice_engine};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::{Coverage, Frame};
@@ -139,8 +139,7 @@ impl Samples {
             let told_apart = counts.iter().filter(|&&count| count > 0 && count < of).count();
             json!({ "name": name, "of": of, "counts": counts, "toldApart": told_apart })
         });
-        let outlines: Vec<_> = list.iter().map(|t| in_px(t.corners())).collect();
-        Ok(json!({ "panels": panels, "outlines": outlines }))
+        Ok(json!({ "panels": panels, "outlines": self.picture.outlines()? }))
     }
 }
 
@@ -166,7 +165,7 @@ impl Culling {
         };
         let engine = lattice_engine(&self.by)?;
         let mut hits = Coverage::new(window, 0);
-        let (mut areas, mut outlines) = (Vec::new(), Vec::new());
+        let mut areas = Vec::new();
         for triangle in self.picture.on_lattice()? {
             let corners = triangle.corners();
             let removed = cull.removes(corners);
@@ -177,10 +176,10 @@ impl Culling {
             areas.push(json!({
                 "twiceArea": area.to_string(), "sign": area.signum(), "removed": removed,
             }));
-            outlines.push(in_px(corners));
         }
         Ok(json!({
-            "hits": digits(&hits), "covered": hits.covered(), "areas": areas, "outlines": outlines,
+            "hits": digits(&hits), "covered": hits.covered(), "areas": areas,
+            "outlines": self.picture.outlines()?,
         }))
     }
 }

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::picture::{Picture, in_px};
+use super::picture::Picture;
 use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
@@ -172,10 +172,9 @@ pub(super) struct Draw {
 impl Draw {
     pub fn answer(&self) -> Result<Value, String> {
         let (target, ties) = truth(&self.picture)?;
-        let outlines: Vec<_> = if self.picture.snap {
-            self.picture.on_lattice()?.iter().map(|t| in_px(t.corners())).collect()
-        } else {
-            self.picture.as_given()?.iter().map(FreeCorners::px).collect()
+        let outlines = match self.picture.snap {
+            true => self.picture.outlines()?,
+            false => self.picture.as_given()?.iter().map(FreeCorners::px).collect(),
         };
         let panels: Vec<_> = self.by.iter().map(|name| self.panel(name, &target)).collect();
         Ok(json!({

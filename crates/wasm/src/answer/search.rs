@@ -71,14 +71,19 @@ pub(super) fn named(name: &str) -> Result<Value, String> {
 }
 
 pub(super) fn generated(name: &str, seed: u64, index: u64) -> Result<Value, String> {
+    let (about, picture) = family(name, seed)?;
+    Ok(json!({ "name": name, "about": about, "picture": picture(index) }))
+}
+
+/// What a family is about, and its cases by their numbers, on the lattice or off it.
+fn family(name: &str, seed: u64) -> Result<(&'static str, Box<dyn Fn(u64) -> Picture>), String> {
     if let Some(family) = unsnapped::FAMILIES.iter().find(|family| family.name == name) {
-        let picture = Picture::from(&family.case(seed, index));
-        return Ok(json!({ "name": name, "about": family.about, "picture": picture }));
+        let case = move |index| Picture::from(&family.case(seed, index));
+        return Ok((family.about, Box::new(case)));
     }
     let family = cases::families().find(|family| family.name == name);
     let family = family.ok_or_else(|| format!("no family is called '{name}'"))?;
-    let picture = Picture::from(&family.case(seed, index));
-    Ok(json!({ "name": name, "about": family.about, "picture": picture }))
+    Ok((family.about, Box::new(move |index| Picture::from(&family.case(seed, index)))))
 }
 
 /// Whether somebody's pixels of a case differ from the oracle's; what is refused does not differ.
@@ -115,7 +120,7 @@ pub(super) struct Search {
 
 impl Search {
     pub fn answer(&self) -> Result<Value, String> {
-        let picture = self.cases()?;
+        let (_, picture) = family(&self.family, self.seed)?;
         if picture(0).lines().is_empty() {
             Painter::find(&self.by, picture(0).snap)?;
         } else {
@@ -129,17 +134,6 @@ impl Search {
             }
         }
         Ok(json!({ "found": null, "next": end }))
-    }
-
-    /// The cases of the family by their numbers, on the lattice or off it.
-    fn cases(&self) -> Result<Box<dyn Fn(u64) -> Picture>, String> {
-        let seed = self.seed;
-        if let Some(family) = unsnapped::FAMILIES.iter().find(|f| f.name == self.family) {
-            return Ok(Box::new(move |index| Picture::from(&family.case(seed, index))));
-        }
-        let family = cases::families().find(|family| family.name == self.family);
-        let family = family.ok_or_else(|| format!("no family is called '{}'", self.family))?;
-        Ok(Box::new(move |index| Picture::from(&family.case(seed, index))))
     }
 }
 

@@ -68,9 +68,7 @@ impl Values {
             Err(refused) => json!({ "name": name, "refused": refused }),
         };
         let panels: Vec<_> = self.by.iter().map(panel).collect();
-        let corners: Vec<_> =
-            self.picture.on_lattice()?.iter().map(|t| super::picture::in_px(t.corners())).collect();
-        Ok(json!({ "panels": panels, "outlines": corners }))
+        Ok(json!({ "panels": panels, "outlines": self.picture.outlines()? }))
     }
 }
 
@@ -126,9 +124,7 @@ impl Front {
             }
         };
         let panels: Vec<_> = self.by.iter().map(panel).collect();
-        let corners: Vec<_> =
-            self.picture.on_lattice()?.iter().map(|t| super::picture::in_px(t.corners())).collect();
-        Ok(json!({ "panels": panels, "outlines": corners }))
+        Ok(json!({ "panels": panels, "outlines": self.picture.outlines()? }))
     }
 }
 

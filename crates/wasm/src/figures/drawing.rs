@@ -4,7 +4,7 @@ use std::fmt::{Arguments, Write as _};
 
 use glam::DVec3;
 
-use super::Given;
+use super::{Given, fill};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::target::to_colour;
@@ -14,59 +14,29 @@ pub(super) type Point = [f64; 2];
 /// Every drawing is as wide as a telephone shows without scaling it down much.
 pub(super) const WIDTH: f64 = 360.0;
 
-struct Palette {
-    paper: &'static str,
-    grid: &'static str,
-    ink: &'static str,
-    soft: &'static str,
-    on: &'static str,
-    miss: &'static str,
-    extra: &'static str,
-    twice: &'static str,
-    one: &'static str,
-    two: &'static str,
-    grip: &'static str,
-}
+/// The colours by their names in [`RULES`], on light and on dark paper.
+const COLOURS: [(&str, [&str; 2]); 11] = [
+    ("paper", ["#fbfbf8", "#1b1f24"]),
+    ("grid", ["#c3c6c0", "#444b54"]),
+    ("ink", ["#24292f", "#e6edf3"]),
+    ("soft", ["#6b727a", "#9aa3ad"]),
+    ("on", ["#a3aeb7", "#6a7681"]),
+    ("miss", ["#e07070", "#b03a3a"]),
+    ("extra", ["#f0a028", "#a8691a"]),
+    ("twice", ["#b878d8", "#8a48b0"]),
+    ("one", ["#7fb2f0", "#3f74b8"]),
+    ("two", ["#f2b66d", "#a06a24"]),
+    ("grip", ["#0b57d0", "#7fb0ff"]),
+];
 
-const LIGHT: Palette = Palette {
-    paper: "#fbfbf8",
-    grid: "#c3c6c0",
-    ink: "#24292f",
-    soft: "#6b727a",
-    on: "#a3aeb7",
-    miss: "#e07070",
-    extra: "#f0a028",
-    twice: "#b878d8",
-    one: "#7fb2f0",
-    two: "#f2b66d",
-    grip: "#0b57d0",
-};
+const RULES: &str = ".paper{fill:{paper}}.grid{fill:none;stroke:{grid}}.ink{fill:none;stroke:{ink};stroke-width:2}\
+    .soft{fill:none;stroke:{soft};stroke-width:1.5;stroke-dasharray:5 4}.dot{fill:{ink}}\
+    .on{fill:{on}}.miss{fill:{miss}}.extra{fill:{extra}}.twice{fill:{twice}}\
+    .dark{fill:#3d4a57}.pale{fill:#e8c48a}.one{fill:{one}}.two{fill:{two}}.grip{fill:{grip};stroke:{paper};stroke-width:2}\
+    text{fill:{ink};font:15px sans-serif}";
 
-const DARK: Palette = Palette {
-    paper: "#1b1f24",
-    grid: "#444b54",
-    ink: "#e6edf3",
-    soft: "#9aa3ad",
-    on: "#6a7681",
-    miss: "#b03a3a",
-    extra: "#a8691a",
-    twice: "#8a48b0",
-    one: "#3f74b8",
-    two: "#a06a24",
-    grip: "#7fb0ff",
-};
-
-impl Palette {
-    fn rules(&self) -> String {
-        let Self { paper, grid, ink, soft, on, miss, extra, twice, one, two, grip } = self;
-        format!(
-            ".paper{{fill:{paper}}}.grid{{fill:none;stroke:{grid}}}.ink{{fill:none;stroke:{ink};stroke-width:2}}\
-             .soft{{fill:none;stroke:{soft};stroke-width:1.5;stroke-dasharray:5 4}}.dot{{fill:{ink}}}\
-             .on{{fill:{on}}}.miss{{fill:{miss}}}.extra{{fill:{extra}}}.twice{{fill:{twice}}}\
-             .dark{{fill:#3d4a57}}.pale{{fill:#e8c48a}}.one{{fill:{one}}}.two{{fill:{two}}}.grip{{fill:{grip};stroke:{paper};stroke-width:2}}\
-             text{{fill:{ink};font:15px sans-serif}}"
-        )
-    }
+fn rules(is_dark: bool) -> String {
+    fill(RULES, &COLOURS.map(|(name, colours)| (name, colours[usize::from(is_dark)].to_owned())))
 }
 
 /// Pixels of a window as squares on the drawing.
@@ -303,7 +273,7 @@ impl Drawing {
 
     pub fn inline(&self, is_dark: bool) -> String {
         let (Self { height, body, .. }, pixels) = (self, self.pixels());
-        let rules = if is_dark { DARK } else { LIGHT }.rules();
+        let rules = rules(is_dark);
         format!(
             "<svg viewBox=\"0 0 {WIDTH} {height}\" aria-hidden=\"true\"><style>{rules}</style>\
              <rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\"/>{pixels}{body}</svg>"
@@ -313,7 +283,7 @@ impl Drawing {
     /// The picture as a file, which is legible on light and on dark pages.
     pub fn file(&self) -> String {
         let (Self { height, body, .. }, pixels) = (self, self.pixels());
-        let (light, dark) = (LIGHT.rules(), DARK.rules());
+        let (light, dark) = (rules(false), rules(true));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
              width=\"{WIDTH}\" height=\"{height}\">\n\

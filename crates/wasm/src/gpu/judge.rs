@@ -555,21 +555,23 @@ mod tests {
         );
     }
 
+    /// What a device draws that rounds positions to a step, in one of the [`ROUNDINGS`].
+    fn rounding(step: i32, round: usize) -> impl Fn(&Subject, &mut Planes) {
+        move |subject: &Subject, planes: &mut Planes| {
+            planes[0].fill(0);
+            for c in subject.corners() {
+                let round = |v| ROUNDINGS[round].1(v, step);
+                let snapped = c.map(|p| SubpixelPoint::new(round(p.x), round(p.y)));
+                cover(&snapped, RULES[0], [0, 0], 16, &mut planes[0]);
+            }
+        }
+    }
+
     /// A device that rounds half up to 1/16 px, one that rounds to 1/8, and one that cuts off.
     #[test]
     fn a_lattice_is_recognised() {
-        let device = |step: i32, round: usize| {
-            move |subject: &Subject, planes: &mut Planes| {
-                planes[0].fill(0);
-                for c in subject.corners() {
-                    let round = |v| ROUNDINGS[round].1(v, step);
-                    let snapped = c.map(|p| SubpixelPoint::new(round(p.x), round(p.y)));
-                    cover(&snapped, RULES[0], [0, 0], 16, &mut planes[0]);
-                }
-            }
-        };
         let found = |interface: &str, step, round| {
-            let answer = answer("lattice", interface, json!({}), &device(step, round));
+            let answer = answer("lattice", interface, json!({}), &rounding(step, round));
             [
                 answer["word"].clone(),
                 answer["facts"]["bits"].clone(),
@@ -584,14 +586,7 @@ mod tests {
     /// A lattice that is too coarse is shown by a case that no finer one explains, which breaks no promise alone.
     #[test]
     fn a_coarse_lattice_is_shown() {
-        let coarse = |subject: &Subject, planes: &mut Planes| {
-            planes[0].fill(0);
-            for c in subject.corners() {
-                let round = |v| nearest(v, 32, |_| true);
-                let snapped = c.map(|p| SubpixelPoint::new(round(p.x), round(p.y)));
-                cover(&snapped, RULES[0], [0, 0], 16, &mut planes[0]);
-            }
-        };
+        let coarse = rounding(32, 1);
         let found = answer("lattice", "webgl2", json!({}), &coarse)["broken"].clone();
         let smaller = answer("lattice", "webgl2", json!({ "smaller": found }), &coarse);
         let only = json!({ "only": smaller["broken"] });
@@ -634,21 +629,25 @@ mod tests {
         assert!(px.iter().all(|px| *px <= 2), "{subject:?}");
     }
 
-    /// The smallest case of the first that a device draws wrongly.
-    fn smallest(check: &str, draws: &dyn Fn(&Subject, &mut Planes)) -> Vec<Vec<Vertex>> {
-        let found = |more: Value| answer(check, "webgl2", more, draws)["broken"].clone();
-        let all = batch(check, "webgl2", json!({})).subjects().unwrap().1;
-        let mut wrong =
-            all.into_iter().map(|s| found(json!({ "only": s }))).filter(|s| !s.is_null());
-        let mut subject = wrong.next().unwrap();
-        for _ in 0..200 {
-            let next = found(json!({ "smaller": subject }));
+    /// Goes on from a case to the next smaller one that still fails, up to so many times.
+    fn shrunk(mut subject: Value, most: usize, next: impl Fn(&Value) -> Value) -> Vec<Vec<Vertex>> {
+        for _ in 0..most {
+            let next = next(&subject);
             if next.is_null() {
                 break;
             }
             subject = next;
         }
         from_value::<Subject>(subject).unwrap().0
+    }
+
+    /// The smallest case of the first that a device draws wrongly.
+    fn smallest(check: &str, draws: &dyn Fn(&Subject, &mut Planes)) -> Vec<Vec<Vertex>> {
+        let found = |more: Value| answer(check, "webgl2", more, draws)["broken"].clone();
+        let all = batch(check, "webgl2", json!({})).subjects().unwrap().1;
+        let mut wrong =
+            all.into_iter().map(|s| found(json!({ "only": s }))).filter(|s| !s.is_null());
+        shrunk(wrong.next().unwrap(), 200, |subject| found(json!({ "smaller": subject })))
     }
 
     /// The planted faults of each kind of subject lead to cases of so many shapes, in so many px.
@@ -761,15 +760,9 @@ mod tests {
         assert_eq!(valued(json!({}), false)["word"], "promised");
         let wrong = valued(json!({}), true);
         assert_eq!(wrong["word"], "broken");
-        let mut subject = wrong["broken"].clone();
-        for _ in 0..60 {
-            let next = valued(json!({ "smaller": subject }), true)["broken"].clone();
-            if next.is_null() {
-                break;
-            }
-            subject = next;
-        }
-        let found = from_value::<Subject>(subject).unwrap().0;
+        let smaller =
+            |subject: &Value| valued(json!({ "smaller": subject }), true)["broken"].clone();
+        let found = shrunk(wrong["broken"].clone(), 60, smaller);
         let (shapes, px, ..) = size(&found);
         assert!(shapes == 1 && px <= 4, "{found:?}");
     }
