@@ -15,8 +15,6 @@ pub enum Escape {
     WordsAndColours,
     /// As `\u001b`, which JSON reads as the same character.
     Json,
-    /// Not at all: a planted fault of the line protocol prints such characters on purpose.
-    Kept,
 }
 
 /// Passes text on without hidden characters, but for ends of lines and tabs.
@@ -70,8 +68,7 @@ fn colour_length(text: &str) -> usize {
 impl Write for Guarded<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let is_plain = |byte: &u8| matches!(byte, b'\n' | b'\t' | b' '..=b'~');
-        let passes = self.begun.is_empty() && bytes.iter().all(is_plain);
-        if passes || self.escape == Escape::Kept {
+        if self.begun.is_empty() && bytes.iter().all(is_plain) {
             self.inner.write_all(bytes)?;
             return Ok(bytes.len());
         }

@@ -17,7 +17,6 @@ mod inspect_case;
 mod invariant;
 mod judge;
 mod league;
-mod misbehave;
 mod page;
 mod plan;
 mod plan_table;
@@ -95,9 +94,6 @@ enum Command {
         /// The engine that answers
         #[arg(value_parser = engine::names())]
         name: String,
-        /// Break the protocol, to see the judge notice
-        #[arg(long, value_name = "FAULT", hide = true)]
-        plant: Option<misbehave::Fault>,
     },
     /// Judge any program that speaks the line protocol: rasterproof judge -- CMD
     #[command(after_help = help!("judge"))]
@@ -305,14 +301,12 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let command = arguments.command.unwrap_or(Command::Unnamed(arguments.verify));
     let for_machines = is_for_machines(&command, &words);
     let escape = match (for_machines, colour) {
-        _ if matches!(command, Command::Engine { plant: Some(_), .. }) => Escape::Kept,
         (true, _) => Escape::Json,
         (false, true) => Escape::WordsAndColours,
         (false, false) => Escape::Words,
     };
     let errors = &mut Delivered::new(streams.errors, &delivery);
-    let escape_errors = if escape == Escape::Kept { escape } else { Escape::Words };
-    let errors = &mut Guarded::new(errors, escape_errors);
+    let errors = &mut Guarded::new(errors, Escape::Words);
     if uses_pool(&command) {
         threads::prepare(errors);
     }
@@ -393,8 +387,7 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
         Command::Unnamed(arguments) => verify::run(arguments, typed, streams),
         Command::Verify(arguments) => verify::run_command(arguments, typed, streams),
         Command::Inspect(arguments) => inspect::run(arguments, typed, streams),
-        Command::Engine { name, plant: None } => engine::run(name, streams),
-        Command::Engine { name, plant: Some(fault) } => misbehave::run(name, *fault, streams),
+        Command::Engine { name } => engine::run(name, streams),
         Command::Judge(arguments) => judge::run(arguments, typed, streams),
         Command::Course(arguments) => course::run(arguments, streams),
         Command::Specimens(arguments) => specimens::run(arguments, typed, streams),

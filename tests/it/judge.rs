@@ -19,6 +19,7 @@ use rasterproof_judge::{Options, judge};
 use rasterproof_registry::engines::{self, SPECIMENS};
 use rayon::prelude::*;
 
+use crate::misbehave;
 use crate::program::{PROGRAM, Run, check, shared};
 
 pub fn options(cases: u64, families: &[&str]) -> Options {
@@ -44,6 +45,10 @@ fn process(words: &[&str], answer_ms: u64) -> Result<Program, Misbehaviour> {
     let command: Vec<String> =
         [PROGRAM, "engine"].iter().chain(words).map(|word| (*word).to_owned()).collect();
     Program::start(&command, &[], limits(answer_ms))
+}
+
+fn misbehaving(fault: &str, limits: Limits) -> Result<Program, Misbehaviour> {
+    Program::start(&misbehave::command("scanline", fault), &[], limits)
 }
 
 pub fn property(verdict: &Verdict, name: &str) -> Outcome {
@@ -132,7 +137,7 @@ fn judge_names_misbehaviour() {
         ("forks", "exits early"),
         ("moody", "crashes"),
     ] {
-        let program = process(&["scanline", "--plant", fault], 400).unwrap();
+        let program = misbehaving(fault, limits(400)).unwrap();
         let verdict = judged(Box::new(program), &options(64, &["half-integer", "uniform"]));
         let incidents = verdict.found.incidents.iter().map(|i| &i.what);
         let words: Vec<_> =
@@ -178,11 +183,8 @@ fn judge_refuses_who_never_says_hello() {
         ("dead", "never says HELLO", "it exits: with status 7"),
         ("babbles", "floods its output", "bytes before HELLO, at last it says still loading"),
     ] {
-        let command = [PROGRAM, "engine", "scanline", "--plant", fault].map(str::to_owned);
         let limits = Limits { start: Duration::from_millis(700), ..limits(200) };
-        let Err(misbehaviour) = Program::start(&command, &[], limits) else {
-            panic!("{fault} says no HELLO")
-        };
+        let Err(misbehaviour) = misbehaving(fault, limits) else { panic!("{fault} says no HELLO") };
         assert_eq!(misbehaviour.breach.name(), word, "{fault}");
         assert!(misbehaviour.to_string().contains(said), "{fault}: {misbehaviour}");
     }
@@ -195,7 +197,7 @@ fn judge_refuses_who_never_says_hello() {
 #[test]
 fn judge_bears_with_old_and_loud_programs() {
     for plant in ["old", "chatty", "noisy"] {
-        let program = process(&["scanline", "--plant", plant], 20_000).unwrap();
+        let program = misbehaving(plant, limits(20_000)).unwrap();
         assert_eq!(program.declared().version, if plant == "old" { 1 } else { 2 });
         let verdict = judged(Box::new(program), &options(64, &["half-integer"]));
         assert!(verdict.agrees(), "{plant}");
@@ -389,6 +391,13 @@ pub fn of<'a>(options: &[&'a str], engine: &[&'a str]) -> Vec<&'a str> {
     [&["judge", "--cases", "40"], options, &["--", PROGRAM, "engine"], engine].concat()
 }
 
+/// The command that judges a program that misbehaves.
+fn of_misbehaving(options: &[&str], engine: &str, fault: &str) -> Vec<String> {
+    let words = [&["judge", "--cases", "40"], options, &["--"]].concat();
+    let command = misbehave::command(engine, fault);
+    words.into_iter().map(str::to_owned).chain(command).collect()
+}
+
 /// The text is what a student reads: stages, both scores, the smallest case with its picture, and a
 /// command that repeats it.
 #[test]
@@ -410,10 +419,8 @@ fn judge_prints_a_verdict() {
     let words = repeat.trim().trim_start_matches("repeat with: rasterproof ");
     check(words.split(' ').collect::<Vec<_>>(), 1).prints("half-integer: 1 missing");
     // What a program says cannot command the terminal.
-    let plant = ["scanline", "--plant", "nonsense"];
-    let out = check(of(&["--family", "half-integer"], &plant), 1)
-        .prints("debug: \\u{1b}[31mx = 3\\u{7}")
-        .out;
+    let nonsense = of_misbehaving(&["--family", "half-integer"], "scanline", "nonsense");
+    let out = check(nonsense, 1).prints("debug: \\u{1b}[31mx = 3\\u{7}").out;
     assert!(out.chars().all(|c| c == '\n' || !c.is_control()));
     let words = of(&["--declare", "grid=3 dance"], &["scanline"]);
     check(&words, 0).prints("not understood, left aside: grid=3 dance");
@@ -518,7 +525,7 @@ fn judge_writes_a_page() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn judge_is_bounded_itself() {
-    let words = of(&["--family", "fan"], &["scanline-exact", "--plant", "bloats"]);
+    let words = of_misbehaving(&["--family", "fan"], "scanline-exact", "bloats");
     let line = "ulimit -v 700000 && exec \"$@\"";
     let mut command = Command::new("sh");
     command.args(["-c", line, "sh", PROGRAM]).args(words).current_dir(&**shared());
@@ -570,7 +577,7 @@ fn judge_tells_what_leaves_the_window() {
 #[test]
 fn judge_leaves_nothing_running() {
     use rustix::process::{Pid, Signal, kill_process};
-    let words = of(&["--timeout", "600"], &["scanline", "--plant", "stalls"]);
+    let words = of_misbehaving(&["--timeout", "600"], "scanline", "stalls");
     let mut command = shared().command(words);
     let mut child = command.stdout(std::process::Stdio::null()).spawn().unwrap();
     let of_it = format!("/proc/{0}/task/{0}/children", child.id());

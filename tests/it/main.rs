@@ -28,6 +28,7 @@ mod languages;
 mod league;
 mod live_figures;
 mod matrix;
+mod misbehave;
 mod model_files;
 mod model_formats;
 mod models;
