@@ -4,7 +4,7 @@
 //! them are wrong. Predictions are computed from the request alone: by [`rasterproof_convention`] where a convention is
 //! mistaken, and here for the rest. A program with two mistakes at once follows none of them, and nothing is named.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3, IVec2, Vec3Swizzles as _};
 
 use rasterproof_convention::{
     Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
@@ -137,11 +137,11 @@ const KNOWN: &[Known] = known![
 
     "one-division", "you divide the attributes by w and never by the interpolated 1/w",
     "An attribute is 1 at all three corners, which have w = 2. What does your formula give inside?",
-    [|q, t| attributes(q, t, |l, w| [0, 1, 2].map(|i| l[i] / w[i]))];
+    [|q, t| attributes(q, t, |l, w| l / w)];
 
     "times-w", "you multiply by w where you should divide",
     "Which of two corners should count more in the middle of the window: the near one with w = 1 or the far one with w = 3?",
-    [|q, t| attributes(q, t, |l, w| mean([0, 1, 2].map(|i| l[i] * w[i])))];
+    [|q, t| attributes(q, t, |l, w| mean(l * w))];
 
     "transposed-matrix", "the matrix that gives your weights is transposed",
     "A matrix takes a point to its three weights. Are the corners its rows or its columns, and what does it make of corner a?",
@@ -157,17 +157,17 @@ const KNOWN: &[Known] = known![
 
     "depth-not-divided", "your depths are not divided by the area, so that large triangles seem far",
     "A triangle has z = 0.5 at all corners. What does your sum give before the division by its area?",
-    [|q, t| deepest(q, t, |l, z, area| (0..3).map(|i| l[i] * z[i]).sum::<f64>() * area.abs()),
-     |q, t| depths(q, t, |l, z, _, area| dot(l, z) * area),
-     |q, t| depths(q, t, |l, z, _, area| dot(l, z) * area.abs())];
+    [|q, t| deepest(q, t, |l, z, area| l.dot(z) * area.abs()),
+     |q, t| depths(q, t, |l, z, _, area| l.dot(z) * area),
+     |q, t| depths(q, t, |l, z, _, area| l.dot(z) * area.abs())];
 
     "depth-divided-twice", "you divide z by w again: the z of the request has been divided already",
     "z / w is linear in the window. What is linear about z / w / w?",
-    [|q, t| depths(q, t, |l, z, w, _| (0..3).map(|i| l[i] * z[i] / w[i]).sum())];
+    [|q, t| depths(q, t, |l, z, w, _| (l * z / w).element_sum())];
 
     "depth-in-perspective", "you interpolate z in perspective, like an attribute",
     "a is linear in space, z / w is linear in the window. Which of the two kinds is the z of the request?",
-    [|q, t| depths(q, t, |l, z, w, _| dot(mean([0, 1, 2].map(|i| l[i] / w[i])), z))];
+    [|q, t| depths(q, t, |l, z, w, _| mean(l / w).dot(z))];
 
     "last-wins", "the triangle that is drawn last is seen, whatever its depth",
     "Draw the near triangle first and the far one after it. Which one should be seen?",
@@ -401,44 +401,32 @@ fn boxed(question: &Question) -> Option<Answer> {
     };
     let ((x0_px, x1_px), (y0, y1)) =
         (ends(|p| p.x, question.width)?, ends(|p| p.y, question.height)?);
-    if edge(corners, 0) + edge(corners, 1) + edge(corners, 2) == 0.0 || x0_px >= x1_px {
+    if weights(corners, DVec2::ZERO).0 == 0.0 || x0_px >= x1_px {
         return None;
     }
     Some(Answer::Coverage((y0..y1).map(|y_px| Span { y_px, x0_px, x1_px }).collect()))
 }
 
-/// The edge function of a corner's opposite edge at the origin, in pixels squared.
-fn edge(corners: &Corners, corner: usize) -> f64 {
-    edge_at(corners, corner, [0.0, 0.0])
-}
-
-fn edge_at(corners: &Corners, corner: usize, p: [f64; 2]) -> f64 {
-    let at = |i: usize| {
-        let (x, y) = corners[i % 3].to_px();
-        [x, y]
-    };
+/// The edge function of a corner's opposite edge at a point, in pixels squared.
+fn edge_at(corners: &Corners, corner: usize, p: DVec2) -> f64 {
+    let at = |i: usize| DVec2::from(corners[i % 3].to_px());
     let (a, b) = (at(corner + 1), at(corner + 2));
-    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+    (b - a).perp_dot(p - a)
 }
 
 /// Twice the signed area, and the weights at a point.
-fn weights(corners: &Corners, p: [f64; 2]) -> (f64, [f64; 3]) {
-    let edges = [0, 1, 2].map(|i| edge_at(corners, i, p));
-    let area = edges[0] + edges[1] + edges[2];
-    (area, edges.map(|e| e / area))
+fn weights(corners: &Corners, p: DVec2) -> (f64, DVec3) {
+    let edges = DVec3::from([0, 1, 2].map(|i| edge_at(corners, i, p)));
+    let area = edges.element_sum();
+    (area, edges / area)
 }
 
-fn centre(x: i32, y: i32) -> [f64; 2] {
-    [f64::from(x) + 0.5, f64::from(y) + 0.5]
+fn centre(x: i32, y: i32) -> DVec2 {
+    IVec2::new(x, y).as_dvec2() + 0.5
 }
 
-fn dot(l: [f64; 3], v: [f64; 3]) -> f64 {
-    l[0] * v[0] + l[1] * v[1] + l[2] * v[2]
-}
-
-fn mean(l: [f64; 3]) -> [f64; 3] {
-    let sum: f64 = l.iter().sum();
-    l.map(|l| l / sum)
+fn mean(l: DVec3) -> DVec3 {
+    l / l.element_sum()
 }
 
 /// The right fragments with their values computed anew.
@@ -453,20 +441,24 @@ fn values(
     Some(Answer::Values(fragments))
 }
 
-fn ws(triangle: &Triangle) -> [f64; 3] {
-    triangle.vertices.each_ref().map(|v| 1.0 / v.inv_w)
+fn ws(triangle: &Triangle) -> DVec3 {
+    triangle.vertices.each_ref().map(|v| 1.0 / v.inv_w).into()
 }
 
-fn varyings(triangle: &Triangle, weights: [f64; 3]) -> DVec2 {
+fn zs(triangle: &Triangle) -> DVec3 {
+    triangle.vertices.each_ref().map(|v| v.depth).into()
+}
+
+fn varyings(triangle: &Triangle, weights: DVec3) -> DVec2 {
     let v = &triangle.vertices;
-    v[0].varying * weights[0] + v[1].varying * weights[1] + v[2].varying * weights[2]
+    v[0].varying * weights.x + v[1].varying * weights.y + v[2].varying * weights.z
 }
 
 /// Attributes by other weights; depths as they should be.
 fn attributes(
     question: &Question,
     truth: &Truth,
-    weigh: fn([f64; 3], [f64; 3]) -> [f64; 3],
+    weigh: fn(DVec3, DVec3) -> DVec3,
 ) -> Option<Answer> {
     values(question, truth, &|triangle, f| {
         let (_, l) = weights(&triangle.corners(), centre(f.x_px, f.y_px));
@@ -478,11 +470,11 @@ fn attributes(
 fn depths(
     question: &Question,
     truth: &Truth,
-    depth: fn([f64; 3], [f64; 3], [f64; 3], f64) -> f64,
+    depth: fn(DVec3, DVec3, DVec3, f64) -> f64,
 ) -> Option<Answer> {
     values(question, truth, &|triangle, f| {
         let (area, l) = weights(&triangle.corners(), centre(f.x_px, f.y_px));
-        f.depth = depth(l, triangle.vertices.each_ref().map(|v| v.depth), ws(triangle), area);
+        f.depth = depth(l, zs(triangle), ws(triangle), area);
     })
 }
 
@@ -490,41 +482,37 @@ fn depths(
 fn by_weights(
     question: &Question,
     truth: &Truth,
-    weigh: &dyn Fn(&Corners, [i32; 2]) -> [f64; 3],
+    weigh: &dyn Fn(&Corners, DVec2) -> DVec3,
 ) -> Option<Answer> {
     values(question, truth, &|triangle, f| {
-        let l = weigh(&triangle.corners(), [f.x_px, f.y_px]);
-        f.depth = dot(l, triangle.vertices.each_ref().map(|v| v.depth));
-        let w = ws(triangle);
-        f.varying = varyings(triangle, mean([0, 1, 2].map(|i| l[i] / w[i])));
+        let l = weigh(&triangle.corners(), centre(f.x_px, f.y_px));
+        f.depth = l.dot(zs(triangle));
+        f.varying = varyings(triangle, mean(l / ws(triangle)));
     })
 }
 
 fn corner_values(question: &Question, truth: &Truth) -> Option<Answer> {
-    by_weights(question, truth, &|corners, [x, y]| weights(corners, [f64::from(x), f64::from(y)]).1)
+    by_weights(question, truth, &|corners, centre| weights(corners, centre - 0.5).1)
 }
 
 /// The second and the third weight exchanged where the area is negative.
 fn swapped_weights(question: &Question, truth: &Truth) -> Option<Answer> {
-    by_weights(question, truth, &|corners, [x, y]| {
-        let (area, [a, b, c]) = weights(corners, centre(x, y));
-        if area < 0.0 { [a, c, b] } else { [a, b, c] }
+    by_weights(question, truth, &|corners, centre| {
+        let (area, l) = weights(corners, centre);
+        if area < 0.0 { l.xzy() } else { l }
     })
 }
 
 /// The inverse of the matrix with the corners as columns, multiplied from the wrong side.
 fn transposed_weights(question: &Question, truth: &Truth) -> Option<Answer> {
-    by_weights(question, truth, &|corners, [x, y]| {
+    by_weights(question, truth, &|corners, centre| {
         // The rows of the inverse: what each weight is of x, y and 1.
-        let row = |i: usize| {
+        let [a, b, c] = [0, 1, 2].map(|i| {
             let at = |p| edge_at(corners, i, p);
-            let constant = at([0.0, 0.0]);
-            [at([1.0, 0.0]) - constant, at([0.0, 1.0]) - constant, constant]
-        };
-        let rows = [row(0), row(1), row(2)];
-        let area = rows[0][2] + rows[1][2] + rows[2][2];
-        let [cx, cy] = centre(x, y);
-        [0, 1, 2].map(|k| (rows[0][k] * cx + rows[1][k] * cy + rows[2][k]) / area)
+            let constant = at(DVec2::ZERO);
+            DVec3::new(at(DVec2::X) - constant, at(DVec2::Y) - constant, constant)
+        });
+        (a * centre.x + b * centre.y + c) / (a.z + b.z + c.z)
     })
 }
 
@@ -533,14 +521,14 @@ type Choose = fn(&[(usize, f64)], &[Triangle]) -> Option<(usize, f64)>;
 
 /// Which triangle a program shows at each pixel, of those that cover it with their depths there.
 fn pile(question: &Question, truth: &Truth, choose: Choose) -> Option<Answer> {
-    pile_by(question, truth, choose, |l, z, _| dot(l, z))
+    pile_by(question, truth, choose, |l, z, _| l.dot(z))
 }
 
 /// The least of depths that are computed by another formula.
 fn deepest(
     question: &Question,
     truth: &Truth,
-    depth: fn([f64; 3], [f64; 3], f64) -> f64,
+    depth: fn(DVec3, DVec3, f64) -> f64,
 ) -> Option<Answer> {
     let least = |found: &[(usize, f64)], _: &[Triangle]| {
         found.iter().copied().reduce(|a, b| if b.1 < a.1 { b } else { a })
@@ -552,7 +540,7 @@ fn pile_by(
     question: &Question,
     truth: &Truth,
     choose: Choose,
-    depth: fn([f64; 3], [f64; 3], f64) -> f64,
+    depth: fn(DVec3, DVec3, f64) -> f64,
 ) -> Option<Answer> {
     let Asked::Depth(list) = &question.of else { return None };
     let window = PixelRect::window(question.width, question.height);
@@ -571,7 +559,7 @@ fn pile_by(
         let found: Vec<_> = covering
             .map(|(t, _)| {
                 let (area, l) = weights(&list[t].corners(), centre(x, y));
-                (t, depth(l, list[t].vertices.each_ref().map(|v| v.depth), area))
+                (t, depth(l, zs(&list[t]), area))
             })
             .collect();
         if let Some((t, _)) = choose(&found, list) {

@@ -241,11 +241,7 @@ impl Studio<'_> {
             whole.outlines(&run, &mut |outline| surfaces.push(whole.surface(&outline)));
             let weights = [DVec2::X, DVec2::Y, DVec2::ZERO];
             let asked = surfaces.iter().map(|surface| {
-                let mut corners = surface.corners.into_iter().zip(weights);
-                let vertices = std::array::from_fn(|_| {
-                    let (corner, weight) = corners.next().expect("there are three");
-                    corner.with_varying(weight)
-                });
+                let vertices = [0, 1, 2].map(|i| surface.corners[i].with_varying(weights[i]));
                 Asked::Values(Triangle { vertices })
             });
             let answers = self.ask(width, height, asked.collect());

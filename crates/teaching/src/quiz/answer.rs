@@ -34,10 +34,6 @@ impl Answer {
         Self::Choice(right[0])
     }
 
-    pub(super) fn count(value: u64) -> Self {
-        Self::Number { value: value as f64, decimals: 0 }
-    }
-
     /// As it is printed: a letter, a pixel or a number.
     pub fn text(&self) -> String {
         match *self {
@@ -171,7 +167,7 @@ mod tests {
         assert!(right.iter().all(|word| third.accepts(given(word))));
         assert!(!["0.32", "0.34", "-1/3", "33"].iter().any(|word| third.accepts(given(word))));
         assert!(["1/0", "nan", "inf", "x", "3,3"].iter().all(|w| read(&third, w).is_err()));
-        let whole = Answer::count(4);
+        let whole = Answer::Number { value: 4.0, decimals: 0 };
         assert!(whole.accepts(Given::Number(4.0)) && !whole.accepts(Given::Number(4.4)));
         let pixel = Answer::Pixel([4, -2]);
         assert!(pixel.accepts(read(&pixel, "4,-2").unwrap()));

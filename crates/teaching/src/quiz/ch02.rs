@@ -10,7 +10,6 @@ use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_faults::published::games101_strict::Games101Strict;
 use rasterproof_faults::published::sysu_inclusive::SysuInclusive;
-use rasterproof_report::ascii;
 
 solvers!(longer, halfway, twice, holes, owned);
 
@@ -24,7 +23,7 @@ fn line(from: [i32; 2], to: [i32; 2], window: PixelRect) -> Coverage {
 
 fn longer(_: &[Text]) -> Solution {
     let lit = line([0, 0], [3, 9], PixelRect::window(4, 10));
-    Solution::new(Answer::count(lit.covered())).grid("0,0 3,9", ascii::grid(&lit, &lit))
+    Solution::count(lit.covered()).grid("0,0 3,9", &lit, &lit)
 }
 
 fn halfway(_: &[Text]) -> Solution {
@@ -33,7 +32,7 @@ fn halfway(_: &[Text]) -> Solution {
     let row = (0..4).find(|&y| hits(&there, [4, y]) > 0).expect("every column is lit");
     // Either direction must light it.
     assert_eq!(there, back, "a line does not depend on its direction");
-    Solution::new(Answer::Pixel([4, row])).grid("0,0 8,3", ascii::grid(&there, &there))
+    Solution::new(Answer::Pixel([4, row])).grid("0,0 8,3", &there, &there)
 }
 
 /// A square of two halves with its corners on centres.
@@ -47,10 +46,10 @@ fn twice(choices: &[Text]) -> Solution {
     let twice = |text: &Text| pixel(&text[0]).is_some_and(|p| hits(&inclusive, p) == 2);
     let all: Vec<_> = choices.iter().map(twice).collect();
     let doubles = inclusive.rows().flat_map(|(_, row)| row).filter(|&&n| n == 2).count();
-    Solution::new(Answer::only(&all))
+    Solution::choice(&all)
         .figure(doubles)
-        .grid("sysu-inclusive", ascii::grid(&inclusive, &right))
-        .grid("oracle", ascii::grid(&right, &right))
+        .grid("sysu-inclusive", &inclusive, &right)
+        .grid("oracle", &right, &right)
 }
 
 fn holes(_: &[Text]) -> Solution {
@@ -64,11 +63,11 @@ fn holes(_: &[Text]) -> Solution {
         c.rows().zip(right.rows()).any(|((_, a), (_, t))| a.iter().zip(t).any(is_hole))
     };
     let all = [&strict, &inclusive, &right].map(has_hole);
-    Solution::new(Answer::only(&all))
+    Solution::choice(&all)
         .figure(right.covered() - strict.covered())
-        .grid("games101-strict", ascii::grid(&strict, &right))
-        .grid("sysu-inclusive", ascii::grid(&inclusive, &right))
-        .grid("oracle", ascii::grid(&right, &right))
+        .grid("games101-strict", &strict, &right)
+        .grid("sysu-inclusive", &inclusive, &right)
+        .grid("oracle", &right, &right)
 }
 
 const RIGHT_ANGLE: Px = [[0.5, 0.5], [4.5, 0.5], [0.5, 4.5]];
@@ -79,9 +78,9 @@ fn owned(_: &[Text]) -> Solution {
     let strict = Games101Strict { whole_samples: false, true_w: false };
     let strict = published(&strict, &[RIGHT_ANGLE], window);
     let inclusive = published(&SysuInclusive, &[RIGHT_ANGLE], window);
-    Solution::new(Answer::count(right.covered()))
+    Solution::count(right.covered())
         .figure(strict.covered())
         .figure(inclusive.covered())
-        .grid("oracle", ascii::grid(&right, &right))
-        .grid("sysu-inclusive", ascii::grid(&inclusive, &right))
+        .grid("oracle", &right, &right)
+        .grid("sysu-inclusive", &inclusive, &right)
 }

@@ -1,7 +1,7 @@
 //! Chapter 3: interpolation.
 
 use super::tools::{Px, corners};
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_faults::published::sysu_weights::SysuWeights;
 use rasterproof_faults::published::{Published as _, bare};
@@ -11,7 +11,7 @@ solvers!(rod, weight, outside, order);
 
 fn rod(_: &[Text]) -> Solution {
     let value = along_line([2.0, 10.0], 3, 8).to_f64();
-    Solution::new(Answer::Number { value, decimals: 0 })
+    Solution::number(value, 0)
 }
 
 const RIGHT_ANGLE: Px = [[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]];
@@ -25,13 +25,13 @@ fn weights(x_px: i32, y_px: i32) -> [f64; 3] {
 
 fn weight(_: &[Text]) -> Solution {
     let [a, b, c] = weights(1, 2);
-    Solution::new(Answer::Number { value: a, decimals: 2 }).figure(b).figure(c)
+    Solution::number(a, 2).figure(b).figure(c)
 }
 
 fn outside(_: &[Text]) -> Solution {
     let all = weights(6, 6);
     let negative = all.iter().filter(|&&weight| weight < 0.0).count();
-    let solution = Solution::new(Answer::count(negative as u64));
+    let solution = Solution::count(negative as u64);
     all.into_iter().fold(solution, |solution, weight| solution.figure(weight))
 }
 
@@ -65,5 +65,5 @@ fn is_noticed(values: [f64; 3]) -> (bool, bool) {
 fn order(_: &[Text]) -> Solution {
     let (constant, _) = is_noticed([0.5; 3]);
     let (different, pixels) = is_noticed([0.0, 1.0, 3.0]);
-    Solution::new(Answer::only(&[pixels, constant, different]))
+    Solution::choice(&[pixels, constant, different])
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_render::pipeline::transform::frustum;
 
 solvers!(same, distance, film, halfway);
@@ -16,7 +16,7 @@ const FOUR: [DVec4; 3] = [
 fn same(_: &[Text]) -> Solution {
     let place = |p: DVec4| p.truncate() / p.w;
     let there = place(DVec4::new(2.0, 1.0, 4.0, 2.0));
-    let solution = Solution::new(Answer::only(&FOUR.map(|p| place(p) == there)));
+    let solution = Solution::choice(&FOUR.map(|p| place(p) == there));
     solution.figure(there.x).figure(there.y).figure(there.z)
 }
 
@@ -27,17 +27,17 @@ fn project(p: DVec3) -> DVec4 {
 
 fn distance(_: &[Text]) -> Solution {
     let w = project(DVec3::new(2.0, 1.0, 4.0)).w;
-    Solution::new(Answer::Number { value: w, decimals: 0 })
+    Solution::number(w, 0)
 }
 
 fn film(_: &[Text]) -> Solution {
     let p = project(DVec3::new(2.0, 1.0, 4.0));
-    Solution::new(Answer::Number { value: p.x / p.w, decimals: 2 })
+    Solution::number(p.x / p.w, 2)
 }
 
 fn halfway(_: &[Text]) -> Solution {
     let ends = [DVec3::new(-2.0, 0.0, 2.0), DVec3::new(6.0, 0.0, 6.0)];
     let on_film = |p: DVec3| project(p).x / project(p).w;
     let [a, middle, b] = [ends[0], (ends[0] + ends[1]) / 2.0, ends[1]].map(on_film);
-    Solution::new(Answer::Number { value: (middle - a) / (b - a), decimals: 2 })
+    Solution::number((middle - a) / (b - a), 2)
 }

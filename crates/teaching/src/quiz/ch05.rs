@@ -1,7 +1,7 @@
 //! Chapter 5: interpolation in perspective.
 
 use super::tools::{fragment, fragments};
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_core::grid::PixelRect;
 
 solvers!(middle, linear, worst, constant);
@@ -15,7 +15,7 @@ fn triangle(w: [f64; 2], values: [f64; 2]) -> [[f64; 4]; 3] {
 
 fn middle(_: &[Text]) -> Solution {
     let f = fragment(triangle([1.0, 3.0], [0.0, 1.0]), WINDOW, [3, 0]);
-    Solution::new(Answer::Number { value: f.varying, decimals: 2 }).figure(f.depth)
+    Solution::number(f.varying, 2).figure(f.depth)
 }
 
 /// Whether numbers at equal steps lie on a straight line.
@@ -33,7 +33,7 @@ fn linear(_: &[Text]) -> Solution {
     let both = |f: fn(f64, f64) -> f64| v.iter().zip(&w).map(|(&v, &w)| f(v, w)).collect();
     let all: [Vec<f64>; 4] =
         [both(|v, _| v), both(|_, w| w), both(|v, w| v / w), both(|v, w| v * w)];
-    Solution::new(Answer::only(&all.map(|values| is_straight(&values))))
+    Solution::choice(&all.map(|values| is_straight(&values)))
 }
 
 fn worst(_: &[Text]) -> Solution {
@@ -42,12 +42,12 @@ fn worst(_: &[Text]) -> Solution {
     let worst = all.iter().map(|f| (f.depth - f.varying).abs()).fold(0.0, f64::max);
     let at = all.iter().find(|f| (f.depth - f.varying).abs() == worst);
     let pixel = at.map_or(String::new(), |f| format!("({}, {})", f.x_px, f.y_px));
-    Solution::new(Answer::Number { value: worst, decimals: 2 }).figure(pixel)
+    Solution::number(worst, 2).figure(pixel)
 }
 
 fn constant(_: &[Text]) -> Solution {
     let changes = |triangle| fragments(triangle, WINDOW).iter().any(|f| f.varying != f.depth);
     let small = [[0.5, 0.5, 1.0, 0.0], [2.5, 0.5, 4.0, 1.0], [0.5, 2.5, 1.0, 0.0]];
     let cases = [triangle([3.0, 3.0], [0.0, 1.0]), triangle([1.0, 4.0], [0.0, 1.0]), small];
-    Solution::new(Answer::only(&cases.map(|case| !changes(case))))
+    Solution::choice(&cases.map(|case| !changes(case)))
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::pipeline::transform::frustum;
@@ -20,7 +20,7 @@ fn drawn(fragments: &[(u64, u8)]) -> u8 {
 
 fn equal(_: &[Text]) -> Solution {
     let shown = drawn(&[(7, 0), (7, 255)]);
-    Solution::new(Answer::only(&[shown == 0, shown == 255, shown == 128]))
+    Solution::choice(&[shown == 0, shown == 255, shown == 128])
 }
 
 fn order(_: &[Text]) -> Solution {
@@ -29,7 +29,7 @@ fn order(_: &[Text]) -> Solution {
     let mut shown = orders.map(|order| drawn(&order.map(|i: usize| all[i]))).to_vec();
     shown.sort_unstable();
     shown.dedup();
-    Solution::new(Answer::count(shown.len() as u64))
+    Solution::count(shown.len() as u64)
 }
 
 /// The stored depth of a point at distance z, near plane 0.1, far plane 1000.
@@ -40,7 +40,7 @@ fn depth(z: f64) -> f64 {
 }
 
 fn half(_: &[Text]) -> Solution {
-    let solution = Solution::new(Answer::Number { value: depth(0.2), decimals: 1 });
+    let solution = Solution::number(depth(0.2), 1);
     solution.figure(format!("{:.4}", depth(10.0)))
 }
 
@@ -50,5 +50,5 @@ fn apart(choices: &[Text]) -> Solution {
         let format = format(text).expect("the choices are formats");
         format.key(depth(990.0)) != format.key(depth(990.1))
     };
-    Solution::new(Answer::only(&choices.iter().map(apart).collect::<Vec<_>>()))
+    Solution::choice(&choices.iter().map(apart).collect::<Vec<_>>())
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec4;
 
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::clip::{ClipPlane, MOST_VERTICES, Outcode, clip, outcode};
 
@@ -25,12 +25,12 @@ fn share(_: &[Text]) -> Solution {
     let (polygon, _) = clip(&behind(), ClipPlane::Near.bit());
     // The attribute runs from 0 to 1 along the edge, so that it is t at the crossing.
     let t = polygon.vertices().map(|v| v.varying).fold(0.0, f64::max);
-    Solution::new(Answer::Number { value: t, decimals: 2 })
+    Solution::number(t, 2)
 }
 
 fn corners(_: &[Text]) -> Solution {
     let (polygon, _) = clip(&behind(), ClipPlane::Near.bit());
-    Solution::new(Answer::count(polygon.vertices().len() as u64))
+    Solution::count(polygon.vertices().len() as u64)
 }
 
 /// Corners as (x, y); z is 0 and w is 1, so the borders are at -1 and 1.
@@ -43,9 +43,9 @@ const CASES: [[[f64; 2]; 3]; 3] = [
 fn rejected(_: &[Text]) -> Solution {
     let codes = CASES.map(|case| case.map(|[x, y]| outcode(&vertex(x, y, 0.0, 1.0, 0.0))));
     let rejected = codes.map(|code| code.iter().fold(Outcode::MAX, |all, code| all & code) != 0);
-    Solution::new(Answer::only(&rejected))
+    Solution::choice(&rejected)
 }
 
 fn most(_: &[Text]) -> Solution {
-    Solution::new(Answer::count(MOST_VERTICES as u64)).figure(ClipPlane::ALL.len())
+    Solution::count(MOST_VERTICES as u64).figure(ClipPlane::ALL.len())
 }

@@ -3,20 +3,19 @@
 use glam::DVec4;
 
 use super::tools::{Px, truth};
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Viewport;
 use rasterproof_render::pipeline::clip::outcode;
 use rasterproof_render::pipeline::transform::frustum;
-use rasterproof_report::ascii;
 
 solvers!(place, size, behind, middle);
 
 fn place(_: &[Text]) -> Solution {
     let vertex = ClipVertex { position: DVec4::new(0.5, 0.0, 0.0, 1.0), varying: () };
     let placed = Viewport::new(PixelRect::window(8, 6)).place(&vertex).expect("within the window");
-    Solution::new(Answer::Number { value: placed.position.to_px().0, decimals: 1 })
+    Solution::number(placed.position.to_px().0, 1)
 }
 
 /// The square from -1 to 1 in a window of 4 x 3, times (size - 1), y up.
@@ -27,23 +26,20 @@ fn size(_: &[Text]) -> Solution {
     let window = PixelRect::window(4, 3);
     let whole = [[[0.0, 3.0], [4.0, 3.0], [4.0, 0.0]], [[0.0, 3.0], [4.0, 0.0], [0.0, 0.0]]];
     let [squeezed, right] = [truth(&SQUEEZED, window), truth(&whole, window)];
-    Solution::new(Answer::count(squeezed.covered()))
-        .grid("size - 1", ascii::grid(&squeezed, &right))
-        .grid("size", ascii::grid(&right, &right))
+    Solution::count(squeezed.covered())
+        .grid("size - 1", &squeezed, &right)
+        .grid("size", &right, &right)
 }
 
 fn behind(_: &[Text]) -> Solution {
     let position = DVec4::new(0.5, 0.5, 0.5, -2.0);
     let inside = outcode(&ClipVertex { position, varying: 0.0 }) == 0;
     let divided = position.truncate() / position.w;
-    Solution::new(Answer::only(&[inside, !inside]))
-        .figure(divided.x)
-        .figure(divided.y)
-        .figure(divided.z)
+    Solution::choice(&[inside, !inside]).figure(divided.x).figure(divided.y).figure(divided.z)
 }
 
 fn middle(_: &[Text]) -> Solution {
     let projection = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).expect("it is a frustum");
     let back = projection.inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
-    Solution::new(Answer::Number { value: back.z / back.w, decimals: 2 })
+    Solution::number(back.z / back.w, 2)
 }

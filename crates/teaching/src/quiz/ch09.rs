@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::tools::{Px, corners, draw};
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_render::pipeline::assemble::{Cull, twice_area};
 use rasterproof_render::pipeline::target::Antialias;
@@ -20,19 +20,19 @@ fn turns(triangle: Px) -> [bool; 3] {
 const RIGHT_ANGLE: Px = [[1.0, 1.0], [6.0, 1.0], [1.0, 6.0]];
 
 fn winding(_: &[Text]) -> Solution {
-    Solution::new(Answer::only(&turns(RIGHT_ANGLE)))
+    Solution::choice(&turns(RIGHT_ANGLE))
 }
 
 fn area(_: &[Text]) -> Solution {
     let square = f64::from(SUBPIXELS).powi(2);
     let value = twice_area(corners(RIGHT_ANGLE)) as f64 / square;
-    Solution::new(Answer::Number { value, decimals: 0 })
+    Solution::number(value, 0)
 }
 
 const SLIVER: Px = [[1.0, 1.0], [1.0, 5.0], [1.001, 1.0]];
 
 fn thin(_: &[Text]) -> Solution {
-    Solution::new(Answer::only(&turns(SLIVER))).figure(corners(SLIVER)[2].x)
+    Solution::choice(&turns(SLIVER)).figure(corners(SLIVER)[2].x)
 }
 
 fn shared(_: &[Text]) -> Solution {
@@ -43,5 +43,5 @@ fn shared(_: &[Text]) -> Solution {
     let triangles: Vec<[u32; 3]> =
         faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     let (counters, _) = draw(&cube, &triangles, 4, Antialias::None);
-    Solution::new(Answer::count(counters.vertices)).figure(counters.triangles * 3)
+    Solution::count(counters.vertices).figure(counters.triangles * 3)
 }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DMat4, DVec3};
 
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_core::angle::turn_x;
 use rasterproof_faults::published::book_rotate::{Turn, published};
 
@@ -13,7 +13,7 @@ solvers!(first, quarter, companion, normal);
 fn first(_: &[Text]) -> Solution {
     let (s, t) = (DMat4::from_scale(DVec3::splat(2.0)), DMat4::from_translation(DVec3::X));
     let x = [t * s, s * t].map(|m| m.transform_point3(DVec3::ONE).x);
-    Solution::new(Answer::only(&x.map(|x| x == 3.0))).figure(x[1])
+    Solution::choice(&x.map(|x| x == 3.0)).figure(x[1])
 }
 
 /// The axis that is nearest to a direction: x, -x, y, -y, z, -z.
@@ -26,13 +26,13 @@ fn quarter(_: &[Text]) -> Solution {
     let book = published(Turn::X, FRAC_PI_2, DVec3::Y);
     let all = [DVec3::Z, DVec3::NEG_Z, DVec3::X].map(|axis| is_near(y, axis));
     let name = if is_near(book, DVec3::NEG_Z) { "-z" } else { "z" };
-    Solution::new(Answer::only(&all)).figure(name)
+    Solution::choice(&all).figure(name)
 }
 
 fn companion(_: &[Text]) -> Solution {
     let p = published(Turn::CodeX, 0.0, DVec3::Y);
     let all = [DVec3::Y, DVec3::ZERO, DVec3::Z].map(|point| is_near(p, point));
-    Solution::new(Answer::only(&all))
+    Solution::choice(&all)
 }
 
 fn normal(_: &[Text]) -> Solution {
@@ -40,5 +40,5 @@ fn normal(_: &[Text]) -> Solution {
     let along = m.transform_vector3(DVec3::new(1.0, -1.0, 0.0));
     let dot = |n: DMat4| along.dot(n.transform_vector3(DVec3::new(1.0, 1.0, 0.0)));
     let dots = [m, m.inverse().transpose(), m.transpose()].map(dot);
-    Solution::new(Answer::only(&dots.map(|dot| dot == 0.0))).figure(dots[0])
+    Solution::choice(&dots.map(|dot| dot == 0.0)).figure(dots[0])
 }

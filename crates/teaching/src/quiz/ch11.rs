@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
@@ -13,7 +13,7 @@ const LIGHT: Light = Light { towards: DVec3::Z, ambient: 0.2, diffuse: 0.8 };
 fn away(_: &[Text]) -> Solution {
     let value = LIGHT.intensity(DVec3::NEG_Z);
     let without = LIGHT.ambient + LIGHT.diffuse * DVec3::NEG_Z.dot(LIGHT.towards);
-    Solution::new(Answer::Number { value, decimals: 1 }).figure(format!("{without:.1}"))
+    Solution::number(value, 1).figure(format!("{without:.1}"))
 }
 
 fn short(_: &[Text]) -> Solution {
@@ -22,8 +22,7 @@ fn short(_: &[Text]) -> Solution {
     // What the dot product alone says, over what it should be.
     let share = normal.dot(light.towards) / light.intensity(normal);
     let value = 100.0 * (1.0 - share);
-    Solution::new(Answer::Number { value: value.round(), decimals: 0 })
-        .figure(format!("{:.3}", normal.length()))
+    Solution::number(value.round(), 0).figure(format!("{:.3}", normal.length()))
 }
 
 /// A black and a white texel side by side.
@@ -33,11 +32,11 @@ fn two_texels() -> Texture {
 
 fn beyond(_: &[Text]) -> Solution {
     let red = |u| two_texels().with(Filter::Nearest, Wrap::Repeat).at(DVec2::new(u, 0.5)).x;
-    Solution::new(Answer::only(&[red(1.1) == 0.0, red(1.1) == 1.0]))
+    Solution::choice(&[red(1.1) == 0.0, red(1.1) == 1.0])
 }
 
 fn between(_: &[Text]) -> Solution {
     let smooth = two_texels().with(Filter::Bilinear, Wrap::Clamp);
     let at = |u| smooth.at(DVec2::new(u, 0.5)).x;
-    Solution::new(Answer::Number { value: at(0.5), decimals: 1 }).figure(at(0.25)).figure(at(0.75))
+    Solution::number(at(0.5), 1).figure(at(0.25)).figure(at(0.75))
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::Effects;
 use rasterproof_render::effects::render::Rendered;
@@ -48,7 +48,7 @@ fn overlap(_: &[Text]) -> Solution {
         frames.map(|items| draw(items, &effects, Antialias::None).counters.depth_tests)
     };
     let planned = tests(Effects::PLANNED);
-    Solution::new(Answer::only(&planned.map(|count| count > 0)))
+    Solution::choice(&planned.map(|count| count > 0))
         .figure(tests(Effects::ALWAYS)[1])
         .figure(planned[1])
 }
@@ -69,14 +69,14 @@ fn divide(_: &[Text]) -> Solution {
         let items = vec![leaning(slope, colours)];
         draw(items, &Effects::PLANNED, Antialias::None).counters.divisions
     });
-    Solution::new(Answer::only(&divisions.map(|count| count > 0))).figure(divisions[2])
+    Solution::choice(&divisions.map(|count| count > 0)).figure(divisions[2])
 }
 
 fn samples(_: &[Text]) -> Solution {
     let items = vec![panel([2.5, 2.5, 13.5, 13.5])];
     let counters = draw(items, &Effects::PLANNED, Antialias::Supersample(4)).counters;
     let border = 12 * 12 - 10 * 10;
-    Solution::new(Answer::count(counters.expanded))
+    Solution::count(counters.expanded)
         .figure(border)
         .figure(counters.expanded - border)
         .figure(SIDE * SIDE * 16)
@@ -92,5 +92,5 @@ fn back(_: &[Text]) -> Solution {
         scene.items = vec![Item { cull, ..Item::new(mesh.clone(), material.clone()) }];
         draw_scene(&scene, &Effects::PLANNED, Antialias::None).counters.culled
     };
-    Solution::new(Answer::count(culled(Cull::None))).figure(culled(Cull::Clockwise))
+    Solution::count(culled(Cull::None)).figure(culled(Cull::Clockwise))
 }

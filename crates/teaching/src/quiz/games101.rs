@@ -21,7 +21,7 @@ fn times_shaded(antialias: Antialias) -> usize {
 fn shaded(_: &[Text]) -> Solution {
     let counts = [Antialias::Supersample(2), Antialias::Multisample4].map(times_shaded);
     let all = [[4, 4], [4, 1], [1, 4], [1, 1]];
-    Solution::new(Answer::only(&all.map(|pair| pair == counts)))
+    Solution::choice(&all.map(|pair| pair == counts))
 }
 
 /// One pixel of 2 x 2 samples; each is drawn with the colour at its place, or left black.
@@ -42,7 +42,7 @@ fn average(_: &[Text]) -> Solution {
     let whole = resolved([green, blue, blue, blue]);
     // As published, blue's own average over black replaces what green left.
     let last = resolved([None, blue, blue, blue]);
-    Solution::new(Answer::count(u64::from(whole[1]))).figure(last[1]).figure(last[2])
+    Solution::count(u64::from(whole[1])).figure(last[1]).figure(last[2])
 }
 
 fn bounding_box(_: &[Text]) -> Solution {
@@ -52,5 +52,5 @@ fn bounding_box(_: &[Text]) -> Solution {
 
 fn depth(_: &[Text]) -> Solution {
     let value = games101_depth::published([-1.0, 1.0], [1.0, 4.0], 0.5);
-    Solution::new(Answer::Number { value, decimals: 1 })
+    Solution::number(value, 1)
 }

@@ -34,6 +34,8 @@ pub use answer::{Answer, Given};
 
 use std::sync::LazyLock;
 
+use rasterproof_core::frame::Coverage;
+use rasterproof_report::ascii;
 use rasterproof_verify::cases::Rng;
 use serde::Deserialize;
 
@@ -83,13 +85,26 @@ impl Solution {
         Self { answer, figures: Vec::new(), grids: Vec::new() }
     }
 
+    fn number(value: f64, decimals: usize) -> Self {
+        Self::new(Answer::Number { value, decimals })
+    }
+
+    fn count(value: u64) -> Self {
+        Self::number(value as f64, 0)
+    }
+
+    fn choice(holds: &[bool]) -> Self {
+        Self::new(Answer::only(holds))
+    }
+
     fn figure(mut self, figure: impl ToString) -> Self {
         self.figures.push(figure.to_string());
         self
     }
 
-    fn grid(mut self, title: &str, lines: Vec<String>) -> Self {
-        self.grids.push((title.to_owned(), lines));
+    /// What was drawn beside what is right.
+    fn grid(mut self, title: &str, actual: &Coverage, right: &Coverage) -> Self {
+        self.grids.push((title.to_owned(), ascii::grid(actual, right)));
         self
     }
 }

@@ -1,7 +1,7 @@
 //! Stability: which check notices which fault.
 
 use super::tools::{Px, corners, covered};
-use super::{Answer, Solution, Text};
+use super::{Solution, Text};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -19,7 +19,7 @@ const ASKED: [&str; 3] = ["constant-attribute", "contiguous-rows", "closed-fan"]
 fn notices(_: &[Text]) -> Solution {
     let subject = Subject::with(Mutant::Triangle(TriangleMutant::InclusiveEdges));
     let kills = |name| find(name).expect("an invariant's name").kills(&subject, 1, 42);
-    Solution::new(Answer::only(&ASKED.map(kills)))
+    Solution::choice(&ASKED.map(kills))
 }
 
 const TRIANGLE: Px = [[1.2, 1.1], [6.3, 2.4], [2.7, 6.6]];
@@ -31,7 +31,7 @@ fn orders(_: &[Text]) -> Solution {
     let draws = |&order: &Corners| {
         covered(&TriangleMutant::CullsOneWinding, &[order], window).covered() > 0
     };
-    Solution::new(Answer::count(orders.iter().filter(|order| draws(order)).count() as u64))
+    Solution::count(orders.iter().filter(|order| draws(order)).count() as u64)
 }
 
 /// Whether a rasterizer that cuts towards zero is wrong about the triangle moved by whole pixels.
@@ -46,7 +46,7 @@ fn is_wrong_moved(x_px: i32) -> bool {
 
 fn moved(_: &[Text]) -> Solution {
     assert!(!is_wrong_moved(0), "the question says so");
-    Solution::new(Answer::only(&[20, -20, 4000].map(is_wrong_moved)))
+    Solution::choice(&[20, -20, 4000].map(is_wrong_moved))
 }
 
 const SIDE: u32 = 256;
@@ -59,5 +59,5 @@ fn metric(_: &[Text]) -> Solution {
     let wrong = Tally::between(&actual, &target).total();
     let mean_square_error = wrong as f64 / f64::from(SIDE * SIDE);
     let value = (-10.0 * mean_square_error.log10()).round();
-    Solution::new(Answer::Number { value, decimals: 0 }).figure(wrong)
+    Solution::number(value, 0).figure(wrong)
 }

@@ -41,7 +41,7 @@ fn decision(_: &[Text]) -> Solution {
         let lower = height - f64::from(rows[u as usize]);
         dx * (lower - (1.0 - lower))
     };
-    Solution::new(Answer::Number { value: decision(1), decimals: 0 }).figure(rows[2])
+    Solution::number(decision(1), 0).figure(rows[2])
 }
 
 /// The row of column 1 on a line between (0, 0) and (2, 1), as published.
@@ -88,7 +88,7 @@ fn is_lost(triangle: Screen) -> bool {
 }
 
 fn dropped(_: &[Text]) -> Solution {
-    Solution::new(Answer::only(&[ACROSS, AROUND, BESIDE].map(is_lost)))
+    Solution::choice(&[ACROSS, AROUND, BESIDE].map(is_lost))
 }
 
 fn turned(_: &[Text]) -> Solution {
@@ -97,7 +97,7 @@ fn turned(_: &[Text]) -> Solution {
         Target::new(32, 24, Antialias::None, Default::default()).expect("a small target");
     let drawn = Drawer::EdgeFunction.render(&scene, &Effects::PLANNED, &mut target);
     let counters = drawn.expect("a sound scene").counters;
-    Solution::new(Answer::count(counters.culled)).figure(counters.cull_tests)
+    Solution::count(counters.culled).figure(counters.cull_tests)
 }
 
 const COLOURED: Px = [[1.5, 9.5], [9.5, 8.5], [4.5, 1.5]];
@@ -118,5 +118,5 @@ fn corner(_: &[Text]) -> Solution {
     let values = [0, 1, 2].map(at_c);
     assert_eq!(corners(COLOURED)[2].to_px(), (4.5, 1.5), "the corner is the sample");
     let strongest = values.into_iter().fold(0.0, f64::max);
-    Solution::new(Answer::only(&values.map(|value| value == strongest)))
+    Solution::choice(&values.map(|value| value == strongest))
 }
