@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
+use glam::DVec2;
 use rasterproof_core::frame::Frame;
 use rasterproof_models::Origin;
 use rasterproof_precision::cost::{Pass, Spread, time};
@@ -201,16 +202,12 @@ fn textures(scene: &Scene, names: &[String], pieces: &[Piece], seen: &Frame<u32>
         let item = piece.item as usize;
         let Some(texture) = &scene.items[item].material.texture else { continue };
         let (width, height) = texture.size();
-        let uv = piece.triangle.vertices.map(|vertex| vertex.varying);
-        let cross = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
-            ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
-        };
-        let texels = uv.map(|uv| [uv.x * f64::from(width), uv.y * f64::from(height)]);
-        let [a, b, c] = piece.px;
-        let area = cross(a, b, c);
-        if area > 0.0 {
-            let [p, q, r] = texels;
-            *of = Some((item, (cross(p, q, r) / area).sqrt()));
+        let size = DVec2::new(width.into(), height.into());
+        let texels = piece.triangle.vertices.map(|vertex| vertex.varying * size);
+        let area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a).abs();
+        let of_pixels = area(piece.px.map(DVec2::from));
+        if of_pixels > 0.0 {
+            *of = Some((item, (area(texels) / of_pixels).sqrt()));
         }
     }
     let mut by_material: BTreeMap<&str, Vec<f64>> = BTreeMap::new();

@@ -3,6 +3,7 @@
 use std::fmt::{Arguments, Write as _};
 
 use glam::DVec3;
+use serde_json::Value;
 
 use super::{Given, fill};
 use rasterproof_core::frame::Coverage;
@@ -268,6 +269,14 @@ impl Drawing {
                 _ => ("twice", "2"),
             };
             self.pixel(panel, pixel, class, letter);
+        }
+    }
+
+    /// Hits as an answer has them: a digit for each pixel.
+    pub fn answered_hits(&mut self, panel: &Panel, digits: &Value) {
+        let digits = digits.as_str().unwrap_or("").bytes();
+        for (pixel, _) in panel.pixels().zip(digits).filter(|(_, hits)| *hits > b'0') {
+            self.pixel(panel, pixel, "on", "");
         }
     }
 

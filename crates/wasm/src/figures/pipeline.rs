@@ -37,11 +37,7 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
         window: PixelRect::window(SCREEN, SCREEN),
     };
     let mut drawing = Drawing::new(top + side + 12.0, given.is_answered);
-    for (pixel, hits) in panel.pixels().zip(kept["hits"].as_str().unwrap_or("").bytes()) {
-        if hits > b'0' {
-            drawing.pixel(&panel, pixel, "on", "");
-        }
-    }
+    drawing.answered_hits(&panel, &kept["hits"]);
     let screen = panel.corner;
     let far = [screen[0] + side, screen[1] + side];
     drawing.path("grid", &[screen, [far[0], screen[1]], far, [screen[0], far[1]]], true);
@@ -306,11 +302,7 @@ pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
     }))?;
     let removed = [0, 1].map(|i| answer["areas"][i]["removed"] == json!(true));
     let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
-    for (pixel, hits) in panel.pixels().zip(answer["hits"].as_str().unwrap_or("").bytes()) {
-        if hits > b'0' {
-            drawing.pixel(&panel, pixel, "on", "");
-        }
-    }
+    drawing.answered_hits(&panel, &answer["hits"]);
     drawing.grid(&panel);
     for triangle in &triangles {
         for i in 0..3 {

@@ -6,6 +6,7 @@ use super::shrink::is_tiling;
 use super::{Batch, Check, Device, Interface, Layout, Subject};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use glam::DVec2;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::single_precision::perspective_bounds;
@@ -325,12 +326,10 @@ fn values(device: Device, subject: &Subject, cell: &Cell) -> Judged {
 /// promises positions no more exactly. A quotient of linear functions is largest and smallest at corners.
 fn spread(triangle: &Triangle, (x, y): (i32, i32), step: f64) -> [f64; 3] {
     let v = &triangle.vertices;
-    let px = triangle.corners().map(|p| [p.x, p.y].map(|v| f64::from(v) / f64::from(SUBPIXELS)));
+    let px = triangle.corners().map(|p| DVec2::from(p.to_px()));
     let at = |dx: f64, dy: f64| {
-        let s = [f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy];
-        let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-        };
+        let s = DVec2::new(f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
+        let cross = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
         let area = cross(px[0], px[1], px[2]);
         let weights = [0, 1, 2].map(|i| cross(px[(i + 1) % 3], px[(i + 2) % 3], s) / area);
         let sum = |values: [f64; 3]| weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>();
