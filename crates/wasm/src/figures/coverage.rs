@@ -28,8 +28,6 @@ pub(super) fn one_sample(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![(panel.place([x, y]), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
-            ("x", number(x, 1)),
-            ("y", number(y, 1)),
             ("covered", hits.covered().to_string()),
             ("area", number((x - low) * (y - low), 2)),
         ],
@@ -66,12 +64,7 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(spot, [panel.unit; 2])],
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == right)).collect()),
-        values: vec![
-            ("x", number(x, 2)),
-            ("y", number(y, 2)),
-            ("sx", right[0].to_string()),
-            ("sy", right[1].to_string()),
-        ],
+        values: vec![("sx", right[0].to_string()), ("sy", right[1].to_string())],
         link: None,
     })
 }
@@ -101,13 +94,7 @@ pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(panel.place(a), [panel.unit; 2]), (panel.place(b), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
-        values: vec![
-            ("ax", number(a[0], 1)),
-            ("ay", number(a[1], 1)),
-            ("bx", number(b[0], 1)),
-            ("by", number(b[1], 1)),
-            ("zeros", zeros.to_string()),
-        ],
+        values: vec![("zeros", zeros.to_string())],
         link: None,
     })
 }
@@ -134,12 +121,7 @@ pub(super) fn shared_edge(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(panel.place(corner), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
-        values: vec![
-            ("x", number(corner[0], 1)),
-            ("y", number(corner[1], 1)),
-            ("missing", missing.to_string()),
-            ("covered", right.covered().to_string()),
-        ],
+        values: vec![("missing", missing.to_string()), ("covered", right.covered().to_string())],
         link: with_triangles("triangle", &square, "&window=0,0,6,6&by=scanline,exclusive-edges"),
     })
 }
@@ -213,7 +195,6 @@ pub(super) fn row_span(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![(panel.place(corner), [panel.unit, 0.0])],
         predict: Predict::Pixels(panel, columns.clone().map(|x| ([x, row], has(x))).collect()),
         values: vec![
-            ("x", number(corner[0], 1)),
             ("crossing", number(crossing, 4)),
             ("count", columns.filter(|&x| has(x)).count().to_string()),
         ],
@@ -244,11 +225,7 @@ pub(super) fn middle_row(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(panel.place(middle), [panel.unit; 2])],
         predict: Predict::Number(twice as f64, 0),
-        values: vec![
-            ("x", number(middle[0], 1)),
-            ("y", number(middle[1], 1)),
-            ("twice", twice.to_string()),
-        ],
+        values: vec![("twice", twice.to_string())],
         link: with_triangles("triangle", &[triangle], "&window=1,3,13,13&by=scanline,book-ch2"),
     })
 }

@@ -47,7 +47,7 @@ pub(super) fn brightest(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![slider],
         predict: Predict::Pixels(panel, pixels),
-        values: vec![("angle", number(angle, 0)), ("dark", dark.to_string())],
+        values: vec![("dark", dark.to_string())],
         link: None,
     })
 }
@@ -87,7 +87,6 @@ pub(super) fn short_normal(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![slider],
         predict: Predict::Number(middle, 0),
         values: vec![
-            ("angle", number(angle, 0)),
             ("short", number(middle, 0)),
             ("whole", number(light.intensity(normals[6]) * 100.0, 0)),
         ],
@@ -139,7 +138,6 @@ pub(super) fn texel(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![slider],
         predict: Predict::Number(mixed, 0),
         values: vec![
-            ("u", number(u, 2)),
             ("nearest", number(nearest, 0)),
             ("mixed", number(mixed, 0)),
             ("place", number(4.0 * u, 2)),

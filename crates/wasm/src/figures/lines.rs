@@ -56,8 +56,6 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![(panel.place(middle(end)), [panel.unit; 2])],
         predict: Predict::Number(count as f64, 0),
         values: vec![
-            ("x", x.to_string()),
-            ("y", y.to_string()),
             ("differ", count.to_string()),
             ("ours", differ(&ours[0], &ours[1]).to_string()),
         ],
@@ -87,7 +85,7 @@ pub(super) fn line_pixels(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(panel.place(middle(end)), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
-        values: vec![("x", x.to_string()), ("y", y.to_string()), ("count", line.len().to_string())],
+        values: vec![("count", line.len().to_string())],
         link: Some(format!(
             "#scene=line&lines=0,0,{x},{y}&window=0,0,9,6&by=dda,bresenham&step=99"
         )),

@@ -41,9 +41,12 @@ pub struct Grip {
     pub low: Point,
     pub high: Point,
     pub step: f64,
+    /// What its position is called in the texts, in x and y; empty where they do not say it.
+    #[serde(default)]
+    names: [String; 2],
 }
 
-/// The words of a figure. `{name}` stands for a number that the figure computes.
+/// The words of a figure. `{name}` stands for the position of a grip, or for a number that the figure computes.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Text {
@@ -94,7 +97,7 @@ struct Drawn {
     /// 0 where it does not move.
     grips: Vec<(Point, Point)>,
     predict: Predict,
-    /// The numbers that replace the names in braces in the texts.
+    /// The computed numbers that replace the names in braces in the texts.
     values: Vec<(&'static str, String)>,
     /// Where a scene of the playground draws the same pixels, its address; elsewhere the playground shows the figure itself.
     link: Option<String>,
@@ -154,7 +157,8 @@ impl Ask {
         let figure = find(&self.name)?;
         let text = figure.text(self.language);
         let (at, drawn) = figure.draw(&self.at, self.is_answered, self.by.as_deref())?;
-        let fill = |text: &str| fill(text, &drawn.values);
+        let words = figure.words(&at, &drawn);
+        let fill = |text: &str| fill(text, &words);
         let predict = match &drawn.predict {
             Predict::Pixels(panel, pixels) => {
                 let cell = |([x, y], _): &([i32; 2], bool)| {
@@ -240,6 +244,13 @@ impl Figure {
         Ok((at, drawn))
     }
 
+    /// What stands for the names in braces in the texts.
+    fn words<'a>(&'a self, at: &[Point], drawn: &Drawn) -> Vec<(&'a str, String)> {
+        let positions = self.grips.iter().zip(at).flat_map(|(grip, at)| grip.names.iter().zip(at));
+        let positions = positions.map(|(name, value)| (name.as_str(), number(*value, 6)));
+        positions.filter(|(name, _)| !name.is_empty()).chain(drawn.values.iter().cloned()).collect()
+    }
+
     /// The picture of the figure with its answer, as a file.
     pub fn still(&self) -> Result<String, String> {
         Ok(self.draw(&[], true, None)?.1.drawing.file())
@@ -247,9 +258,9 @@ impl Figure {
 
     /// What a page says in the place of the figure, with everything for those who read without scripts.
     pub fn block(&self, language: Language) -> Result<String, String> {
-        let (_, drawn) = self.draw(&[], true, None)?;
-        let text = self.text(language);
-        let fill = |text: &str| fill(text, &drawn.values);
+        let (at, drawn) = self.draw(&[], true, None)?;
+        let (text, words) = (self.text(language), self.words(&at, &drawn));
+        let fill = |text: &str| fill(text, &words);
         let folder = if language == Language::En { "figures" } else { "../figures" };
         let name = &self.name;
         Ok(format!(
@@ -272,7 +283,7 @@ pub fn find(name: &str) -> Result<&'static Figure, String> {
     found.ok_or_else(|| format!("no figure is called {name}"))
 }
 
-fn fill(text: &str, values: &[(&'static str, String)]) -> String {
+fn fill(text: &str, values: &[(&str, String)]) -> String {
     values
         .iter()
         .fold(text.to_owned(), |text, (name, value)| text.replace(&format!("{{{name}}}"), value))

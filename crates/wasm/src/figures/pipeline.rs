@@ -63,8 +63,6 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
         grips: spots.map(|spot| (spot, [scale, 0.0])).to_vec(),
         predict: Predict::Number(outline.len() as f64, 0),
         values: vec![
-            ("w", number(w, 1)),
-            ("near", number(near, 1)),
             ("corners", outline.len().to_string()),
             ("covered", kept["covered"].to_string()),
         ],
@@ -113,7 +111,6 @@ pub(super) fn boards(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![slider],
         predict: Predict::Number(heights[2] as f64, 0),
         values: vec![
-            ("spacing", number(spacing, 2)),
             ("third", number(1.0 + 2.0 * spacing, 2)),
             ("first", heights[0].to_string()),
             ("height", heights[2].to_string()),
@@ -193,7 +190,6 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![(above(1.0, end), [0.0, -30.0])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
-            ("end", number(end, 2)),
             ("right", right.len().to_string()),
             ("wrong", wrong.iter().filter(|x| !right.contains(x)).count().to_string()),
         ],
@@ -238,12 +234,7 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(spot, [half, -half])],
         predict: Predict::Pixels(panel, pixels),
-        values: vec![
-            ("u", number(u, 1)),
-            ("v", number(v, 1)),
-            ("covered", should.covered().to_string()),
-            ("missing", count.to_string()),
-        ],
+        values: vec![("covered", should.covered().to_string()), ("missing", count.to_string())],
         link: None,
     })
 }
@@ -279,12 +270,7 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(above(x, z), [24.0, -24.0])],
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == pixel)).collect()),
-        values: vec![
-            ("x", number(x, 2)),
-            ("z", number(z, 2)),
-            ("px", number(point[0], 3)),
-            ("py", number(point[1], 3)),
-        ],
+        values: vec![("px", number(point[0], 3)), ("py", number(point[1], 3))],
         link: None,
     })
 }
@@ -366,11 +352,7 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
             -1 => 1,
             _ => 2,
         }),
-        values: vec![
-            ("height", number(heights[1], 2)),
-            ("before", number(before, 2)),
-            ("after", number(square, 0)),
-        ],
+        values: vec![("before", number(before, 2)), ("after", number(square, 0))],
         link: None,
     })
 }
@@ -410,8 +392,6 @@ pub(super) fn order_matters(given: &Given<'_>) -> Result<Drawn, String> {
         grips: sliders,
         predict: Predict::Pixels(panel, pixels),
         values: vec![
-            ("by", number(by, 0)),
-            ("times", number(times, 1)),
             ("left", number(times * by, 1)),
             ("right", number(times * (by + 1.0), 1)),
             ("other", number(by, 1)),
@@ -453,7 +433,7 @@ pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(panel.place(window(centre)), [panel.unit, -panel.unit]), slider],
         predict: Predict::Choice(right),
-        values: vec![("x", number(x, 0)), ("y", number(y, 0)), ("degrees", number(degrees, 0))],
+        values: Vec::new(),
         link: with_triangles("triangle", &[turned], "&window=0,0,14,14"),
     })
 }

@@ -108,8 +108,6 @@ pub(super) fn weights(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![(panel.place(p), [panel.unit; 2])],
         predict: Predict::Number(shares[0] * 100.0, 0),
         values: vec![
-            ("x", number(p[0], 1)),
-            ("y", number(p[1], 1)),
             ("wa", wa),
             ("wb", wb),
             ("wc", wc),
@@ -210,7 +208,7 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![slider],
         predict: Predict::Choice(if far == 1.0 { 2 } else { 0 }),
-        values: vec![("far", number(far, 2)), ("differ", differ.to_string())],
+        values: vec![("differ", differ.to_string())],
         link: with_triangles(
             "perspective",
             &triangles,
@@ -240,7 +238,7 @@ pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![slider],
         predict: Predict::Number(middle * 100.0, 0),
-        values: vec![("far", number(far, 1)), ("value", number(middle * 100.0, 0))],
+        values: vec![("value", number(middle * 100.0, 0))],
         link: None,
     })
 }
@@ -287,11 +285,7 @@ pub(super) fn rod_middle(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![(a, [-24.0, 0.0]), (b, [24.0, 0.0])],
         predict: Predict::Pixels(panel, (0..13).map(|x| ([x, 0], x == right as i32)).collect()),
-        values: vec![
-            ("near", number(near, 1)),
-            ("far", number(far, 1)),
-            ("share", number(share * 100.0, 0)),
-        ],
+        values: vec![("share", number(share * 100.0, 0))],
         link: None,
     })
 }
@@ -383,7 +377,6 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![([right, up(b)], [0.0, -2.0])],
         predict: Predict::Pixels(panel, (0..).zip(&shows_b).map(|(x, &is)| ([x, 0], is)).collect()),
         values: vec![
-            ("b", number(b, 0)),
             ("last", if is_b_last { "B" } else { "A" }.to_owned()),
             ("wrong", wrong.to_string()),
         ],
@@ -413,7 +406,7 @@ pub(super) fn z_fighting(given: &Given<'_>) -> Result<Drawn, String> {
         drawing,
         grips: vec![slider],
         predict: Predict::Number(seen as f64, 0),
-        values: vec![("gap", number(gap, 2)), ("seen", seen.to_string())],
+        values: vec![("seen", seen.to_string())],
         link: Some(depth_link(16, first, second)),
     })
 }
