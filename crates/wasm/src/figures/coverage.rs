@@ -21,11 +21,10 @@ pub(super) fn one_sample(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grid(&panel);
     drawing.samples(&panel);
     drawing.outline(&panel, "ink", &[[low, low], [x, low], [x, y], [low, y]], true);
-    drawing.grip(panel.place([x, y]));
+    drawing.grip(panel.place([x, y]), [panel.unit; 2]);
     let pixels = panel.pixels().map(|p| (p, hits.get(p[0], p[1]) != Some(0))).collect();
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place([x, y]), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
             ("covered", hits.covered().to_string()),
@@ -59,10 +58,9 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
     if given.is_answered {
         drawing.arrow("ink", spot, middle(right.map(f64::from)));
     }
-    drawing.grip(spot);
+    drawing.grip(spot, [panel.unit; 2]);
     Ok(Drawn {
         drawing,
-        grips: vec![(spot, [panel.unit; 2])],
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == right)).collect()),
         values: vec![("sx", right[0].to_string()), ("sy", right[1].to_string())],
         link: None,
@@ -87,12 +85,11 @@ pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
     }
     drawing.arrow("ink", panel.place(a), panel.place(b));
     for (point, letter) in [(a, "a"), (b, "b")] {
-        drawing.named_grip(panel.place(point), letter);
+        drawing.named_grip(panel.place(point), [panel.unit; 2], letter);
     }
     let zeros = pixels.iter().filter(|(_, is_zero)| *is_zero).count();
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(a), [panel.unit; 2]), (panel.place(b), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("zeros", zeros.to_string())],
         link: None,
@@ -113,13 +110,12 @@ pub(super) fn shared_edge(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.samples(&panel);
     drawing.outline(&panel, "ink", &square[0], true);
     drawing.outline(&panel, "ink", &square[1], true);
-    drawing.grip(panel.place(corner));
+    drawing.grip(panel.place(corner), [panel.unit; 2]);
     let is_hole = |[x, y]: [i32; 2]| strict.get(x, y) < right.get(x, y);
     let pixels: Vec<_> = panel.pixels().map(|pixel| (pixel, is_hole(pixel))).collect();
     let missing = pixels.iter().filter(|(_, is_hole)| *is_hole).count();
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(corner), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("missing", missing.to_string()), ("covered", right.covered().to_string())],
         link: with_triangles("triangle", &square, "&window=0,0,6,6&by=scanline,exclusive-edges"),
@@ -153,7 +149,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
     for triangle in &triangles {
         drawing.outline(&panel, "ink", triangle, true);
     }
-    drawing.grip(panel.place(q));
+    drawing.grip(panel.place(q), [0.0, panel.unit]);
     // The playground says of this pixel whose it is.
     let explained = first_tie.map_or(String::new(), |[x, y]| format!("&px={x},{y}"));
     let owner = match ties {
@@ -163,7 +159,6 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
     };
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(q), [0.0, panel.unit])],
         predict: Predict::Choice(owner),
         values: vec![("upper", ties[0].to_string()), ("lower", ties[1].to_string())],
         link: with_triangles("triangle", &triangles, &format!("&window=0,0,8,7{explained}")),
@@ -188,11 +183,10 @@ pub(super) fn row_span(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.outline(&panel, "ink", &triangle, true);
     let height = f64::from(row) + 0.5;
     drawing.outline(&panel, "soft", &[[0.0, height], [6.0, height]], false);
-    drawing.grip(panel.place(corner));
+    drawing.grip(panel.place(corner), [panel.unit, 0.0]);
     let crossing = corner[0] * height / 4.0;
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(corner), [panel.unit, 0.0])],
         predict: Predict::Pixels(panel, columns.clone().map(|x| ([x, row], has(x))).collect()),
         values: vec![
             ("crossing", number(crossing, 4)),
@@ -219,11 +213,10 @@ pub(super) fn middle_row(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grid(&panel);
     drawing.samples(&panel);
     drawing.outline(&panel, "ink", &triangle, true);
-    drawing.grip(panel.place(middle));
+    drawing.grip(panel.place(middle), [panel.unit; 2]);
     let twice = panel.pixels().filter(|p| hits.get(p[0], p[1]) > Some(1)).count();
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(middle), [panel.unit; 2])],
         predict: Predict::Number(twice as f64, 0),
         values: vec![("twice", twice.to_string())],
         link: with_triangles("triangle", &[triangle], "&window=1,3,13,13&by=scanline,book-ch2"),

@@ -86,6 +86,8 @@ pub(super) struct Drawing {
     /// The pixels, below all else.
     runs: Vec<Run>,
     body: String,
+    /// Where each grip lies, and how far it moves for a step of 1 to the right and down; 0 where it does not move.
+    pub grips: Vec<(Point, Point)>,
 }
 
 /// Neighbouring pixels of a row that are painted alike.
@@ -98,7 +100,7 @@ struct Run {
 
 impl Drawing {
     pub fn new(height: f64, is_answered: bool) -> Self {
-        Self { height, is_answered, runs: Vec::new(), body: String::new() }
+        Self { height, is_answered, runs: Vec::new(), body: String::new(), grips: Vec::new() }
     }
 
     fn add(&mut self, element: Arguments<'_>) {
@@ -225,7 +227,8 @@ impl Drawing {
         ));
     }
 
-    pub fn grip(&mut self, [x, y]: Point) {
+    pub fn grip(&mut self, [x, y]: Point, scale: Point) {
+        self.grips.push(([x, y], scale));
         // Before the answer it cannot be dragged, and is a point like others.
         let (class, radius) = if self.is_answered { ("grip", 8) } else { ("dot", 4) };
         self.add(format_args!(
@@ -233,28 +236,25 @@ impl Drawing {
         ));
     }
 
-    pub fn named_grip(&mut self, [x, y]: Point, letter: &str) {
-        self.grip([x, y]);
+    pub fn named_grip(&mut self, [x, y]: Point, scale: Point, letter: &str) {
+        self.grip([x, y], scale);
         self.text([x + 12.0, y - 6.0], "start", letter);
     }
 
-    /// A grip on a scale of its own below the picture, for a value that has no place in it. Returns where it
-    /// lies and how far it moves.
-    pub fn slider(
-        &mut self,
-        given: &Given<'_>,
-        grip: usize,
-        top: f64,
-        says: &str,
-    ) -> (Point, Point) {
+    /// A grip on a scale of its own below the picture, for a value that has no place in it.
+    pub fn slider(&mut self, given: &Given<'_>, grip: usize, top: f64, says: &str) {
         let ([low, _], [high, _]) = (given.grips[grip].low, given.grips[grip].high);
         let (left, right) = (110.0, WIDTH - 20.0);
         let scale = (right - left) / (high - low);
         let spot = [left + (given.at[grip][0] - low) * scale, top];
         self.text([12.0, top + 5.0], "start", says);
         self.path("soft", &[[left, top], [right, top]], false);
-        self.grip(spot);
-        (spot, [scale, 0.0])
+        self.grip(spot, [scale, 0.0]);
+    }
+
+    /// Arrows from each point of the drawing to the next one, and back to the first.
+    pub fn arrows(&mut self, class: &str, points: [Point; 3]) {
+        (0..3).for_each(|i| self.arrow(class, points[i], points[(i + 1) % 3]));
     }
 
     /// Hits beside the right ones: missing, too many, hit more than once.

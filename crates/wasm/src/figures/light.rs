@@ -40,12 +40,11 @@ pub(super) fn brightest(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.path("grid", &[around(degrees(i), 56.0), around(degrees(i), 72.0)], false);
     }
     drawing.arrow("ink", around(angle, 122.0), around(angle, 76.0));
-    let slider = drawing.slider(given, 0, panel.bottom() + 26.0, &format!("{}°", number(angle, 0)));
+    drawing.slider(given, 0, panel.bottom() + 26.0, &format!("{}°", number(angle, 0)));
     let pixels = (0..).zip(&bright).map(|(x, &value)| ([x, 0], value >= most - 1e-9)).collect();
     let dark = bright.iter().filter(|&&value| value <= 0.2 + 1e-9).count();
     Ok(Drawn {
         drawing,
-        grips: vec![slider],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("dark", dark.to_string())],
         link: None,
@@ -79,12 +78,10 @@ pub(super) fn short_normal(given: &Given<'_>) -> Result<Drawn, String> {
         let [x, y] = panel.place([6.5, 1.0]);
         drawing.path("ink", &[[x - 6.0, y + 12.0], [x, y + 3.0], [x + 6.0, y + 12.0]], true);
     }
-    let slider =
-        drawing.slider(given, 0, rows[1].bottom() + 30.0, &format!("{}°", number(angle, 0)));
+    drawing.slider(given, 0, rows[1].bottom() + 30.0, &format!("{}°", number(angle, 0)));
     let middle = normals[6].dot(light.towards) * 100.0;
     Ok(Drawn {
         drawing,
-        grips: vec![slider],
         predict: Predict::Number(middle, 0),
         values: vec![
             ("short", number(middle, 0)),
@@ -130,12 +127,10 @@ pub(super) fn texel(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.grid(panel);
         drawing.text([12.0, panel.corner[1] - 6.0], "start", says);
     }
-    let slider =
-        drawing.slider(given, 0, rows[1].bottom() + 24.0, &format!("u = {}", number(u, 2)));
+    drawing.slider(given, 0, rows[1].bottom() + 24.0, &format!("u = {}", number(u, 2)));
     let [nearest, mixed] = [at(&ways[0], u), at(&ways[1], u)];
     Ok(Drawn {
         drawing,
-        grips: vec![slider],
         predict: Predict::Number(mixed, 0),
         values: vec![
             ("nearest", number(nearest, 0)),

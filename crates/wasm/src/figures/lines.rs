@@ -48,12 +48,11 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grid(&panel);
     let middle = |p: [i32; 2]| p.map(|v| f64::from(v) + 0.5);
     drawing.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
-    drawing.grip(panel.place(middle(end)));
+    drawing.grip(panel.place(middle(end)), [panel.unit; 2]);
     let count = differ(&there, &back);
     let [x, y] = end;
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(middle(end)), [panel.unit; 2])],
         predict: Predict::Number(count as f64, 0),
         values: vec![
             ("differ", count.to_string()),
@@ -78,12 +77,11 @@ pub(super) fn line_pixels(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.samples(&panel);
     let middle = |p: [i32; 2]| p.map(|v| f64::from(v) + 0.5);
     drawing.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
-    drawing.grip(panel.place(middle(end)));
+    drawing.grip(panel.place(middle(end)), [panel.unit; 2]);
     let pixels = panel.pixels().map(|pixel| (pixel, line.contains(&pixel))).collect();
     let [x, y] = end;
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(middle(end)), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("count", line.len().to_string())],
         link: Some(format!(

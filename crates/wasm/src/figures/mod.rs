@@ -93,9 +93,6 @@ enum Predict {
 
 struct Drawn {
     drawing: Drawing,
-    /// Where each grip lies on the drawing, and how far it moves there for a step of 1 to the right and down;
-    /// 0 where it does not move.
-    grips: Vec<(Point, Point)>,
     predict: Predict,
     /// The computed numbers that replace the names in braces in the texts.
     values: Vec<(&'static str, String)>,
@@ -178,7 +175,7 @@ impl Ask {
                 json!({ "kind": "number", "decimals": decimals, "right": format!("{value:.decimals$}") })
             }
         };
-        let grips = figure.grips.iter().zip(&text.grips).zip(&at).zip(&drawn.grips);
+        let grips = figure.grips.iter().zip(&text.grips).zip(&at).zip(&drawn.drawing.grips);
         let grips: Vec<_> = grips
             .map(|(((grip, name), value), (spot, scale))| {
                 json!({

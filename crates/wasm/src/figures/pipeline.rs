@@ -54,13 +54,11 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.text([eye[0], eye[1] + 22.0], "middle", "w = 0");
     let spots = [aside(w, 0.8), [plane, top + side - 8.0]];
     for (spot, letter) in spots.iter().zip(["C", "n"]) {
-        drawing.grip(*spot);
+        drawing.grip(*spot, [side / 4.5, 0.0]);
         drawing.text([spot[0] + 12.0, spot[1] + 1.0], "start", letter);
     }
-    let scale = side / 4.5;
     Ok(Drawn {
         drawing,
-        grips: spots.map(|spot| (spot, [scale, 0.0])).to_vec(),
         predict: Predict::Number(outline.len() as f64, 0),
         values: vec![
             ("corners", outline.len().to_string()),
@@ -105,10 +103,9 @@ pub(super) fn boards(given: &Given<'_>) -> Result<Drawn, String> {
     let [right, bottom] = panel.place([48.0, 27.0]);
     drawing.path("grid", &[[left, top], [right, top], [right, bottom], [left, bottom]], true);
     let says = format!("Δz = {}", number(spacing, 2));
-    let slider = drawing.slider(given, 0, panel.bottom() + 26.0, &says);
+    drawing.slider(given, 0, panel.bottom() + 26.0, &says);
     Ok(Drawn {
         drawing,
-        grips: vec![slider],
         predict: Predict::Number(heights[2] as f64, 0),
         values: vec![
             ("third", number(1.0 + 2.0 * spacing, 2)),
@@ -178,7 +175,7 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.text([x, y - 6.0], "start", "z = 1");
     drawing.dot(above(0.0, 0.0), 4.0);
     drawing.arrow("ink", above(1.0, 3.0), above(1.0, end));
-    drawing.named_grip(above(1.0, end), &format!("z = {}", number(end, 2)));
+    drawing.named_grip(above(1.0, end), [0.0, -30.0], &format!("z = {}", number(end, 2)));
     drawing.grid(&panel);
     if given.is_answered {
         drawing.grid(&naive);
@@ -187,7 +184,6 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
     let pixels = (0..13).map(|x| ([x, 0], right.contains(&x))).collect();
     Ok(Drawn {
         drawing,
-        grips: vec![(above(1.0, end), [0.0, -30.0])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
             ("right", right.len().to_string()),
@@ -225,14 +221,13 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
     }
     drawing.outline(&panel, "ink", &right, true);
     let spot = panel.place(right[2]);
-    drawing.grip(spot);
+    let half = panel.unit * 2.5;
+    drawing.grip(spot, [half, -half]);
     let missing = |[x, y]: [i32; 2]| is.get(x, y) < should.get(x, y);
     let pixels: Vec<_> = panel.pixels().map(|pixel| (pixel, missing(pixel))).collect();
     let count = pixels.iter().filter(|(_, is_missing)| *is_missing).count();
-    let half = panel.unit * 2.5;
     Ok(Drawn {
         drawing,
-        grips: vec![(spot, [half, -half])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("covered", should.covered().to_string()), ("missing", count.to_string())],
         link: None,
@@ -263,12 +258,11 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.path("soft", &[above(0.0, 0.0), above(0.0, 6.6)], false);
     drawing.path("soft", &[above(0.0, 0.0), above(x, z)], false);
     drawing.dot(above(0.0, 0.0), 4.0);
-    drawing.grip(above(x, z));
+    drawing.grip(above(x, z), [24.0, -24.0]);
     let [left, top] = above(x, z);
     drawing.text([left, top - 12.0], "middle", &format!("{}, {}", number(x, 2), number(z, 2)));
     Ok(Drawn {
         drawing,
-        grips: vec![(above(x, z), [24.0, -24.0])],
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == pixel)).collect()),
         values: vec![("px", number(point[0], 3)), ("py", number(point[1], 3))],
         link: None,
@@ -291,12 +285,9 @@ pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.answered_hits(&panel, &answer["hits"]);
     drawing.grid(&panel);
     for triangle in &triangles {
-        for i in 0..3 {
-            let ends = [triangle[i], triangle[(i + 1) % 3]].map(|p| panel.place(p));
-            drawing.arrow("ink", ends[0], ends[1]);
-        }
+        drawing.arrows("ink", triangle.map(|p| panel.place(p)));
     }
-    drawing.grip(panel.place(c));
+    drawing.grip(panel.place(c), [panel.unit; 2]);
     let right = match removed {
         [true, false] => 0,
         [false, true] => 1,
@@ -307,7 +298,6 @@ pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
     let area = answer["areas"][0]["twiceArea"].as_str().and_then(|text| text.parse::<f64>().ok());
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(c), [panel.unit; 2])],
         predict: Predict::Choice(right),
         values: vec![("area", number(area.unwrap_or(0.0) / 65536.0, 2))],
         link: with_triangles("culling", &triangles, "&window=0,0,20,10&removes=counter-clockwise"),
@@ -332,21 +322,16 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.path("grid", &[place(column, 0.0), place(column, 1.4)], false);
     }
     let exact = [0, 1, 2].map(|i| place(i as f64, heights[i]));
-    for i in 0..3 {
-        drawing.arrow("soft", exact[i], exact[(i + 1) % 3]);
-    }
+    drawing.arrows("soft", exact);
     if given.is_answered {
         let drawn = snapped.map(|p| place(f64::from(p.x) / 256.0, f64::from(p.y)));
-        for i in 0..3 {
-            drawing.arrow("ink", drawn[i], drawn[(i + 1) % 3]);
-        }
+        drawing.arrows("ink", drawn);
     }
-    drawing.named_grip(exact[1], "b");
+    drawing.named_grip(exact[1], [0.0, 100.0], "b");
     let before = heights[2] - 2.0 * heights[1];
     let square = twice_area(snapped) as f64 / 256.0;
     Ok(Drawn {
         drawing,
-        grips: vec![(exact[1], [0.0, 100.0])],
         predict: Predict::Choice(match sign {
             1 => 0,
             -1 => 1,
@@ -382,14 +367,11 @@ pub(super) fn order_matters(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.outline(&panel, "soft", &other, true);
     }
     let below = panel.bottom();
-    let sliders = vec![
-        drawing.slider(given, 0, below + 26.0, &format!("+{}", number(by, 0))),
-        drawing.slider(given, 1, below + 64.0, &format!("× {}", number(times, 1))),
-    ];
+    drawing.slider(given, 0, below + 26.0, &format!("+{}", number(by, 0)));
+    drawing.slider(given, 1, below + 64.0, &format!("× {}", number(times, 1)));
     let pixels = panel.pixels().map(|p| (p, hits.get(p[0], p[1]) != Some(0))).collect();
     Ok(Drawn {
         drawing,
-        grips: sliders,
         predict: Predict::Pixels(panel, pixels),
         values: vec![
             ("left", number(times * by, 1)),
@@ -419,9 +401,9 @@ pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
     if given.is_answered {
         drawing.outline(&panel, "ink", &turned, true);
     }
-    drawing.named_grip(panel.place(window(centre)), "c");
+    drawing.named_grip(panel.place(window(centre)), [panel.unit, -panel.unit], "c");
     let says = format!("{}°", number(degrees, 0));
-    let slider = drawing.slider(given, 1, panel.bottom() + 26.0, &says);
+    drawing.slider(given, 1, panel.bottom() + 26.0, &says);
     let to = turn.transform_point3(centre + DVec3::new(4.0, 0.0, 0.0)) - centre;
     let right = match (to.x.abs() >= to.y.abs(), to.x > 0.0, to.y > 0.0) {
         (true, true, _) => 0,
@@ -431,7 +413,6 @@ pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
     };
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(window(centre)), [panel.unit, -panel.unit]), slider],
         predict: Predict::Choice(right),
         values: Vec::new(),
         link: with_triangles("triangle", &[turned], "&window=0,0,14,14"),

@@ -99,13 +99,12 @@ pub(super) fn weights(given: &Given<'_>) -> Result<Drawn, String> {
         let [x, y] = panel.place(corner);
         drawing.text([x + dx, y + dy], anchor, says);
     }
-    drawing.named_grip(panel.place(p), "P");
+    drawing.named_grip(panel.place(p), [panel.unit; 2], "P");
     let percent = shares.map(|share| number(share * 100.0, 2));
     let [wa, wb, wc] = percent;
     let plane = 100.0 * shares[0] + 20.0 * shares[1] + 60.0 * shares[2];
     Ok(Drawn {
         drawing,
-        grips: vec![(panel.place(p), [panel.unit; 2])],
         predict: Predict::Number(shares[0] * 100.0, 0),
         values: vec![
             ("wa", wa),
@@ -148,7 +147,7 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
             drawing.text([x, y + dy], "middle", letter);
         }
     }
-    drawing.grip(left.place(corners[0]));
+    drawing.grip(left.place(corners[0]), [left.unit; 2]);
     // The pixel nearest to each corner, and how red it is.
     let redness = corners.map(|corner| {
         let fragments = left.pixels().filter_map(|p| wrong.get(p[0], p[1]).flatten());
@@ -160,7 +159,6 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
     let red = (0..3).max_by(|&a, &b| redness[a].total_cmp(&redness[b])).unwrap_or(0);
     Ok(Drawn {
         drawing,
-        grips: vec![(left.place(corners[0]), [left.unit; 2])],
         predict: Predict::Choice(red),
         values: vec![("red", ["A", "B", "C"][red].to_owned())],
         link: with_triangles("weights", &[valued], "&window=0,0,12,11&by=sysu-weights,scanline"),
@@ -203,10 +201,9 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
             drawing.outline(panel, "soft", &[[2.0, 29.0], [20.0, 4.0]], false);
         }
     }
-    let slider = drawing.slider(given, 0, left.bottom() + 24.0, &format!("w = {}", number(far, 2)));
+    drawing.slider(given, 0, left.bottom() + 24.0, &format!("w = {}", number(far, 2)));
     Ok(Drawn {
         drawing,
-        grips: vec![slider],
         predict: Predict::Choice(if far == 1.0 { 2 } else { 0 }),
         values: vec![("differ", differ.to_string())],
         link: with_triangles(
@@ -233,10 +230,9 @@ pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
         let [x, y] = panel.place([6.5, 1.0]);
         drawing.path("ink", &[[x - 6.0, y + 12.0], [x, y + 3.0], [x + 6.0, y + 12.0]], true);
     }
-    let slider = drawing.slider(given, 0, 176.0, &format!("w = {}", number(far, 1)));
+    drawing.slider(given, 0, 176.0, &format!("w = {}", number(far, 1)));
     Ok(Drawn {
         drawing,
-        grips: vec![slider],
         predict: Predict::Number(middle * 100.0, 0),
         values: vec![("value", number(middle * 100.0, 0))],
         link: None,
@@ -278,12 +274,11 @@ pub(super) fn rod_middle(given: &Given<'_>) -> Result<Drawn, String> {
     if given.is_answered {
         drawing.path("soft", &[middle, above(0.0, 0.0)], false);
     }
-    drawing.grip(a);
-    drawing.grip(b);
+    drawing.grip(a, [-24.0, 0.0]);
+    drawing.grip(b, [24.0, 0.0]);
     let share = far / (near + far);
     Ok(Drawn {
         drawing,
-        grips: vec![(a, [-24.0, 0.0]), (b, [24.0, 0.0])],
         predict: Predict::Pixels(panel, (0..13).map(|x| ([x, 0], x == right as i32)).collect()),
         values: vec![("share", number(share * 100.0, 0))],
         link: None,
@@ -367,14 +362,13 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
     }
     drawing.text([slanted[4][0] + 10.0, slanted[4][1] + 16.0], "start", "A");
     drawing.path("ink", &[[left, up(b)], [right, up(b)]], false);
-    drawing.named_grip([right, up(b)], "B");
+    drawing.named_grip([right, up(b)], [0.0, -2.0], "B");
     drawing.grid(&panel);
     if given.is_answered {
         drawing.grid(&painter);
     }
     Ok(Drawn {
         drawing,
-        grips: vec![([right, up(b)], [0.0, -2.0])],
         predict: Predict::Pixels(panel, (0..).zip(&shows_b).map(|(x, &is)| ([x, 0], is)).collect()),
         values: vec![
             ("last", if is_b_last { "B" } else { "A" }.to_owned()),
@@ -399,12 +393,10 @@ pub(super) fn z_fighting(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.pixel(&panel, [x, 0], class, letter);
     }
     drawing.grid(&panel);
-    let slider =
-        drawing.slider(given, 0, panel.bottom() + 30.0, &format!("Δ = {}", number(gap, 2)));
+    drawing.slider(given, 0, panel.bottom() + 30.0, &format!("Δ = {}", number(gap, 2)));
     let seen = shows_near.iter().filter(|&&is_near| is_near).count();
     Ok(Drawn {
         drawing,
-        grips: vec![slider],
         predict: Predict::Number(seen as f64, 0),
         values: vec![("seen", seen.to_string())],
         link: Some(depth_link(16, first, second)),

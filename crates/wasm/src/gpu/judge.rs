@@ -438,22 +438,15 @@ fn facts(check: Check, tally: &Tally) -> Value {
 mod tests {
     use super::super::Vertex;
     use super::super::shrink::size;
+    use super::super::subjects::PLAN;
     use super::*;
     use serde_json::from_value;
 
-    const CHECKS: [&str; 11] = [
-        "lattice",
-        "coverage",
-        "reach",
-        "tiling",
-        "order",
-        "facing",
-        "lines",
-        "depth",
-        "near-plane",
-        "samples",
-        "twice",
-    ];
+    /// The names of all checks but that of values.
+    fn checks() -> Vec<String> {
+        let names = PLAN.iter().map(|(check, _)| from_value::<String>(json!(check)).unwrap());
+        names.filter(|name| name != "values").collect()
+    }
 
     fn batch(check: &str, interface: &str, more: Value) -> Batch {
         let device = json!({ "interface": interface, "bits": 4, "samples_apart": true });
@@ -493,9 +486,8 @@ mod tests {
     #[test]
     #[ignore = "takes seconds; .ci/run runs it"]
     fn what_is_expected_is_as_promised() {
-        for (check, interface) in
-            CHECKS.iter().flat_map(|check| [(check, "webgl2"), (check, "webgpu")])
-        {
+        let checks = checks();
+        for (check, interface) in checks.iter().flat_map(|c| [(c, "webgl2"), (c, "webgpu")]) {
             let answer = answer(check, interface, json!({}), &|_, _| {});
             // Positions are expected unrounded, and WebGL says that there are at least four bits.
             assert_eq!(answer["word"], "promised", "{check} {interface} {}", answer["facts"]);
@@ -507,7 +499,7 @@ mod tests {
     #[test]
     #[ignore = "takes seconds; .ci/run runs it"]
     fn gross_faults_break_promises() {
-        for check in CHECKS {
+        for check in &checks() {
             // The first drawing is what the second is held to.
             let first = usize::from(check == "twice");
             let twice = |_: &Subject, planes: &mut Planes| {
@@ -600,24 +592,16 @@ mod tests {
     /// Smaller cases lie on the device's lattice and in the cell, and lead to one that is smaller still.
     #[test]
     fn smaller_cases_are_asked() {
-        let mut subject =
-            batch("coverage", "webgl2", json!({ "number": 4 })).subjects().unwrap().1[0].clone();
+        let asked = |more: Value| batch("coverage", "webgl2", more).subjects().unwrap();
+        let device = batch("coverage", "webgl2", json!({})).device;
+        let mut subject = asked(json!({ "number": 4 })).1[0].clone();
         let mut rounds = 0;
         loop {
-            let (layout, list) =
-                batch("coverage", "webgl2", json!({ "smaller": subject })).subjects().unwrap();
-            let Some(next) = list.into_iter().find(|s| {
-                // Fails while it covers anything.
-                expected(
-                    Check::Coverage,
-                    batch("coverage", "webgl2", json!({})).device,
-                    s,
-                    layout.cell,
-                )[0]
-                .contains(&1)
-            }) else {
-                break;
-            };
+            let (layout, list) = asked(json!({ "smaller": subject }));
+            // Fails while it covers anything.
+            let fails =
+                |s: &Subject| expected(Check::Coverage, device, s, layout.cell)[0].contains(&1);
+            let Some(next) = list.into_iter().find(fails) else { break };
             let on_lattice = |v: i32| v % 16 == 0 && (0..=layout.cell * SUBPIXELS).contains(&v);
             assert!(next.corners().iter().flatten().all(|p| on_lattice(p.x) && on_lattice(p.y)));
             subject = next;
