@@ -347,7 +347,7 @@ fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) 
     let measures = measures.map(|(title, short)| Measure { title, short, unit, goal: Some(0.0) });
     let mut group = Group::new(ladder.title(), &measures, [sample.pieces, sample.pixels]);
     group.choices = choices;
-    set_times(&mut group, &timed, &mut passes, (effort, effort.race()));
+    set_times(&mut group, &timed, &mut passes, effort, (effort.rounds(), effort.race()));
     group
 }
 
@@ -469,9 +469,10 @@ fn set_times(
     group: &mut Group,
     timed: &[usize],
     passes: &mut [Pass<'_>],
-    (effort, race): (Effort, Duration),
+    effort: Effort,
+    (rounds, race): (usize, Duration),
 ) {
-    let spreads = time(passes, effort.rounds(), true, &|_| ());
+    let spreads = time(passes, rounds, true, &|_| ());
     for (&number, spread) in timed.iter().zip(spreads) {
         group.choices[number].time = Some(spread);
     }
@@ -628,7 +629,7 @@ fn depth(sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
     };
     let mut group = Group::new(Ladder::Depth.title(), &[measure], [sample.pieces, sample.pixels]);
     group.choices = choices;
-    set_times(&mut group, &timed, &mut passes, (effort, effort.race_of_depths()));
+    set_times(&mut group, &timed, &mut passes, effort, (effort.rounds(), effort.race_of_depths()));
     group
 }
 
@@ -736,11 +737,8 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
         passes.push(Pass { column: 0, run });
     }
     let rounds = effort.frames().as_secs_f64() / once.as_secs_f64().max(1e-6);
+    let rounds = (rounds as usize).clamp(3, 101);
     let timed: Vec<usize> = (0..choices.len()).collect();
-    let spreads = time(&mut passes, (rounds as usize).clamp(3, 101), true, &|_| ());
-    for (&number, spread) in timed.iter().zip(spreads) {
-        choices[number].time = Some(spread);
-    }
     let measure = Measure {
         title: "pixels that differ from the frame of scanline with everything switched on",
         short: "wrong px",
@@ -750,7 +748,7 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
     let pixels = u64::from(window.width()) * u64::from(window.height());
     let mut group = Group::new("Whole frames", &[measure], [scene.triangles() as u64, pixels]);
     group.choices = choices;
-    set_best(&mut group, &timed, &mut passes, effort, effort.frames());
+    set_times(&mut group, &timed, &mut passes, effort, (rounds, effort.frames()));
     Ok(group)
 }
 

@@ -73,25 +73,16 @@ pub fn check_command<S: AsRef<OsStr>>(folder: &Path, run: &[S]) -> Result<(), St
     if !folder.is_dir() {
         return Err(format!("{} is no folder", printable_path(folder)));
     }
+    let is_in = |folder: &Path| folder.join(name).is_file();
     if name.as_encoded_bytes().contains(&b'/') {
-        return if folder.join(name).is_file() {
-            Ok(())
-        } else {
-            Err(format!(
-                "{shown} is not in {}\n  build it, or mend run in course.toml",
-                printable_path(folder)
-            ))
-        };
+        let remedy = "build it, or mend run in course.toml";
+        let missing = || format!("{shown} is not in {}\n  {remedy}", printable_path(folder));
+        return is_in(folder).then_some(()).ok_or_else(missing);
     }
+    let remedy = "install it, or name another command: rasterproof course check -- CMD";
+    let missing = || format!("{shown} is not installed: no folder of PATH has it\n  {remedy}");
     let paths = std::env::var_os("PATH").unwrap_or_default();
-    if std::env::split_paths(&paths).any(|path| path.join(name).is_file()) {
-        Ok(())
-    } else {
-        Err(format!(
-            "{shown} is not installed: no folder of PATH has it\n  install it, or name another \
-             command: rasterproof course check -- CMD"
-        ))
-    }
+    std::env::split_paths(&paths).any(|path| is_in(&path)).then_some(()).ok_or_else(missing)
 }
 
 /// A program that has said HELLO.

@@ -11,6 +11,11 @@ macro_rules! solvers {
     };
 }
 
+/// The functions of pages, each with the name of its module.
+macro_rules! solvers_of {
+    ($($page:ident),*) => { &[$((stringify!($page), $page::SOLVE)),*] };
+}
+
 mod answer;
 mod ch01;
 mod ch02;
@@ -145,23 +150,10 @@ pub struct Chapter {
 pub static CHAPTERS: LazyLock<Vec<Chapter>> = LazyLock::new(chapters);
 
 /// The functions that compute answers, by the page and the name that `exercises.toml` gives.
-const SOLVERS: &[(&str, &[(&str, Solve)])] = &[
-    ("ch01", ch01::SOLVE),
-    ("ch02", ch02::SOLVE),
-    ("ch03", ch03::SOLVE),
-    ("ch04", ch04::SOLVE),
-    ("ch05", ch05::SOLVE),
-    ("ch06", ch06::SOLVE),
-    ("ch07", ch07::SOLVE),
-    ("ch08", ch08::SOLVE),
-    ("ch09", ch09::SOLVE),
-    ("ch10", ch10::SOLVE),
-    ("ch11", ch11::SOLVE),
-    ("games101", games101::SOLVE),
-    ("sysu", sysu::SOLVE),
-    ("effects", effects::SOLVE),
-    ("stability", stability::SOLVE),
-];
+const SOLVERS: &[(&str, &[(&str, Solve)])] = solvers_of!(
+    ch01, ch02, ch03, ch04, ch05, ch06, ch07, ch08, ch09, ch10, ch11, games101, sysu, effects,
+    stability
+);
 
 fn chapters() -> Vec<Chapter> {
     #[derive(Deserialize)]
