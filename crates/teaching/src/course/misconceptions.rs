@@ -4,7 +4,7 @@
 //! them are wrong. Predictions are computed from the request alone: by [`rasterproof_convention`] where a convention is
 //! mistaken, and here for the rest. A program with two mistakes at once follows none of them, and nothing is named.
 
-use glam::{DVec2, DVec3, IVec2, Vec3Swizzles as _};
+use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
 use rasterproof_convention::{
     Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
@@ -422,7 +422,7 @@ fn weights(corners: &Corners, p: DVec2) -> (f64, DVec3) {
 }
 
 fn centre(x: i32, y: i32) -> DVec2 {
-    IVec2::new(x, y).as_dvec2() + 0.5
+    DVec2::new(f64::from(x), f64::from(y)) + 0.5
 }
 
 fn mean(l: DVec3) -> DVec3 {
