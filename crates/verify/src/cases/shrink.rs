@@ -223,9 +223,9 @@ fn triangle_candidates(case: &Case) -> Vec<Case> {
     let first = corners[0];
     let halfway = |a: i32, b: i32| ((i64::from(a) + i64::from(b)) / 2) as i32;
     found.push(here(&|_, [x, y]| [halfway(x, first[0]), halfway(y, first[1])]));
-    for corner in 0..3 {
-        for axis in 0..2 {
-            let simpler = simpler_coordinates(corners[corner][axis]);
+    for (corner, point) in corners.into_iter().enumerate() {
+        for (axis, own) in point.into_iter().enumerate() {
+            let simpler = simpler_coordinates(own);
             found.extend(simpler.into_iter().map(|value| here(&one_at(corner, axis, value))));
         }
     }
@@ -302,8 +302,7 @@ fn line_candidates(case: &Case) -> Vec<Case> {
         for point in between(1, ends[end], ends[1 - end]) {
             found.push(here(&|i, p| if i == end { point } else { p }));
         }
-        for axis in 0..2 {
-            let value = ends[end][axis];
+        for (axis, value) in ends[end].into_iter().enumerate() {
             let step = |v: i32| value - value.signum() * v.min(value.abs());
             let simpler = [0, value / 2, step(8), step(2), step(1)];
             found.extend(simpler.map(|value| here(&one_at(end, axis, value))));
