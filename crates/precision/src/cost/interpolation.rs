@@ -188,12 +188,15 @@ fn samples(drawn: &[Drawn<Valued>], count: usize) -> Vec<Sample> {
     samples
 }
 
-/// Calls `see` with the triangle, the pixel and the value that a rung has there, for each sample.
+/// Takes a triangle, a sample of it, the pixel and the value that a rung has there.
+type See<'a, 'b> = dyn FnMut(&'a Drawn<Valued>, &Sample, [i32; 2], f64) + 'b;
+
+/// Calls `see` for each sample.
 fn at_samples<'a>(
     rung: &dyn AnyValues<Valued>,
     drawn: &'a [Drawn<Valued>],
     samples: &[Sample],
-    see: &mut dyn FnMut(&'a Drawn<Valued>, &Sample, [i32; 2], f64),
+    see: &mut See<'a, '_>,
 ) {
     let mut samples = samples.iter().peekable();
     for (i, of_this) in drawn.iter().enumerate() {

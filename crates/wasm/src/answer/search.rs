@@ -75,8 +75,11 @@ pub(super) fn generated(name: &str, seed: u64, index: u64) -> Result<Value, Stri
     Ok(json!({ "name": name, "about": about, "picture": picture(index) }))
 }
 
-/// What a family is about, and its cases by their numbers, on the lattice or off it.
-fn family(name: &str, seed: u64) -> Result<(&'static str, Box<dyn Fn(u64) -> Picture>), String> {
+/// The cases of a family by their numbers.
+type Cases = Box<dyn Fn(u64) -> Picture>;
+
+/// What a family is about, and its cases, on the lattice or off it.
+fn family(name: &str, seed: u64) -> Result<(&'static str, Cases), String> {
     if let Some(family) = unsnapped::FAMILIES.iter().find(|family| family.name == name) {
         let case = move |index| Picture::from(&family.case(seed, index));
         return Ok((family.about, Box::new(case)));
