@@ -71,7 +71,7 @@ pub fn text_block(page: &str) -> Range<usize> {
 }
 
 pub fn page(folder: &str, name: &str) -> String {
-    read(&format!("{folder}/{name}.md"))
+    read(format!("{folder}/{name}.md"))
 }
 
 /// The names of the marked figures of a page and where they are, or what is wrong with a marker.
@@ -340,7 +340,7 @@ fn pages_tables_add_up() {
 #[test]
 fn pages_certificates_are_as_written() {
     let certificate = |name: &str| -> serde_json::Value {
-        serde_json::from_str(&read(&format!("docs/certificates/{name}.json"))).unwrap()
+        serde_json::from_str(&read(format!("docs/certificates/{name}.json"))).unwrap()
     };
     let counts = ["cases", "comparisons", "oracle_checks", "mismatches"];
     let count = fs::read_dir(root().join("docs/certificates")).unwrap().count();

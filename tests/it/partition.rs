@@ -103,7 +103,7 @@ fn partition_with_a_filled_hole_is_reported() {
 fn pages_show_what_tessellators_of_others_did() {
     let names = "cdt earcut earcut-i32 earcutr i_triangle kika lyon_tessellation poly2tri-rs spade triangulate";
     for name in names.split(' ') {
-        let text = read(&format!("adapters/tessellators/results/{name}.csv"));
+        let text = read(format!("adapters/tessellators/results/{name}.csv"));
         let head: Vec<_> = text.lines().next().unwrap().split(',').collect();
         let sum = |meant: &str| -> String {
             let is_meant = |(column, _): &(&&str, &str)| **column == meant;

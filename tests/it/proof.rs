@@ -37,7 +37,7 @@ fn proof_models_are_of_this_code() {
     for row in modelled.lines() {
         let words: Vec<_> = row.split(' ').collect();
         for model in &words[2..] {
-            let opening = read(&format!("proof/{model}"));
+            let opening = read(format!("proof/{model}"));
             let opening = opening.split("*)").next().unwrap();
             assert!(opening.contains(words[0]), "{model} does not open with {}", words[0]);
         }
@@ -88,7 +88,7 @@ fn proof_theorems_of_the_pages_exist() {
         assert!(named.len() >= 4, "{name} names {named:?}");
         for (theorem, file) in named {
             assert!(
-                is_stated(theorem, &read(&format!("proof/{file}"))),
+                is_stated(theorem, &read(format!("proof/{file}"))),
                 "{name}: {theorem}, {file}"
             );
         }

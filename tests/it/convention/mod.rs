@@ -253,7 +253,8 @@ fn conventions_of_other_shapes_are_unexplained() {
         let at = |v: [i32; 3], px: i32| f64::from(v.iter().sum::<i32>()) / 768.0 - f64::from(px);
         at(q.corners.map(|c| c.x), x).hypot(at(q.corners.map(|c| c.y), y)) < 4.0
     };
-    let all: [(&str, fn(&Question, i32, i32) -> bool); 3] =
+    type Hits = fn(&Question, i32, i32) -> bool;
+    let all: [(&str, Hits); 3] =
         [("boxes", boxes), ("discs", discs), ("everything", |_, _, _| true)];
     for (name, hits) in all {
         let found = diagnose(&mut other(hits), &Known::default(), 1);
