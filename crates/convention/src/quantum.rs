@@ -9,12 +9,12 @@ use rasterproof_core::triangle::Corners;
 rasterproof_core::named! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
     pub enum Rounding {
-        /// floor(v + 1/2).
+        /// v becomes floor(v + 1/2).
         Near = "the nearest, halves up",
         HalfEven = "the nearest, halves to the even one",
-        /// floor(v).
+        /// v becomes floor(v), below zero too.
         Down = "down",
-        /// As a cast to `int` does.
+        /// The fraction is cut off, as by a cast to `int` in C.
         TowardZero = "toward zero",
     }
 }

@@ -12,9 +12,9 @@ rasterproof_core::named! {
     /// How four samples lie about their middle.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
     pub enum Pattern {
-        /// A quarter of a pixel each way.
+        /// Each is a quarter of a pixel from the middle along both axes.
         Square = "two by two",
-        /// The four of Vulkan and Direct3D.
+        /// The four standard positions of Vulkan and Direct3D.
         Rotated = "each in a row and column of its own",
     }
 }

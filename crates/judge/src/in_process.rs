@@ -1,4 +1,4 @@
-//! An engine of the registry that is asked without a process: the server answers it in memory.
+//! An engine of the registry as a judged program without a process: the server answers in memory.
 
 use super::ask::{Answer, Ask, Breach, Question};
 use super::declared::{Declared, MOST_IN_FLIGHT};

@@ -5,8 +5,8 @@
 //! Yan, 2020) homework 2 with its published solutions, and SYSU (Sun Yat-sen University, Computer Graphics)
 //! assignment 2 with a published report (2022); `docs/sources.md` says where they are to be found. A file
 //! holds one algorithm in our own words, with its symptom. The [`catalogue`] has its cure, a case that
-//! exposes it and one that is harmless. A specimen takes positions as real numbers, since its faults begin with what it does to them, and draws a
-//! pixel as often as the published loops do. None is ever repaired: the tests require each to be
+//! exposes it and one that is harmless. A specimen takes positions as real numbers, since its faults begin with
+//! what it does to them. It draws a pixel as often as the published loops do. None is ever repaired: the tests require each to be
 //! caught.
 //!
 //! They refuse what would not end or is undefined in the published code, with a reason: [`Refused`].

@@ -26,7 +26,7 @@ enum ComponentType {
 }
 
 impl ComponentType {
-    /// By its number in OpenGL.
+    /// The type that a file names by its number in OpenGL; nothing where glTF has no such type.
     fn of(number: u64) -> Option<Self> {
         Some(match number {
             5120 => Self::I8,
@@ -48,7 +48,7 @@ impl ComponentType {
     }
 }
 
-/// How many numbers an element has.
+/// How many numbers an element of this type has; nothing where glTF has no such type.
 fn width_of(form: &str) -> Option<usize> {
     Some(match form {
         "SCALAR" => 1,

@@ -121,7 +121,7 @@ pub(super) const TRIANGLES: u64 = 4;
 pub(super) const TRIANGLE_STRIP: u64 = 5;
 pub(super) const TRIANGLE_FAN: u64 = 6;
 
-/// What a shape moves.
+/// The accessors of what a shape (morph target) adds to each vertex.
 #[derive(Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(super) struct Target {
@@ -200,7 +200,7 @@ impl Default for Glossiness {
     }
 }
 
-/// A texture of a material.
+/// Which texture a material reads, and by which texture coordinates.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Info {
@@ -246,7 +246,7 @@ pub(super) struct Image {
     pub buffer_view: Option<usize>,
 }
 
-/// Numbers of OpenGL.
+/// How a texture is read; filters and wrapping are numbers of OpenGL.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Sampler {
@@ -293,7 +293,7 @@ pub(super) struct SparsePart {
     pub buffer_view: usize,
     #[serde(default)]
     pub byte_offset: u64,
-    /// Of indices.
+    /// Values have the type of their accessor, and 0 here.
     #[serde(default)]
     pub component_type: u64,
 }

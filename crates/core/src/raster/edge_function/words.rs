@@ -52,8 +52,9 @@ impl Rasterize for EdgeFunctionIn {
     }
 }
 
-/// Triangles that do not fit 32 bits have so many pixels that a call for each of their rows takes no time beside them: their
-/// walks are compiled once.
+/// The walks in other words than the narrow ones of most triangles are compiled once, and call `emit` through a pointer for
+/// each row. Triangles that do not fit 32 bits mostly have so many pixels that this takes no time beside them. Where wide words
+/// are asked for everywhere, it is a part of what they cost.
 fn cover_by_pointer<T: Exact, W: Word>(
     corners: Corners,
     bounds: PixelRect,
