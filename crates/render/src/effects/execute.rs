@@ -1,5 +1,6 @@
 //! A plan to a picture: does what the plan says, and decides nothing.
 
+use std::cell::RefCell;
 use std::fmt;
 use std::num::NonZeroU32;
 
@@ -16,6 +17,7 @@ use super::primitive::{BadScene, Piece, Prepared};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::target::{Colour, Target};
+use crate::pipeline::texture::FourTexels;
 use crate::scene::Scene;
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
@@ -391,7 +393,9 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
             }
             let constants = parts.is_some().then_some(&part.constants);
             let map = map.filter(|_| part.plan.shadows);
-            let kernel = Kernel::new(item, piece, part.plan, map, constants, counters);
+            let last = part.constants.shares_texels.then(|| RefCell::new(FourTexels::NONE));
+            let mut kernel = Kernel::new(item, piece, part.plan, map, constants, counters);
+            kernel.last = last.as_ref();
             let samples = samples.as_deref_mut();
             kernel.draw(engine, piece, part.bounds, target, samples, counters);
         };

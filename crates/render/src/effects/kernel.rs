@@ -48,26 +48,6 @@ impl Before {
     }
 }
 
-/// Where attributes begin among the numbers of a fragment, if they are interpolated.
-struct Starts {
-    colour: usize,
-    normal: usize,
-    uv: usize,
-    place: usize,
-}
-
-impl Starts {
-    fn of(interpolates: Attributes) -> Self {
-        let before = |bit: u8| interpolates.both(Attributes(bit - 1)).components();
-        Self {
-            colour: 0,
-            normal: before(Attributes::NORMAL),
-            uv: before(Attributes::UV),
-            place: before(Attributes::PLACE),
-        }
-    }
-}
-
 /// The colour of the first wanted fragment.
 fn first(colours: &[Colour], wanted: u32) -> Colour {
     colours[wanted.trailing_zeros() as usize]
@@ -110,7 +90,6 @@ fn fill_wanted(colour: Colour, wanted: u32, colours: &mut [Colour]) {
 /// Draws one piece: constants, and what is left to do in each fragment.
 pub(super) struct Kernel<'a> {
     plan: PiecePlan,
-    starts: Starts,
     /// base x colour of the corners, where it does not vary.
     base: DVec3,
     texture: Option<&'a Texture>,
@@ -135,7 +114,7 @@ pub(super) struct Kernel<'a> {
     /// How often the texture was read where it may be read several times.
     taps: Cell<u64>,
     /// The texels of the last fragment, where neighbours mostly read the same ones.
-    last: Option<RefCell<FourTexels>>,
+    pub last: Option<&'a RefCell<FourTexels>>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
     /// Of pieces that are not opaque everywhere.
@@ -147,6 +126,7 @@ pub(super) struct Kernel<'a> {
 }
 
 impl<'a> Kernel<'a> {
+    #[inline]
     pub fn new(
         item: &'a Prepared<'_>,
         piece: &Piece,
@@ -160,7 +140,6 @@ impl<'a> Kernel<'a> {
         let constant = |bit: u8| item.carries.has(bit) && !plan.interpolates.has(bit);
         let mut kernel = Self {
             plan,
-            starts: Starts::of(plan.interpolates),
             base: item.item.material.colour,
             texture: item.texture,
             texel: DVec3::ONE,
@@ -177,7 +156,7 @@ impl<'a> Kernel<'a> {
             opacity: item.item.material.opacity.as_ref().filter(|_| !plan.replaces_all()),
             reading: None,
             taps: Cell::new(0),
-            last: constants.shares_texels.then(|| RefCell::new(FourTexels::NONE)),
+            last: None,
             veil: (plan.fog != Share::None).then_some(&item.veil),
         };
         if plan.fog == Share::Whole && plan.is_one_colour() && kernel.opacity.is_none() {
@@ -309,7 +288,7 @@ impl<'a> Kernel<'a> {
         let has_uv = interpolates.has(Attributes::UV);
         let last = self.last.is_some().then(|| RefCell::new(FourTexels::NONE));
         let of = |values: &[f64]| {
-            let uv = DVec2::from_slice(&values[self.starts.uv..]);
+            let uv = DVec2::from_slice(&values[self.start(Attributes::UV)..]);
             match &last {
                 Some(last) => opacity.of_again(uv, &mut last.borrow_mut()),
                 None => opacity.of(uv),
@@ -331,6 +310,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// Counts what the fragments since `before`, of so many components each, have paid for.
+    #[inline]
     fn count(&self, before: Before, components: usize, counters: &mut Counters) {
         let fragments = counters.fragments - before.fragments;
         let shaded = counters.shaded - before.shaded;
@@ -392,7 +372,7 @@ impl<'a> Kernel<'a> {
     /// The colour of any attributes, for what has no kernel of its own; `values` are those of a fragment as [`pack`] puts them.
     pub fn shade_all(&self, values: &[f64], depth: f64) -> Colour {
         let texel = self.varying_texture().map_or(self.texel, |texture| {
-            self.texel(texture, DVec2::from_slice(&values[self.starts.uv..]), depth)
+            self.texel(texture, DVec2::from_slice(&values[self.start(Attributes::UV)..]), depth)
         });
         self.shade_texel(values, depth, texel)
     }
@@ -413,6 +393,11 @@ impl<'a> Kernel<'a> {
         }
     }
 
+    /// Where an attribute begins among the numbers of a fragment, if it is interpolated.
+    fn start(&self, bit: u8) -> usize {
+        self.plan.interpolates.both(Attributes(bit - 1)).components()
+    }
+
     /// The texture, where each fragment has texture coordinates of its own.
     pub fn varying_texture(&self) -> Option<&'a Texture> {
         self.texture.filter(|_| self.plan.interpolates.has(Attributes::UV))
@@ -421,16 +406,16 @@ impl<'a> Kernel<'a> {
     /// The same with this texel.
     pub fn shade_texel(&self, values: &[f64], depth: f64, texel: DVec3) -> Colour {
         let varies = |bit: u8| self.plan.interpolates.has(bit);
-        let at = |start: usize| DVec3::from_slice(&values[start..]);
-        let normal = if varies(Attributes::NORMAL) { at(self.starts.normal) } else { self.normal };
-        let lit = self.receiver.map_or(self.lit, |receiver| receiver.lit(at(self.starts.place)));
+        let at = |bit: u8| DVec3::from_slice(&values[self.start(bit)..]);
+        let normal = if varies(Attributes::NORMAL) { at(Attributes::NORMAL) } else { self.normal };
+        let lit = self.receiver.map_or(self.lit, |receiver| receiver.lit(at(Attributes::PLACE)));
         let intensity = if varies(Attributes::NORMAL) || self.receiver.is_some() {
             self.light.intensity_in(normal, lit)
         } else {
             self.intensity
         };
         let base = self.base;
-        let colour = if varies(Attributes::COLOUR) { base * at(self.starts.colour) } else { base };
+        let colour = if varies(Attributes::COLOUR) { base * at(Attributes::COLOUR) } else { base };
         let shine = match (self.highlight, self.receiver) {
             (Some(highlight), _) => dimmed(highlight.at(normal), lit),
             (None, Some(_)) => dimmed(self.shine, lit),

@@ -86,6 +86,7 @@ impl Parts {
     }
 
     /// Whether a piece is large enough for its squares to be checked.
+    #[inline]
     pub(super) fn are_checked(&self, piece: &Piece, plan: PiecePlan) -> bool {
         let varies = !plan.interpolates.is_empty() || plan.fog == Share::Mixed;
         varies && self.side > 0 && samples_of(piece) >= 4 * i64::from(self.side()).pow(2)

@@ -16,6 +16,7 @@ use super::{Effect, Mode};
 use crate::pipeline::depth::DepthFormat;
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
+use crate::pipeline::shade::PLACED;
 use crate::pipeline::target::{Antialias, Target};
 use rasterproof_core::grid::PixelRect;
 
@@ -115,6 +116,27 @@ impl Attributes {
     /// Where each stands among all numbers of a vertex.
     pub(super) const RANGES: [(u8, std::ops::Range<usize>); 4] =
         [(Self::COLOUR, 0..3), (Self::NORMAL, 3..6), (Self::UV, 6..8), (Self::PLACE, 8..11)];
+    /// Of each set where its numbers stand among all numbers of a vertex, and how many there are.
+    const NUMBERS: [([u8; PLACED], usize); 16] = {
+        let mut numbers = [([0; PLACED], 0); 16];
+        let mut set = 0;
+        while set < numbers.len() {
+            let (places, count) = &mut numbers[set];
+            let mut i = 0;
+            while i < Self::RANGES.len() {
+                let (bit, range) = &Self::RANGES[i];
+                let mut number = range.start;
+                while set & *bit as usize != 0 && number < range.end {
+                    places[*count] = number as u8;
+                    *count += 1;
+                    number += 1;
+                }
+                i += 1;
+            }
+            set += 1;
+        }
+        numbers
+    };
     const BITS: [(Attribute, u8); 4] = [
         (Attribute::Colour, Self::COLOUR),
         (Attribute::Normal, Self::NORMAL),
@@ -135,9 +157,15 @@ impl Attributes {
         self.0 == 0
     }
 
+    /// Where the numbers of these attributes stand among all numbers of a vertex; 0 after the last.
+    #[inline]
+    pub(super) fn places(self) -> &'static [u8; PLACED] {
+        &Self::NUMBERS[usize::from(self.0 & Self::EVERY.0)].0
+    }
+
     /// How many numbers a fragment has of these attributes.
     pub(super) fn components(self) -> usize {
-        Self::RANGES.iter().filter(|(bit, _)| self.has(*bit)).map(|(_, range)| range.len()).sum()
+        Self::NUMBERS[usize::from(self.0 & Self::EVERY.0)].1
     }
 
     pub(super) fn both(self, other: Self) -> Self {

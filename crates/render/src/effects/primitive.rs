@@ -1,6 +1,5 @@
 //! Items to pieces: the vertex stage and assembly, with the effects that a plan names for an item.
 
-use std::cell::LazyCell;
 use std::fmt;
 use std::sync::{Arc, LazyLock};
 
@@ -176,8 +175,8 @@ impl<'a> Prepared<'a> {
         let mesh = &self.item.mesh;
         let point = |number: u32| self.point(number as usize, mesh.positions[number as usize]);
         let [Ok(a), Ok(b), Ok(c)] = mesh.triangles.positions()[triangle].map(point) else { return };
-        let varyings = LazyCell::new(|| self.varyings(scene, triangle));
-        self.assembler.assemble([&a, &b, &c], |i| varyings[i], &mut Counters::default(), emit);
+        let varyings = || self.varyings(scene, triangle);
+        self.assembler.assemble([&a, &b, &c], varyings, &mut Counters::default(), emit);
     }
 
     /// Emits the pieces of every triangle.
@@ -190,9 +189,9 @@ impl<'a> Prepared<'a> {
         let mut fills = Counters::default();
         for (triangle, positions) in self.item.mesh.triangles.positions().iter().enumerate() {
             let points = positions.map_array(|number| &self.points[number as usize]);
-            let varyings = LazyCell::new(|| self.varyings(scene, triangle));
+            let varyings = || self.varyings(scene, triangle);
             let emit = |piece: &Piece| emit(piece, &mut fills);
-            self.assembler.assemble(points, |i| varyings[i], counters, emit);
+            self.assembler.assemble(points, varyings, counters, emit);
         }
         *counters += fills;
     }
@@ -226,22 +225,10 @@ pub(super) fn bare(piece: &Piece) -> ScreenTriangle<Packed<0>> {
 /// The piece with some attributes alone, in the first of `N` numbers.
 #[inline]
 pub(super) fn pack<const N: usize>(piece: &Piece, some: Attributes) -> ScreenTriangle<Packed<N>> {
-    let vertices = piece.vertices.map_array(|vertex| {
-        let all = &vertex.varying.0;
-        let mut packed = [0.0; N];
-        let mut at = 0;
-        for (mask, range) in Attributes::RANGES {
-            if some.has(mask) {
-                packed[at..at + range.len()].copy_from_slice(&all[range.clone()]);
-                at += range.len();
-            }
-        }
-        ScreenVertex {
-            position: vertex.position,
-            depth: vertex.depth,
-            inv_w: vertex.inv_w,
-            varying: Packed(packed),
-        }
+    let places = some.places();
+    let vertices = piece.vertices.map_array(|ScreenVertex { position, depth, inv_w, varying }| {
+        let varying = Packed(std::array::from_fn(|i| varying.0[usize::from(places[i])]));
+        ScreenVertex { position, depth, inv_w, varying }
     });
     ScreenTriangle { vertices }
 }

@@ -198,11 +198,11 @@ impl Assembler {
     }
 
     /// Emits the pieces of one triangle that are in the window and not culled. The varyings of its
-    /// corners, by number, are asked for where one is.
+    /// corners are asked for where one is.
     pub fn assemble<V: Varying>(
         &self,
         triangle: [&ClipPoint; 3],
-        varying: impl Fn(usize) -> V,
+        varyings: impl FnOnce() -> [V; 3],
         counters: &mut Counters,
         mut emit: impl FnMut(&ScreenTriangle<V>),
     ) {
@@ -218,19 +218,17 @@ impl Assembler {
             // What a forgotten plane leaves outside the domain cannot be drawn; it is left out.
             let (Some(a), Some(b), Some(c)) = (a.place, b.place, c.place) else { return };
             if self.keeps([a.position, b.position, c.position], counters) {
-                let vertices = [
-                    a.with_varying(varying(0)),
-                    b.with_varying(varying(1)),
-                    c.with_varying(varying(2)),
-                ];
+                let [of_a, of_b, of_c] = varyings();
+                let vertices = [a.with_varying(of_a), b.with_varying(of_b), c.with_varying(of_c)];
                 emit(&ScreenTriangle { vertices });
             }
             return;
         }
         counters.clipped += u64::from(crossed != 0);
-        let vertex = |i: usize| ClipVertex { position: triangle[i].position, varying: varying(i) };
-        let (polygon, tests): (Polygon<V>, u64) =
-            clip::clip(&[vertex(0), vertex(1), vertex(2)], planes);
+        let [of_a, of_b, of_c] = varyings();
+        let vertex = |point: &ClipPoint, varying| ClipVertex { position: point.position, varying };
+        let vertices = [vertex(a, of_a), vertex(b, of_b), vertex(c, of_c)];
+        let (polygon, tests): (Polygon<V>, u64) = clip::clip(&vertices, planes);
         counters.plane_tests += tests;
         self.emit_fan(&polygon, counters, &mut emit);
     }
@@ -288,10 +286,16 @@ mod tests {
             let assembler = Assembler::new(bounds, Cull::Clockwise);
             for triangle in [[a, b, c], [a, c, d]] {
                 let points = triangle.map(|vertex| assembler.point(vertex.position));
-                let varying = |i: usize| triangle[i].varying;
-                assembler.assemble(points.each_ref(), varying, &mut Counters::default(), |piece| {
-                    Oracle.cover(piece.corners(), bounds, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-                });
+                let varyings = || triangle.map(|vertex| vertex.varying);
+                assembler.assemble(
+                    points.each_ref(),
+                    varyings,
+                    &mut Counters::default(),
+                    |piece| {
+                        Oracle
+                            .cover(piece.corners(), bounds, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                    },
+                );
             }
             assert!(hits.rows().all(|(_, row)| row.iter().all(|&hit| hit == 1)));
         }
@@ -304,8 +308,8 @@ mod tests {
             let mut counters = Counters::default();
             let assembler = Assembler::new(bounds, cull);
             let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
-            let varying = |_| glam::DVec2::ZERO;
-            assembler.assemble(points.each_ref(), varying, &mut counters, |_| {});
+            let varyings = || [glam::DVec2::ZERO; 3];
+            assembler.assemble(points.each_ref(), varyings, &mut counters, |_| {});
             [counters.rejected, counters.clipped, counters.pieces, counters.culled]
         };
         let inside = [(0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 1.0), (0.0, 0.5, 0.0, 1.0)];

@@ -141,8 +141,8 @@ fn assemble_all<I, V: Varying>(
     let points: Vec<_> = vertices.iter().map(|vertex| assembler.point(vertex.position)).collect();
     for &[a, b, c] in triangles {
         let indices = [a as usize, b as usize, c as usize];
-        let varying = |i: usize| vertices[indices[i]].varying;
-        assembler.assemble(indices.map_array(|i| &points[i]), varying, counters, &mut emit);
+        let varyings = || indices.map_array(|i| vertices[i].varying);
+        assembler.assemble(indices.map_array(|i| &points[i]), varyings, counters, &mut emit);
     }
     Ok(())
 }

@@ -25,9 +25,10 @@ pub type FragmentStage<'a, V> = dyn Fn(&[V], &[f64], u32, &mut [Colour]) + 'a;
 /// A fragment stage of one pixel, its varyings and its depth, for each of several.
 pub fn each<V>(stage: impl Fn(&V, f64) -> Colour) -> impl Fn(&[V], &[f64], u32, &mut [Colour]) {
     move |varyings, depths, wanted, colours| {
-        for (i, (varying, colour)) in varyings.iter().zip(colours).enumerate() {
+        let fragments = varyings.iter().zip(depths).zip(colours).enumerate();
+        for (i, ((varying, depth), colour)) in fragments {
             if wanted >> i & 1 != 0 {
-                *colour = stage(varying, depths[i]);
+                *colour = stage(varying, *depth);
             }
         }
     }

@@ -47,9 +47,9 @@ fn clipped(triangles: &[[Clip; 3]]) -> Case {
         let values = [DVec2::ZERO, DVec2::X, DVec2::Y];
         let assembler = Assembler::new(WINDOW, Cull::None);
         let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
-        let varying = |i: usize| values[i];
+        let varyings = || values;
         let mut counters = Counters::default();
-        assembler.assemble(points.each_ref(), varying, &mut counters, |p| list.push(*p));
+        assembler.assemble(points.each_ref(), varyings, &mut counters, |p| list.push(*p));
     }
     drawn(WINDOW, list)
 }

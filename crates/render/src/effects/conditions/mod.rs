@@ -78,6 +78,7 @@ const LEAST_PLAIN: f64 = 6.0;
 const ALWAYS_PLAIN: i64 = 256;
 
 /// About how many samples a piece covers: exact in all but pieces that reach far out of the window.
+#[inline]
 pub(super) fn samples_of(piece: &Piece) -> i64 {
     let [a, b, c] =
         piece.corners().map_array(|corner| DVec2::new(corner.x.into(), corner.y.into()));
