@@ -85,11 +85,23 @@ impl Parts {
         self.side.min(1 << 12) as i32
     }
 
-    /// Whether a piece is large enough for its squares to be checked.
+    /// Whether it pays to check the squares of a piece: something besides a colour of the corners may be left out of one, the
+    /// piece is large, and it is no sliver, which covers little of each square that it crosses.
     #[inline]
     pub(super) fn are_checked(&self, piece: &Piece, plan: PiecePlan) -> bool {
-        let varies = !plan.interpolates.is_empty() || plan.fog == Share::Mixed;
-        varies && self.side > 0 && samples_of(piece) >= 4 * i64::from(self.side()).pow(2)
+        let varies = !plan.interpolates.without(Attributes(Attributes::COLOUR)).is_empty();
+        let (varies, samples) = (varies || plan.fog == Share::Mixed, samples_of(piece));
+        let square = i64::from(self.side()).pow(2);
+        varies && self.side > 0 && samples >= 4 * square && !self.is_sliver(piece, samples)
+    }
+
+    /// Whether a piece covers less than a quarter of each square of its box, on average.
+    fn is_sliver(&self, piece: &Piece, samples: i64) -> bool {
+        let side = i64::from(self.side());
+        let rect = pixel_box(&piece.corners(), 0);
+        let [columns, rows] =
+            [rect.width(), rect.height()].map(|length| i64::from(length) / side + 1);
+        4 * samples < columns * rows * side.pow(2)
     }
 }
 
@@ -534,15 +546,17 @@ fn edge(piece: &Piece, number: usize, [x, y]: [i32; 2]) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::conditions::of_every_fragment;
+    use crate::effects::conditions::{of_every_fragment, rule};
     use crate::effects::plan::Canvas;
     use crate::effects::primitive::pack;
     use crate::effects::{Effects, planner};
     use crate::pipeline::depth::DepthFormat;
-    use crate::pipeline::shade::PLACED;
-    use crate::scene::random;
+    use crate::pipeline::shade::{Attributes as Packed, PLACED};
+    use crate::scene::{Scene, random};
     use rasterproof_core::contract::Interpolate as _;
+    use rasterproof_core::grid::SubpixelPoint;
     use rasterproof_core::raster::scanline::Scanline;
+    use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
     type Corners = fn(&Whole<'_>, [[f64; 3]; 4]) -> Option<Square>;
 
@@ -617,6 +631,35 @@ mod tests {
         } else {
             Scanline.affine_fragments(&packed, rect, visit);
         }
+    }
+
+    #[test]
+    fn squares_are_checked_where_something_may_be_left_out_of_them() {
+        let scenes = (0..60).map(|index| random::with_effects(6, index));
+        let rule = |scene: Scene| rule(&scene, &scene.items[0], &Effects::PLANNED).1;
+        let parts = scenes.map(rule).find_map(|rule| Parts::of(&rule, Antialias::None)).unwrap();
+        let piece = |[x_px, y_px]: [i32; 2]| {
+            let vertex = |x_px: i32, y_px: i32| ScreenVertex {
+                position: SubpixelPoint::new(x_px * SUBPIXELS, y_px * SUBPIXELS),
+                depth: 0.5,
+                inv_w: 1.0,
+                varying: Packed([0.0; PLACED]),
+            };
+            ScreenTriangle { vertices: [vertex(0, 0), vertex(x_px, 0), vertex(0, y_px)] }
+        };
+        let plan = |bits: u8, fog: Share| PiecePlan {
+            interpolates: Attributes(bits),
+            fog,
+            ..PiecePlan::default()
+        };
+        let colour = plan(Attributes::COLOUR, Share::None);
+        let fogged = plan(Attributes::COLOUR, Share::Mixed);
+        let lit = plan(Attributes::NORMAL, Share::None);
+        let are_checked = |sides, plan| parts.are_checked(&piece(sides), plan);
+        assert!(are_checked([64, 64], lit) && are_checked([64, 64], fogged));
+        assert!(!are_checked([64, 64], colour), "no square has less than a colour");
+        assert!(!are_checked([32, 32], lit), "small");
+        assert!(!are_checked([2000, 3], lit) && !are_checked([3, 2000], lit), "slivers");
     }
 
     #[test]
