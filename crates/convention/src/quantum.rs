@@ -9,10 +9,10 @@ use rasterproof_core::triangle::Corners;
 rasterproof_core::named! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
     pub enum Rounding {
-        /// v becomes floor(v + 1/2).
+        /// A half is rounded up, to the larger number: v becomes floor(v + 1/2).
         Near = "the nearest, halves up",
         HalfEven = "the nearest, halves to the even one",
-        /// v becomes floor(v), below zero too.
+        /// The largest whole number that is at most v, also where v is negative.
         Down = "down",
         /// The fraction is cut off, as by a cast to `int` in C.
         TowardZero = "toward zero",

@@ -15,20 +15,20 @@ rasterproof_core::named! {
     /// How rows and crossings are rounded.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
     pub enum Scan {
-        /// What cairo draws without antialiasing.
+        /// The algorithm by which cairo fills paths without antialiasing.
         Above = "fills the rows whose centres it holds, between crossings taken 1/256 px above the centre \
                  and cut down to 1/256 px",
-        /// What Java 2D draws of paths.
+        /// The algorithm by which Java 2D fills paths.
         Coarse = "samples at the pixel's centre, row by row, between crossings that are stepped from the \
                   first one, all cut to 1/1024 px",
-        /// What OpenCV draws of convex polygons.
+        /// The algorithm by which OpenCV fills convex polygons.
         Sides = "fills row by row between crossings stepped in 1/65536 px from the row nearest to a corner, \
                  without the last row, and draws the three sides as lines in such steps",
-        /// What Pillow draws of polygons.
+        /// The algorithm by which Pillow fills polygons.
         Joined = "moves corners to whole pixels (toward zero), fills every row from the first to the last \
                   between crossings rounded to the nearest pixel, halves inwards, and draws on the row of a \
                   corner to where the next one begins",
-        /// What Java 2D draws of polygons whose corners are whole pixels.
+        /// The algorithm by which Java 2D fills polygons whose corners are whole pixels.
         Carried = "moves corners a quarter of a pixel right and down, and samples at the pixel's centre, row by row, \
                    between crossings in single precision that are stepped with a remainder of 31 bits",
     }

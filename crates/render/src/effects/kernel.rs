@@ -113,7 +113,8 @@ pub(super) struct Kernel<'a> {
     reading: Option<(Reading, Option<&'a Veil>)>,
     /// How often the texture was read where it may be read several times.
     taps: Cell<u64>,
-    /// The texels of the last fragment, where neighbours mostly read the same ones.
+    /// The texels of the last fragment, where neighbours mostly read the same ones. Whoever draws a part of a piece keeps them:
+    /// most kernels have none, and would be much larger with them.
     pub last: Option<&'a RefCell<FourTexels>>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
@@ -393,7 +394,7 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// Where an attribute begins among the numbers of a fragment, if it is interpolated.
+    /// Where an attribute begins among the numbers of a fragment, as [`pack`] puts them, if it is interpolated.
     fn start(&self, bit: u8) -> usize {
         self.plan.interpolates.both(Attributes(bit - 1)).components()
     }

@@ -85,17 +85,19 @@ impl Parts {
         self.side.min(1 << 12) as i32
     }
 
-    /// Whether it pays to check the squares of a piece: something besides a colour of the corners may be left out of one, the
-    /// piece is large, and it is no sliver, which covers little of each square that it crosses.
+    /// Whether it pays to check the squares of a piece. If only a colour of the corners varies, nothing can be left out of a
+    /// square. In a small piece, or in a sliver, which covers little of each square, the checks take longer than they save.
     #[inline]
     pub(super) fn are_checked(&self, piece: &Piece, plan: PiecePlan) -> bool {
         let varies = !plan.interpolates.without(Attributes(Attributes::COLOUR)).is_empty();
-        let (varies, samples) = (varies || plan.fog == Share::Mixed, samples_of(piece));
-        let square = i64::from(self.side()).pow(2);
-        varies && self.side > 0 && samples >= 4 * square && !self.is_sliver(piece, samples)
+        if self.side == 0 || !(varies || plan.fog == Share::Mixed) {
+            return false;
+        }
+        let samples = samples_of(piece);
+        samples >= 4 * i64::from(self.side()).pow(2) && !self.is_sliver(piece, samples)
     }
 
-    /// Whether a piece covers less than a quarter of each square of its box, on average.
+    /// Whether a piece that covers so many samples covers less than a quarter of each square of its box, on average.
     fn is_sliver(&self, piece: &Piece, samples: i64) -> bool {
         let side = i64::from(self.side());
         let rect = pixel_box(&piece.corners(), 0);

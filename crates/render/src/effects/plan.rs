@@ -116,7 +116,7 @@ impl Attributes {
     /// Where each stands among all numbers of a vertex.
     pub(super) const RANGES: [(u8, std::ops::Range<usize>); 4] =
         [(Self::COLOUR, 0..3), (Self::NORMAL, 3..6), (Self::UV, 6..8), (Self::PLACE, 8..11)];
-    /// Of each set where its numbers stand among all numbers of a vertex, and how many there are.
+    /// For each set of attributes: where its numbers stand among all numbers of a vertex, and how many there are.
     const NUMBERS: [([u8; PLACED], usize); 16] = {
         let mut numbers = [([0; PLACED], 0); 16];
         let mut set = 0;

@@ -222,7 +222,7 @@ pub(super) fn bare(piece: &Piece) -> ScreenTriangle<Packed<0>> {
     pack(piece, Attributes::NONE)
 }
 
-/// The piece with some attributes alone, in the first of `N` numbers.
+/// The piece with some attributes alone, in the first of `N` numbers. No fragment reads the numbers after them.
 #[inline]
 pub(super) fn pack<const N: usize>(piece: &Piece, some: Attributes) -> ScreenTriangle<Packed<N>> {
     let places = some.places();

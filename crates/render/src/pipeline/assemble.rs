@@ -197,8 +197,8 @@ impl Assembler {
         ClipPoint { position, code, place }
     }
 
-    /// Emits the pieces of one triangle that are in the window and not culled. The varyings of its
-    /// corners are asked for where one is.
+    /// Emits the pieces of one triangle that are in the window and not culled. `varyings` gives
+    /// the varyings of its three corners; it is called only if the triangle is cut, or is in the window and not culled.
     pub fn assemble<V: Varying>(
         &self,
         triangle: [&ClipPoint; 3],
@@ -287,15 +287,10 @@ mod tests {
             for triangle in [[a, b, c], [a, c, d]] {
                 let points = triangle.map(|vertex| assembler.point(vertex.position));
                 let varyings = || triangle.map(|vertex| vertex.varying);
-                assembler.assemble(
-                    points.each_ref(),
-                    varyings,
-                    &mut Counters::default(),
-                    |piece| {
-                        Oracle
-                            .cover(piece.corners(), bounds, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-                    },
-                );
+                let hit = |piece: &ScreenTriangle<_>| {
+                    Oracle.cover(piece.corners(), bounds, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                };
+                assembler.assemble(points.each_ref(), varyings, &mut Counters::default(), hit);
             }
             assert!(hits.rows().all(|(_, row)| row.iter().all(|&hit| hit == 1)));
         }

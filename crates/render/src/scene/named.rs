@@ -44,10 +44,9 @@ macro_rules! table {
 fn clipped(triangles: &[[Clip; 3]]) -> Case {
     let mut list: Vec<Triangle> = Vec::new();
     for corners in triangles {
-        let values = [DVec2::ZERO, DVec2::X, DVec2::Y];
         let assembler = Assembler::new(WINDOW, Cull::None);
         let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
-        let varyings = || values;
+        let varyings = || [DVec2::ZERO, DVec2::X, DVec2::Y];
         let mut counters = Counters::default();
         assembler.assemble(points.each_ref(), varyings, &mut counters, |p| list.push(*p));
     }

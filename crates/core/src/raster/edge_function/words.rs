@@ -52,9 +52,9 @@ impl Rasterize for EdgeFunctionIn {
     }
 }
 
-/// The walks in other words than the narrow ones of most triangles are compiled once, and call `emit` through a pointer for
-/// each row. Triangles that do not fit 32 bits mostly have so many pixels that this takes no time beside them. Where wide words
-/// are asked for everywhere, it is a part of what they cost.
+/// The walks in wider words than most triangles need are compiled once, and call `emit` through a pointer for each row.
+/// Triangles that do not fit 32 bits mostly have so many pixels that these calls take hardly any time. If the user forces wide
+/// words for every triangle, the calls are a part of what wide words cost.
 fn cover_by_pointer<T: Exact, W: Word>(
     corners: Corners,
     bounds: PixelRect,
