@@ -16,12 +16,11 @@ use std::sync::{Arc, Mutex};
 use libtest_mimic::{Arguments, Failed, Trial};
 #[path = "common/next.rs"]
 mod next;
-use rasterproof_registry::comparison;
-use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_registry::comparison::Judged;
 use rasterproof_report::differential;
 use rasterproof_report::summary::chapter;
 use rasterproof_verify::cases;
-use rasterproof_verify::comparison::{FamilyReport, Options, Verdict, tolerance};
+use rasterproof_verify::comparison::{FamilyReport, Options, Verdict};
 
 /// Cases of each family: enough that every planted fault of `tests/it/mutants.rs` shows.
 const CASES: u64 = 1500;
@@ -122,9 +121,7 @@ fn judge(
     reports: &Mutex<Vec<FamilyReport>>,
     chapters: &Mutex<BTreeSet<&'static str>>,
 ) -> Result<(), Failed> {
-    let engines =
-        [(Engine::Scanline, tolerance::SCANLINE), (Engine::EdgeFunction, tolerance::EDGE_FUNCTION)];
-    let verdict = comparison::judge(&engines, &LineEngine::JUDGED, &options(family), &|_| ());
+    let verdict = Judged::all().judge(&options(family), &|_| ());
     let report = verdict.families.first().ok_or("the family was not judged")?.clone();
     reports.lock().map_err(|_| "another trial failed")?.push(report.clone());
     if report.cases != CASES {

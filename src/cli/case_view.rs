@@ -7,48 +7,16 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_core::triangle::PixelPoint;
-use rasterproof_faults::planted::exact::ExactMutant;
-use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine};
-use rasterproof_report::drawn::{self, Hits};
-use rasterproof_report::{ascii, panels};
-use rasterproof_verify::cases::unsnapped::OffGridCase;
+use rasterproof_registry::comparison::{Hits, Judged};
+use rasterproof_registry::engines::Entry;
+use rasterproof_report::{ascii, drawn, panels};
 use rasterproof_verify::cases::{Case, Shape};
-use rasterproof_verify::comparison::Tally;
-use rasterproof_verify::comparison::tolerance::{self, Tolerance};
-use rasterproof_verify::comparison::unsnapped::exact_coverage;
+use rasterproof_verify::comparison::{Tally, oracle_hits, shrink};
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 
-/// Who is judged: the engines of each kind, or a planted fault alone.
-pub struct JudgedEngines {
-    /// Rasterizers, with the bounds of their values.
-    pub engines: Vec<(Engine, Tolerance)>,
-    pub lines: Vec<LineEngine>,
-    /// Rasterizers of corners that are not snapped.
-    pub exact: Vec<ExactEngine>,
-}
-
-impl JudgedEngines {
-    /// Everybody, or the fault of this name.
-    pub fn new(plant: Option<&str>) -> Self {
-        let Some(name) = plant else {
-            let engines = Engine::JUDGED.into_iter().map(|e| (e, e.tolerance()));
-            return Self {
-                engines: engines.collect(),
-                lines: LineEngine::JUDGED.to_vec(),
-                exact: ExactEngine::JUDGED.to_vec(),
-            };
-        };
-        let triangle = TriangleMutant::ALL.into_iter().find(|m| m.name() == name);
-        let line = LineMutant::ALL.into_iter().find(|m| m.name() == name);
-        let exact = ExactMutant::ALL.into_iter().find(|m| m.name() == name);
-        let with_bound = |m| (Engine::Mutant(m), tolerance::SCANLINE);
-        Self {
-            engines: triangle.map(with_bound).into_iter().collect(),
-            lines: line.map(LineEngine::Mutant).into_iter().collect(),
-            exact: exact.map(ExactEngine::Mutant).into_iter().collect(),
-        }
-    }
+/// Everybody who is judged, or a planted fault alone.
+pub fn judged(plant: Option<&str>) -> Judged {
+    plant.map_or_else(Judged::all, Judged::planted)
 }
 
 /// The hits in a window; none where the other one has no pixels.
@@ -64,22 +32,11 @@ pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
 
 pub struct Shown {
     engines: Vec<(String, Hits)>,
-    oracle: &'static str,
     target: Coverage,
 }
 
-pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
-    let engines = engines.iter().map(|(engine, _)| *engine);
-    let engines = drawn::by_engines(case, engines, lines.iter().copied());
-    Shown { engines, oracle: "oracle", target: drawn::by_oracle(case) }
-}
-
-pub fn draw_off_grid(case: &OffGridCase, engines: &[ExactEngine]) -> Result<Shown, Failure> {
-    let oracle = ExactEngine::Oracle;
-    let hits = |engine: &ExactEngine| exact_coverage(engine, case).map(|(hits, _)| hits);
-    let engines = engines.iter().map(|e| (e.name().to_owned(), hits(e).map_err(String::from)));
-    let engines = engines.collect();
-    Ok(Shown { engines, oracle: oracle.name(), target: hits(&oracle).map_err(usage)? })
+pub fn draw(case: &Case, judged: &Judged) -> Shown {
+    Shown { engines: judged.hits(case), target: oracle_hits(case) }
 }
 
 impl Shown {
@@ -107,7 +64,7 @@ impl Shown {
             Ok(hits) => format!("{name} {}", of(hits)),
             Err(_) => format!("{name} panics"),
         });
-        let oracle = format!("{} {}", self.oracle, of(&self.target));
+        let oracle = format!("oracle {}", of(&self.target));
         engines.chain([oracle]).collect::<Vec<_>>().join(", ")
     }
 
@@ -116,17 +73,13 @@ impl Shown {
         let blocks = self.engines.iter().map(|(name, hits)| match hits {
             Ok(hits) => {
                 let (covered, tally) = (hits.covered(), Tally::between(hits, &self.target));
-                // What is said of engines off the lattice stands in lines of its own.
-                let title = match self.oracle {
-                    "oracle" => format!("{name}: {covered} px, {} wrong", tally.total()),
-                    _ => format!("{name}: {covered} px"),
-                };
+                let title = format!("{name}: {covered} px, {} wrong", tally.total());
                 (title, ascii::grid(hits, &self.target))
             }
             Err(message) => (format!("{name}: panics"), vec![message.clone()]),
         });
         let oracle = (
-            format!("{}: {} px", self.oracle, self.target.covered()),
+            format!("oracle: {} px", self.target.covered()),
             ascii::grid(&self.target, &self.target),
         );
         blocks.chain([oracle]).collect()
@@ -142,10 +95,6 @@ impl Shown {
     /// A panel for each engine that did not panic, then the oracle.
     pub fn picture(&self, title: &str, case: &Case) -> RgbImage {
         panels::of_case(title, case, &self.drawn(), &self.target).image
-    }
-
-    pub fn picture_off_grid(&self, title: &str, case: &OffGridCase) -> RgbImage {
-        panels::of_off_grid(title, case, &self.drawn(), &self.target).image
     }
 
     fn drawn(&self) -> Vec<panels::Drawn> {
@@ -209,6 +158,7 @@ pub fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
                 )?;
             }
         }
+        Shape::Unsnapped { .. } => writeln!(out, "triangles {}", shrink::describe(case))?,
     }
     Ok(())
 }

@@ -33,20 +33,14 @@ pub fn pixel(case: &Case, at: PixelPoint) -> String {
             list.iter().take(MOST).for_each(|l| line(&mut out, l, case.window, at));
             list.len().saturating_sub(MOST)
         }
+        Shape::Unsnapped { list, .. } => {
+            let _ = writeln!(out, ": its sample is the centre, {}", free_point(centre(at)));
+            list.iter().take(MOST).for_each(|t| free_triangle(&mut out, t, case.window, at));
+            list.len().saturating_sub(MOST)
+        }
     };
     if rest > 0 {
         let _ = writeln!(out, "and {rest} more");
-    }
-    out
-}
-
-/// The explanation of a pixel of triangles whose corners are not snapped.
-pub fn free_pixel(triangles: &[FreeCorners], window: PixelRect, at: PixelPoint) -> String {
-    let mut out = format!("pixel ({}, {}): its sample is the centre, ", at.x, at.y);
-    let _ = writeln!(out, "{}", free_point(centre(at)));
-    triangles.iter().take(MOST).for_each(|t| free_triangle(&mut out, t, window, at));
-    if triangles.len() > MOST {
-        let _ = writeln!(out, "and {} more", triangles.len() - MOST);
     }
     out
 }

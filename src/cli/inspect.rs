@@ -6,7 +6,7 @@ use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 use rasterproof_host::text::printable_path;
 
-use super::case_view::{self, JudgedEngines};
+use super::case_view;
 use super::files::{Use, distinct};
 use super::inspect_case::{
     CaseArguments, Found, face_of_file, find, off_lattice, parse_pixel, recorded, words,
@@ -15,18 +15,18 @@ use super::page::{PageArguments, as_file, save_page};
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, explain, png_name, program, study, usage};
+use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 use rasterproof_faults::published::bare;
 use rasterproof_faults::published::catalogue::{RECORDED_SIDE_PX, RecordedCase};
-use rasterproof_registry::engines::{Entry, ExactEngine, SPECIMENS, Specimen};
+use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::engines::{Entry, SPECIMENS, Specimen};
 use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::{ascii, page_cases, picture, summary};
-use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
-use rasterproof_verify::comparison::unsnapped::{describe, judge_exact_case};
-use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
+use rasterproof_verify::comparison::{Tally, oracle_pixels_each};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("inspect"))]
@@ -133,9 +133,6 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     let (title, mut case, expected, typed) = match found {
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
         Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
-        Found::OffGrid { title, case } => {
-            return off_grid_alone((arguments, command), &title, case, streams);
-        }
     };
     let out = &mut *streams.output;
     if let Some(window) = arguments.window {
@@ -154,23 +151,19 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     }
 
     // Judge and show.
-    let JudgedEngines { engines, lines, exact } = JudgedEngines::new(arguments.plant.as_deref());
-    let mut shown = case_view::draw(&case, &engines, &lines);
+    let judged = case_view::judged(arguments.plant.as_deref());
+    let mut shown = case_view::draw(&case, &judged);
     if shown.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
     }
-    if let Some(specimen) = specimen(arguments, None) {
-        shown.add(specimen, &case)?;
-    }
+    writeln!(out)?;
+    add_specimen(arguments, &case, &mut shown, out)?;
     #[cfg(feature = "vulkan")]
     let on_device = device(arguments, &case, &mut shown)?;
-    let findings = rasterproof_registry::comparison::judge_case(&engines, &lines, &case);
-    writeln!(out)?;
     if let Some(at) = arguments.pixel {
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
     }
-    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), streams.columns))?;
-    let mut agrees = say_findings(&findings, out)?;
+    let mut agrees = say(&case, &judged, &shown, (out, streams.columns))?;
     #[cfg(feature = "vulkan")]
     if let Some((said, is_right)) = on_device {
         writeln!(out, "{said}")?;
@@ -189,20 +182,20 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         }
     }
     // Corners that were typed in are shown as they were typed, too.
-    if !typed.is_empty() && !exact.is_empty() {
+    if !typed.is_empty() && !judged.unsnapped.is_empty() {
         writeln!(out, "\nnot snapped:")?;
-        if let Some(at) = arguments.pixel.filter(|_| is_snapped(&case, &typed)) {
-            writeln!(out, "{}", explain::free_pixel(&typed, case.window, at))?;
+        let is_snapped = is_snapped(&case, &typed);
+        let typed = Case::unsnapped(case.window, typed);
+        if let Some(at) = arguments.pixel.filter(|_| is_snapped) {
+            writeln!(out, "{}", explain::pixel(&typed, at))?;
         }
-        let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
-        let typed = OffGridCase { window: case.window, triangles: typed, is_tiling: false };
-        agrees &= off_grid(&title, &typed, &exact, shown_too, (out, streams.columns))?.0;
+        let mut shown = case_view::draw(&typed, &judged);
+        add_specimen(arguments, &typed, &mut shown, out)?;
+        agrees &= say(&typed, &judged, &shown, (out, streams.columns))?;
     }
     write_picture(arguments, &shown.picture(&title, &case), streams)?;
     if arguments.page.report {
-        let engines: Vec<_> = engines.iter().map(|(engine, _)| *engine).collect();
-        let judged = page_cases::Judged { engines: &engines, lines: &lines, exact: &exact };
-        let view = page_cases::on_grid(name(arguments), title, kind(agrees), &case, judged);
+        let view = page_cases::of_case(name(arguments), title, kind(agrees), &case, &judged);
         write_report((arguments, command), view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
@@ -229,13 +222,16 @@ fn device(
     Ok(Some((format!("{engine} against oracle: {said}"), tally.total() == 0)))
 }
 
-/// A line for each pair that was compared; says whether all agree.
-fn say_findings(
-    findings: &[([String; 2], Finding)],
-    out: &mut dyn std::io::Write,
+/// The pixels of each engine, then a line for each pair that is compared; says whether all agree.
+fn say(
+    case: &Case,
+    judged: &Judged,
+    shown: &case_view::Shown,
+    (out, columns): (&mut dyn std::io::Write, usize),
 ) -> Result<bool, Failure> {
+    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), columns))?;
     let mut agrees = true;
-    for ([actual, target], finding) in findings {
+    for ([actual, target], finding) in judged.judge_case(case) {
         agrees &= !finding.is_wrong();
         let values = match finding.values {
             0 => String::new(),
@@ -244,7 +240,12 @@ fn say_findings(
                 format!("; {n} values, {}", summary::of_bound(worst))
             }
         };
-        writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
+        let Decisions { by_filter, by_fallback } = finding.decisions;
+        let decisions = match by_filter + by_fallback {
+            0 => String::new(),
+            all => format!("; {by_fallback} of {all} decisions took exact arithmetic"),
+        };
+        writeln!(out, "{actual} against {target}: {}{values}{decisions}", finding.describe())?;
     }
     Ok(agrees)
 }
@@ -304,6 +305,10 @@ fn cropped(case: &Case, arguments: &InspectArguments) -> String {
                 let ends = || list.iter().flat_map(|l| l.ends.map(|end| end.pixel));
                 (reach(ends().map(|p| p.x)), reach(ends().map(|p| p.y)))
             }
+            Shape::Unsnapped { list, .. } => {
+                let corners = || list.iter().flat_map(|t| t.px());
+                (reach(corners().map(|p| p[0] as i32)), reach(corners().map(|p| p[1] as i32)))
+            }
         };
         if width >= w.width() as i32 || height >= w.height() as i32 {
             out += &format!(
@@ -328,45 +333,6 @@ fn reach(values: impl Iterator<Item = i32> + Clone) -> i32 {
     values.clone().max().unwrap_or(0).saturating_sub(values.min().unwrap_or(0))
 }
 
-/// Shows a case off the lattice, which the engines for such corners alone can draw.
-fn off_grid_alone(
-    (arguments, command): (&InspectArguments, &Typed),
-    title: &str,
-    mut case: OffGridCase,
-    streams: &mut Streams<'_>,
-) -> Status {
-    let exact = JudgedEngines::new(arguments.plant.as_deref()).exact;
-    if exact.is_empty() {
-        return Err(no_part(arguments.plant.as_ref()));
-    }
-    let out = &mut *streams.output;
-    case.window = arguments.window.unwrap_or(case.window);
-    let w = case.window;
-    if let Some(at) = arguments.pixel {
-        in_window(w, at)?;
-    }
-    writeln!(out, "{title}")?;
-    writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
-    writeln!(out, "triangles {}\n", describe(&case.triangles))?;
-    if let Some(at) = arguments.pixel {
-        writeln!(out, "{}", explain::free_pixel(&case.triangles, w, at))?;
-        let hits = case_view::draw_off_grid(&case, &exact)?.hits(at);
-        writeln!(out, "hits of ({}, {}): {hits}\n", at.x, at.y)?;
-    }
-    let recorded = recorded(&arguments.case.what);
-    let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
-    let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
-    let (agrees, drawn) = off_grid(title, &case, &exact, specimen, (out, streams.columns))?;
-    write_picture(arguments, &drawn, streams)?;
-    if arguments.page.report {
-        let judged = page_cases::Judged { engines: &[], lines: &[], exact: &exact };
-        let (name, title) = (name(arguments), title.to_owned());
-        let view = page_cases::off_lattice(name, title, kind(agrees), &case, judged);
-        write_report((arguments, command), view, agrees, streams)?;
-    }
-    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
-}
-
 /// The picture: where it was asked to go, or where it does no harm if it cannot be written.
 fn write_picture(
     arguments: &InspectArguments,
@@ -386,46 +352,32 @@ fn specimen(
     SPECIMENS.iter().find(|entry| entry.name == name)
 }
 
-/// Pixels of the engines that do not snap, and how they decided; whether they agree, and a picture.
-/// A specimen is shown beside them, as it draws on a screen of its own.
-fn off_grid(
-    title: &str,
-    case: &OffGridCase,
-    engines: &[ExactEngine],
-    specimen: Option<(&Entry, PixelRect)>,
-    (out, columns): (&mut dyn std::io::Write, usize),
-) -> Result<(bool, RgbImage), Failure> {
-    let mut shown = case_view::draw_off_grid(case, engines)?;
-    if let Some((Entry { name, specimen: Some(Specimen::Triangle(specimen)), .. }, screen)) =
-        specimen
-    {
-        let triangles: Vec<_> = case.triangles.iter().map(|t| bare(t.px())).collect();
-        match specimen_coverage(*specimen, &triangles, screen) {
-            Ok(hits) => {
-                let Tally { missing, extra, twice, .. } =
-                    shown.add_drawn(name, case_view::crop(&hits, case.window));
-                writeln!(
-                    out,
-                    "{name}, published: {missing} missing, {extra} extra, {twice} twice"
-                )?;
-            }
-            Err(reason) => writeln!(out, "{name}, published: {reason}")?,
+/// Shows the specimen that was asked for beside the engines. One of corners that are not snapped draws on a screen of its own.
+fn add_specimen(
+    arguments: &InspectArguments,
+    case: &Case,
+    shown: &mut case_view::Shown,
+    out: &mut dyn std::io::Write,
+) -> Result<(), Failure> {
+    let recorded = recorded(&arguments.case.what);
+    let Some(entry) = specimen(arguments, recorded) else { return Ok(()) };
+    let (Shape::Unsnapped { list, .. }, Some(Specimen::Triangle(specimen))) =
+        (&case.shape, entry.specimen)
+    else {
+        return shown.add(entry, case);
+    };
+    let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
+    let triangles: Vec<_> = list.iter().map(|t| bare(t.px())).collect();
+    let name = entry.name;
+    match specimen_coverage(specimen, &triangles, screen.unwrap_or(case.window)) {
+        Ok(hits) => {
+            let Tally { missing, extra, twice, .. } =
+                shown.add_drawn(name, case_view::crop(&hits, case.window));
+            writeln!(out, "{name}, published: {missing} missing, {extra} extra, {twice} twice\n")?;
         }
+        Err(reason) => writeln!(out, "{name}, published: {reason}\n")?,
     }
-    let mut agrees = true;
-    for engine in engines {
-        let (name, finding) = (engine.name(), judge_exact_case(engine, case));
-        agrees &= !finding.is_wrong();
-        let (what, decisions) = (finding.describe(), finding.decisions);
-        let all = decisions.by_filter + decisions.by_fallback;
-        writeln!(
-            out,
-            "{name} against oracle-exact: {what}; {} of {all} decisions took exact arithmetic",
-            decisions.by_fallback
-        )?;
-    }
-    writeln!(out, "\n{}", ascii::side_by_side(&shown.blocks(), columns))?;
-    Ok((agrees, shown.picture_off_grid(title, case)))
+    Ok(())
 }
 
 fn refused(title: &str, corners: &[[[f64; 2]; 3]], out: &mut dyn std::io::Write) -> Status {

@@ -10,7 +10,6 @@ use rasterproof_core::triangle::{
 use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
 use rasterproof_render::scene::named;
 use rasterproof_verify::cases::named::{Input, plain_line, plain_triangle};
-use rasterproof_verify::cases::unsnapped::{self, OffGridCase};
 use rasterproof_verify::cases::{self, Case, Line, Shape, Triangle};
 
 /// Largest side of the window around corners that were typed.
@@ -34,7 +33,7 @@ pub(super) struct CaseArguments {
 }
 
 pub(super) enum Found {
-    /// A case on the lattice; `typed` are its corners as they were typed, if they were.
+    /// `typed` are the corners of a case on the lattice as they were typed, if they were.
     Case {
         title: String,
         case: Case,
@@ -44,10 +43,6 @@ pub(super) enum Found {
     Refused {
         title: String,
         corners: Vec<[[f64; 2]; 3]>,
-    },
-    OffGrid {
-        title: String,
-        case: OffGridCase,
     },
 }
 
@@ -84,9 +79,11 @@ pub(super) fn off_lattice(found: Found) -> Result<Found, Failure> {
         } => {
             let snapped = || list.iter().map(|t| FreeCorners::from(t.corners())).collect();
             let triangles = if typed.is_empty() { snapped() } else { typed };
-            Ok(Found::OffGrid { title, case: OffGridCase { window, triangles, is_tiling: false } })
+            Ok(plain(title, Case::unsnapped(window, triangles)))
         }
-        Found::Case { .. } => Err(usage("lines join whole pixels: leave out --exact")),
+        Found::Case { case: Case { shape: Shape::Lines(_), .. }, .. } => {
+            Err(usage("lines join whole pixels: leave out --exact"))
+        }
         found => Ok(found),
     }
 }
@@ -195,22 +192,15 @@ fn called(word: &str, arguments: &CaseArguments) -> Result<Found, Failure> {
             ))
         });
         let title = |about: &str| format!("{word} of seed {}: {about}", arguments.seed);
-        if let Some(family) = unsnapped::FAMILIES.iter().find(|f| f.name == family) {
-            let case = family.case(arguments.seed, index?);
-            return Ok(Found::OffGrid { title: title(family.about), case });
-        }
-        let found = cases::families().find(|f| f.name == family);
-        let names = cases::families().map(|f| f.name);
-        let names = names.chain(unsnapped::FAMILIES.iter().map(|f| f.name));
+        let found = cases::all_families().find(|f| f.name == family);
+        let names = cases::all_families().map(|f| f.name);
         let family = found.ok_or_else(|| unknown("family", family, names))?;
         return Ok(plain(title(family.about), family.case(arguments.seed, index?)));
     }
     if let Some(case) = recorded(&arguments.what) {
         return Ok(recorded_case(case));
     }
-    if cases::families().any(|f| f.name == word)
-        || unsnapped::FAMILIES.iter().any(|f| f.name == word)
-    {
+    if cases::all_families().any(|f| f.name == word) {
         return Err(usage(format!("{word} is a family: add the number of a case, {word}#0")));
     }
     let names = named::named().into_iter().map(|case| case.name);
@@ -244,9 +234,7 @@ fn recorded_case(case: &RecordedCase) -> Found {
     let triangles: Result<_, _> = corners.iter().map(|&t| FreeCorners::new(t)).collect();
     let window = PixelRect { x0, y0, x1, y1 };
     match triangles {
-        Ok(triangles) => {
-            Found::OffGrid { title, case: OffGridCase { window, triangles, is_tiling: false } }
-        }
+        Ok(triangles) => plain(title, Case::unsnapped(window, triangles)),
         Err(_) => Found::Refused { title, corners },
     }
 }
@@ -298,8 +286,7 @@ pub(super) fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
 pub(super) fn face_of_file(words: &[String]) -> Option<(&std::path::Path, &str)> {
     let [word] = words else { return None };
     let (file, number) = word.rsplit_once('#')?;
-    let is_family = cases::families().any(|f| f.name == file)
-        || unsnapped::FAMILIES.iter().any(|f| f.name == file);
+    let is_family = cases::all_families().any(|f| f.name == file);
     let path = std::path::Path::new(file);
     let looks_like_file = path.extension().is_some() || path.is_file();
     (!is_family && looks_like_file).then_some((path, number))

@@ -10,8 +10,7 @@ use rasterproof_core::parallel;
 use rasterproof_core::triangle::check_value;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_models::Origin;
-use rasterproof_registry::comparison::judge_case;
-use rasterproof_registry::engines::{Engine, ExactEngine};
+use rasterproof_registry::comparison::Judged;
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::board::number;
 use rasterproof_report::study::{
@@ -24,12 +23,8 @@ use rasterproof_study::hard::{self, HardCases, Kind};
 use rasterproof_study::view::{Piece, Sampled};
 use rasterproof_study::{effects, ties};
 use rasterproof_study::{face_of, triangle_of};
-use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
-use rasterproof_verify::comparison::tolerance::Tolerance;
-use rasterproof_verify::comparison::unsnapped::judge_exact_case;
 
-use super::case_view::JudgedEngines;
 use super::inspect_case::{self, Found};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
@@ -273,7 +268,7 @@ const CHUNK: usize = 128;
 /// `verify FILE`: the hard cases of a model, and every engine on its triangles against the oracle.
 pub(super) fn verify(
     path: &Path,
-    (view, judged, is_json): (&ViewArguments, &JudgedEngines, bool),
+    (view, judged, is_json): (&ViewArguments, &Judged, bool),
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
@@ -290,11 +285,18 @@ pub(super) fn verify(
     };
     let judgeable: Vec<&Piece> = drawn.iter().filter(has_values).copied().collect();
     let mut faults = Vec::new();
-    for &engine in &judged.engines {
-        faults.push((engine.0.name(), judge(&judgeable, &|chunk| on_grid(engine, chunk, window))));
+    let snapped = |chunk: &[&Piece]| {
+        let list = chunk.iter().map(|piece| piece.triangle).collect();
+        Case { window, shape: Shape::Triangles { list, disjoint: false } }
+    };
+    let unsnapped = |chunk: &[&Piece]| {
+        Case::unsnapped(window, chunk.iter().filter_map(|piece| piece.free()).collect())
+    };
+    for &engine in &judged.triangles {
+        faults.push((engine.name(), judge(&judgeable, &engine.into(), &snapped)));
     }
-    for engine in &judged.exact {
-        faults.push((engine.name(), judge(&judgeable, &|chunk| off_grid(*engine, chunk, window))));
+    for &engine in &judged.unsnapped {
+        faults.push((engine.name(), judge(&judgeable, &engine.into(), &unsnapped)));
     }
     let agrees = faults.iter().all(|(_, fault)| fault.is_none());
     let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
@@ -349,41 +351,24 @@ struct Fault {
     triangle: Option<u32>,
 }
 
-/// Judges an engine on all pieces. `judge` says what is wrong with some of them together.
-fn judge(pieces: &[&Piece], judge: &(dyn Fn(&[&Piece]) -> Option<String> + Sync)) -> Option<Fault> {
+/// Judges an engine on all pieces, some of them together as a case.
+fn judge(
+    pieces: &[&Piece],
+    engine: &Judged,
+    case: &(dyn Fn(&[&Piece]) -> Case + Sync),
+) -> Option<Fault> {
+    let wrong = |chunk: &[&Piece]| {
+        let findings = engine.judge_case(&case(chunk));
+        findings.iter().find(|(_, f)| f.is_wrong()).map(|(_, finding)| finding.describe())
+    };
     let chunks: Vec<&[&Piece]> = pieces.chunks(CHUNK).collect();
-    let wrong = parallel::map(chunks.len(), |number| judge(chunks[number]).is_some());
-    let first = chunks.iter().zip(wrong).find(|(_, is_wrong)| *is_wrong)?.0;
-    let alone = first.iter().find_map(|piece| Some((piece.face, judge(&[*piece])?)));
+    let faults = parallel::map(chunks.len(), |number| wrong(chunks[number]));
+    let (first, together) = chunks.iter().zip(faults).find_map(|(c, f)| Some((c, f?)))?;
+    let alone = first.iter().find_map(|piece| Some((piece.face, wrong(&[*piece])?)));
     Some(match alone {
         Some((triangle, what)) => Fault { what, triangle: Some(triangle) },
-        None => {
-            let what = judge(first).unwrap_or_default();
-            Fault { what: format!("several pieces together: {what}"), triangle: None }
-        }
+        None => Fault { what: format!("several pieces together: {together}"), triangle: None },
     })
-}
-
-fn on_grid(
-    engine: (Engine, Tolerance),
-    chunk: &[&Piece],
-    window: rasterproof_core::grid::PixelRect,
-) -> Option<String> {
-    let list = chunk.iter().map(|piece| piece.triangle).collect();
-    let case = Case { window, shape: Shape::Triangles { list, disjoint: false } };
-    let findings = judge_case(&[engine], &[], &case);
-    findings.iter().find(|(_, f)| f.is_wrong()).map(|(_, finding)| finding.describe())
-}
-
-fn off_grid(
-    engine: ExactEngine,
-    chunk: &[&Piece],
-    window: rasterproof_core::grid::PixelRect,
-) -> Option<String> {
-    let corners = chunk.iter().filter_map(|piece| piece.free());
-    let case = OffGridCase { window, triangles: corners.collect(), is_tiling: false };
-    let finding = judge_exact_case(&engine, &case);
-    finding.is_wrong().then(|| finding.describe())
 }
 
 /// The face of a model that the words of `inspect` name: FILE#NUMBER. Prints what is known of it, and returns its pieces

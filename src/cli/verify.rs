@@ -7,17 +7,17 @@ use std::time::Duration;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
-use super::case_view::{self, JudgedEngines};
+use super::case_view;
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, invariant, program, study, usage, write_picture};
+use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::Report;
 use rasterproof_report::{ascii, differential, json, page_cases, picture, summary};
-use rasterproof_verify::cases::{self, Case, Shape};
-use rasterproof_verify::comparison::unsnapped::{self, ExactVerdict};
+use rasterproof_verify::cases::{self, Kind, Shape};
 use rasterproof_verify::comparison::{self, Options, Shard, Verdict};
 
 /// `verify` with its name, which can also judge the engines on a model.
@@ -38,8 +38,8 @@ pub fn run_command(command: &VerifyCommand, typed: &Typed, streams: &mut Streams
         study::refuse_view(typed)?;
         return run(&command.arguments, typed, streams);
     };
-    let judged = command.arguments.judged_engines();
-    if judged.engines.is_empty() && judged.exact.is_empty() {
+    let judged = command.arguments.judged();
+    if judged.triangles.is_empty() && judged.unsnapped.is_empty() {
         return Err(usage("no rasterizer of triangles is chosen: name one, or leave out --engine"));
     }
     study::verify(path, (&command.view, &judged, command.arguments.json), typed, streams)
@@ -87,8 +87,7 @@ pub struct VerifyArguments {
 }
 
 fn family_names() -> Vec<&'static str> {
-    let off_grid = cases::unsnapped::FAMILIES.iter().map(|family| family.name);
-    cases::families().map(|family| family.name).chain(off_grid).collect()
+    cases::all_families().map(|family| family.name).collect()
 }
 
 fn judged_names() -> Vec<&'static str> {
@@ -167,17 +166,17 @@ impl VerifyArguments {
     }
 
     /// Who is judged: everybody, a selection, or a planted fault alone.
-    fn judged_engines(&self) -> JudgedEngines {
-        let mut all = JudgedEngines::new(self.plant.as_deref());
+    fn judged(&self) -> Judged {
+        let mut all = case_view::judged(self.plant.as_deref());
         if self.engine.is_empty() {
             return all;
         }
         // Some that are judged only when asked for.
-        all.engines = Engine::CHOICES.iter().map(|&e| (e, e.tolerance())).collect();
+        all.triangles = Engine::CHOICES.to_vec();
         let wanted = |name: &str| self.engine.iter().any(|n| n == name);
-        all.engines.retain(|(engine, _)| wanted(engine.name()));
+        all.triangles.retain(|engine| wanted(engine.name()));
         all.lines.retain(|engine| wanted(engine.name()));
-        all.exact.retain(|engine| wanted(engine.name()));
+        all.unsnapped.retain(|engine| wanted(engine.name()));
         all
     }
 }
@@ -192,22 +191,20 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     if arguments.engine.iter().any(|name| name.starts_with(VULKAN)) {
         return on_a_device(arguments, options, streams);
     }
-    let judged = arguments.judged_engines();
-    if judged.engines.is_empty() && judged.lines.is_empty() && judged.exact.is_empty() {
+    let judged = arguments.judged();
+    if judged.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
     }
-    let (verdict, off_grid) = judge(&judged, &options, streams.progress);
-    if verdict.families.iter().all(|family| family.cases == 0)
-        && off_grid.families.iter().all(|family| family.cases == 0)
-    {
+    let verdict = judge(&judged, &options, streams.progress);
+    if verdict.families.iter().all(|family| family.cases == 0) {
         return Err(usage(
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
         ));
     }
-    let run = Run { arguments, typed, judged, verdict, off_grid };
+    let run = Run { arguments, typed, judged, verdict };
     if arguments.json {
         let repeat = |family: &str, index| run.repeat(family, index);
-        let text = json::verdict(&run.verdict, &run.off_grid, repeat);
+        let text = json::verdict(&run.verdict, repeat);
         streams.output.write_all(text.as_bytes())?;
     } else {
         run.print(streams)?;
@@ -217,7 +214,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     if arguments.page.report {
         write_page(&arguments.page.place.out.join("verify.html"), run.report_page(), streams);
     }
-    Ok(if run.agrees() { exit::AGREES } else { exit::DISAGREES })
+    Ok(if run.verdict.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
 
 #[cfg(feature = "vulkan")]
@@ -244,53 +241,30 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     super::vulkan::verify(&job, streams)
 }
 
-fn judge(judged: &JudgedEngines, options: &Options, on_terminal: bool) -> (Verdict, ExactVerdict) {
-    let JudgedEngines { engines, lines, exact } = judged;
-    let exact_engines: Vec<_> = exact.iter().map(|engine| (engine.name(), *engine)).collect();
-    let triangles = cases::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
-    let segments = cases::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
-    let families = triangles.chain(segments).filter(|f| {
+fn judge(judged: &Judged, options: &Options, on_terminal: bool) -> Verdict {
+    let kinds = [judged.triangles.len(), judged.lines.len(), judged.unsnapped.len()];
+    let families = Kind::ALL.iter().zip(kinds).filter(|(_, engines)| *engines > 0);
+    let families = families.flat_map(|((_, families), _)| *families).filter(|f| {
         options.families.is_empty() || options.families.iter().any(|n| n.as_str() == f.name)
     });
-    let off_grid_families =
-        if exact_engines.is_empty() { 0 } else { unsnapped::exact_families(options).count() };
-    let total = options.time_limit.is_none().then(|| {
-        ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
-            / options.shard.parts()
-    });
+    let total = options
+        .time_limit
+        .is_none()
+        .then(|| (families.count() as u64).saturating_mul(options.cases) / options.shard.parts());
     let progress = Progress::new(on_terminal, "cases", total);
-    // Where both share a limited time, the families off the lattice get a fifth of it.
-    let is_shared = off_grid_families > 0 && engines.len() + lines.len() > 0;
-    let share = |fifths: u32| match options.time_limit.filter(|_| is_shared) {
-        Some(limit) => options.clone().time_limit(limit * fifths / 5),
-        None => options.clone(),
-    };
-    let verdict = rasterproof_registry::comparison::judge(engines, lines, &share(4), &|cases| {
-        progress.done(cases)
-    });
-    let off_grid =
-        unsnapped::judge_exact_engines(&exact_engines, &share(1), &|cases| progress.done(cases));
-    drop(progress);
-    (verdict, off_grid)
+    judged.judge(options, &|cases| progress.done(cases))
 }
 
 struct Run<'a> {
     arguments: &'a VerifyArguments,
     typed: &'a Typed,
-    judged: JudgedEngines,
+    judged: Judged,
     verdict: Verdict,
-    off_grid: ExactVerdict,
 }
-
-type FailurePictures = (&'static str, Vec<RgbImage>);
 
 const MOST_DRAWN: usize = 6;
 
 impl Run<'_> {
-    fn agrees(&self) -> bool {
-        self.verdict.agrees() && self.off_grid.agrees()
-    }
-
     fn repeat(&self, family: &str, index: u64) -> String {
         let one = self.typed.clone().without_output().without(&["cases", "seconds", "shard"]);
         one.set("seed", self.arguments.seed).first("case", index).first("family", family).line()
@@ -307,22 +281,19 @@ impl Run<'_> {
 
     /// The run as a page: counts, failing cases, those closest to a bound, the named cases.
     fn report_page(&self) -> Report {
-        let Self { judged, verdict, off_grid, .. } = self;
-        let engines: Vec<_> = judged.engines.iter().map(|(engine, _)| *engine).collect();
-        let judged =
-            page_cases::Judged { engines: &engines, lines: &judged.lines, exact: &judged.exact };
-        let mut tables = differential::tables(verdict, off_grid);
+        let Self { judged, verdict, .. } = self;
+        let mut tables = differential::tables(verdict);
         tables.push(differential::refused());
         let quotas = differential::quota_line(verdict).trim_end().to_owned();
         let repeat = |family: &str, index| self.repeat(family, index);
         Report {
             title: "Verdict of rasterproof".to_owned(),
-            outcome: Some(differential::outcome(verdict, off_grid)),
+            outcome: Some(differential::outcome(verdict)),
             command: self.repeat_all().line(),
             seed: Some(self.arguments.seed),
             notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
             tables,
-            cases: page_cases::of_verdict(verdict, off_grid, judged, repeat),
+            cases: page_cases::of_verdict(verdict, judged, repeat),
             ..Report::default()
         }
     }
@@ -330,9 +301,9 @@ impl Run<'_> {
     /// The answer and what it rests on. Where something is wrong, the smallest case that shows it comes
     /// first; the last line is the verdict in a word.
     fn print(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let Self { arguments, verdict, off_grid, .. } = self;
-        let agrees = self.agrees();
-        let mut pictures = if agrees { Vec::new() } else { self.failures(streams.output)? };
+        let Self { arguments, verdict, .. } = self;
+        let agrees = verdict.agrees();
+        let failures = if agrees { Vec::new() } else { self.failures(streams.output)? };
         let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
         let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
         let out = &mut *streams.output;
@@ -340,52 +311,41 @@ impl Run<'_> {
         let (mark, version) = (summary::mark(agrees, streams.colour), env!("CARGO_PKG_VERSION"));
         let seed = arguments.seed;
         writeln!(out, "{mark} rasterproof {version}, seed {seed}{shard}: {answer}\n")?;
-        writeln!(out, "{}", summary::lines(verdict, off_grid, streams.colour))?;
+        writeln!(out, "{}", summary::lines(verdict, streams.colour))?;
         if arguments.table || !agrees {
-            let [table, off_table] =
-                [differential::text(verdict), differential::text_off_grid(off_grid)];
+            let table = differential::text(verdict);
             writeln!(out, "{table}{}", differential::quota_line(verdict))?;
-            write!(out, "{}{off_table}", differential::disagreements(verdict))?;
-            write!(out, "{}", differential::disagreements_off_grid(off_grid))?;
+            write!(out, "{}", differential::disagreements(verdict))?;
         }
-        if verdict.agrees() {
-            pictures.push(("worst.png", self.worst_cases(out)?));
-        }
-        for (name, drawn) in pictures {
-            write_sheet(&arguments.page.place.out.join(name), &drawn, streams)?;
-        }
+        let (name, drawn) = match agrees {
+            true => ("worst.png", self.worst_cases(out)?),
+            false => ("failures.png", failures),
+        };
+        write_sheet(&arguments.page.place.out.join(name), &drawn, streams)?;
         let out = &mut *streams.output;
         if !arguments.table && agrees {
             writeln!(out, "every family as a table: add --table")?;
         }
         writeln!(out, "repeat with: {}", self.repeat_all().without_output().line())?;
-        let [triangles, segments] = [false, true].map(|lines| verdict.sum(lines, |f| f.shapes));
-        let beside = match off_grid.triangles() {
-            0 => String::new(),
-            n => format!(", {n} triangles off the grid"),
-        };
         let fragments = match verdict.comparisons().fragments.total() {
             0 => String::new(),
             n => format!("{n} pixels where fragments and coverage of one engine differ, "),
         };
         writeln!(
             out,
-            "{}: {triangles} triangles and {segments} lines{beside}, {fragments}{} wrong pixels",
+            "{}: {}, {fragments}{} wrong pixels",
             summary::word(agrees),
-            verdict.mismatches() + off_grid.mismatches()
+            differential::judged_shapes(verdict),
+            verdict.mismatches()
         )?;
         Ok(())
     }
 
-    fn draw(&self, case: &Case) -> case_view::Shown {
-        case_view::draw(case, &self.judged.engines, &self.judged.lines)
-    }
-
     /// The smallest failure with its pixels, then a line for each other family; all of them as pictures.
-    fn failures(&self, out: &mut dyn Write) -> Result<Vec<FailurePictures>, Failure> {
+    fn failures(&self, out: &mut dyn Write) -> Result<Vec<RgbImage>, Failure> {
         let mut drawn = Vec::new();
         for (rank, failure) in self.verdict.failures.iter().enumerate() {
-            let shown = self.draw(&failure.case);
+            let shown = case_view::draw(&failure.case, &self.judged);
             if drawn.len() < MOST_DRAWN {
                 drawn.push(shown.picture(&heading(failure), &failure.case));
             }
@@ -401,38 +361,21 @@ impl Run<'_> {
             writeln!(out, "  explain it:  {}", self.explain(failure))?;
             writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;
         }
-        let mut exact = Vec::new();
-        for (rank, failure) in self.off_grid.failures.iter().enumerate() {
-            if rank < MOST_DRAWN {
-                let shown = case_view::draw_off_grid(&failure.case, &self.judged.exact)?;
-                exact.push(shown.picture_off_grid(&heading(failure), &failure.case));
-            }
-            if rank == 0 {
-                writeln!(out, "{failure}")?;
-                writeln!(out, "  repeat with: {}", self.repeat(&failure.family, failure.index))?;
-                writeln!(out, "  read on in:  docs/offgrid.md\n")?;
-            }
-        }
         self.others(out)?;
-        Ok(vec![("failures.png", drawn), ("failures-off-grid.png", exact)])
+        Ok(drawn)
     }
 
-    /// A line for each failure but the first on the lattice and the first off it.
+    /// A line for each failure but the first.
     fn others(&self, out: &mut dyn Write) -> Result<(), Failure> {
-        let on_grid = self.verdict.failures.iter().skip(1).map(|f| {
-            (&f.family, f.index, &f.pair[0], &f.what, comparison::shrink::describe(&f.case))
-        });
-        let free = self.off_grid.failures.iter().skip(1).map(|f| {
-            (&f.family, f.index, &f.engine, &f.what, unsnapped::describe(&f.case.triangles))
-        });
-        let others: Vec<_> = on_grid.chain(free).collect();
+        let Some([_, others @ ..]) = self.verdict.failures.get(..) else { return Ok(()) };
         if others.is_empty() {
             return Ok(());
         }
         writeln!(out, "the smallest case of each other family:")?;
-        for (family, index, engine, what, points) in others {
-            let case = format!("{family}#{index}");
-            writeln!(out, "  {case:<21} {engine}: {what} on\n      {points}")?;
+        for failure in others {
+            let case = format!("{}#{}", failure.family, failure.index);
+            let (engine, points) = (&failure.pair[0], comparison::shrink::describe(&failure.case));
+            writeln!(out, "  {case:<21} {engine}: {} on\n      {points}", failure.what)?;
         }
         writeln!(out)?;
         Ok(())
@@ -444,6 +387,7 @@ impl Run<'_> {
         let (list, words) = match &failure.case.shape {
             Shape::Triangles { list, .. } => (list.len(), ""),
             Shape::Lines(list) => (list.len(), "--line "),
+            Shape::Unsnapped { list, .. } => (list.len(), "--exact "),
         };
         let points = comparison::shrink::describe(&failure.case);
         let plant = self.arguments.plant.as_ref().map(|name| format!(" --plant {name}"));
@@ -460,7 +404,7 @@ impl Run<'_> {
         let all = self.verdict.families.iter();
         let mut worst: Vec<_> = all
             .flat_map(|f| f.pairs.iter().map(move |pair| (f, pair)))
-            .filter(|(_, pair)| pair.target == "oracle" && pair.values > 0 && pair.worst() > 0.0)
+            .filter(|(_, pair)| pair.is_by_oracle() && pair.values > 0 && pair.worst() > 0.0)
             .collect();
         worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
         worst.dedup_by_key(|(f, pair)| (f.family.clone(), pair.worst_case));
@@ -476,7 +420,7 @@ impl Run<'_> {
             if let Some(case) = found.map(|f| f.case(seed, index)) {
                 let worst = pair.worst();
                 let title = format!("{name}#{index}: {engine} at {worst:.2} of a bound");
-                pictures.push(self.draw(&case).picture(&title, &case));
+                pictures.push(case_view::draw(&case, &self.judged).picture(&title, &case));
             }
         }
         Ok(pictures)

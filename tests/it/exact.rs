@@ -10,10 +10,11 @@ use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::FreeCorners;
 use rasterproof_faults::planted::exact::ExactMutant;
+use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::ExactEngine;
-use rasterproof_verify::cases::unsnapped::{FAMILIES, OffGridCase};
-use rasterproof_verify::comparison::Options;
-use rasterproof_verify::comparison::unsnapped::{exact_coverage, judge_exact, judge_exact_case};
+use rasterproof_verify::cases::unsnapped::FAMILIES;
+use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::comparison::{FamilyReport, Finding, Options, exact_coverage};
 
 use crate::program::check;
 use crate::recorded::hits as hits_of;
@@ -21,8 +22,12 @@ use crate::recorded::hits as hits_of;
 const ALL: [ExactEngine; 3] =
     [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
 
-fn judged() -> Vec<(&'static str, ExactEngine)> {
-    ExactEngine::JUDGED.map(|engine| (engine.name(), engine)).to_vec()
+fn drawn(engine: ExactEngine, case: &Case) -> Coverage {
+    exact_coverage(&engine, case.free_corners(), case.window).expect("no panic").0
+}
+
+fn judge_case(engine: ExactEngine, case: &Case) -> Finding {
+    Judged::from(engine).judge_case(case).swap_remove(0).1
 }
 
 fn options(seed: u64, cases: u64) -> Options {
@@ -33,22 +38,25 @@ fn free(corners: [[f64; 2]; 3]) -> FreeCorners {
     FreeCorners::new(corners).unwrap_or_else(|refusal| panic!("{corners:?} {refusal}"))
 }
 
-fn case(window: PixelRect, triangles: &[[[f64; 2]; 3]]) -> OffGridCase {
-    let triangles = triangles.iter().map(|corners| free(*corners)).collect();
-    OffGridCase { window, triangles, is_tiling: false }
+fn case(window: PixelRect, triangles: &[[[f64; 2]; 3]]) -> Case {
+    Case::unsnapped(window, triangles.iter().map(|corners| free(*corners)).collect())
+}
+
+fn is_tiling(case: &Case) -> bool {
+    matches!(case.shape, Shape::Unsnapped { is_tiling: true, .. })
 }
 
 /// Hits of one engine, which must be those of the oracle.
-fn hits(engine: ExactEngine, case: &OffGridCase) -> Coverage {
-    let finding = judge_exact_case(&engine, case);
+fn hits(engine: ExactEngine, case: &Case) -> Coverage {
+    let finding = judge_case(engine, case);
     assert!(!finding.is_wrong(), "{}: {} on {case:?}", engine.name(), finding.describe());
-    exact_coverage(&engine, case).expect("it did not panic a line above").0
+    drawn(engine, case)
 }
 
 /// Pixels of each triangle alone, and the most hits of any pixel by all of them.
-fn pixels_and_most(engine: ExactEngine, whole: &OffGridCase) -> (Vec<u64>, u8) {
-    let alone = |t: &FreeCorners| OffGridCase { triangles: vec![*t], ..whole.clone() };
-    let pixels = whole.triangles.iter().map(|t| hits(engine, &alone(t)).covered()).collect();
+fn pixels_and_most(engine: ExactEngine, whole: &Case) -> (Vec<u64>, u8) {
+    let alone = |t: &FreeCorners| Case::unsnapped(whole.window, vec![*t]);
+    let pixels = whole.free_corners().iter().map(|t| hits(engine, &alone(t)).covered()).collect();
     let all = hits(engine, whole);
     let most = all.rows().flat_map(|(_, row)| row.iter().copied().max()).max();
     (pixels, most.unwrap_or(0))
@@ -57,13 +65,14 @@ fn pixels_and_most(engine: ExactEngine, whole: &OffGridCase) -> (Vec<u64>, u8) {
 #[test]
 fn families_agree_and_reach_both_paths() {
     for seed in [1, 2] {
-        let verdict = judge_exact(&judged(), &options(seed, 400), &|_| ()).unwrap();
+        let judged = Judged { unsnapped: ExactEngine::JUDGED.to_vec(), ..Judged::default() };
+        let verdict = judged.judge(&options(seed, 400), &|_| ());
         assert_eq!(verdict.families.len(), FAMILIES.len());
         for f in &verdict.families {
             assert_eq!((f.cases, f.oracle_faults), (400, 0), "{}", f.family);
-            for e in &f.engines {
-                assert_eq!((e.tally.total(), e.panics), (0, 0), "{} {}", f.family, e.engine);
-                assert!(e.decisions.by_filter > 0, "{} {}: nothing filtered", f.family, e.engine);
+            for e in &f.pairs {
+                assert_eq!((e.tally.total(), e.panics), (0, 0), "{} {}", f.family, e.actual);
+                assert!(e.decisions.by_filter > 0, "{} {}: nothing filtered", f.family, e.actual);
                 let in_doubt =
                     ["f32-near-tie", "f32-tie", "f32-fan", "f32-denormal", "f64-near-tie"];
                 let must_fall_back = in_doubt.contains(&f.family.as_str());
@@ -71,15 +80,12 @@ fn families_agree_and_reach_both_paths() {
                     !must_fall_back || e.decisions.by_fallback > 0,
                     "{} {}: the exact path was never taken",
                     f.family,
-                    e.engine
+                    e.actual
                 );
             }
         }
         assert!(verdict.agrees() && verdict.failures.is_empty());
-        let sum =
-            |count: fn(&rasterproof_verify::comparison::unsnapped::ExactFamilyReport) -> u64| {
-                verdict.families.iter().map(count).sum::<u64>()
-            };
+        let sum = |count: fn(&FamilyReport) -> u64| verdict.families.iter().map(count).sum::<u64>();
         assert!(4 * sum(|f| f.tie_cases) >= sum(|f| f.cases), "a quarter of the cases has a tie");
         assert!(20 * sum(|f| f.empty_cases) >= sum(|f| f.cases), "one in twenty is empty");
     }
@@ -89,7 +95,7 @@ fn families_agree_and_reach_both_paths() {
 fn families_f32_hold_f32_only_and_f64_more() {
     for family in FAMILIES {
         let px: Vec<f64> = (0..200)
-            .flat_map(|index| family.case(3, index).triangles)
+            .flat_map(|index| family.case(3, index).free_corners().to_vec())
             .flat_map(|t| t.px())
             .flatten()
             .collect();
@@ -100,7 +106,7 @@ fn families_f32_hold_f32_only_and_f64_more() {
     }
     let tiling = |name: &str| {
         let family = FAMILIES.iter().find(|f| f.name == name).expect("a family");
-        (0..100).filter(|&index| family.case(3, index).is_tiling).count()
+        (0..100).filter(|&index| is_tiling(&family.case(3, index))).count()
     };
     assert_eq!(tiling("f32-fan"), 100);
     assert!(tiling("f32-cut") > 90);
@@ -113,12 +119,11 @@ fn vertex_order_leaves_no_trace() {
             let original = family.case(11, index);
             let target = hits(ExactEngine::Oracle, &original);
             for order in [[1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]] {
-                let mut turned = original.clone();
-                for triangle in &mut turned.triangles {
-                    *triangle = free(order.map(|i| triangle.px()[i]));
-                }
+                let turn = |t: &FreeCorners| free(order.map(|i| t.px()[i]));
+                let turned = original.free_corners().iter().map(turn).collect();
+                let turned = Case::unsnapped(original.window, turned);
                 for engine in ALL {
-                    let actual = exact_coverage(&engine, &turned).expect("no panic").0;
+                    let actual = drawn(engine, &turned);
                     assert!(
                         actual == target,
                         "{} {}#{index} {order:?}",
@@ -145,11 +150,11 @@ fn mutants_die() {
     };
     for mutant in ExactMutant::ALL {
         let engine = ExactEngine::Mutant(mutant);
-        let verdict = judge_exact(&[(engine.name(), engine)], &options(1, 400), &|_| ()).unwrap();
+        let verdict = Judged::from(engine).judge(&options(1, 400), &|_| ());
         let killers: BTreeSet<_> = verdict
             .families
             .iter()
-            .filter(|f| f.engines[0].wrong_cases > 0)
+            .filter(|f| f.pairs[0].wrong_cases > 0)
             .map(|f| f.family.as_str())
             .collect();
         println!("{:<26} caught by {killers:?}", engine.name());
@@ -158,9 +163,9 @@ fn mutants_die() {
         let failure = verdict.failures.first().expect("a failure is kept");
         let family = FAMILIES.iter().find(|f| f.name == failure.family).expect("its family");
         let found = family.case(failure.seed, failure.index);
-        assert!(judge_exact_case(&engine, &found).is_wrong(), "{failure}");
-        assert!(judge_exact_case(&engine, &failure.case).is_wrong(), "{failure}");
-        assert_eq!(failure.case.triangles.len(), 1, "shrunk: {failure}");
+        assert!(judge_case(engine, &found).is_wrong(), "{failure}");
+        assert!(judge_case(engine, &failure.case).is_wrong(), "{failure}");
+        assert_eq!(failure.case.free_corners().len(), 1, "shrunk: {failure}");
     }
 }
 
@@ -225,8 +230,8 @@ fn check_split(a: [f32; 2], b: [f32; 2], pixel: (i32, i32)) {
         .iter()
         .any(|two| {
             let two = case(PixelRect::window(64, 64), two);
-            let hits = exact_coverage(&ExactEngine::Mutant(ExactMutant::PlainF32), &two);
-            hits.expect("no panic").0.get(pixel.0, pixel.1) != Some(1)
+            let hits = drawn(ExactEngine::Mutant(ExactMutant::PlainF32), &two);
+            hits.get(pixel.0, pixel.1) != Some(1)
         });
     assert!(wrong, "f32 is right at {pixel:?}, so the case shows nothing");
 }
@@ -289,13 +294,14 @@ fn command_line() {
     let run = check("verify --plant exact-plain-f32 --family f32-far --cases 50 --json", 1);
     let json: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
     assert_eq!(json["agrees"], false);
-    assert_eq!(json["off_grid_families"][0]["family"], "f32-far");
-    assert_eq!(json["failures"][0]["pair"][1], "oracle-exact");
+    assert_eq!(json["families"][0]["family"], "f32-far");
+    assert_eq!(json["families"][0]["kind"], "unsnapped");
+    assert_eq!(json["failures"][0]["pair"][1], "oracle");
     // A number beyond the default count of cases is judged, too.
     let run = check("verify --family f32-tie --case 123456789012", 0)
         .prints(", 1 triangles off the grid, 0 wrong pixels");
     assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{run}");
-    check("inspect f64-denormal#5", 0).prints("edge-function-exact against oracle-exact: agrees");
+    check("inspect f64-denormal#5", 0).prints("edge-function-exact against oracle: agrees");
 }
 
 fn lattice() -> impl Strategy<Value = [SubpixelPoint; 3]> {
@@ -314,9 +320,9 @@ proptest! {
         let window = PixelRect { x0: -2, y0: -2, x1: 16, y1: 16 };
         let list = [corners];
         let targets = [hits_of(&Scanline, &list, window), hits_of(&EdgeFunction, &list, window)];
-        let case = OffGridCase { window, triangles: vec![corners.into()], is_tiling: false };
+        let case = Case::unsnapped(window, vec![corners.into()]);
         for engine in ALL {
-            let actual = exact_coverage(&engine, &case).expect("no panic").0;
+            let actual = drawn(engine, &case);
             for target in &targets {
                 prop_assert!(&actual == target, "{} on {corners:?}", engine.name());
             }
@@ -337,7 +343,7 @@ proptest! {
         }
         let whole = case(PixelRect { x0: -8, y0: -8, x1: 24, y1: 24 }, &[px]);
         for engine in ExactEngine::JUDGED {
-            let finding = judge_exact_case(&engine, &whole);
+            let finding = judge_case(engine, &whole);
             prop_assert!(!finding.is_wrong(), "{}: {} on {px:?}", engine.name(), finding.describe());
         }
     }

@@ -17,9 +17,10 @@ use rasterproof_render::pipeline::transform::frustum;
 use rasterproof_render::scene::{shapes, textures};
 use rasterproof_report::lettering::{self, Size};
 use rasterproof_report::{frame_comparison, panels, picture};
-use rasterproof_verify::cases::unsnapped::{FAMILIES, OffGridCase};
+use rasterproof_verify::cases::Case;
+use rasterproof_verify::cases::unsnapped::FAMILIES;
 use rasterproof_verify::comparison::Tally;
-use rasterproof_verify::comparison::unsnapped::exact_coverage;
+use rasterproof_verify::comparison::exact_coverage;
 
 use crate::scenes::{still, target_of};
 use crate::snapshots::{check_picture, check_sheet};
@@ -122,8 +123,10 @@ fn picture_off_the_lattice() {
     let family = FAMILIES.iter().find(|family| family.name == "f64-near-tie").unwrap();
     let faults = [ExactMutant::SnapsInside, ExactMutant::PlainF64].map(ExactEngine::Mutant);
     let engines = [faults[0], faults[1], ExactEngine::Scanline];
-    let hits = |engine: ExactEngine, case: &OffGridCase| exact_coverage(&engine, case).unwrap().0;
-    let wrong = |engine: ExactEngine, case: &OffGridCase| {
+    let hits = |engine: ExactEngine, case: &Case| {
+        exact_coverage(&engine, case.free_corners(), case.window).unwrap().0
+    };
+    let wrong = |engine: ExactEngine, case: &Case| {
         Tally::between(&hits(engine, case), &hits(ExactEngine::Oracle, case)).total()
     };
     // The case with the most wrong pixels among those that both get wrong.
@@ -141,7 +144,7 @@ fn picture_off_the_lattice() {
     let named: Vec<_> = names.map(str::to_owned).into_iter().zip(drawn).collect();
     let target = hits(ExactEngine::Oracle, &worst);
     let title = "Corners off the lattice, nearly on the centres of pixels";
-    check_sheet("off-the-lattice", &panels::of_off_grid(title, &worst, &named, &target));
+    check_sheet("off-the-lattice", &panels::of_case(title, &worst, &named, &target));
 }
 
 /// From (0, 0) to (3, 9): a pixel for each column leaves gaps, a pixel for each row does not.

@@ -4,13 +4,12 @@ use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_registry::comparison;
+use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_report::{differential, json};
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{FamilyName, Shape, lines};
 use rasterproof_verify::comparison::shrink::has_plain_values;
-use rasterproof_verify::comparison::unsnapped::ExactVerdict;
 use rasterproof_verify::comparison::{Options, Tally, Verdict, caught, judge_values, tolerance};
 
 /// As many cases as `tests/differential.rs` judges, or fewer.
@@ -21,8 +20,8 @@ fn options() -> Options {
 #[test]
 fn every_planted_rasterizer_fault_is_reported() {
     for mutant in TriangleMutant::ALL {
-        let engines = [(Engine::Mutant(mutant), tolerance::SCANLINE)];
-        let verdict = comparison::judge(&engines, &[], &options(), &|_| ());
+        let engines = Judged::from(Engine::Mutant(mutant));
+        let verdict = engines.judge(&options(), &|_| ());
         assert!(!verdict.agrees(), "{} survives", mutant.name());
         let failure = verdict.failures.first().expect("a disagreement comes with a case");
         assert!(!failure.what.is_empty() && failure.what != "agrees", "{failure}");
@@ -32,7 +31,7 @@ fn every_planted_rasterizer_fault_is_reported() {
 #[test]
 fn every_planted_line_fault_is_reported() {
     for mutant in LineMutant::ALL {
-        let verdict = comparison::judge(&[], &[LineEngine::Mutant(mutant)], &options(), &|_| ());
+        let verdict = Judged::from(LineEngine::Mutant(mutant)).judge(&options(), &|_| ());
         assert!(!verdict.agrees(), "{} survives", mutant.name());
         assert!(!verdict.failures.is_empty());
     }
@@ -64,8 +63,7 @@ fn recount(actual: &Hits, target: &Hits, sums: &mut [u64; 3]) {
 fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
     let Tally { missing, extra, twice, order } = verdict.comparisons().oracle;
     assert_eq!([missing, extra, twice], sums, "{name}");
-    let off_grid = ExactVerdict::default();
-    let text = json::verdict(verdict, &off_grid, |_, _| String::new());
+    let text = json::verdict(verdict, |_, _| String::new());
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     let mismatches = missing + extra + twice + order;
     assert_eq!(json["mismatches"], mismatches, "{name}");
@@ -78,7 +76,7 @@ fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
     };
     assert_eq!(kinds.map(by_family), sums, "{name}");
     if mismatches > 0 {
-        let sentence = differential::outcome(verdict, &off_grid).sentence;
+        let sentence = differential::outcome(verdict).sentence;
         assert!(sentence.starts_with(&format!("{mismatches} wrong pixels in ")), "{sentence}");
     }
     // The terminal's table: the fourth column of counts.
@@ -98,8 +96,8 @@ fn counts_equal_a_recount() {
     const CASES: u64 = 8;
     let options = Options::default().cases(CASES);
     for mutant in TriangleMutant::ALL {
-        let engines = [(Engine::Mutant(mutant), tolerance::SCANLINE)];
-        let verdict = comparison::judge(&engines, &[], &options, &|_| ());
+        let engines = Judged::from(Engine::Mutant(mutant));
+        let verdict = engines.judge(&options, &|_| ());
         let mut sums = [0; 3];
         for case in FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
             let Shape::Triangles { list, .. } = &case.shape else { unreachable!("triangles") };
@@ -121,7 +119,7 @@ fn counts_equal_a_recount() {
         same_everywhere(mutant.name(), &verdict, sums);
     }
     for mutant in LineMutant::ALL {
-        let verdict = comparison::judge(&[], &[LineEngine::Mutant(mutant)], &options, &|_| ());
+        let verdict = Judged::from(LineEngine::Mutant(mutant)).judge(&options, &|_| ());
         let mut sums = [0; 3];
         for case in lines::FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
             let Shape::Lines(list) = &case.shape else { unreachable!("lines") };
@@ -144,8 +142,8 @@ fn counts_equal_a_recount() {
 /// those of its coverage.
 #[test]
 fn an_inclusive_engine_misses_nothing() {
-    let engines = [(Engine::Mutant(TriangleMutant::InclusiveEdges), tolerance::SCANLINE)];
-    let verdict = comparison::judge(&engines, &[], &options(), &|_| ());
+    let engines = Judged::from(Engine::Mutant(TriangleMutant::InclusiveEdges));
+    let verdict = engines.judge(&options(), &|_| ());
     let sums = verdict.comparisons();
     assert!(sums.oracle.extra > 0 && sums.oracle.twice > 0, "{sums:?}");
     assert_eq!((sums.oracle.missing, sums.fragments.total()), (0, 0), "{sums:?}");
@@ -189,12 +187,9 @@ fn stray_fragments_are_counted_apart() {
 /// What is wrong with values is wrong with the plain ones, too, so that the corners alone repeat it.
 #[test]
 fn wrong_values_shrink_to_plain_ones() {
-    let affine = [(Engine::Mutant(TriangleMutant::AffineAttributes), tolerance::SCANLINE)];
-    let clipped = [LineEngine::Mutant(LineMutant::WeightsFromClip)];
-    for verdict in [
-        comparison::judge(&affine, &[], &options(), &|_| ()),
-        comparison::judge(&[], &clipped, &options(), &|_| ()),
-    ] {
+    let affine = Judged::from(Engine::Mutant(TriangleMutant::AffineAttributes));
+    let clipped = Judged::from(LineEngine::Mutant(LineMutant::WeightsFromClip));
+    for verdict in [affine, clipped].map(|engines| engines.judge(&options(), &|_| ())) {
         assert!(verdict.failures.len() > 3, "{}", verdict.failures.len());
         for failure in &verdict.failures {
             assert!(has_plain_values(&failure.case), "{failure}");
@@ -207,8 +202,8 @@ fn wrong_values_shrink_to_plain_ones() {
 /// triangle of at most a pixel.
 #[test]
 fn each_family_has_its_smallest_failure() {
-    let engines = [(Engine::Mutant(TriangleMutant::InclusiveEdges), tolerance::SCANLINE)];
-    let verdict = comparison::judge(&engines, &[], &options(), &|_| ());
+    let engines = Judged::from(Engine::Mutant(TriangleMutant::InclusiveEdges));
+    let verdict = engines.judge(&options(), &|_| ());
     let wrong: Vec<_> = verdict.families.iter().filter(|f| !f.pairs[0].agrees()).collect();
     let mut shown: Vec<_> = verdict.failures.iter().map(|f| f.family.as_str()).collect();
     shown.sort_unstable();

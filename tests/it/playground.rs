@@ -18,9 +18,9 @@ use rasterproof_core::raster::scanline_exact::probe::crossings_at;
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_playground as pages;
 use rasterproof_registry::engines::ExactEngine;
-use rasterproof_verify::cases::unsnapped::{self, OffGridCase};
+use rasterproof_verify::cases::unsnapped;
 use rasterproof_verify::cases::{Shape, triangles};
-use rasterproof_verify::comparison::unsnapped::exact_coverage;
+use rasterproof_verify::comparison::exact_coverage;
 use rasterproof_wasm::answer::answer;
 use serde_json::{Value, json};
 
@@ -125,10 +125,10 @@ fn exact_probes_decide_as_the_engines() {
     let mut unsure = 0;
     for family in unsnapped::FAMILIES {
         for case in (0..20).map(|index| family.case(7, index)) {
-            for corners in &case.triangles {
-                let alone = OffGridCase { triangles: vec![*corners], ..case.clone() };
+            for corners in case.free_corners() {
+                let alone = std::slice::from_ref(corners);
                 let [by_edges, by_rows] = [ExactEngine::EdgeFunction, ExactEngine::Scanline]
-                    .map(|engine| exact_coverage(&engine, &alone).unwrap().0);
+                    .map(|engine| exact_coverage(&engine, alone, case.window).unwrap().0);
                 for (y_px, row) in by_edges.rows() {
                     let columns = crossings_at(corners, y_px).map(|c| c.map(|c| c.column));
                     for (x_px, hit) in (case.window.x0..).zip(row) {

@@ -23,7 +23,7 @@ use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof_faults::planted::TriangleMutant;
-use rasterproof_registry::comparison;
+use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_render::scene::named::{find, named};
 use rasterproof_report::panels::{self, Sheet};
@@ -31,7 +31,7 @@ use rasterproof_report::{ascii, picture};
 use rasterproof_verify::cases::named::{Input, NamedCase};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{
-    Tally, engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each, tolerance,
+    Tally, engine_coverage, line_coverage, oracle_coverage, oracle_hits, oracle_pixels_each,
 };
 
 /// Largest sheet of a case that is kept, and picture of anything else.
@@ -69,18 +69,9 @@ pub fn check_words(name: &str, words: &str) {
     each([words], |words| settings().bind(|| insta::assert_snapshot!(name, words)));
 }
 
-fn judged(case: &Case) -> (Vec<(&'static str, Coverage)>, Coverage) {
-    match &case.shape {
-        Shape::Triangles { list, .. } => {
-            let hits = |e: &Engine| (e.name(), engine_coverage(e, list, case.window).unwrap());
-            (Engine::JUDGED.iter().map(hits).collect(), oracle_coverage(list, case.window))
-        }
-        Shape::Lines(lines) => {
-            let hits = |e: &LineEngine| (e.name(), line_coverage(e, lines, case.window).unwrap());
-            let oracle = line_coverage(&LineEngine::Oracle, lines, case.window).unwrap();
-            (LineEngine::JUDGED.iter().map(hits).collect(), oracle)
-        }
-    }
+fn judged(case: &Case) -> (Vec<(String, Coverage)>, Coverage) {
+    let hits = Judged::all().hits(case).into_iter().map(|(name, hits)| (name, hits.unwrap()));
+    (hits.collect(), oracle_hits(case))
 }
 
 fn text(named: &NamedCase, case: &Case) -> String {
@@ -140,14 +131,11 @@ fn snapshots_of_named_cases() {
 
 #[test]
 fn named_cases_are_as_catalogued() {
-    let engines =
-        [(Engine::Scanline, tolerance::SCANLINE), (Engine::EdgeFunction, tolerance::EDGE_FUNCTION)];
+    let judged = Judged::all();
     for named in named() {
         match &named.input {
             Input::Drawn { case, pixels } => {
-                for ([actual, target], finding) in
-                    comparison::judge_case(&engines, &LineEngine::JUDGED, case)
-                {
+                for ([actual, target], finding) in judged.judge_case(case) {
                     assert!(
                         !finding.is_wrong(),
                         "{}: {actual} against {target}: {}",

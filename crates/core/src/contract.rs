@@ -179,6 +179,17 @@ impl<R: Rasterize> Rasterize for &R {
     }
 }
 
+impl<R: RasterizeExact> RasterizeExact for &R {
+    fn cover_exact(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: impl FnMut(Span),
+    ) -> Decisions {
+        (**self).cover_exact(corners, bounds, emit)
+    }
+}
+
 impl<R: Interpolate> Interpolate for &R {
     fn fragments<V: Varying>(
         &self,

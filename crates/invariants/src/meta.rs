@@ -9,10 +9,9 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::{Corners, Span};
-use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_registry::comparison::Judged;
 use rasterproof_verify::cases::named::plain_triangle;
 use rasterproof_verify::cases::{self, Case, Family, Rng, Shape};
-use rasterproof_verify::comparison::tolerance;
 use rasterproof_verify::comparison::{self, Options, QUOTAS, is_sliver, oracle_coverage};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
@@ -65,6 +64,9 @@ fn fold(case: &Case) -> u64 {
                 words.extend([end.depth, end.varying.x, end.varying.y].map_array(f64::to_bits));
             }
         }
+        Shape::Unsnapped { list, .. } => {
+            words.extend(list.iter().flat_map(|t| t.px()).flatten().map(f64::to_bits));
+        }
     }
     words.iter().flat_map(|word| word.to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
@@ -116,19 +118,7 @@ pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
     let options = Options::default().seed(seed).cases(cases.min(4));
     let verdict = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        Some(pool.ok()?.install(|| {
-            let engines = [
-                (Engine::Scanline, tolerance::SCANLINE),
-                (Engine::EdgeFunction, tolerance::EDGE_FUNCTION),
-            ];
-            rasterproof_registry::comparison::judge(
-                &engines,
-                &LineEngine::JUDGED,
-                &options,
-                &|_| (),
-            )
-            .families
-        }))
+        Some(pool.ok()?.install(|| Judged::all().judge(&options, &|_| ()).families))
     };
     // Where the system refuses threads, there is nothing to compare.
     let (Some(one), Some(three)) = (verdict(1), verdict(3)) else { return Ok(0) };

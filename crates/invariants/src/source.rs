@@ -245,7 +245,7 @@ pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
                 Shape::Lines(lines) => {
                     Some(Input::Line(LineInput { line: *lines.first()?, window: case.window }))
                 }
-                Shape::Triangles { .. } => None,
+                _ => None,
             };
             let case = Case { window, shape: Shape::Lines(vec![line]) };
             let found = shrink::shrink(case, |case| wrap(case).as_ref().is_some_and(&fails));
@@ -274,7 +274,7 @@ fn smallest_triangle(mut input: TriangleInput, fails: impl Fn(&Input) -> bool) -
             window: case.window,
             salt,
         })),
-        Shape::Lines(_) => None,
+        _ => None,
     };
     let shape = Shape::Triangles { list: vec![input.triangle], disjoint: false };
     let case = Case { window: input.window, shape };

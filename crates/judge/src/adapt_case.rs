@@ -66,6 +66,7 @@ pub fn put(mut case: Case, declared: &Declared) -> Case {
                 end.pixel = PixelPoint::new(keep(end.pixel.x), keep(end.pixel.y));
             }
         }
+        Shape::Unsnapped { .. } => {}
     }
     case
 }
@@ -108,6 +109,7 @@ pub fn holds(case: &Case, declared: &Declared) -> bool {
             list.iter().flat_map(|t| t.corners()).all(|p| is_on(p.x) && is_on(p.y))
         }
         Shape::Lines(_) => put(case.clone(), declared) == *case,
+        Shape::Unsnapped { .. } => false,
     }
 }
 
@@ -123,6 +125,7 @@ pub fn leaves_window(case: &Case) -> bool {
         Shape::Lines(lines) => {
             lines.iter().flat_map(|l| l.ends).any(|e| !w.contains(e.pixel.x, e.pixel.y))
         }
+        Shape::Unsnapped { .. } => false,
     }
 }
 

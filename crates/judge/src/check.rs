@@ -132,7 +132,7 @@ impl Check {
                 }
             }
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
-            Shape::Lines(_) => {}
+            Shape::Lines(_) | Shape::Unsnapped { .. } => {}
             Shape::Triangles { list, disjoint } => {
                 let is_perspective = family.starts_with("w-");
                 if declared.attributes && (is_perspective || index % 8 == 3) {
@@ -197,6 +197,7 @@ impl Check {
                     }
                 }
             }
+            (Shape::Unsnapped { .. }, _) => {}
         }
     }
 
@@ -262,6 +263,7 @@ impl Check {
                     one_line(&mut finding, line, answer, case.window, truth);
                 }
             }
+            (Shape::Unsnapped { .. }, _) => {}
         }
         finding
     }

@@ -95,10 +95,7 @@ impl Job {
             Self::Coverage(engine) => coverage(engine, &of(cases::triangles::FAMILIES), &mut hash),
             Self::Values(engine) => values(engine, &of(cases::triangles::FAMILIES), &mut hash),
             Self::Lines(engine) => lines(engine, &of(cases::lines::FAMILIES), &mut hash),
-            Self::OffGrid(engine) => {
-                let family = &unsnapped::FAMILIES[(index / cases) as usize];
-                off_grid(engine, &family.case(seed, index % cases), &mut hash);
-            }
+            Self::OffGrid(engine) => off_grid(engine, &of(unsnapped::FAMILIES), &mut hash),
             Self::Frames(drawer) => {
                 let scenes = chapters::SCENES.len() as u64;
                 let scene = match chapters::SCENES.get(index as usize) {
@@ -229,9 +226,9 @@ fn lines(engine: LineEngine, case: &Case, hash: &mut Hash) {
     }
 }
 
-fn off_grid(engine: ExactEngine, case: &unsnapped::OffGridCase, hash: &mut Hash) {
+fn off_grid(engine: ExactEngine, case: &Case, hash: &mut Hash) {
     let mut hits = Coverage::new(case.window, 0);
-    for corners in &case.triangles {
+    for corners in case.free_corners() {
         let hit = |s: rasterproof_core::triangle::Span| hits.hit(s.y_px, s.x0_px, s.x1_px);
         let decisions = engine.cover_exact(corners, case.window, hit);
         hash.whole(decisions.by_filter);

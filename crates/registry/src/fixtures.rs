@@ -482,6 +482,7 @@ fn drawing(kind: Kind, case: &Case) -> Option<Drawing> {
                 _ => first.to_vec(),
             }
         }
+        Shape::Unsnapped { .. } => return None,
     };
     Some(Drawing { kind, window: [window.width(), window.height()], points })
 }

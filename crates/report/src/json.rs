@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use rasterproof_precision::cost::{Recorded, prices};
 use rasterproof_registry::published_check::SpecimenReport;
-use rasterproof_verify::comparison::unsnapped::{self, ExactFamilyReport, ExactVerdict};
+use rasterproof_verify::cases::Kind;
 use rasterproof_verify::comparison::{Comparisons, FamilyReport, Verdict, shrink};
 
 pub fn pretty(value: &impl Serialize) -> String {
@@ -27,7 +27,6 @@ struct Json<'a> {
     families: &'a [FamilyReport],
     failures: Vec<FailureJson<'a>>,
     off_grid_triangles: u64,
-    off_grid_families: &'a [ExactFamilyReport],
 }
 
 #[derive(Serialize)]
@@ -41,24 +40,16 @@ struct FailureJson<'a> {
     repeat: String,
 }
 
-/// The verdicts on and off the lattice as JSON; `repeat` gives the command that repeats a failing
-/// case.
-pub fn verdict(
-    verdict: &Verdict,
-    off_grid: &ExactVerdict,
-    repeat: impl Fn(&str, u64) -> String,
-) -> String {
-    let failure = |family, index, pair, what, (shrunk, window)| {
-        let repeat = repeat(family, index);
-        FailureJson { family, index, pair, what, shrunk, window, repeat }
-    };
-    let failures = verdict.failures.iter().map(|f| {
-        let (shrunk, pair) = (shrink::describe(&f.case), f.pair.each_ref().map(String::as_str));
-        failure(&f.family, f.index, pair, &f.what, (shrunk, f.case.window))
-    });
-    let off_grid_failures = off_grid.failures.iter().map(|f| {
-        let (shrunk, pair) = (unsnapped::describe(&f.case.triangles), [&*f.engine, "oracle-exact"]);
-        failure(&f.family, f.index, pair, &f.what, (shrunk, f.case.window))
+/// The verdict as JSON; `repeat` gives the command that repeats a failing case.
+pub fn verdict(verdict: &Verdict, repeat: impl Fn(&str, u64) -> String) -> String {
+    let failures = verdict.failures.iter().map(|f| FailureJson {
+        family: &f.family,
+        index: f.index,
+        pair: f.pair.each_ref().map(String::as_str),
+        what: &f.what,
+        shrunk: shrink::describe(&f.case),
+        window: f.case.window,
+        repeat: repeat(&f.family, f.index),
     });
     let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
     let json = Json {
@@ -66,15 +57,14 @@ pub fn verdict(
         seed: verdict.options.seed,
         cases: verdict.options.cases,
         shard: format!("{part}/{parts}"),
-        agrees: verdict.agrees() && off_grid.agrees(),
-        mismatches: verdict.mismatches() + off_grid.mismatches(),
+        agrees: verdict.agrees(),
+        mismatches: verdict.mismatches(),
         comparisons: verdict.comparisons(),
-        triangles: verdict.sum(false, |f| f.shapes),
-        lines: verdict.sum(true, |f| f.shapes),
+        triangles: verdict.sum(Kind::Triangles, |f| f.shapes),
+        lines: verdict.sum(Kind::Lines, |f| f.shapes),
         families: &verdict.families,
-        failures: failures.chain(off_grid_failures).collect(),
-        off_grid_triangles: off_grid.triangles(),
-        off_grid_families: &off_grid.families,
+        failures: failures.collect(),
+        off_grid_triangles: verdict.sum(Kind::Unsnapped, |f| f.shapes),
     };
     pretty(&json)
 }

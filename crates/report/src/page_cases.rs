@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::chapter::{Chapter, chapter_of_source};
-use super::drawn::{self, Hits};
+use super::drawn;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
@@ -14,14 +14,13 @@ use rasterproof_faults::planted;
 use rasterproof_faults::published::catalogue::{CARDS, Exhibit, TriangleCase};
 use rasterproof_faults::published::{RealTriangle, RealVertex};
 use rasterproof_judge::pictured::Pictured;
-use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine, SPECIMENS};
+use rasterproof_registry::comparison::{Hits, Judged};
+use rasterproof_registry::engines::SPECIMENS;
 use rasterproof_registry::published_check::{line_case, real_triangles};
 use rasterproof_render::scene::named;
 use rasterproof_verify::cases::named::Input;
-use rasterproof_verify::cases::unsnapped::{self, OffGridCase};
 use rasterproof_verify::cases::{self, Case, Shape};
-use rasterproof_verify::comparison::unsnapped::{ExactVerdict, exact_coverage};
-use rasterproof_verify::comparison::{Tally, Verdict};
+use rasterproof_verify::comparison::{Tally, Verdict, oracle_hits};
 
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseView {
@@ -89,20 +88,11 @@ enum Role {
 
 type Drawn = (String, Role, Hits);
 
-/// Who is judged, besides those that are always shown.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Judged<'a> {
-    pub engines: &'a [Engine],
-    pub lines: &'a [LineEngine],
-    pub exact: &'a [ExactEngine],
-}
-
 /// The failing cases of a run, then for each family the one that came closest to a bound, then
 /// every named case. `repeat` gives the command that repeats a failing case.
 pub fn of_verdict(
     verdict: &Verdict,
-    off_grid: &ExactVerdict,
-    judged: Judged<'_>,
+    judged: &Judged,
     repeat: impl Fn(&str, u64) -> String,
 ) -> Vec<CaseView> {
     let mut views = Vec::new();
@@ -110,33 +100,25 @@ pub fn of_verdict(
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("found in {} #{} of seed {}, shrunk", f.family, f.index, f.seed);
         let found = format!("{} against {}: {}", f.pair[0], f.pair[1], f.what);
-        let mut view = on_grid(name, about, Kind::Failing, &f.case, judged);
+        let mut view = of_case(name, about, Kind::Failing, &f.case, judged);
         view.start = [view.place(&f.pair[0], 0), view.place(&f.pair[1], 1)];
         views.push(CaseView { found, command: repeat(&f.family, f.index), ..view });
     }
-    for f in &off_grid.failures {
-        let name = format!("{}#{}", f.family, f.index);
-        let about = format!("found in {} #{} of seed {}, shrunk", f.family, f.index, f.seed);
-        let found = format!("{} against oracle-exact: {}", f.engine, f.what);
-        let mut view = off_lattice(name, about, Kind::Failing, &f.case, judged);
-        view.start = [view.place(&f.engine, 0), view.place("oracle-exact", 1)];
-        views.push(CaseView { found, command: repeat(&f.family, f.index), ..view });
-    }
     views.extend(closest(verdict, judged));
-    views.extend(off_lattice_samples(off_grid, verdict.options.seed, judged));
+    views.extend(unsnapped_samples(verdict, judged));
     views.extend(every_named(judged));
     unique(&mut views);
     views
 }
 
 /// For each family the case whose values came closest to their bound, the closest family first.
-fn closest(verdict: &Verdict, judged: Judged<'_>) -> Vec<CaseView> {
+fn closest(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
     let seed = verdict.options.seed;
     let mut worst: Vec<_> = verdict
         .families
         .iter()
         .filter_map(|f| {
-            let pairs = f.pairs.iter().filter(|p| p.target == "oracle" && p.values > 0);
+            let pairs = f.pairs.iter().filter(|p| p.is_by_oracle() && p.values > 0);
             let pair = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst()))?;
             (pair.worst() > 0.0 && pair.worst() <= 1.0).then_some((f, pair))
         })
@@ -146,7 +128,7 @@ fn closest(verdict: &Verdict, judged: Judged<'_>) -> Vec<CaseView> {
         let family = cases::families().find(|f| f.name == report.family)?;
         let name = format!("{}#{}", family.name, pair.worst_case);
         let case = family.case(seed, pair.worst_case);
-        let view = on_grid(name.clone(), family.about.to_owned(), Kind::Closest, &case, judged);
+        let view = of_case(name.clone(), family.about.to_owned(), Kind::Closest, &case, judged);
         // Wrong pixels are the news of such a case, and stand among the failing ones.
         let is_wrong = |l: &Layer| l.role != Role::Specimen && l.tally.total() > 0;
         if view.layers.iter().any(is_wrong) {
@@ -159,27 +141,25 @@ fn closest(verdict: &Verdict, judged: Judged<'_>) -> Vec<CaseView> {
     views.collect()
 }
 
-/// The first case of each family off the lattice that was judged: they have no bounds to come
-/// close to.
-fn off_lattice_samples(off_grid: &ExactVerdict, seed: u64, judged: Judged<'_>) -> Vec<CaseView> {
-    let judged_families = off_grid
-        .families
-        .iter()
-        .filter_map(|r| unsnapped::FAMILIES.iter().find(|f| f.name == r.family));
-    let views = judged_families.map(|family| {
+/// The first case of each family that is not snapped: they have no bounds to come close to.
+fn unsnapped_samples(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
+    let seed = verdict.options.seed;
+    let families = cases::unsnapped::FAMILIES.iter();
+    let families = families.filter(|f| verdict.families.iter().any(|r| r.family == f.name));
+    let views = families.map(|family| {
         let name = format!("{}#0", family.name);
         let case = family.case(seed, 0);
-        let view = off_lattice(name.clone(), family.about.to_owned(), Kind::OffGrid, &case, judged);
+        let view = of_case(name.clone(), family.about.to_owned(), Kind::OffGrid, &case, judged);
         CaseView { command: format!("rasterproof inspect {name} --seed {seed}"), ..view }
     });
     views.collect()
 }
 
-fn every_named(judged: Judged<'_>) -> Vec<CaseView> {
+fn every_named(judged: &Judged) -> Vec<CaseView> {
     let views = named::named().into_iter().filter_map(|named| {
         let Input::Drawn { case, .. } = named.input else { return None };
         let (name, about) = (named.name.to_owned(), named.about.to_owned());
-        let view = on_grid(name, about, Kind::Named, &case, judged);
+        let view = of_case(name, about, Kind::Named, &case, judged);
         Some(CaseView { command: format!("rasterproof inspect {}", named.name), ..view })
     });
     views.collect()
@@ -187,7 +167,7 @@ fn every_named(judged: Judged<'_>) -> Vec<CaseView> {
 
 /// The case that exposes each specimen that draws triangles or lines.
 pub fn of_specimens() -> Vec<CaseView> {
-    let judged = Judged { engines: &Engine::JUDGED, lines: &LineEngine::JUDGED, exact: &[] };
+    let judged = Judged::all();
     let views = CARDS.iter().filter_map(|card| {
         let (case, shown) = match &card.exhibit {
             Exhibit::Triangles([case, _]) => (snapped(case)?, case.name),
@@ -195,7 +175,7 @@ pub fn of_specimens() -> Vec<CaseView> {
             Exhibit::Scene(..) => return None,
         };
         let about = format!("{}: {shown}", card.source);
-        let mut view = on_grid(card.name.to_owned(), about, Kind::Specimen, &case, judged);
+        let mut view = of_case(card.name.to_owned(), about, Kind::Specimen, &case, &judged);
         let place = view.place(card.name, 0);
         // A fault of the values alone is for the pictures to show.
         if view.layers[place].tally.total() == 0 && view.layers[place].refused.is_empty() {
@@ -239,6 +219,7 @@ fn request(engine: &str, case: &Case) -> String {
                 .map(|l| l.ends.map(|e| px((centre(e.pixel.x), centre(e.pixel.y)))).join(" "));
             ends.map(|ends| format!("L 1 {width} {height} {ends}")).collect()
         }
+        Shape::Unsnapped { .. } => Vec::new(),
     };
     let quoted: Vec<_> = requests.iter().map(|request| format!("'{request}'")).collect();
     format!("printf '%s\\n' {} | rasterproof engine {engine}", quoted.join(" "))
@@ -254,9 +235,9 @@ pub fn of_program(
     program: &str,
     picture: Option<&Pictured>,
 ) -> CaseView {
-    let mut view = on_grid(name, about, Kind::Failing, case, Judged::default());
+    let mut view = of_case(name, about, Kind::Failing, case, &Judged::default());
     let Some(Pictured { drawn, expected, of, moved }) = picture else { return view };
-    let truth = drawn::by_oracle(case);
+    let truth = oracle_hits(case);
     if !of.is_empty() || *expected != truth {
         let drawn = layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), expected);
         let target = layer("expected".to_owned(), Role::Expected, Ok(expected.clone()), expected);
@@ -287,21 +268,13 @@ fn unique(views: &mut [CaseView]) {
     }
 }
 
-/// A case on the lattice, drawn by those that are judged, the engines, the oracle and the specimens.
-pub fn on_grid(
-    name: String,
-    about: String,
-    kind: Kind,
-    case: &Case,
-    judged: Judged<'_>,
-) -> CaseView {
-    let engines = with_others(judged.engines, Engine::JUDGED, Engine::name);
-    let lines = with_others(judged.lines, LineEngine::JUDGED, LineEngine::name);
-    let engines = drawn::by_engines(case, engines, lines).into_iter();
-    let oracle = ("oracle".to_owned(), Role::Oracle, Ok(drawn::by_oracle(case)));
+/// A case, drawn by those that are judged, the other engines, the oracle and the specimens.
+pub fn of_case(name: String, about: String, kind: Kind, case: &Case, judged: &Judged) -> CaseView {
+    let oracle = ("oracle".to_owned(), Role::Oracle, Ok(oracle_hits(case)));
     let specimens = SPECIMENS.iter().filter_map(|entry| {
         Some((entry.name.to_owned(), Role::Specimen, drawn::by_specimen(entry, case)?))
     });
+    let engines = judged.with_others().hits(case).into_iter();
     let drawn = engines.map(with_role).chain([oracle]).chain(specimens);
     let shape = match &case.shape {
         Shape::Triangles { list, .. } => {
@@ -311,35 +284,9 @@ pub fn on_grid(
             let ends = list.iter().map(|l| l.ends.map(|e| [e.pixel.x, e.pixel.y]));
             ShapeView::Lines(ends.collect())
         }
+        Shape::Unsnapped { list, .. } => ShapeView::Free(list.iter().map(|t| t.px()).collect()),
     };
     view(name, about, kind, case.window, shape, drawn.collect())
-}
-
-/// Those that are judged, then the others of all by their names.
-fn with_others<'a, E: Copy + 'a, const N: usize>(
-    judged: &'a [E],
-    all: [E; N],
-    name: fn(&E) -> &'static str,
-) -> impl Iterator<Item = E> + 'a {
-    let is_other = move |e: &E| judged.iter().all(|judged| name(judged) != name(e));
-    judged.iter().copied().chain(all.into_iter().filter(is_other))
-}
-
-/// A case off the lattice, drawn by those that are judged, the engines and the oracle.
-pub fn off_lattice(
-    name: String,
-    about: String,
-    kind: Kind,
-    case: &OffGridCase,
-    judged: Judged<'_>,
-) -> CaseView {
-    let engines = with_others(judged.exact, ExactEngine::JUDGED, ExactEngine::name);
-    let hits = |e: &ExactEngine| exact_coverage(e, case).map(|(hits, _)| hits);
-    let drawn = |e: &ExactEngine| (e.name().to_owned(), hits(e).map_err(String::from));
-    let (oracle, hits) = drawn(&ExactEngine::Oracle);
-    let drawn = engines.map(|e| with_role(drawn(&e))).chain([(oracle, Role::Oracle, hits)]);
-    let points = case.triangles.iter().map(|t| t.px()).collect();
-    view(name, about, kind, case.window, ShapeView::Free(points), drawn.collect())
 }
 
 fn with_role((name, hits): (String, Hits)) -> Drawn {

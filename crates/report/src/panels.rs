@@ -11,12 +11,11 @@ use image::{Rgb, RgbImage, imageops};
 use super::lettering::{self, Size, write};
 use super::picture::{
     AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE,
-    encoded, free_segments, line, segments,
+    encoded, line, segments,
 };
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::PixelPoint;
-use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{Tally, oracle_coverage};
 
@@ -61,8 +60,8 @@ pub struct Sheet {
 /// All coverages show the case's window.
 pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> Sheet {
     let outline = match &case.shape {
-        Shape::Triangles { .. } => "edges",
         Shape::Lines(_) => "the line itself",
+        _ => "edges",
     };
     let owners = owners(case, target);
     let judged = (actual, target, owners.as_ref());
@@ -86,11 +85,6 @@ fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
         }
     }
     Some(owners)
-}
-
-pub fn of_off_grid(title: &str, case: &OffGridCase, actual: &[Drawn], target: &Coverage) -> Sheet {
-    let judged = (actual, target, None);
-    sheet((title, "edges"), case.window, judged, |window, zoom| free_segments(case, window, zoom))
 }
 
 /// The title, and what the outline is. Segments are asked for in picture pixels of a panel, once the

@@ -13,7 +13,6 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
-use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
 
 pub(super) const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
@@ -73,18 +72,13 @@ pub(super) fn segments(case: &Case, shown: PixelRect, zoom: u32) -> Vec<[PixelPo
             let end = |e: PixelPoint| to_picture(centre(e.x), centre(e.y));
             lines.iter().map(|l| [end(l.ends[0].pixel), end(l.ends[1].pixel)]).collect()
         }
+        Shape::Unsnapped { list, .. } => {
+            let at =
+                |px: f64, origin: i32| ((px - f64::from(origin)) * f64::from(zoom)).floor() as i32;
+            let to_picture = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
+            list.iter().flat_map(|t| edges(t.px().map(to_picture))).collect()
+        }
     }
-}
-
-/// Edges of triangles whose corners are not on the lattice.
-pub(super) fn free_segments(
-    case: &OffGridCase,
-    shown: PixelRect,
-    zoom: u32,
-) -> Vec<[PixelPoint; 2]> {
-    let at = |px: f64, origin: i32| ((px - f64::from(origin)) * f64::from(zoom)).floor() as i32;
-    let to_picture = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
-    case.triangles.iter().flat_map(|t| edges(t.px().map(to_picture))).collect()
 }
 
 fn edges([a, b, c]: [PixelPoint; 3]) -> [[PixelPoint; 2]; 3] {

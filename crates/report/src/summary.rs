@@ -3,7 +3,6 @@
 
 use std::fmt::Write as _;
 
-use rasterproof_verify::comparison::unsnapped::ExactVerdict;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
 pub struct Danger {
@@ -70,27 +69,18 @@ pub(super) struct Sum {
     oracle: u64,
 }
 
-fn sum(danger: &Danger, verdict: &Verdict, off_grid: &ExactVerdict) -> Sum {
+fn sum(danger: &Danger, verdict: &Verdict) -> Sum {
     let mut sum = Sum::default();
     for f in verdict.families.iter().filter(|f| danger.families.contains(&f.family.as_str())) {
         sum.cases += f.cases;
-        sum.oracle += f.oracle_overlap;
+        sum.oracle += f.oracle_faults;
         // Engines against each other add nothing that the oracle does not tell.
-        for pair in f.pairs.iter().filter(|pair| pair.target == "oracle") {
+        for pair in f.pairs.iter().filter(|pair| pair.is_by_oracle()) {
             sum.tally += pair.tally;
             sum.fragments += pair.fragments;
             sum.panics += pair.panics;
         }
         sum.wrong_cases += f.pairs.iter().map(|pair| pair.wrong_cases).max().unwrap_or(0);
-    }
-    for f in off_grid.families.iter().filter(|f| danger.families.contains(&f.family.as_str())) {
-        sum.cases += f.cases;
-        sum.oracle += f.oracle_faults;
-        for engine in &f.engines {
-            sum.tally += engine.tally;
-            sum.panics += engine.panics;
-        }
-        sum.wrong_cases += f.engines.iter().map(|engine| engine.wrong_cases).max().unwrap_or(0);
     }
     sum
 }
@@ -150,11 +140,11 @@ pub fn entry(mark: &str, name: &str, what: &str) -> String {
 }
 
 /// A line for each danger that was judged, then one for the values.
-pub fn lines(verdict: &Verdict, off_grid: &ExactVerdict, colour: bool) -> String {
+pub fn lines(verdict: &Verdict, colour: bool) -> String {
     let mut out = String::new();
     let mut entry = |is_right, name, what: &str| out += &entry(mark(is_right, colour), name, what);
     for danger in DANGERS {
-        let sum = sum(danger, verdict, off_grid);
+        let sum = sum(danger, verdict);
         if sum.cases > 0 {
             entry(sum.wrong_cases == 0 && sum.oracle == 0, danger.name, &sum.describe());
         }
@@ -184,9 +174,7 @@ mod tests {
 
     #[test]
     fn every_family_is_one_danger() {
-        let on_grid = cases::families().map(|f| f.name);
-        let names: Vec<_> =
-            on_grid.chain(cases::unsnapped::FAMILIES.iter().map(|f| f.name)).collect();
+        let names: Vec<_> = cases::all_families().map(|f| f.name).collect();
         for name in &names {
             let times = DANGERS.iter().filter(|d| d.families.contains(name)).count();
             assert_eq!(times, 1, "{name}");

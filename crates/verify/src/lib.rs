@@ -33,7 +33,7 @@
 //! | which pixels a triangle covers | [`contract::Rasterize`] | [`assert_rasterizer!`] |
 //! | depths and attributes too | [`contract::Interpolate`] | [`assert_values!`] |
 //! | which pixels a line lights, in which order | [`contract::DrawLine`] | [`assert_lines!`] |
-//! | corners that are not snapped to a grid | [`contract::RasterizeExact`] | [`comparison::unsnapped::judge_exact`] |
+//! | corners that are not snapped to a grid | [`contract::RasterizeExact`] | [`comparison::judge_exact`] |
 //! | the triangles that are made of a polygon | [`partition::Tessellate`], or a function | [`assert_partition!`] |
 //!
 //! Each macro judges 2,000 cases of every family in [`cases`]: corners on pixel centres, slivers, meshes, corners far outside the

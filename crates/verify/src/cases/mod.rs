@@ -21,7 +21,7 @@ use std::str::FromStr;
 use glam::DVec2;
 
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
-use rasterproof_core::triangle::{PixelPoint, ScreenLine, ScreenTriangle};
+use rasterproof_core::triangle::{FreeCorners, PixelPoint, ScreenLine, ScreenTriangle};
 
 /// A triangle as the harness draws it: two attributes besides depth.
 pub type Triangle = ScreenTriangle<DVec2>;
@@ -40,6 +40,35 @@ pub enum Shape {
     },
     /// Lines, to be judged one by one.
     Lines(Vec<Line>),
+    /// Triangles whose corners are not snapped.
+    Unsnapped {
+        /// The triangles.
+        list: Vec<FreeCorners>,
+        /// Whether they tile a region around the window, so that every pixel of it must be hit exactly once.
+        is_tiling: bool,
+    },
+}
+
+/// The kinds of [`Shape`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+pub enum Kind {
+    /// Triangles on the lattice.
+    #[default]
+    Triangles,
+    /// Lines.
+    Lines,
+    /// Triangles that are not snapped to the lattice.
+    Unsnapped,
+}
+
+impl Kind {
+    /// Every kind, with its families.
+    pub const ALL: [(Self, &'static [Family]); 3] = [
+        (Self::Triangles, triangles::FAMILIES),
+        (Self::Lines, lines::FAMILIES),
+        (Self::Unsnapped, unsnapped::FAMILIES),
+    ];
 }
 
 /// Something to draw, and the window to draw it in.
@@ -51,33 +80,45 @@ pub struct Case {
     pub shape: Shape,
 }
 
+impl Case {
+    /// A case of triangles that are not snapped.
+    #[must_use]
+    pub fn unsnapped(window: PixelRect, list: Vec<FreeCorners>) -> Self {
+        Self { window, shape: Shape::Unsnapped { list, is_tiling: false } }
+    }
+
+    /// The triangles on the lattice; none where the case has other shapes.
+    #[must_use]
+    pub fn triangles(&self) -> &[Triangle] {
+        if let Shape::Triangles { list, .. } = &self.shape { list } else { &[] }
+    }
+
+    /// The triangles that are not snapped; none where the case has other shapes.
+    #[must_use]
+    pub fn free_corners(&self) -> &[FreeCorners] {
+        if let Shape::Unsnapped { list, .. } = &self.shape { list } else { &[] }
+    }
+}
+
 /// A way to make cases that share a danger.
-pub struct Family<C = Case> {
+#[derive(Clone, Copy)]
+pub struct Family {
     /// Its name on the command line.
     pub name: &'static str,
     /// What it threatens, in a few words.
     pub about: &'static str,
-    make: fn(&mut Rng) -> C,
+    make: fn(&mut Rng) -> Case,
 }
 
-// Derived, they would want cases that can be copied.
-impl<C> Clone for Family<C> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<C> Copy for Family<C> {}
-
-impl<C> Family<C> {
+impl Family {
     /// The case number `index` of this family under `seed`.
     #[must_use]
-    pub fn case(&self, seed: u64, index: u64) -> C {
+    pub fn case(&self, seed: u64, index: u64) -> Case {
         (self.make)(&mut Rng::new(self.name, seed, index))
     }
 }
 
-const fn family<C>(name: &'static str, about: &'static str, make: fn(&mut Rng) -> C) -> Family<C> {
+const fn family(name: &'static str, about: &'static str, make: fn(&mut Rng) -> Case) -> Family {
     Family { name, about, make }
 }
 
@@ -146,9 +187,14 @@ impl FromStr for FamilyName {
     }
 }
 
-/// All families: those of triangles first, then those of lines.
+/// The families on the lattice: those of triangles first, then those of lines.
 pub fn families() -> impl Iterator<Item = &'static Family> {
     triangles::FAMILIES.iter().chain(lines::FAMILIES)
+}
+
+/// All families, in the order of [`Kind::ALL`].
+pub fn all_families() -> impl Iterator<Item = &'static Family> {
+    Kind::ALL.iter().flat_map(|(_, families)| *families)
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014). Own code because a seed must replay the same cases after
@@ -218,9 +264,7 @@ mod tests {
 
     #[test]
     fn every_family_has_its_name() {
-        let off_the_lattice = unsnapped::FAMILIES.iter().map(|family| family.name);
-        let families: Vec<_> =
-            families().map(|family| family.name).chain(off_the_lattice).collect();
+        let families: Vec<_> = all_families().map(|family| family.name).collect();
         let names: Vec<_> = FamilyName::ALL.iter().map(|name| name.as_str()).collect();
         assert_eq!(names, families);
         for name in FamilyName::ALL {

@@ -4,11 +4,13 @@
 //! again; stop when none does. Values that tell the corners apart come first, then corners on multiples
 //! of half a pixel, then short ones. The number of trials is bounded, so a slow engine costs little.
 
+use num_traits::Float as _;
+
 use super::named::{plain_line, plain_triangle};
 use super::{Case, Shape};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_core::triangle::PixelPoint;
+use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 
 const MOST_TRIALS: u32 = 3000;
 
@@ -47,7 +49,7 @@ pub fn shrink(case: Case, fails: impl Fn(&Case) -> bool) -> Case {
 
 type Point = [i32; 2];
 
-/// The corners of all triangles in subpixels, or the ends of all lines in pixels.
+/// The corners of all triangles in subpixels, or the ends of all lines in pixels; corners that are not snapped are neither.
 fn points(case: &Case) -> Vec<Point> {
     match &case.shape {
         Shape::Triangles { list, .. } => {
@@ -56,6 +58,7 @@ fn points(case: &Case) -> Vec<Point> {
         Shape::Lines(lines) => {
             lines.iter().flat_map(|l| l.ends).map(|end| [end.pixel.x, end.pixel.y]).collect()
         }
+        Shape::Unsnapped { .. } => Vec::new(),
     }
 }
 
@@ -64,7 +67,7 @@ fn around(case: &Case) -> Option<Case> {
     let points = points(case);
     let px = |v: i32| match case.shape {
         Shape::Triangles { .. } => i64::from(v.div_euclid(SUBPIXELS)),
-        Shape::Lines(_) => i64::from(v),
+        Shape::Lines(_) | Shape::Unsnapped { .. } => i64::from(v),
     };
     let range = |axis: usize| {
         let along = || points.iter().map(|p| px(p[axis]));
@@ -86,6 +89,7 @@ fn plain(case: &Case) -> Case {
             let ends = lines.iter().map(|line| line.ends.map_array(|end| end.pixel));
             Shape::Lines(ends.map(|[a, b]| plain_line(a, b)).collect())
         }
+        free @ Shape::Unsnapped { .. } => free.clone(),
     };
     Case { window: case.window, shape }
 }
@@ -98,7 +102,7 @@ pub fn has_plain_values(case: &Case) -> bool {
 
 /// Shapes, then whether they have values of their own, then coordinates that are no multiple of half a
 /// pixel, then how far the shapes reach in pixels, then how many subpixel bits they need, then how far
-/// from the origin they lie, then the window.
+/// from the origin they lie, then the window. Corners that are not snapped count by the bits of their mantissas.
 #[must_use]
 pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
     let own = !has_plain_values(case);
@@ -118,7 +122,18 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
             (list.len(), own, odd, reach.div_ceil(SUBPIXELS as u64), bits, far, window)
         }
         Shape::Lines(lines) => (lines.len(), own, 0, reach, 0, far, window),
+        Shape::Unsnapped { list, .. } => {
+            let values = || list.iter().flat_map(|t| t.px()).flatten();
+            let bits = values().map(mantissa_bits).sum();
+            (list.len(), own, 0, 0, bits, values().map(|v| v.abs() as u64).sum(), window)
+        }
     }
+}
+
+/// Bits from the first to the last that is set in a mantissa.
+fn mantissa_bits(value: f64) -> u32 {
+    let (mantissa, ..) = value.integer_decode();
+    if mantissa == 0 { 0 } else { 64 - mantissa.leading_zeros() - mantissa.trailing_zeros() }
 }
 
 /// The cases that a step makes of `case` and that are smaller: those to look at for one that still fails.
@@ -141,8 +156,15 @@ fn candidates(case: &Case) -> Vec<Case> {
         Shape::Lines(lines) if lines.len() > 1 => {
             lines.iter().map(|line| with(Shape::Lines(vec![*line]))).collect()
         }
+        Shape::Unsnapped { list, .. } if list.len() > 1 => {
+            list.iter().map(|t| Case::unsnapped(case.window, vec![*t])).collect()
+        }
         Shape::Triangles { .. } => triangle_candidates(case),
         Shape::Lines(_) => line_candidates(case),
+        Shape::Unsnapped { list, .. } => {
+            let simpler = list.first().map(free_candidates).unwrap_or_default();
+            simpler.into_iter().map(|t| Case::unsnapped(case.window, vec![t])).collect()
+        }
     };
     std::iter::once(plain(case)).chain(shapes).collect()
 }
@@ -164,6 +186,7 @@ fn moved(case: &Case, window: PixelRect, by: &dyn Fn(usize, Point) -> Point) -> 
                 end.pixel = PixelPoint::new(x, y);
             }
         }
+        Shape::Unsnapped { .. } => {}
     }
     Case { window, shape }
 }
@@ -311,7 +334,26 @@ fn line_candidates(case: &Case) -> Vec<Case> {
     found
 }
 
-/// The positions of a case in pixels, as the command line takes them.
+/// Fewer bits in one coordinate of a triangle that is not snapped.
+fn free_candidates(triangle: &FreeCorners) -> Vec<FreeCorners> {
+    let cut = |value: f64, bits: u64| f64::from_bits(value.to_bits() & !((1 << bits) - 1));
+    let mut found = Vec::new();
+    for (corner, axis) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)] {
+        let value = triangle.px()[corner][axis];
+        let nearby = [0.0, value.round(), value.floor() + 0.5];
+        let bits = [52, 48, 44, 40, 36, 32, 29, 24, 20, 16, 12, 8, 4, 2, 1];
+        for simpler in nearby.into_iter().chain(bits.map(|bits| cut(value, bits))) {
+            let mut px = triangle.px();
+            px[corner][axis] = simpler;
+            if simpler != value {
+                found.extend(FreeCorners::new(px));
+            }
+        }
+    }
+    found
+}
+
+/// The positions of a case in pixels, as the command line takes them; those that are not snapped with all digits.
 #[must_use]
 pub fn describe(case: &Case) -> String {
     let px = |p: SubpixelPoint| {
@@ -326,6 +368,10 @@ pub fn describe(case: &Case) -> String {
             .iter()
             .map(|l| l.ends.map_array(|e| format!("{},{}", e.pixel.x, e.pixel.y)).join(" "))
             .collect(),
+        Shape::Unsnapped { list, .. } => {
+            let px = |[x, y]: [f64; 2]| format!("{x:?},{y:?}");
+            list.iter().map(|t| t.px().map_array(px).join(" ")).collect()
+        }
     };
     shapes.join("; ")
 }

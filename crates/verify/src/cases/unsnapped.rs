@@ -8,31 +8,13 @@
 //!
 //! Only additions, multiplications and conversions are used, which round alike on every machine.
 
-#[doc(hidden)]
-pub mod shrink;
-
-use super::{Family, Rng, family};
+use super::{Case, Family, Rng, Shape, family};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::FreeCorners;
 
-/// Something to draw without snapping, and the window to draw it in.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OffGridCase {
-    /// The pixels that are looked at.
-    pub window: PixelRect,
-    /// What is drawn.
-    pub triangles: Vec<FreeCorners>,
-    /// Whether the triangles tile a region around the window, so that every pixel of it must be hit
-    /// exactly once.
-    pub is_tiling: bool,
-}
-
-/// A way to make cases that share a danger.
-pub type OffGridFamily = Family<OffGridCase>;
-
 /// Every family of triangles off the lattice.
-pub const FAMILIES: &[OffGridFamily] = &[
+pub const FAMILIES: &[Family] = &[
     family("f32-random", "anywhere in the window", random),
     family("f32-sliver", "collinear but for a few ulps", sliver),
     family("f32-near-tie", "an edge through a sample, an end moved by 1 ulp", |rng| {
@@ -58,15 +40,15 @@ const SIDE_PX: i64 = 16;
 
 type Point = [f64; 2];
 
-fn case(triangles: &[[Point; 3]], window: PixelRect, is_tiling: bool) -> OffGridCase {
+fn case(triangles: &[[Point; 3]], window: PixelRect, is_tiling: bool) -> Case {
     let domain = -8_388_608.0..8_388_608.0;
     debug_assert!(triangles.as_flattened().as_flattened().iter().all(|px| domain.contains(px)));
     // What cannot be is skipped; the families below never leave the domain.
     let triangles = triangles.iter().filter_map(|&corners| FreeCorners::new(corners).ok());
-    OffGridCase { window, triangles: triangles.collect(), is_tiling }
+    Case { window, shape: Shape::Unsnapped { list: triangles.collect(), is_tiling } }
 }
 
-fn single(mut corners: [Point; 3], rng: &mut Rng) -> OffGridCase {
+fn single(mut corners: [Point; 3], rng: &mut Rng) -> Case {
     // Any corner first, either winding.
     corners.rotate_left(rng.int(0, 2) as usize);
     if rng.chance(2) {
@@ -115,13 +97,13 @@ fn nudged(bits: u64, is_negative: bool, ulps: i64) -> (u64, bool) {
     (at.unsigned_abs(), at < 0 || at == 0 && is_negative)
 }
 
-fn random(rng: &mut Rng) -> OffGridCase {
+fn random(rng: &mut Rng) -> Case {
     let corners = [(); 3].map_array(|()| anywhere(rng));
     single(corners, rng)
 }
 
 /// The line through two corners goes past a sample, and so does the third corner's side.
-fn sliver(rng: &mut Rng) -> OffGridCase {
+fn sliver(rng: &mut Rng) -> Case {
     let (a, s) = (anywhere(rng), sample(rng));
     let b = [0, 1].map_array(|i| f32_of(2.0 * s[i] - a[i]));
     let t = rng.unit() * 1.5 - 0.25;
@@ -136,12 +118,7 @@ fn sliver(rng: &mut Rng) -> OffGridCase {
 
 /// An edge through a sample, whose one end is then rounded or moved by an ulp. Half of the edges
 /// start on fractions of `bits` bits, where the tie before is exact and only the ulp decides.
-fn near_tie(
-    rng: &mut Rng,
-    round: fn(f64) -> f64,
-    nudge: fn(f64, i64) -> f64,
-    bits: u32,
-) -> OffGridCase {
+fn near_tie(rng: &mut Rng, round: fn(f64) -> f64, nudge: fn(f64, i64) -> f64, bits: u32) -> Case {
     let s = sample(rng);
     let one = (1i64 << bits) as f64;
     let fraction = |rng: &mut Rng| rng.int(-(4 << bits), 4 << bits) as f64 / one;
@@ -159,7 +136,7 @@ fn near_tie(
     single([a, b, c], rng)
 }
 
-fn tie(rng: &mut Rng) -> OffGridCase {
+fn tie(rng: &mut Rng) -> Case {
     if rng.chance(3) {
         let corners = [(); 3].map_array(|()| sample(rng));
         return single(corners, rng);
@@ -183,7 +160,7 @@ fn tie(rng: &mut Rng) -> OffGridCase {
 
 /// Spokes from a centre to points on a rectangle around the window, in order: every pixel of the
 /// window belongs to exactly one of the triangles.
-fn fan(rng: &mut Rng) -> OffGridCase {
+fn fan(rng: &mut Rng) -> Case {
     let centre = if rng.chance(2) {
         sample(rng)
     } else {
@@ -210,7 +187,7 @@ fn fan(rng: &mut Rng) -> OffGridCase {
 
 /// A rectangle around the window, cut from its top to its bottom by an edge past a sample; both
 /// parts are split on a diagonal. Every pixel of the window belongs to exactly one of the four.
-fn cut(rng: &mut Rng) -> OffGridCase {
+fn cut(rng: &mut Rng) -> Case {
     let s = sample(rng);
     let (border, above, below) = if rng.chance(2) {
         // On whole pixels with a slope of n/64, the edge goes through the sample exactly.
@@ -294,7 +271,7 @@ impl Border {
     }
 }
 
-fn tiny(rng: &mut Rng) -> OffGridCase {
+fn tiny(rng: &mut Rng) -> Case {
     let s = sample(rng);
     let reach = 1 << rng.int(0, 12);
     let corners = [(); 3].map_array(|()| s.map_array(|v| nudge_f32_far(v, rng.int(-reach, reach))));
@@ -306,7 +283,7 @@ fn nudge_f32_far(v: f64, ulps: i64) -> f64 {
     f64::from(f32::from_bits((i64::from((v as f32).to_bits()) + ulps) as u32))
 }
 
-fn mixed(rng: &mut Rng) -> OffGridCase {
+fn mixed(rng: &mut Rng) -> Case {
     let mut wild = || {
         // Subnormal where the field is 0, below 2^23 up to the field 149.
         let field = if rng.chance(2) { rng.int(118, 149) } else { rng.int(0, 149) } as u32;
@@ -321,14 +298,14 @@ fn mixed(rng: &mut Rng) -> OffGridCase {
     single(corners, rng)
 }
 
-fn denormal_f32(rng: &mut Rng) -> OffGridCase {
+fn denormal_f32(rng: &mut Rng) -> Case {
     denormal(rng, |rng| {
         let bits = rng.int(1, 25);
         f64::from(f32::from_bits(rng.int(1, 1 << bits) as u32))
     })
 }
 
-fn denormal_f64(rng: &mut Rng) -> OffGridCase {
+fn denormal_f64(rng: &mut Rng) -> Case {
     denormal(rng, |rng| {
         let field = rng.int(0, 1023 - 300) as u64;
         let bits = rng.int(1, 52);
@@ -338,7 +315,7 @@ fn denormal_f64(rng: &mut Rng) -> OffGridCase {
 
 /// An edge from the origin through samples exactly, then one or more zeros replaced by something
 /// tiny of either sign.
-fn denormal(rng: &mut Rng, tiny: impl Fn(&mut Rng) -> f64) -> OffGridCase {
+fn denormal(rng: &mut Rng, tiny: impl Fn(&mut Rng) -> f64) -> Case {
     let offset = |rng: &mut Rng| match rng.int(0, 3) {
         0 => 0.0,
         1 => -tiny(rng),
@@ -359,7 +336,7 @@ fn denormal(rng: &mut Rng, tiny: impl Fn(&mut Rng) -> f64) -> OffGridCase {
     case
 }
 
-fn far(rng: &mut Rng) -> OffGridCase {
+fn far(rng: &mut Rng) -> Case {
     let corners = if rng.chance(2) { near_tie(rng, f32_of, nudge_f32, 12) } else { random(rng) };
     let mut offset = || {
         let px = (1i64 << [0, 11, 14, 22][rng.int(0, 3) as usize]) as f64;
@@ -367,14 +344,14 @@ fn far(rng: &mut Rng) -> OffGridCase {
     };
     let (dx, dy) = (offset(), offset());
     let moved = |corners: [Point; 3]| corners.map_array(|[x, y]| [f32_of(x + dx), f32_of(y + dy)]);
-    let triangles: Vec<_> = corners.triangles.iter().map(|t| moved(t.px())).collect();
+    let triangles: Vec<_> = corners.free_corners().iter().map(|t| moved(t.px())).collect();
     let w = corners.window;
     let (x, y) = (dx as i32, dy as i32);
     let window = PixelRect { x0: w.x0 + x, y0: w.y0 + y, x1: w.x1 + x, y1: w.y1 + y };
     case(&triangles, window, false)
 }
 
-fn huge(rng: &mut Rng, round: fn(f64) -> f64, nudge: fn(f64, i64) -> f64) -> OffGridCase {
+fn huge(rng: &mut Rng, round: fn(f64) -> f64, nudge: fn(f64, i64) -> f64) -> Case {
     let s = sample(rng);
     let mut away = || round(rng.signed() * (1i64 << rng.int(5, 22)) as f64);
     let (a, c) = ([away(), away()], [away(), away()]);

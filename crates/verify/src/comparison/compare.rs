@@ -4,17 +4,21 @@ use glam::DVec2;
 
 use super::convention::{Convention, Rule};
 use super::finding::{EnginePanic, Finding, Tally, caught};
-use super::spans::{Covered, engine_coverage, fragments_against, line_coverage};
+use super::spans::{Covered, engine_coverage, exact_coverage, fragments_against, line_coverage};
 use super::tolerance::Tolerance;
 use super::truth::{Bounds, Truth, compare_on_line};
-use crate::cases::{Case, Line, Shape, Triangle};
+use crate::cases::{Case, Kind, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
+use crate::oracle::rational::cover_and_count_ties;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
-use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+use rasterproof_core::triangle::{Corners, Fragment, FreeCorners, ScreenTriangle, Span, Varying};
+
+/// The name of the oracle in a pair.
+pub const ORACLE: &str = "oracle";
 
 /// What the oracle says of a case.
 #[derive(Clone, Debug, Default)]
@@ -23,11 +27,15 @@ pub struct CaseFacts {
     pub pixels: u64,
     pub ties: u64,
     pub sliver: bool,
-    pub overlap: u64,
+    /// Pixels that the oracle itself hits more or less often than the shapes allow by construction.
+    pub oracle_faults: u64,
 }
 
 /// Judges cases; a finding for each pair, in the order of [`CompareCases::pairs`].
 pub trait CompareCases: Sync {
+    /// The shapes of the cases that it judges.
+    fn kind(&self) -> Kind;
+
     fn pairs(&self) -> Vec<[String; 2]>;
 
     /// Adds what is found about each pair to what is known about it.
@@ -42,12 +50,17 @@ pub trait CompareCases: Sync {
     }
 }
 
+/// Each engine against the oracle.
+fn pairs_with_oracle<'a>(names: impl Iterator<Item = &'a str>) -> Vec<[String; 2]> {
+    names.map(|name| [name.to_owned(), ORACLE.to_owned()]).collect()
+}
+
 /// Each engine against the oracle, then each against the next.
-fn pairs_of<'a>(names: impl Iterator<Item = &'a str>) -> Vec<[String; 2]> {
+fn pairs_of<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<[String; 2]> {
+    let oracle = pairs_with_oracle(names.clone());
     let names: Vec<String> = names.map(str::to_owned).collect();
-    let oracle = names.iter().map(|name| [name.clone(), "oracle".to_owned()]);
     let each_other = names.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
-    oracle.chain(each_other).collect()
+    oracle.into_iter().chain(each_other).collect()
 }
 
 /// [`Rasterize::cover`] as a pointer.
@@ -102,6 +115,10 @@ impl<'a, R: Interpolate + Sync> TriangleComparer<'a, R> {
 }
 
 impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
+    fn kind(&self) -> Kind {
+        Kind::Triangles
+    }
+
     fn pairs(&self) -> Vec<[String; 2]> {
         pairs_of(self.engines.iter().map(|(name, ..)| *name))
     }
@@ -124,7 +141,7 @@ impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
             pixels: truth.as_ref().map_or(0, Covered::pixels),
             ties: list.iter().map(|t| samples_on_boundary(&centred(t), case.window)).sum(),
             sliver: list.iter().any(|t| is_sliver(&t.corners())),
-            overlap: truth.as_ref().map_or(0, |truth| if *disjoint { truth.twice() } else { 0 }),
+            oracle_faults: truth.as_ref().map_or(0, |t| if *disjoint { t.twice() } else { 0 }),
         };
 
         // Compare each engine with the truth, then with the next one.
@@ -297,6 +314,10 @@ impl<'a, D: DrawLine + Sync> LineComparer<'a, D> {
 }
 
 impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
+    fn kind(&self) -> Kind {
+        Kind::Lines
+    }
+
     fn pairs(&self) -> Vec<[String; 2]> {
         pairs_of(self.engines.iter().map(|(name, _)| *name))
     }
@@ -352,6 +373,69 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
         }
         (facts, findings)
     }
+}
+
+/// Rasterizers of corners that are not snapped.
+pub struct UnsnappedComparer<'a, E> {
+    engines: &'a [(&'a str, E)],
+}
+
+impl<'a, E: RasterizeExact + Sync> UnsnappedComparer<'a, E> {
+    pub fn new(engines: &'a [(&'a str, E)]) -> Self {
+        Self { engines }
+    }
+}
+
+impl<E: RasterizeExact + Sync> CompareCases for UnsnappedComparer<'_, E> {
+    fn kind(&self) -> Kind {
+        Kind::Unsnapped
+    }
+
+    fn pairs(&self) -> Vec<[String; 2]> {
+        pairs_with_oracle(self.engines.iter().map(|(name, _)| *name))
+    }
+
+    fn coverage(&self, engine: &str, case: &Case) -> Option<Coverage> {
+        let (_, engine) = self.engines.iter().find(|(name, _)| *name == engine)?;
+        exact_coverage(engine, case.free_corners(), case.window).ok().map(|(hits, _)| hits)
+    }
+
+    fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
+        let Shape::Unsnapped { list, is_tiling } = &case.shape else {
+            return (CaseFacts::default(), findings);
+        };
+        let (target, ties) = unsnapped_truth(list, case.window);
+        let hits = || target.rows().flat_map(|(_, row)| row);
+        let not_once = || hits().filter(|&&hits| hits != 1).count() as u64;
+        let facts = CaseFacts {
+            shapes: list.len() as u64,
+            pixels: hits().map(|&hits| u64::from(hits)).sum(),
+            ties,
+            sliver: false,
+            oracle_faults: if *is_tiling { not_once() } else { 0 },
+        };
+        for (finding, (_, engine)) in findings.iter_mut().zip(self.engines) {
+            match exact_coverage(engine, list, case.window) {
+                Ok((hits, decisions)) => {
+                    finding.tally += Tally::between(&hits, &target);
+                    finding.decisions += decisions;
+                }
+                Err(panic) => finding.panic = Some(panic.0),
+            }
+        }
+        (facts, findings)
+    }
+}
+
+/// Hits of the oracle over triangles that are not snapped, and its samples on edges.
+pub fn unsnapped_truth(list: &[FreeCorners], window: PixelRect) -> (Coverage, u64) {
+    let mut hits = Coverage::new(window, 0);
+    let mut ties = 0;
+    for corners in list {
+        let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+        ties += cover_and_count_ties(corners, window, hit);
+    }
+    (hits, ties)
 }
 
 /// A line passes halfway between two pixels somewhere iff its length over the common divisor of

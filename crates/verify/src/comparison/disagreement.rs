@@ -244,7 +244,7 @@ fn questions() -> Vec<(Corners, PixelRect)> {
         Shape::Triangles { list, .. } => {
             list.into_iter().map(|t| (t.corners(), case.window)).collect::<Vec<_>>()
         }
-        Shape::Lines(_) => Vec::new(),
+        _ => Vec::new(),
     };
     let small = |(_, window): &(Corners, PixelRect)| window.width().max(window.height()) <= 64;
     let moved = |(corners, window): (Corners, PixelRect)| {

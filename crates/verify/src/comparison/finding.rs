@@ -6,6 +6,7 @@ use std::fmt;
 use std::ops::AddAssign;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use rasterproof_core::contract::Decisions;
 use rasterproof_core::frame::Coverage;
 
 /// Wrong pixels, by kind.
@@ -84,6 +85,8 @@ pub struct Finding {
     pub depth: f64,
     /// Values compared.
     pub values: u64,
+    /// How an engine for corners that are not snapped decided.
+    pub decisions: Decisions,
     /// What an engine said when it panicked.
     pub panic: Option<String>,
 }

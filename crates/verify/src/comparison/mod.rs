@@ -6,7 +6,7 @@
 //! other. A result depends on the options alone, not on the number of threads.
 //!
 //! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
-//! [`judge_lines`]; off the lattice, [`unsnapped::judge_exact`]. They return [`NothingJudged`] where the
+//! [`judge_lines`]; corners that are not snapped, [`judge_exact`]. They return [`NothingJudged`] where the
 //! options leave no case, since a verdict on nothing would agree.
 
 mod compare;
@@ -20,18 +20,18 @@ pub mod single_precision;
 mod spans;
 pub mod tolerance;
 mod truth;
-pub mod unsnapped;
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::AddAssign;
 use std::time::{Duration, Instant};
 
-use crate::cases::{self, Case, Family, FamilyName, Shape};
-use crate::oracle::Oracle;
-use compare::{CompareCases, Cover, CoverageOnly, LineComparer, TriangleComparer};
+use crate::cases::{Case, Family, FamilyName, Kind, Shape};
+use compare::{
+    CompareCases, Cover, CoverageOnly, LineComparer, ORACLE, TriangleComparer, UnsnappedComparer,
+};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
 use tolerance::Tolerance;
@@ -45,7 +45,10 @@ pub use {
     compare::{is_sliver, line_has_tie},
     convention::{Picture, area2},
     finding::{caught, is_judging},
-    spans::{engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each},
+    spans::{
+        engine_coverage, exact_coverage, line_coverage, oracle_coverage, oracle_hits,
+        oracle_pixels_each,
+    },
 };
 
 /// A part of all cases: case i belongs to part i mod n of n.
@@ -204,6 +207,9 @@ pub struct PairReport {
     pub worst_case: u64,
     /// Values compared.
     pub values: u64,
+    /// How an engine for corners that are not snapped decided: a filter that lets nothing through, or a fallback that is
+    /// never needed, shows here.
+    pub decisions: Decisions,
     /// Cases in which an engine panicked.
     pub panics: u64,
     /// Cases in which anything was wrong.
@@ -215,6 +221,12 @@ impl PairReport {
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.wrong_cases == 0
+    }
+
+    /// Whether the engine was judged by the oracle, and not by another engine.
+    #[must_use]
+    pub fn is_by_oracle(&self) -> bool {
+        self.target == ORACLE
     }
 }
 
@@ -228,8 +240,8 @@ pub struct FamilyReport {
     pub cases: u64,
     /// Triangles or lines judged.
     pub shapes: u64,
-    /// Whether the shapes are lines.
-    pub lines: bool,
+    /// What the shapes are.
+    pub kind: Kind,
     /// Covered pixels, by the oracle.
     pub pixels: u64,
     /// Cases in which a sample lies exactly on an edge, or a line passes halfway between pixels.
@@ -238,8 +250,9 @@ pub struct FamilyReport {
     pub sliver_cases: u64,
     /// Cases that light no pixel.
     pub empty_cases: u64,
-    /// Pixels that the oracle itself hits twice where the shapes are disjoint by construction.
-    pub oracle_overlap: u64,
+    /// Pixels that the oracle itself hits twice where shapes are disjoint by construction, or not once where they tile
+    /// the window.
+    pub oracle_faults: u64,
     /// One for each pair of engines.
     pub pairs: Vec<PairReport>,
 }
@@ -300,9 +313,7 @@ impl Verdict {
     /// Whether nothing was wrong anywhere.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.families
-            .iter()
-            .all(|f| f.oracle_overlap == 0 && f.pairs.iter().all(PairReport::agrees))
+        self.families.iter().all(|f| f.oracle_faults == 0 && f.pairs.iter().all(PairReport::agrees))
     }
 
     /// This verdict, unless it rests on no case.
@@ -322,27 +333,27 @@ impl Verdict {
     pub fn comparisons(&self) -> Comparisons {
         let mut sums = Comparisons::default();
         for pair in self.families.iter().flat_map(|f| &f.pairs) {
-            let sum = if pair.target == "oracle" { &mut sums.oracle } else { &mut sums.engines };
+            let sum = if pair.is_by_oracle() { &mut sums.oracle } else { &mut sums.engines };
             *sum += pair.tally;
             sums.fragments += pair.fragments;
         }
         sums
     }
 
-    /// Sum of a number over the families of triangles (false) or lines (true).
+    /// Sum of a number over the families of a kind.
     #[must_use]
-    pub fn sum(&self, lines: bool, number: impl Fn(&FamilyReport) -> u64) -> u64 {
-        self.families.iter().filter(|f| f.lines == lines).map(number).sum()
+    pub fn sum(&self, kind: Kind, number: impl Fn(&FamilyReport) -> u64) -> u64 {
+        self.families.iter().filter(|f| f.kind == kind).map(number).sum()
     }
 
     /// What the quotas are about, how much of it there was in percent, and how much is wanted.
     #[must_use]
     pub fn quotas(&self) -> [(&'static str, u64, u64); 3] {
-        let cases = self.sum(false, |f| f.cases);
+        let cases = self.sum(Kind::Triangles, |f| f.cases);
         let counts = [
-            self.sum(false, |f| f.tie_cases),
-            self.sum(false, |f| f.sliver_cases),
-            self.sum(false, |f| f.empty_cases),
+            self.sum(Kind::Triangles, |f| f.tie_cases),
+            self.sum(Kind::Triangles, |f| f.sliver_cases),
+            self.sum(Kind::Triangles, |f| f.empty_cases),
         ];
         let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
         [0, 1, 2].map_array(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
@@ -366,22 +377,42 @@ pub struct Comparisons {
 /// must offer for a verdict to mean something.
 pub const QUOTAS: [(&str, u64); 3] = [("ties", 25), ("slivers", 10), ("empty", 5)];
 
-/// Judges several rasterizers and line drawers against the oracle and against each other, each under its name.
-/// Where nothing is selected, the verdict has no families, and the caller has to notice.
+/// Engines that are judged together, each under its name.
 #[doc(hidden)]
-pub fn judge_engines<R: Interpolate + Sync, D: DrawLine + Sync>(
-    engines: &[(&str, R, Tolerance)],
-    lines: &[(&str, D)],
-    options: &Options,
-    progress: &(dyn Fn(u64) + Sync),
-) -> Verdict {
-    let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
-    drive(
-        &TriangleComparer::new(&engines, options.convention),
-        &LineComparer::new(lines),
-        options,
-        progress,
-    )
+#[derive(Clone, Debug)]
+pub struct Engines<R, D, E> {
+    /// Rasterizers, with the bounds of their values.
+    pub triangles: Vec<(&'static str, R, Option<Tolerance>)>,
+    /// Line drawers.
+    pub lines: Vec<(&'static str, D)>,
+    /// Rasterizers of corners that are not snapped.
+    pub unsnapped: Vec<(&'static str, E)>,
+}
+
+impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engines<R, D, E> {
+    /// Judges them against the oracle, and those on the lattice against each other. Where nothing is selected, the verdict
+    /// has no families, and the caller has to notice.
+    pub fn judge(&self, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Verdict {
+        let triangles = TriangleComparer::new(&self.triangles, options.convention);
+        let (lines, unsnapped) =
+            (LineComparer::new(&self.lines), UnsnappedComparer::new(&self.unsnapped));
+        drive(&[&triangles, &lines, &unsnapped], options, progress)
+    }
+
+    /// Judges one case as [`Self::judge`] judges each generated case.
+    #[must_use]
+    pub fn judge_case(&self, case: &Case) -> Vec<([String; 2], Finding)> {
+        let findings = |comparer: &dyn CompareCases| {
+            comparer.pairs().into_iter().zip(comparer.findings(case)).collect()
+        };
+        match case.shape {
+            Shape::Triangles { .. } => {
+                findings(&TriangleComparer::new(&self.triangles, Convention::default()))
+            }
+            Shape::Lines(_) => findings(&LineComparer::new(&self.lines)),
+            Shape::Unsnapped { .. } => findings(&UnsnappedComparer::new(&self.unsnapped)),
+        }
+    }
 }
 
 /// Judges the coverage of any rasterizer against the oracle.
@@ -440,11 +471,9 @@ fn judge_triangles<R: Interpolate + Sync>(
     tolerance: Option<Tolerance>,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
-    NothingJudged::by(options, &nothing::names(cases::triangles::FAMILIES))?;
     let engines = [("candidate", engine, tolerance)];
-    let none: [(&str, Oracle); 0] = [];
     let comparer = TriangleComparer::new(&engines, options.convention);
-    let mut verdict = drive(&comparer, &LineComparer::new(&none), options, &|_| ()).of_cases()?;
+    let mut verdict = judge_alone(&comparer, options)?;
     if !verdict.agrees() {
         verdict.convention = disagreement::recognised(&engines[0].1, &options.convention);
     }
@@ -460,14 +489,27 @@ pub fn judge_lines<D: DrawLine + Sync>(
     engine: &D,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
-    NothingJudged::by(options, &nothing::names(cases::lines::FAMILIES))?;
-    if options.convention != Convention::default() {
+    judge_alone(&LineComparer::new(&[("candidate", engine)]), options)
+}
+
+/// Judges any rasterizer of corners that are not snapped against the oracle.
+///
+/// # Errors
+/// By these options no case was judged, or they declare a convention, which is one of corners on the lattice.
+#[must_use = "the verdict may be that something is wrong"]
+pub fn judge_exact<E: RasterizeExact + Sync>(
+    engine: &E,
+    options: &Options,
+) -> Result<Verdict, NothingJudged> {
+    judge_alone(&UnsnappedComparer::new(&[("candidate", engine)]), options)
+}
+
+fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict, NothingJudged> {
+    NothingJudged::by(options, comparer.kind())?;
+    if comparer.kind() != Kind::Triangles && options.convention != Convention::default() {
         return Err(NothingJudged::NoConventions);
     }
-    let none: [(&str, Oracle, Option<Tolerance>); 0] = [];
-    let engines = [("candidate", engine)];
-    let triangles = TriangleComparer::new(&none, options.convention);
-    drive(&triangles, &LineComparer::new(&engines), options, &|_| ()).of_cases()
+    drive(&[comparer], options, &|_| ()).of_cases()
 }
 
 /// Cases that a thread judges in one go.
@@ -477,14 +519,21 @@ const MOST_PER_ROUND: u64 = 1 << 20;
 /// Failing cases of each family and pair that are shrunk; the smaller result is kept.
 const KEPT: usize = 2;
 
-/// What some cases of one family came to; `R` is a report whose sum is the same in any order.
-struct Partial<R> {
-    report: R,
+/// A family that is judged, by whom, and the pairs of a report.
+struct Chosen<'a> {
+    family: &'static Family,
+    comparer: &'a dyn CompareCases,
+    pairs: Vec<[String; 2]>,
+}
+
+/// What some cases of one family came to.
+struct Partial {
+    report: FamilyReport,
     /// Pair and number of failing cases, lowest numbers first.
     failing: Vec<(usize, u64)>,
 }
 
-impl<R: AddAssign> Partial<R> {
+impl Partial {
     fn merge(mut self, other: Self) -> Self {
         self.report += other.report;
         self.failing.extend(other.failing);
@@ -495,17 +544,16 @@ impl<R: AddAssign> Partial<R> {
     }
 }
 
-/// What `judge` makes of the cases of each family, by number, within the limits and the shard of
-/// `options`; in blocks, on all threads. `progress` hears how many were judged.
-fn in_blocks<F: Sync, R: AddAssign + Send>(
-    families: &[F],
+/// Judges the cases of each family, by number, within the limits and the shard of `options`; in blocks, on all threads.
+/// `progress` hears how many were judged.
+fn in_blocks(
+    families: &[Chosen<'_>],
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
-    judge: impl Fn(&F, &[u64]) -> Partial<R> + Sync,
-) -> Vec<Partial<R>> {
+) -> Vec<Partial> {
     let start = Instant::now();
     let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
-    let mut partials: Vec<Option<Partial<R>>> = families.iter().map(|_| None).collect();
+    let mut partials: Vec<Option<Partial>> = families.iter().map(|_| None).collect();
     // With a time limit, families advance together, a few blocks at a time.
     let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
     let all = match options.only {
@@ -516,12 +564,12 @@ fn in_blocks<F: Sync, R: AddAssign + Send>(
     let mut done = all.start;
     while done < all.end && !(done > all.start && expired()) {
         let end = all.end.min(done.saturating_add(round));
-        for (slot, family) in partials.iter_mut().zip(families) {
+        for (slot, chosen) in partials.iter_mut().zip(families) {
             let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
                 let first = done + number as u64 * BLOCK;
                 let block = first..end.min(first + BLOCK);
                 let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
-                let partial = judge(family, &indices);
+                let partial = judge_block(chosen, &indices, options);
                 progress(indices.len() as u64);
                 partial
             });
@@ -536,39 +584,27 @@ fn in_blocks<F: Sync, R: AddAssign + Send>(
     partials.into_iter().flatten().collect()
 }
 
+/// The families that `options` ask for among those that `comparers` judge.
 fn drive(
-    triangles: &impl CompareCases,
-    lines: &impl CompareCases,
+    comparers: &[&dyn CompareCases],
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Verdict {
-    let wanted = |pairs: Vec<[String; 2]>, family: &Family| {
-        (options.wants(family.name) && !pairs.is_empty()).then_some(pairs)
-    };
-    let chosen: Vec<(&Family, bool, Vec<[String; 2]>)> = cases::triangles::FAMILIES
-        .iter()
-        .filter_map(|f| Some((f, false, wanted(triangles.pairs(), f)?)))
-        .chain(
-            cases::lines::FAMILIES
-                .iter()
-                .filter_map(|f| Some((f, true, wanted(lines.pairs(), f)?))),
-        )
-        .collect();
-    let partials = in_blocks(&chosen, options, progress, |(family, is_lines, pairs), indices| {
-        let report = FamilyReport::new(family, *is_lines, pairs);
-        if *is_lines {
-            judge_block(family, report, indices, options, lines)
-        } else {
-            judge_block(family, report, indices, options, triangles)
+    let mut chosen = Vec::new();
+    for (kind, families) in Kind::ALL {
+        let comparers = comparers.iter().filter(|comparer| comparer.kind() == kind);
+        for comparer in comparers.filter(|comparer| !comparer.pairs().is_empty()) {
+            let wanted = families.iter().filter(|family| options.wants(family.name));
+            let pairs = || comparer.pairs();
+            chosen.extend(wanted.map(|family| Chosen {
+                family,
+                comparer: *comparer,
+                pairs: pairs(),
+            }));
         }
-    });
-    let findings = |is_lines: bool, case: &Case| {
-        if is_lines { lines.findings(case) } else { triangles.findings(case) }
-    };
-    let drawn = |is_lines: bool, engine: &str, case: &Case| {
-        if is_lines { lines.coverage(engine, case) } else { triangles.coverage(engine, case) }
-    };
-    let failures = shrink_failures(&partials, &chosen, options, (&findings, &drawn));
+    }
+    let partials = in_blocks(&chosen, options, progress);
+    let failures = shrink_failures(&partials, &chosen, options);
     Verdict {
         convention: None,
         options: options.clone(),
@@ -577,20 +613,15 @@ fn drive(
     }
 }
 
-fn judge_block(
-    family: &Family,
-    mut report: FamilyReport,
-    indices: &[u64],
-    options: &Options,
-    comparer: &impl CompareCases,
-) -> Partial<FamilyReport> {
+fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Partial {
+    let mut report = FamilyReport::new(chosen);
     let mut failing = Vec::new();
     for &index in indices {
         // What an earlier case reached need not be looked into again.
         let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
         let known = report.pairs.iter().map(known).collect();
-        let case = options.convention.place(family.case(options.seed, index));
-        let (facts, findings) = comparer.judge(&case, known);
+        let case = options.convention.place(chosen.family.case(options.seed, index));
+        let (facts, findings) = chosen.comparer.judge(&case, known);
         report.count(&facts);
         for (pair, finding) in findings.iter().enumerate() {
             report.pairs[pair].count(index, finding);
@@ -611,7 +642,7 @@ impl AddAssign for FamilyReport {
         self.tie_cases += other.tie_cases;
         self.sliver_cases += other.sliver_cases;
         self.empty_cases += other.empty_cases;
-        self.oracle_overlap += other.oracle_overlap;
+        self.oracle_faults += other.oracle_faults;
         for (a, b) in self.pairs.iter_mut().zip(&other.pairs) {
             a.tally += b.tally;
             a.fragments += b.fragments;
@@ -623,6 +654,7 @@ impl AddAssign for FamilyReport {
             a.worst_attribute = a.worst_attribute.max(b.worst_attribute);
             a.worst_depth = a.worst_depth.max(b.worst_depth);
             a.values += b.values;
+            a.decisions += b.decisions;
             a.panics += b.panics;
             a.wrong_cases += b.wrong_cases;
         }
@@ -630,15 +662,15 @@ impl AddAssign for FamilyReport {
 }
 
 impl FamilyReport {
-    fn new(family: &Family, lines: bool, pairs: &[[String; 2]]) -> Self {
-        let pairs = pairs.iter().map(|[actual, target]| PairReport {
+    fn new(chosen: &Chosen<'_>) -> Self {
+        let pairs = chosen.pairs.iter().map(|[actual, target]| PairReport {
             actual: actual.clone(),
             target: target.clone(),
             worst_case: u64::MAX,
             ..PairReport::default()
         });
-        let pairs = pairs.collect();
-        Self { family: family.name.to_owned(), lines, pairs, ..Self::default() }
+        let (family, kind) = (chosen.family.name.to_owned(), chosen.comparer.kind());
+        Self { family, kind, pairs: pairs.collect(), ..Self::default() }
     }
 
     fn count(&mut self, facts: &compare::CaseFacts) {
@@ -648,7 +680,7 @@ impl FamilyReport {
         self.tie_cases += u64::from(facts.ties > 0);
         self.sliver_cases += u64::from(facts.sliver);
         self.empty_cases += u64::from(facts.pixels == 0);
-        self.oracle_overlap += facts.overlap;
+        self.oracle_faults += facts.oracle_faults;
     }
 }
 
@@ -668,39 +700,26 @@ impl PairReport {
         self.worst_attribute = self.worst_attribute.max(finding.attribute);
         self.worst_depth = self.worst_depth.max(finding.depth);
         self.values += finding.values;
+        self.decisions += finding.decisions;
         self.panics += u64::from(finding.panic.is_some());
         self.wrong_cases += u64::from(finding.is_wrong());
     }
 }
 
-/// What the oracle draws in a case.
+/// What has to be drawn in a case.
 fn expected(case: &Case, convention: Convention) -> Coverage {
     match &case.shape {
         Shape::Triangles { list, .. } => spans::hits_of_all(&convention, list, case.window),
-        Shape::Lines(lines) => {
-            let mut hits = Coverage::new(case.window, 0);
-            for line in lines {
-                Oracle.line_pixels(line, case.window, |at, _| hits.hit(at.y, at.x, at.x + 1));
-            }
-            hits
-        }
+        _ => oracle_hits(case),
     }
 }
 
-/// Shrinks the first failing cases of each family and pair, and keeps the smallest of each. Two
-/// engines against each other are left out where the oracle says which of them is wrong.
-fn shrink_failures(
-    partials: &[Partial<FamilyReport>],
-    chosen: &[(&Family, bool, Vec<[String; 2]>)],
-    options: &Options,
-    (findings, drawn): (
-        &(impl Fn(bool, &Case) -> Vec<Finding> + Sync),
-        &(impl Fn(bool, &str, &Case) -> Option<Coverage> + Sync),
-    ),
-) -> Vec<Failure> {
+/// Shrinks the first failing cases of each family and pair, and keeps the smallest of each, smallest first, those on the
+/// lattice before the others. Two engines against each other are left out where the oracle says which of them is wrong.
+fn shrink_failures(partials: &[Partial], chosen: &[Chosen<'_>], options: &Options) -> Vec<Failure> {
     let mut failing = Vec::new();
-    for (place, (partial, (.., pairs))) in partials.iter().zip(chosen).enumerate() {
-        let by_oracle = |pair: usize| pairs[pair][1] == "oracle";
+    for (place, (partial, Chosen { pairs, .. })) in partials.iter().zip(chosen).enumerate() {
+        let by_oracle = |pair: usize| pairs[pair][1] == ORACLE;
         let is_known = |pair: usize| {
             let wrong = |name: &String| {
                 partial.failing.iter().any(|&(p, _)| by_oracle(p) && pairs[p][0] == *name)
@@ -710,34 +729,28 @@ fn shrink_failures(
         let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
         failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
     }
-    let shrunk = |(place, pair, index): (usize, usize, u64)| {
-        let (family, lines, pairs) = &chosen[place];
+    let shrunk = parallel::map(failing.len(), |number| {
+        let (place, pair, index) = failing[number];
+        let Chosen { family, comparer, pairs } = &chosen[place];
         let original = options.convention.place(family.case(options.seed, index));
-        let fails =
-            |case: &Case| options.convention.holds(case) && findings(*lines, case)[pair].is_wrong();
+        let fails = |case: &Case| {
+            options.convention.holds(case) && comparer.findings(case)[pair].is_wrong()
+        };
         let case = shrink::shrink(original, fails);
         Failure {
             family: family.name.to_owned(),
             index,
             seed: options.seed,
             pair: pairs[pair].clone(),
-            what: findings(*lines, &case)[pair].describe(),
-            drawn: drawn(*lines, &pairs[pair][0], &case),
+            what: comparer.findings(&case)[pair].describe(),
+            drawn: comparer.coverage(&pairs[pair][0], &case),
             expected: expected(&case, options.convention),
             case,
         }
+    });
+    let size = |failure: &Failure| {
+        (matches!(failure.case.shape, Shape::Unsnapped { .. }), shrink::size(&failure.case))
     };
-    smallest_first(&failing, shrunk, |failure| shrink::size(&failure.case))
-}
-
-/// What is made of failing cases, given by family, pair and number: the smallest of each family and
-/// pair, smallest first.
-fn smallest_first<F: Send, S: Ord>(
-    failing: &[(usize, usize, u64)],
-    shrunk: impl Fn((usize, usize, u64)) -> F + Sync,
-    size: impl Fn(&F) -> S,
-) -> Vec<F> {
-    let shrunk = parallel::map(failing.len(), |number| shrunk(failing[number])).into_iter();
     let origins = failing.iter().map(|&(place, pair, _)| (place, pair));
     let mut shrunk: Vec<_> = origins.zip(shrunk).collect();
     shrunk.sort_by_cached_key(|(origin, failure)| (*origin, size(failure)));
@@ -745,22 +758,4 @@ fn smallest_first<F: Send, S: Ord>(
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
     failures.sort_by_cached_key(size);
     failures
-}
-
-/// Judges one case as [`judge_engines`] judges each generated case.
-#[must_use]
-#[doc(hidden)]
-pub fn judge_case<R: Interpolate + Sync, D: DrawLine + Sync>(
-    engines: &[(&str, R, Tolerance)],
-    lines: &[(&str, D)],
-    case: &Case,
-) -> Vec<([String; 2], Finding)> {
-    let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
-    let triangles = TriangleComparer::new(&engines, Convention::default());
-    let lines = LineComparer::new(lines);
-    let (pairs, findings) = match case.shape {
-        Shape::Triangles { .. } => (triangles.pairs(), triangles.findings(case)),
-        Shape::Lines(_) => (lines.pairs(), lines.findings(case)),
-    };
-    pairs.into_iter().zip(findings).collect()
 }

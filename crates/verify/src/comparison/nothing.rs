@@ -4,14 +4,12 @@ use std::error::Error;
 use std::fmt;
 
 use super::{Options, Shard};
-use crate::cases::{Family, FamilyName};
+use crate::cases::{FamilyName, Kind};
 
 /// Why a judge has no verdict: no case was judged by these [`Options`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NothingJudged {
-    /// There is no engine to judge.
-    NoEngine,
     /// Every family of [`Options::families`] holds shapes that this judge does not ask for.
     OtherShapes {
         /// The names in [`Options::families`].
@@ -34,14 +32,16 @@ pub enum NothingJudged {
 }
 
 impl NothingJudged {
-    /// Why `options` leave nothing to judge where cases come from the families `fitting`, if they do.
-    pub(super) fn by(options: &Options, fitting: &[&'static str]) -> Result<(), Self> {
+    /// Why `options` leave nothing to judge in the families of a kind, if they do.
+    pub(super) fn by(options: &Options, kind: Kind) -> Result<(), Self> {
+        let families = Kind::ALL.iter().filter(|(of, _)| *of == kind);
+        let fitting: Vec<_> = families.flat_map(|(_, all)| *all).map(|f| f.name).collect();
         if let Some(why) = options.convention.nonsense() {
             return Err(Self::BadConvention(why));
         }
         if !fitting.iter().any(|name| options.wants(name)) {
             let asked = options.families.clone();
-            return Err(Self::OtherShapes { asked, fitting: fitting.to_vec() });
+            return Err(Self::OtherShapes { asked, fitting });
         }
         let Shard { part, parts } = options.shard;
         match options.only {
@@ -54,16 +54,10 @@ impl NothingJudged {
     }
 }
 
-/// Names of families, in the order of the catalogue.
-pub(super) fn names(families: &'static [Family]) -> Vec<&'static str> {
-    families.iter().map(|family| family.name).collect()
-}
-
 impl fmt::Display for NothingJudged {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("no case was judged: ")?;
         match self {
-            Self::NoEngine => f.write_str("the list of engines is empty; name at least one"),
             Self::OtherShapes { asked, fitting } => {
                 let asked: Vec<_> = asked.iter().map(|name| name.as_str()).collect();
                 write!(
@@ -126,19 +120,17 @@ mod tests {
     use rasterproof_core::raster::scanline_exact::ScanlineExact;
 
     use crate::cases::{self, unsnapped};
-    use crate::comparison::unsnapped::judge_exact;
     use crate::comparison::{
-        Convention, Rule, judge_coverage, judge_lines, judge_values, tolerance,
+        Convention, Rule, judge_coverage, judge_exact, judge_lines, judge_values, tolerance,
     };
 
     /// What each judge says of right engines by these options.
     fn outcomes(options: &Options) -> [Result<bool, NothingJudged>; 4] {
-        let exact = [("candidate", ScanlineExact)];
         [
             judge_coverage(&Scanline, options).map(|v| v.agrees()),
             judge_values(&Scanline, tolerance::SCANLINE, options).map(|v| v.agrees()),
             judge_lines(&Dda, options).map(|v| v.agrees()),
-            judge_exact(&exact, options, &|_| ()).map(|v| v.agrees()),
+            judge_exact(&ScanlineExact, options).map(|v| v.agrees()),
         ]
     }
 
@@ -209,13 +201,6 @@ mod tests {
             assert_eq!(outcomes.each_ref().map(|o| *o == Ok(true)), fits, "{name}");
             assert_eq!(outcomes.each_ref().map(is_other), fits.map(|fits| !fits), "{name}");
         }
-    }
-
-    #[test]
-    fn no_engine_is_no_verdict() {
-        let none: [(&str, ScanlineExact); 0] = [];
-        let outcome = judge_exact(&none, &few(), &|_| ()).map(|v| v.agrees());
-        assert_eq!(outcome, Err(NothingJudged::NoEngine));
     }
 
     #[test]

@@ -2,13 +2,14 @@
 //!
 //! Two engines that agree mostly emit the same spans, and then nothing needs to be drawn.
 
+use super::compare::unsnapped_truth;
 use super::finding::{EnginePanic, Tally, caught};
 use crate::cases::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
-use rasterproof_core::contract::{DrawLine, Rasterize};
+use rasterproof_core::contract::{Decisions, DrawLine, Rasterize, RasterizeExact};
 use rasterproof_core::frame::{Coverage, assert_inside};
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_core::triangle::{Fragment, FreeCorners, Span};
 
 /// The spans of the triangles of a case, all of them in the window.
 #[derive(Clone)]
@@ -183,7 +184,47 @@ pub fn oracle_pixels_each(case: &Case) -> Vec<u64> {
             };
             lines.iter().map(count).collect()
         }
+        Shape::Unsnapped { list, .. } => {
+            let alone = |t| unsnapped_truth(std::slice::from_ref(t), case.window).0.covered();
+            list.iter().map(alone).collect()
+        }
     }
+}
+
+/// Hits of the oracle over all shapes of a case.
+#[must_use]
+pub fn oracle_hits(case: &Case) -> Coverage {
+    match &case.shape {
+        Shape::Triangles { list, .. } => oracle_coverage(list, case.window),
+        Shape::Lines(lines) => {
+            let mut hits = Coverage::new(case.window, 0);
+            for line in lines {
+                Oracle.line_pixels(line, case.window, |at, _| hits.hit(at.y, at.x, at.x + 1));
+            }
+            hits
+        }
+        Shape::Unsnapped { list, .. } => unsnapped_truth(list, case.window).0,
+    }
+}
+
+/// Hits of an engine over triangles that are not snapped, and how it decided.
+///
+/// # Errors
+/// As [`engine_coverage`].
+pub fn exact_coverage(
+    engine: &impl RasterizeExact,
+    list: &[FreeCorners],
+    window: PixelRect,
+) -> Result<(Coverage, Decisions), EnginePanic> {
+    caught(|| {
+        let mut hits = Coverage::new(window, 0);
+        let mut decisions = Decisions::default();
+        for corners in list {
+            let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+            decisions += engine.cover_exact(corners, window, hit);
+        }
+        (hits, decisions)
+    })
 }
 
 /// Hits of a line drawer over all lines of a case.

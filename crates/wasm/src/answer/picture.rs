@@ -11,7 +11,6 @@ use rasterproof_core::triangle::{
 };
 use rasterproof_faults::published::{RealTriangle, RealVertex};
 use rasterproof_verify::cases::named::plain_line;
-use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 
 /// The longest side of a window in pixels: more cannot be seen, and takes longer than a frame.
@@ -121,16 +120,11 @@ impl Picture {
         self.lines.iter().map(|[a, b]| plain_line(pixel(*a), pixel(*b))).collect()
     }
 
-    pub fn case_as_given(&self) -> Result<OffGridCase, String> {
-        let (window, triangles) = (self.window()?, self.as_given()?);
-        Ok(OffGridCase { window, triangles, is_tiling: false })
-    }
-
     pub fn case(&self) -> Result<Case, String> {
-        let shape = if self.lines.is_empty() {
-            Shape::Triangles { list: self.on_lattice()?, disjoint: false }
-        } else {
-            Shape::Lines(self.lines())
+        let shape = match (self.lines.is_empty(), self.snap) {
+            (false, _) => Shape::Lines(self.lines()),
+            (true, true) => Shape::Triangles { list: self.on_lattice()?, disjoint: false },
+            (true, false) => Shape::Unsnapped { list: self.as_given()?, is_tiling: false },
         };
         Ok(Case { window: self.window()?, shape })
     }
@@ -150,16 +144,13 @@ impl From<&Case> for Picture {
                 let ends = lines.iter().map(|l| [end(l.ends[0].pixel), end(l.ends[1].pixel)]);
                 picture.lines = ends.collect();
             }
+            Shape::Unsnapped { list, .. } => {
+                let corner = |[x, y]: [f64; 2]| Corner { x, y, w: 1.0, depth: 0.0, u: 0.0, v: 0.0 };
+                picture.triangles = list.iter().map(|t| t.px().map(corner)).collect();
+                picture.snap = false;
+            }
         }
         picture
-    }
-}
-
-impl From<&OffGridCase> for Picture {
-    fn from(case: &OffGridCase) -> Self {
-        let corner = |[x, y]: [f64; 2]| Corner { x, y, w: 1.0, depth: 0.0, u: 0.0, v: 0.0 };
-        let triangles = case.triangles.iter().map(|t| t.px().map(corner)).collect();
-        Self { window: cut(case.window), snap: false, triangles, lines: Vec::new() }
     }
 }
 

@@ -14,7 +14,7 @@ use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
 use rasterproof_registry::engines::{ENTRIES, Entry, LineEngine, SPECIMENS, Specimen};
 use rasterproof_verify::cases::named::{self, Input};
 use rasterproof_verify::cases::shrink::shrink;
-use rasterproof_verify::cases::{self, Case, unsnapped};
+use rasterproof_verify::cases::{self, Family, unsnapped};
 
 /// Every name that the page offers.
 pub(super) fn list() -> Value {
@@ -71,22 +71,14 @@ pub(super) fn named(name: &str) -> Result<Value, String> {
 }
 
 pub(super) fn generated(name: &str, seed: u64, index: u64) -> Result<Value, String> {
-    let (about, picture) = family(name, seed)?;
-    Ok(json!({ "name": name, "about": about, "picture": picture(index) }))
+    let family = family(name)?;
+    let picture = Picture::from(&family.case(seed, index));
+    Ok(json!({ "name": name, "about": family.about, "picture": picture }))
 }
 
-/// The cases of a family by their numbers.
-type Cases = Box<dyn Fn(u64) -> Picture>;
-
-/// What a family is about, and its cases, on the lattice or off it.
-fn family(name: &str, seed: u64) -> Result<(&'static str, Cases), String> {
-    if let Some(family) = unsnapped::FAMILIES.iter().find(|family| family.name == name) {
-        let case = move |index| Picture::from(&family.case(seed, index));
-        return Ok((family.about, Box::new(case)));
-    }
-    let family = cases::families().find(|family| family.name == name);
-    let family = family.ok_or_else(|| format!("no family is called '{name}'"))?;
-    Ok((family.about, Box::new(move |index| Picture::from(&family.case(seed, index)))))
+fn family(name: &str) -> Result<&'static Family, String> {
+    let family = cases::all_families().find(|family| family.name == name);
+    family.ok_or_else(|| format!("no family is called '{name}'"))
 }
 
 /// Whether somebody's pixels of a case differ from the oracle's; what is refused does not differ.
@@ -123,7 +115,8 @@ pub(super) struct Search {
 
 impl Search {
     pub fn answer(&self) -> Result<Value, String> {
-        let (_, picture) = family(&self.family, self.seed)?;
+        let family = family(&self.family)?;
+        let picture = |index| Picture::from(&family.case(self.seed, index));
         if picture(0).lines().is_empty() {
             Painter::find(&self.by, picture(0).snap)?;
         } else {
@@ -162,12 +155,7 @@ impl Shrink {
             }
             fails
         };
-        if self.picture.snap {
-            shrink(self.picture.case()?, |smaller: &Case| fails(Picture::from(smaller)));
-        } else {
-            let case = self.picture.case_as_given()?;
-            unsnapped::shrink::shrink(case, |smaller| fails(Picture::from(smaller)));
-        }
+        shrink(self.picture.case()?, |smaller| fails(Picture::from(smaller)));
         Ok(json!({ "steps": steps.into_inner() }))
     }
 }

@@ -29,7 +29,7 @@ fn smaller_corners(check: Check, device: Device, subject: &Subject, cell: i32) -
     let case = Case { window, shape: Shape::Triangles { list, disjoint: false } };
     let corners = |case: Case| match case.shape {
         Shape::Triangles { list, .. } => list.iter().map(|t| t.corners()).collect::<Vec<_>>(),
-        Shape::Lines(_) => Vec::new(),
+        _ => Vec::new(),
     };
     let fits = |v: i32| {
         let range = if check == Check::Reach { -7 * cell..=8 * cell } else { 0..=cell };
