@@ -19,10 +19,11 @@ use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity};
 use rasterproof_render::pipeline::shade::Light;
-use rasterproof_render::pipeline::shadow::{self, Shadows};
+use rasterproof_render::pipeline::shadow;
 use rasterproof_render::pipeline::target::{Antialias, Target, check_size};
 use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
+use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
 
 #[derive(clap::Args, Debug)]

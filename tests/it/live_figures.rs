@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rasterproof_playground as pages;
-use rasterproof_wasm::answer::answer;
 use rasterproof_wasm::figures::{ALL, Figure, Grip, Language, find};
+use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
 use crate::page::{Browser, Tab as _, folder};

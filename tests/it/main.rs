@@ -6,6 +6,7 @@
 
 mod book;
 mod by_hand;
+mod circles;
 mod commands;
 mod convention;
 mod cost;

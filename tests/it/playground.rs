@@ -21,7 +21,7 @@ use rasterproof_registry::engines::ExactEngine;
 use rasterproof_verify::cases::unsnapped;
 use rasterproof_verify::cases::{Shape, triangles};
 use rasterproof_verify::comparison::exact_coverage;
-use rasterproof_wasm::answer::answer;
+use rasterproof_wasm::question::answer;
 use serde_json::{Value, json};
 
 use crate::page::{Browser, Tab as _, folder};

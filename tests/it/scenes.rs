@@ -21,10 +21,10 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
-use rasterproof_render::pipeline::shadow::Shadows;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{look_at, perspective};
+use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::chapters::{entries, scene};
 use rasterproof_render::scene::{
     Corner, Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,

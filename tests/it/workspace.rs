@@ -15,7 +15,7 @@ use crate::pages::{files, read, root};
 use crate::program::Run;
 use crate::protocol::ask;
 
-fn source_folders() -> Vec<String> {
+pub(crate) fn source_folders() -> Vec<String> {
     let crates = fs::read_dir(root().join("crates")).unwrap();
     let mut folders: Vec<_> = crates
         .map(|entry| format!("crates/{}/src", entry.unwrap().file_name().to_str().unwrap()))
@@ -95,7 +95,7 @@ fn what_is_compared_is_independent() {
 }
 
 /// A file without its unit tests, which may compare with what the file itself must not use.
-fn without_tests(text: &str) -> &str {
+pub(crate) fn without_tests(text: &str) -> &str {
     text.split("#[cfg(test)]\nmod tests").next().unwrap_or("")
 }
 

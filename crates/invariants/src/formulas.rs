@@ -11,8 +11,9 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_render::pipeline::footprint::Footprint;
 use rasterproof_render::pipeline::layers::Layer;
 use rasterproof_render::pipeline::shade::Light;
-use rasterproof_render::pipeline::shadow::{LightView, Shadows, TAPS};
+use rasterproof_render::pipeline::shadow::{LightView, TAPS};
 use rasterproof_render::pipeline::target::Colour;
+use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Item, Material, Scene, shapes};
 use rasterproof_verify::cases::Rng;
 

@@ -165,6 +165,20 @@ pub trait Ask: Send {
     }
 }
 
+/// Runs of pixels of a row with the same samples covered.
+pub fn runs_of(y_px: i32, row: &[u8]) -> Vec<(Span, u8)> {
+    let mut x_px = 0;
+    let mut runs = Vec::new();
+    for run in row.chunk_by(|a, b| a == b) {
+        let x1_px = x_px + run.len() as i32;
+        if run[0] != 0 {
+            runs.push((Span { y_px, x0_px: x_px, x1_px }, run[0]));
+        }
+        x_px = x1_px;
+    }
+    runs
+}
+
 impl Question {
     /// Appends the request, with its line end.
     pub fn write(&self, id: u64, out: &mut Vec<u8>) {

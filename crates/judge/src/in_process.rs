@@ -4,7 +4,6 @@ use super::ask::{Answer, Ask, Breach, Question};
 use super::declared::{Declared, MOST_IN_FLIGHT};
 use super::server;
 use super::text::Words;
-use rasterproof_core::triangle::Span;
 use rasterproof_registry::engines::{Entry, Specimen};
 use rasterproof_verify::comparison::caught;
 
@@ -59,20 +58,6 @@ impl Inside {
         let nonsense = |why: &str| Answer::Died(Breach::Nonsense.by(why));
         question.read(letter, &mut words).unwrap_or_else(nonsense)
     }
-}
-
-/// Runs of pixels of a row with the same samples covered.
-pub fn runs_of(y_px: i32, row: &[u8]) -> Vec<(Span, u8)> {
-    let mut x_px = 0;
-    let mut runs = Vec::new();
-    for run in row.chunk_by(|a, b| a == b) {
-        let x1_px = x_px + run.len() as i32;
-        if run[0] != 0 {
-            runs.push((Span { y_px, x0_px: x_px, x1_px }, run[0]));
-        }
-        x_px = x1_px;
-    }
-    runs
 }
 
 impl Ask for Inside {

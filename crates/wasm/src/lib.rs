@@ -5,5 +5,6 @@
 pub mod answer;
 pub mod figures;
 mod gpu;
+pub mod question;
 #[cfg(target_family = "wasm")]
 pub mod wasm_exports;

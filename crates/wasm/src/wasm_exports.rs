@@ -25,7 +25,7 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
     TEXT.with_borrow_mut(|text| {
-        *text = crate::answer::answer(&String::from_utf8_lossy(text)).into_bytes();
+        *text = crate::question::answer(&String::from_utf8_lossy(text)).into_bytes();
         text.len()
     })
 }

@@ -15,8 +15,8 @@ use std::io::{self, BufRead, BufReader, Read, Write};
 use glam::DVec2;
 use rasterproof_host::limits::{self, REQUEST_BYTES};
 
+use crate::ask::runs_of;
 use crate::declared::Declared;
-use crate::in_process::runs_of;
 use crate::server::reply::{Reply, named, write_run, write_words};
 use crate::text::number;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};

@@ -22,7 +22,7 @@ use glam::{DVec2, DVec3};
 use super::Mode;
 use super::conditions::mip_maps::{footprint, is_affine, is_near};
 use super::conditions::{interpolation, samples_of};
-use super::plan::{Attributes, PiecePlan, Rule};
+use super::plan::{Attributes, Parts, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w, pixel_box};
 use crate::pipeline::fog::Share;
 use crate::pipeline::footprint::Footprint;
@@ -32,7 +32,6 @@ use crate::pipeline::shadow::{LitPlane, ShadowMap};
 use crate::pipeline::target::Antialias;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
-use serde::{Deserialize, Serialize};
 
 /// Samples along the side of a square.
 const SIDE: u32 = 16;
@@ -51,16 +50,6 @@ const MOST_ROWS: u32 = 8;
 
 /// Up to so many texels from one fragment to the next, both mostly read the same ones.
 const MOST_SHARED: f64 = 0.5;
-
-/// A policy: in large pieces it is checked square by square what is paid for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Parts {
-    /// The side of a square of the window, in samples.
-    pub side: u32,
-    /// What may be left out of a square.
-    pub rule: Rule,
-}
 
 impl Parts {
     /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is.

@@ -10,7 +10,6 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-pub use super::parts::Parts;
 pub use super::scene_digest::SceneDigest;
 use super::{Effect, Mode};
 use crate::pipeline::depth::DepthFormat;
@@ -336,6 +335,16 @@ pub enum Pieces {
     Listed(Vec<(u64, PiecePlan)>),
     /// A policy, asked of each piece when it is drawn.
     AsTheyCome(Rule),
+}
+
+/// A policy: in large pieces it is checked square by square what is paid for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Parts {
+    /// The side of a square of the window, in samples.
+    pub side: u32,
+    /// What may be left out of a square.
+    pub rule: Rule,
 }
 
 /// What an item pays for.

@@ -3,9 +3,8 @@
 use super::assembled::Assembled;
 use super::conditions::account::Account;
 use super::conditions::{self, clear, clip, depth, depth_buffer, layers, samples, second_buffer};
-use super::parts::Parts;
 use super::plan::{
-    Canvas, Clear, Decision, FramePlan, ItemPlan, Order, Pieces, Plan, Rule, VERSION,
+    Canvas, Clear, Decision, FramePlan, ItemPlan, Order, Parts, Pieces, Plan, Rule, VERSION,
 };
 use super::primitive::BadScene;
 use super::survey::{Survey, WordBits};

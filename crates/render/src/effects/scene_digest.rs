@@ -10,7 +10,7 @@ use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity};
 use crate::pipeline::shade::Light;
-use crate::pipeline::shadow::Shadows;
+use crate::scene::Shadows;
 use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
 
 /// 64 bits of all that a plan depends on in a scene: meshes with their attributes, where they are and how

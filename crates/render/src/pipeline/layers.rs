@@ -6,7 +6,7 @@
 //! counts as nearer, and then the one whose colour comes first as bytes. So the result is a function of the set of layers.
 
 use super::opacity::over;
-use super::target::{Colour, SamplePlane};
+use super::sample::{Colour, SamplePlane};
 
 /// A fragment that waits. The order is that of samples, and in each from the nearest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -20,6 +20,7 @@ pub mod multisample;
 pub mod opacity;
 mod plain;
 pub mod present;
+mod sample;
 pub mod see_through;
 pub mod shade;
 pub mod shadow;
@@ -27,6 +28,7 @@ pub mod target;
 pub mod texture;
 pub mod transform;
 pub mod wireframe;
+mod wrap;
 
 use glam::DVec4;
 

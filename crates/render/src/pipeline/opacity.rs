@@ -16,7 +16,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::depth::OFF_FRACTION;
-use super::target::Colour;
+use super::sample::Colour;
 use super::texture::{FourTexels, Texture, Wrap};
 
 /// How opaque a material is, and what that decides.

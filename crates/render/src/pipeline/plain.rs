@@ -7,8 +7,6 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
-use super::texture::Wrap;
-
 /// Texels along the side of a block.
 const BLOCK: usize = 8;
 
@@ -30,29 +28,6 @@ struct Blocks {
 impl PartialEq for PlainBlocks {
     fn eq(&self, _: &Self) -> bool {
         true
-    }
-}
-
-/// Columns or rows in a side, of texels that are counted beyond the borders too: one range, or two where the texture begins
-/// again between them.
-pub(super) fn within(
-    wrap: Wrap,
-    [first, last]: [i64; 2],
-    side: i64,
-) -> [Option<RangeInclusive<usize>>; 2] {
-    let range = |first: i64, last: i64| Some(first as usize..=last as usize);
-    match wrap {
-        Wrap::Clamp => [range(first.clamp(0, side - 1), last.clamp(0, side - 1)), None],
-        Wrap::Repeat if last - first >= side - 1 => [range(0, side - 1), None],
-        Wrap::Repeat => {
-            let start = first.rem_euclid(side);
-            let end = start + (last - first);
-            if end < side {
-                [range(start, end), None]
-            } else {
-                [range(start, side - 1), range(0, end - side)]
-            }
-        }
     }
 }
 

@@ -25,25 +25,12 @@ use glam::{DVec2, DVec3};
 use super::depth::{CLEAR, OFF_FRACTION};
 use super::opacity::OPAQUE;
 use super::shade::{Attributes, Light};
-use crate::scene::{Item, Scene};
+use crate::scene::{Item, Scene, Shadows};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shadows {
-    pub size: u32,
-    /// In how many bits it holds a depth: whole steps from 0 to 1.
-    pub bits: u32,
-}
-
-impl Default for Shadows {
-    fn default() -> Self {
-        Self { size: 1024, bits: 32 }
-    }
-}
 
 pub const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 

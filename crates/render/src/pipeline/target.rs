@@ -7,25 +7,12 @@
 //! to its neighbour is not background.
 
 use super::Counters;
-use super::depth::{CLEAR, DepthFormat, OFF_FRACTION};
+use super::depth::{CLEAR, DepthFormat};
 use super::layers::Layers;
-use glam::DVec3;
+pub use super::sample::{Colour, SamplePlane, to_colour};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{MAX_SIDE_PX, PixelRect};
-
-/// Red, green, blue and opacity, 8 bits each.
-pub type Colour = [u8; 4];
-
-/// The nearest [`Colour`] of red, green, blue in [0, 1]; beyond, the nearer end. The thresholds lie
-/// off simple fractions, see [`super::depth`].
-#[must_use]
-#[inline]
-pub fn to_colour(rgb: DVec3) -> Colour {
-    // `as` takes what is below 0, and NaN, to 0 and what is above 255 to 255.
-    let byte = |c: f64| (c * 255.0 + (0.5 + OFF_FRACTION)) as u8;
-    [byte(rgb.x), byte(rgb.y), byte(rgb.z), u8::MAX]
-}
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Antialias {
@@ -83,46 +70,6 @@ pub fn check_size(width: u32, height: u32, antialias: Antialias) -> Result<(), S
         return Err(format!("{samples} samples are too many; a picture has at most {MAX_SAMPLES}"));
     }
     Ok(())
-}
-
-/// Colour and depth of one sample of every pixel.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SamplePlane {
-    pub colour: Frame<Colour>,
-    /// Keys of [`DepthFormat`], [`CLEAR`] where nothing was drawn.
-    pub depth: Frame<u64>,
-}
-
-impl SamplePlane {
-    #[inline]
-    pub fn write(&mut self, x_px: i32, y_px: i32, colour: Colour) {
-        self.colour.span_mut(y_px, x_px, x_px + 1)[0] = colour;
-    }
-
-    #[inline]
-    pub(crate) fn put(&mut self, x_px: i32, y_px: i32, key: u64, colour: Colour) {
-        self.depth.span_mut(y_px, x_px, x_px + 1)[0] = key;
-        self.write(x_px, y_px, colour);
-    }
-
-    /// Writes a fragment if it is nearer than what is there; says whether it was. The colour is
-    /// asked for only then.
-    #[inline]
-    pub fn test_and_write(
-        &mut self,
-        x_px: i32,
-        y_px: i32,
-        key: u64,
-        colour: impl FnOnce() -> Colour,
-    ) -> bool {
-        let stored = &mut self.depth.span_mut(y_px, x_px, x_px + 1)[0];
-        let nearer = key < *stored;
-        if nearer {
-            *stored = key;
-            self.colour.span_mut(y_px, x_px, x_px + 1)[0] = colour();
-        }
-        nearer
-    }
 }
 
 /// What is known of one triangle in each pixel, while its four samples are drawn.
@@ -404,12 +351,5 @@ mod tests {
         assert!(check_size(16384, 2, Antialias::Supersample(2)).is_err());
         assert!(check_size(u32::MAX, 2, Antialias::Supersample(u32::MAX)).is_err());
         assert!(check_size(1024, 1024, Antialias::Supersample(4)).is_ok());
-    }
-
-    #[test]
-    fn colours_round_to_the_nearest() {
-        assert_eq!(to_colour(DVec3::new(0.0, 1.0, 0.5)), [0, 255, 128, 255]);
-        assert_eq!(to_colour(DVec3::new(-1.0, 2.0, f64::NAN)), [0, 255, 0, 255]);
-        assert_eq!(to_colour(DVec3::splat(0.5f64.next_down())), [128, 128, 128, 255]);
     }
 }

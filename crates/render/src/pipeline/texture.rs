@@ -9,19 +9,11 @@
 use glam::{DVec2, DVec3};
 
 use super::depth::OFF_FRACTION;
-use super::plain::{PlainBlocks, within};
+use super::plain::PlainBlocks;
+pub use super::wrap::Wrap;
+use super::wrap::{within, wrapped};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::MAX_SIDE_PX;
-
-/// What lies beyond [0, 1].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-pub enum Wrap {
-    /// The texture again.
-    #[default]
-    Repeat,
-    /// Its border.
-    Clamp,
-}
 
 /// How a value is read between texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -484,17 +476,6 @@ fn floor(x: f64) -> i64 {
     let limit = (i64::MAX / 4) as f64;
     // `as` takes NaN to 0.
     x.floor().clamp(-limit, limit) as i64
-}
-
-/// The column or row that is read in place of `at`. Sides are mostly powers of two, and then the
-/// remainder is a mask: a division by a number that is not known before takes longer than the rest.
-#[inline]
-fn wrapped(wrap: Wrap, at: i64, side: i64) -> i64 {
-    match wrap {
-        Wrap::Repeat if side & (side - 1) == 0 => at & (side - 1),
-        Wrap::Repeat => at.rem_euclid(side),
-        Wrap::Clamp => at.clamp(0, side - 1),
-    }
 }
 
 #[cfg(test)]

@@ -8,29 +8,14 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
+pub use super::entry::Entry;
+use super::entry::{AHEAD, daylight, entry, turned, with};
 use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
-use crate::pipeline::transform::{about, frustum};
+use crate::pipeline::transform::frustum;
 use rasterproof_core::angle::{sin, tan, turn_x, turn_y, turn_z};
-
-#[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    pub name: &'static str,
-    /// What it shows, with the book's section.
-    pub about: &'static str,
-    /// Makes it for a picture of width / height, turned by a share of a full turn.
-    pub(super) build: fn(Scene, f64) -> Scene,
-}
-
-pub(super) const fn entry(
-    name: &'static str,
-    about: &'static str,
-    build: fn(Scene, f64) -> Scene,
-) -> Entry {
-    Entry { name, about, build }
-}
 
 pub const SCENES: &[Entry] = &[
     entry("square", "5.2: a square of two triangles with four texels, facing the eye", square),
@@ -89,17 +74,6 @@ pub fn scene(name: &str, aspect: f64, turn: f64) -> Option<Scene> {
 fn textured(texture: Texture, shading: Shading) -> Material {
     Material { texture: Some(Arc::new(texture)), shading, ..Material::default() }
 }
-
-pub(super) fn with(mut scene: Scene, items: impl IntoIterator<Item = Item>) -> Scene {
-    scene.items.extend(items);
-    scene
-}
-
-pub(super) fn turned(item: Item, centre: DVec3, turn: DMat4) -> Item {
-    Item { model: about(centre, turn) * item.model, ..item }
-}
-
-pub(super) const AHEAD: DVec3 = DVec3::new(0.0, 0.0, 4.0);
 
 /// A square of side 3 ahead, its texture as large.
 fn ahead(texture: Texture) -> Item {
@@ -183,11 +157,6 @@ fn spinning(scene: Scene, turn: f64) -> Scene {
         AHEAD + DVec3::new(0.0, 1.3, 0.0),
     ];
     with(scene, [turned(coloured(positions), AHEAD, turn_y(0.6 + turn * TAU))])
-}
-
-/// From behind the eye, above and to the left.
-pub(super) fn daylight() -> Light {
-    Light { towards: DVec3::new(-0.5, 0.7, -0.6).normalize(), ambient: 0.45, diffuse: 0.55 }
 }
 
 fn cube(scene: Scene, turn: f64) -> Scene {

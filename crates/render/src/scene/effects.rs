@@ -6,13 +6,12 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::chapters::{AHEAD, Entry, daylight, entry, turned, with};
-use super::{Item, Material, Mesh, Scene, Shading, shapes, textures};
+use super::entry::{AHEAD, Entry, daylight, entry, turned, with};
+use super::{Item, Material, Mesh, Scene, Shading, Shadows, shapes, textures};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
-use crate::pipeline::shadow::Shadows;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_core::angle::{turn_x, turn_y, turn_z};
 

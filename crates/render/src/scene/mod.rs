@@ -4,6 +4,7 @@
 
 pub mod chapters;
 pub mod effects;
+mod entry;
 pub mod meshes;
 pub mod named;
 pub mod random;
@@ -21,7 +22,6 @@ use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::Opacity;
 use crate::pipeline::shade::Light;
-use crate::pipeline::shadow::Shadows;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
 pub use triangles::{Attribute, Normals, Triangles};
@@ -149,6 +149,20 @@ pub enum Hidden {
     /// By drawing triangles from the farthest to the nearest, by the mean depth of their corners
     /// (the painter's algorithm, section 6.1).
     Painter,
+}
+
+/// The map of what the light sees, from which shadows are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shadows {
+    pub size: u32,
+    /// In how many bits it holds a depth: whole steps from 0 to 1.
+    pub bits: u32,
+}
+
+impl Default for Shadows {
+    fn default() -> Self {
+        Self { size: 1024, bits: 32 }
+    }
 }
 
 #[derive(Clone, Debug)]

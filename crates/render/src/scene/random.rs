@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::Shadows;
 use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use crate::pipeline::shade::Light;
-use crate::pipeline::shadow::Shadows;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use crate::pipeline::transform::{about, frustum};
 use rasterproof_core::angle::{turn_x, turn_y};

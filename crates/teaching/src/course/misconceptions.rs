@@ -12,9 +12,9 @@ use rasterproof_convention::{
 };
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
+use rasterproof_judge::ask::runs_of;
 use rasterproof_judge::ask::{Answer, Asked, Question};
 use rasterproof_judge::check::{Truth, expected_answer, picture_of};
-use rasterproof_judge::in_process::runs_of;
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::clip_corners;

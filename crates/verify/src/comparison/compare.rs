@@ -4,18 +4,19 @@ use glam::DVec2;
 
 use super::convention::{Convention, Rule};
 use super::finding::{EnginePanic, Finding, Tally, caught};
-use super::spans::{Covered, engine_coverage, exact_coverage, fragments_against, line_coverage};
+use super::spans::{
+    Covered, engine_coverage, exact_coverage, fragments_against, line_coverage, unsnapped_truth,
+};
 use super::tolerance::Tolerance;
 use super::truth::{Bounds, Truth, compare_on_line};
 use crate::cases::{Case, Kind, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
-use crate::oracle::rational::cover_and_count_ties;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
-use rasterproof_core::triangle::{Corners, Fragment, FreeCorners, ScreenTriangle, Span, Varying};
+use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 
 /// The name of the oracle in a pair.
 pub const ORACLE: &str = "oracle";
@@ -425,17 +426,6 @@ impl<E: RasterizeExact + Sync> CompareCases for UnsnappedComparer<'_, E> {
         }
         (facts, findings)
     }
-}
-
-/// Hits of the oracle over triangles that are not snapped, and its samples on edges.
-pub fn unsnapped_truth(list: &[FreeCorners], window: PixelRect) -> (Coverage, u64) {
-    let mut hits = Coverage::new(window, 0);
-    let mut ties = 0;
-    for corners in list {
-        let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
-        ties += cover_and_count_ties(corners, window, hit);
-    }
-    (hits, ties)
 }
 
 /// A line passes halfway between two pixels somewhere iff its length over the common divisor of

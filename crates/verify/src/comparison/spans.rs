@@ -2,10 +2,10 @@
 //!
 //! Two engines that agree mostly emit the same spans, and then nothing needs to be drawn.
 
-use super::compare::unsnapped_truth;
 use super::finding::{EnginePanic, Tally, caught};
 use crate::cases::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
+use crate::oracle::rational::cover_and_count_ties;
 use rasterproof_core::contract::{Decisions, DrawLine, Rasterize, RasterizeExact};
 use rasterproof_core::frame::{Coverage, assert_inside};
 use rasterproof_core::grid::PixelRect;
@@ -189,6 +189,17 @@ pub fn oracle_pixels_each(case: &Case) -> Vec<u64> {
             list.iter().map(alone).collect()
         }
     }
+}
+
+/// Hits of the oracle over triangles that are not snapped, and its samples on edges.
+pub fn unsnapped_truth(list: &[FreeCorners], window: PixelRect) -> (Coverage, u64) {
+    let mut hits = Coverage::new(window, 0);
+    let mut ties = 0;
+    for corners in list {
+        let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+        ties += cover_and_count_ties(corners, window, hit);
+    }
+    (hits, ties)
 }
 
 /// Hits of the oracle over all shapes of a case.

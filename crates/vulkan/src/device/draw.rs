@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use super::kind::{CELL_PX, Kind, VERTEX_BYTES};
 use super::memory::Buffer;
 use super::open::Opened;
-use super::page::{CELL_PX, Kind, Page, VERTEX_BYTES};
+use super::page::Page;
 use super::{Error, While as _};
 
 /// Bytes that are read back from one submission at most.

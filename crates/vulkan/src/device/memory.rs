@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use super::kind::Kind;
 use super::open::Opened;
-use super::page::Kind;
 use super::{Error, While as _};
 
 struct Memory {

@@ -13,9 +13,10 @@
 pub mod draw;
 pub mod find;
 mod icd;
+pub mod kind;
 pub mod memory;
 pub mod open;
-pub mod page;
+mod page;
 mod pipeline;
 
 use std::fmt;

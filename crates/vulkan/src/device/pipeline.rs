@@ -2,8 +2,8 @@
 
 use ash::vk;
 
+use super::kind::{Kind, VERTEX_BYTES};
 use super::open::Opened;
-use super::page::{Kind, Page, VERTEX_BYTES};
 use super::{Error, While as _};
 
 /// Clears a page and draws into it. Where a pixel has several samples, their means are an image of their own, the last one.
@@ -87,9 +87,13 @@ pub(super) fn framebuffer(
     unsafe { device.raw.create_framebuffer(&info, None) }.during("creating a framebuffer")
 }
 
-/// A pipeline that draws into a page. Viewport and scissor are set when it is used.
-pub(super) fn pipeline(page: &Page, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline, Error> {
-    let device = &page.device;
+/// A pipeline with this layout for the render pass of a page. Viewport and scissor are set when it is used.
+pub(super) fn pipeline(
+    device: &Opened,
+    of_page: (vk::PipelineLayout, vk::RenderPass),
+    kind: Kind,
+    sample_mask: u32,
+) -> Result<vk::Pipeline, Error> {
     let vertex = shader(device, include_bytes!("shaders/draw.vert.spv"))?;
     let fragment = shader(device, kind.fragment_shader()).inspect_err(|_| {
         // SAFETY: nobody else knows the shader.
@@ -102,7 +106,7 @@ pub(super) fn pipeline(page: &Page, kind: Kind, sample_mask: u32) -> Result<vk::
         stage(vertex, vk::ShaderStageFlags::VERTEX),
         stage(fragment, vk::ShaderStageFlags::FRAGMENT),
     ];
-    let made = of_shaders(page, kind, sample_mask, &stages);
+    let made = of_shaders(device, of_page, kind, sample_mask, &stages);
     // SAFETY: a pipeline does not need its shaders once it is made.
     unsafe {
         device.raw.destroy_shader_module(vertex, None);
@@ -112,7 +116,8 @@ pub(super) fn pipeline(page: &Page, kind: Kind, sample_mask: u32) -> Result<vk::
 }
 
 fn of_shaders(
-    page: &Page,
+    device: &Opened,
+    (layout, render_pass): (vk::PipelineLayout, vk::RenderPass),
     kind: Kind,
     sample_mask: u32,
     shaders: &[vk::PipelineShaderStageCreateInfo<'_>],
@@ -173,11 +178,11 @@ fn of_shaders(
         .depth_stencil_state(&depth)
         .color_blend_state(&blend)
         .dynamic_state(&dynamic)
-        .layout(page.layout)
-        .render_pass(page.render_pass);
+        .layout(layout)
+        .render_pass(render_pass);
     let none = vk::PipelineCache::null();
     // SAFETY: `info` and what it points to live during the call, and the layout and the render pass are of this device; line modes are chosen only where the device has them (`Painter::draw`).
-    let made = unsafe { page.device.raw.create_graphics_pipelines(none, &[info], None) };
+    let made = unsafe { device.raw.create_graphics_pipelines(none, &[info], None) };
     let made = made.map_err(|(_, result)| result).during("creating a pipeline")?;
     made.into_iter().next().ok_or(Error::Failed("creating a pipeline", "nothing".to_owned()))
 }

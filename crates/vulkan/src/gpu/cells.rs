@@ -1,13 +1,13 @@
 //! What is drawn in a cell, and what is read from it.
 
 use crate::device::draw::{Draw, Pictures, Vertex};
-use crate::device::page::CELL_PX;
+use crate::device::kind::CELL_PX;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::adapt_case;
+use rasterproof_judge::ask::runs_of;
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::in_process::runs_of;
 use rasterproof_verify::cases::{Shape, Triangle};
 
 pub const WINDOW: PixelRect = PixelRect::window(CELL_PX, CELL_PX);

@@ -5,7 +5,7 @@ use super::engine::Gpu;
 use super::rules::{Class, Errors, Outcome};
 use crate::device::Error;
 use crate::device::draw::{Draw, Pictures, Vertex};
-use crate::device::page::{CELL_PX, Kind, PAGE_PX};
+use crate::device::kind::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_judge::ask::Ask as _;
 use rasterproof_verify::cases::{Rng, Triangle};
 use rasterproof_verify::comparison::single_precision::depth_bounds;

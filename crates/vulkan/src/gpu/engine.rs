@@ -14,13 +14,13 @@ use super::plant::Plant;
 use crate::device::Error;
 use crate::device::draw::{Draw, Painter, Pictures, Vertex};
 use crate::device::find::{self, About, Listed};
+use crate::device::kind::{CELL_PX, Kind, PAGE_PX};
 use crate::device::open::Opened;
-use crate::device::page::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_judge::ask::runs_of;
 use rasterproof_judge::ask::{Answer, Ask, Asked, Breach, Question};
 use rasterproof_judge::declared::{Declared, MOST_IN_FLIGHT};
-use rasterproof_judge::in_process::runs_of;
 
 /// The beginning of an engine's name that means a device.
 pub const PREFIX: &str = "vulkan:";

@@ -6,9 +6,9 @@ use super::known::{self, Known};
 use super::rules::{Class, Outcome};
 use crate::device::Error;
 use crate::device::draw::Pictures;
-use crate::device::page::{CELL_PX, Kind};
+use crate::device::kind::{CELL_PX, Kind};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
-use rasterproof_judge::in_process::runs_of;
+use rasterproof_judge::ask::runs_of;
 use rasterproof_verify::cases::Rng;
 use rasterproof_verify::oracle::segments::{self as segment, Fit, Pixels};
 

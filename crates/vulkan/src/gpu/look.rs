@@ -4,11 +4,11 @@ use super::cells::draw_of;
 use super::engine::{Gpu, hits_kind};
 use crate::device::Error;
 use crate::device::draw::{Draw, Vertex};
-use crate::device::page::{CELL_PX, Kind};
+use crate::device::kind::{CELL_PX, Kind};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
-use rasterproof_judge::in_process::runs_of;
+use rasterproof_judge::ask::runs_of;
 
 /// The hits of triangles in a window.
 ///

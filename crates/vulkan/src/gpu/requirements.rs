@@ -10,7 +10,7 @@ use super::rules::{self, Class, Errors, Finding, Outcome, Rule};
 use super::{depth, lines};
 use crate::device::Error;
 use crate::device::draw::Vertex;
-use crate::device::page::{CELL_PX, Kind, PAGE_PX};
+use crate::device::kind::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};

@@ -7,11 +7,11 @@ use super::engine::Gpu;
 use super::look;
 use crate::device::Error;
 use crate::device::draw::{Draw, Painter};
+use crate::device::kind::{Kind, PAGE_PX};
 use crate::device::open::Opened;
-use crate::device::page::{Kind, PAGE_PX};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
-use rasterproof_judge::in_process::runs_of;
+use rasterproof_judge::ask::runs_of;
 use rasterproof_precision::cost::{ExternalVariant, Rung};
 
 /// Triangles that are drawn at once to be judged.

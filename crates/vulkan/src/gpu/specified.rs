@@ -1,7 +1,7 @@
 //! What is expected of a device: the oracle's picture, and [how far a value may be
 //! off](rasterproof_verify::comparison::single_precision).
 
-use crate::device::page::PAGE_PX;
+use crate::device::kind::PAGE_PX;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_judge::declared::Declared;

@@ -15,9 +15,7 @@ mod values;
 pub(crate) use values::along;
 
 use serde::Deserialize;
-use serde_json::{Value, json};
-
-use crate::figures;
+use serde_json::Value;
 
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
@@ -64,17 +62,9 @@ enum Question {
     GpuBatch(Box<crate::gpu::Batch>),
     /// The verdict about the pixels that the GPU drew in one picture.
     GpuJudge(Box<crate::gpu::Judge>),
-    /// The picture and the texts of a live figure for a position of its grips.
-    Figure(figures::Ask),
 }
 
-/// The answer to a question; `{"error": ...}` to one that makes no sense or cannot be drawn.
-pub fn answer(question: &str) -> String {
-    let answer = serde_json::from_str(question).map_err(|error| error.to_string()).and_then(ask);
-    answer.unwrap_or_else(|error| json!({ "error": error })).to_string()
-}
-
-/// The same for what the program asks itself.
+/// The answer to a question, or why it makes no sense or cannot be drawn.
 pub(crate) fn answer_value(question: Value) -> Result<Value, String> {
     serde_json::from_value(question).map_err(|error| error.to_string()).and_then(ask)
 }
@@ -99,13 +89,14 @@ fn ask(question: Question) -> Result<Value, String> {
         Question::GpuPlan(plan) => Ok(plan.answer()),
         Question::GpuBatch(batch) => batch.answer(),
         Question::GpuJudge(judge) => judge.answer(),
-        Question::Figure(figure) => figure.answer(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::question::answer;
+    use serde_json::json;
 
     fn asked(question: &Value) -> Value {
         serde_json::from_str(&answer(&question.to_string())).unwrap()

@@ -8,7 +8,6 @@ use serde_json::{Value, json};
 use super::lines::Pen;
 use super::picture::Picture;
 use super::pixels::{Painter, missing_and_extra, truth};
-use crate::figures;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
 use rasterproof_registry::engines::{ENTRIES, Entry, LineEngine, SPECIMENS, Specimen};
@@ -47,7 +46,6 @@ pub(super) fn list() -> Value {
     json!({
         "families": families(false), "lineFamilies": families(true), "offFamilies": off,
         "named": named, "recorded": recorded, "triangles": triangles, "lines": lines,
-        "figures": figures::list(),
     })
 }
 

@@ -1,7 +1,7 @@
 //! What each check expects in a cell, and how a pixel that differs stands to the specification.
 
 use super::place::{Place, RULES, area2, centre, cover, on_shared_edge, place};
-use super::subjects::{is_front, whole};
+use super::subjects::{area, is_front, whole};
 use super::{Check, Device, Interface, Subject, Vertex};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -102,7 +102,7 @@ pub(super) fn covered(subject: &Subject, cell: i32) -> Vec<u8> {
 
 /// Whether triangles that do not overlap fill a cell: their area says so, up to its rounding.
 fn fills(Subject(shapes): &Subject, cell: i32) -> bool {
-    let twice: f64 = shapes.iter().map(|t| super::shrink::area(t).abs()).sum();
+    let twice: f64 = shapes.iter().map(|t| area(t).abs()).sum();
     (twice - f64::from(2 * cell * cell)).abs() < 1e-6
 }
 

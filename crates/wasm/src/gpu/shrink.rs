@@ -2,7 +2,7 @@
 //! on from the first that still fails.
 
 use super::expected::{covered, edges};
-use super::subjects::{from_whole, triangle, whole};
+use super::subjects::{area, from_whole, triangle, whole};
 use super::{Check, Device, Subject, Vertex};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
@@ -229,12 +229,6 @@ fn is_valid(check: Check, device: Device, before: &Shapes, shapes: &Shapes, cell
         && shapes.iter().all(has_extent)
         && shapes.iter().all(is_one)
         && all_differ
-}
-
-/// Twice the area in square px; negative where the corners run the other way round.
-pub(super) fn area(t: &[Vertex]) -> f64 {
-    let [a, b, c] = [0, 1, 2].map(|i| [t[i][0], t[i][1]]);
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Whether triangles turn the same way, are at least half a pixel thick, so that none turns over on the

@@ -344,3 +344,9 @@ pub(super) fn is_front(device: Device, &[a, b, c]: &Corners) -> bool {
         Interface::Webgpu => area < 0,
     }
 }
+
+/// Twice the area in square px; negative where the corners run the other way round.
+pub(super) fn area(t: &[Vertex]) -> f64 {
+    let [a, b, c] = [0, 1, 2].map(|i| [t[i][0], t[i][1]]);
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
