@@ -357,6 +357,9 @@ impl Run<'_> {
                 writeln!(out, "\n{}", ascii::side_by_side(&blocks, 60))?;
                 writeln!(out, "{}\n", ascii::LEGEND)?;
             }
+            if let Some(cause) = self.judged.cause(&failure.pair[0]) {
+                writeln!(out, "{}\n", cause.headline())?;
+            }
             writeln!(out, "  repeat with: {}", self.repeat(&failure.family, failure.index))?;
             writeln!(out, "  explain it:  {}", self.explain(failure))?;
             writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;

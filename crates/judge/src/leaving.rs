@@ -10,9 +10,9 @@ use super::check::{Check, Truth, picture_of};
 use super::declared::Declared;
 use super::expected::Expect;
 use super::finding::hits;
-use rasterproof_convention::{Count, Quantum};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
+use rasterproof_verify::convention::{Count, Quantum};
 
 const FAMILIES: [&str; 2] = ["partly-off", "line-clipped"];
 const CASES: u64 = 48;

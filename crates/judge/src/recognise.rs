@@ -1,4 +1,4 @@
-//! Recognises the convention of a program under judgement: puts the questions of [`rasterproof_convention`]
+//! Recognises the convention of a program under judgement: puts the questions of [`rasterproof_verify::convention`]
 //! to it, and turns what was found into an expectation and into words.
 //!
 //! A program that draws as it declares is not questioned: a short look at families full of ties says
@@ -14,14 +14,13 @@ use super::expected::Expect;
 use super::leaving;
 use super::run::MOST_DEATHS;
 use super::text::px;
-use rasterproof_convention::{
-    Confidence, Convention, CornerRule, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion,
-    Mirror, Quantum, Shape, Ties, Windings,
-};
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
-use rasterproof_verify::comparison::{Convention as Promised, Picture, Rule, Winding};
+use rasterproof_verify::comparison::{Convention as Promised, Picture, Rule};
+use rasterproof_verify::convention::{
+    Confidence, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion, Quantum,
+};
 
 pub struct Recognised {
     pub said: Said,
@@ -63,7 +62,9 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
-            ask.then(|| rasterproof_convention::diagnose(&mut bench, &known(&declared), SEED))
+            ask.then(|| {
+                rasterproof_verify::convention::diagnose(&mut bench, &known(&declared), SEED)
+            })
         })
         .flatten();
     let lines = (scope.lines && declared.line)
@@ -72,7 +73,9 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
             let most = known(&declared);
             let side_px = (most.window_px.0.min(most.window_px.1) as i32).min(most.range_px);
             let ordered = !declared.line_set;
-            ask.then(|| rasterproof_convention::diagnose_lines(&mut bench, side_px, ordered, SEED))
+            ask.then(|| {
+                rasterproof_verify::convention::diagnose_lines(&mut bench, side_px, ordered, SEED)
+            })
         })
         .flatten();
     if triangles.is_none() && lines.is_none() {
@@ -145,8 +148,8 @@ impl Expect for Found {
             return None;
         }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
-        let coverage =
-            found.expected(&rasterproof_convention::Question { corners: *corners, window })?;
+        let coverage = found
+            .expected(&rasterproof_verify::convention::Question { corners: *corners, window })?;
         Some(Picture { must: runs(&coverage), may: None })
     }
 
@@ -169,24 +172,13 @@ fn runs(coverage: &Coverage) -> Vec<Span> {
 }
 
 fn known(declared: &Declared) -> Known {
-    let declaration = declared.convention();
-    let [x, y] = declaration.sample;
-    let default = Known::default();
+    let known = Known::from(&declared.convention());
     Known {
         grid: declared.grid,
-        range_px: declared.range.unwrap_or(default.range_px),
-        window_px: declared.window.map_or(default.window_px, |[width, height]| (width, height)),
+        range_px: declared.range.unwrap_or(known.range_px),
+        window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
-        declared: Convention {
-            draws: match declaration.winding {
-                Winding::Both => Windings::Both,
-                Winding::Clockwise => Windings::Clockwise,
-                Winding::CounterClockwise => Windings::CounterClockwise,
-            },
-            shape: Shape::Point { x, y },
-            ties: Ties::named(declaration.rule.word()).unwrap_or(default.declared.ties),
-            ..default.declared
-        },
+        ..known
     }
 }
 
@@ -235,8 +227,11 @@ impl Bench<'_> {
     }
 }
 
-impl rasterproof_convention::Ask for Bench<'_> {
-    fn ask(&mut self, questions: &[rasterproof_convention::Question]) -> Vec<Option<Coverage>> {
+impl rasterproof_verify::convention::Ask for Bench<'_> {
+    fn ask(
+        &mut self,
+        questions: &[rasterproof_verify::convention::Question],
+    ) -> Vec<Option<Coverage>> {
         let asked = questions.iter().map(|q| Question {
             width: q.window.width(),
             height: q.window.height(),
@@ -247,7 +242,7 @@ impl rasterproof_convention::Ask for Bench<'_> {
     }
 }
 
-impl rasterproof_convention::AskLine for Bench<'_> {
+impl rasterproof_verify::convention::AskLine for Bench<'_> {
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
         let whole = self.program.declared().grid == 1;
         let asked = questions.iter().map(|q| Question {
@@ -264,39 +259,12 @@ impl rasterproof_convention::AskLine for Bench<'_> {
     }
 }
 
-/// The rule of the protocol that was found, seen with y down; none is promised where none fits.
-fn rule(found: &Diagnosis) -> Rule {
-    let ties = &found.convention.ties;
-    let name = ties.name(found.compass.seen()).filter(|_| found.compass.is_decided());
-    let rule = Rule::ALL.iter().find(|(word, _)| Some(*word) == name).map(|(_, rule)| *rule);
-    match (rule, ties.corners) {
-        (Some(rule), CornerRule::AsEdges)
-        | (Some(rule @ Rule::Inclusive), CornerRule::Always)
-        | (Some(rule @ Rule::Strict), CornerRule::Never) => rule,
-        _ => Rule::Unspecified,
-    }
-}
-
 /// The words that declare what was found and is not declared; none where the protocol has none.
 fn words(declared: &Declared, found: &Diagnosis) -> String {
-    let c = &found.convention;
-    let Shape::Point { x, y } = c.shape else { return String::new() };
-    if found.confidence == Confidence::Unexplained || c.mirror != Mirror::None {
-        return String::new();
-    }
-    // Corners on a grid that holds the found one are left where they are.
-    let holds = |grid: &i32| (SUBPIXELS / grid) % c.quantum.step == 0;
-    let grid = [256, 64, 16, 1].into_iter().find(holds).unwrap_or(1);
-    let winding = match c.draws {
-        Windings::Clockwise => Winding::Clockwise,
-        Windings::CounterClockwise => Winding::CounterClockwise,
-        Windings::Both | Windings::Neither => Winding::Both,
-    };
-    let is_seen = found.compass.seen().contains(&true);
-    let rule = if is_seen { rule(found) } else { declared.convention().seen_rule() };
-    // What is seen, turned over where y goes up, is what the program says.
-    let seen = declared.convention().rule(rule).winding(winding);
-    let (rule, winding) = (seen.seen_rule(), seen.seen_winding());
+    let Some(found) = found.declaration(&declared.convention()) else { return String::new() };
+    let grid =
+        [256, 64, 16].into_iter().find(|grid| *grid <= 1 << found.subpixel_bits).unwrap_or(1);
+    let [x, y] = found.sample;
     let mut out = String::new();
     if grid < declared.grid {
         let _ = write!(out, " grid={grid}");
@@ -304,11 +272,11 @@ fn words(declared: &Declared, found: &Diagnosis) -> String {
     if [x, y] != declared.origin {
         let _ = write!(out, " origin={},{}", px(x), px(y));
     }
-    if rule != declared.rule {
-        let _ = write!(out, " rule={}", rule.word());
+    if found.rule != declared.rule {
+        let _ = write!(out, " rule={}", found.rule.word());
     }
-    if winding != declared.winding {
-        let _ = write!(out, " winding={}", winding.word());
+    if found.winding != declared.winding {
+        let _ = write!(out, " winding={}", found.winding.word());
     }
     out.trim_start().to_owned()
 }

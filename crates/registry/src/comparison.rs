@@ -6,7 +6,8 @@ use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::tolerance::{self, Tolerance};
 use rasterproof_verify::comparison::{
-    EnginePanic, Engines, Finding, Options, Verdict, engine_coverage, exact_coverage, line_coverage,
+    Cause, EnginePanic, Engines, Finding, Options, Verdict, engine_coverage, exact_coverage,
+    line_coverage,
 };
 
 use crate::engines::{Engine, ExactEngine, LineEngine};
@@ -86,6 +87,12 @@ impl Judged {
 
     pub fn judge(&self, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Verdict {
         self.engines().judge(options, progress)
+    }
+
+    /// Why an engine is wrong, found by asking it more.
+    #[must_use]
+    pub fn cause(&self, engine: &str) -> Option<Cause> {
+        self.engines().cause(engine)
     }
 
     #[must_use]

@@ -71,7 +71,7 @@
 //!   ....    ....
 //!   # drawn once, - missing, + extra, 2 drawn twice
 //!
-//! probable cause: it draws no sample that lies exactly on an edge, so shared edges have holes
+//! probable cause: It samples at the pixel's centre and draws nothing on an edge: neighbours leave holes.
 //! if that is meant, declare it: Options::default().convention(Convention::default().rule(Rule::Strict))
 //!
 //! wrong cases by family:
@@ -91,8 +91,8 @@
 //! 1. How much is wrong.
 //! 2. The smallest case that was found, in pixels, and what is wrong with it: pixels *missing*, *extra*, or drawn *twice*.
 //! 3. What was drawn beside what is expected. `-` is a missing pixel, `+` one too many.
-//! 4. The probable cause, where exactly one convention explains some hundred triangles, and how to declare that convention
-//!    if it is meant.
+//! 4. The probable cause, where a convention explains some hundred further triangles or lines, and how to declare that
+//!    convention if it is meant; or that none was recognised, with the nearest one and how much it explains.
 //! 5. The families with wrong cases. A single family says much: only `huge` points to integers that overflow, only
 //!    `half-integer` and `rectangle` to the rule for edges.
 //! 6. The options that repeat the case.
@@ -120,7 +120,7 @@
 //! # }
 //! let options = Options::default().cases(50);
 //! let error = judge_coverage(&Culls, &options)?.check().unwrap_err().to_string();
-//! assert!(error.contains("it draws only triangles whose corners run clockwise on the screen"));
+//! assert!(error.contains("It draws clockwise triangles alone, "));
 //!
 //! let declared = Convention::default().winding(Winding::Clockwise);
 //! assert!(judge_coverage(&Culls, &options.convention(declared))?.agrees());
@@ -183,6 +183,8 @@
 
 pub mod cases;
 pub mod comparison;
+#[doc(hidden)]
+pub mod convention;
 pub mod oracle;
 pub mod partition;
 // So that whoever judges needs this crate alone.

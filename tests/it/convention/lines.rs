@@ -1,6 +1,6 @@
 //! Line conventions are recognised: made-up drawers for every hypothesis, and noise.
 
-use rasterproof_convention::{
+use rasterproof_verify::convention::{
     AskLine, Confidence, End, Ends, LineConvention, LineQuestion, LineRounding, Steps,
     diagnose_lines,
 };

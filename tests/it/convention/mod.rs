@@ -5,13 +5,13 @@ mod recorded;
 mod specimens;
 mod synthetic;
 
-use rasterproof_convention::{
-    Ask, Confidence, Convention, Diagnosis, Known, LineTie, Mirror, Pattern, Quantum, Question,
-    Rounding, Scan, Shape, Ties, Windings, diagnose, diagnose_lines,
-};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_report::phrases::chinese;
+use rasterproof_verify::convention::{
+    Ask, Confidence, Convention, Diagnosis, Known, LineTie, Mirror, Pattern, Quantum, Question,
+    Rounding, Scan, Shape, Ties, Windings, diagnose, diagnose_lines,
+};
 use rayon::prelude::*;
 
 use crate::snapshots::check_words;

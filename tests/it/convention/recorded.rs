@@ -8,9 +8,9 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
-use rasterproof_convention::{Ask, AskLine, LineQuestion, Question};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_verify::convention::{Ask, AskLine, LineQuestion, Question};
 
 /// A question in words, as recordings keep it: the side of the window, then the corners in 1/256 px.
 fn key(question: &Question) -> String {

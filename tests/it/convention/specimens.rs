@@ -1,11 +1,13 @@
 //! What the published algorithms follow, recognised from their answers in this process.
 
-use rasterproof_convention::{Confidence, Convention, Known, Question, Shape as Drawn, diagnose};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::triangle::Span;
 use rasterproof_faults::published::from_lattice;
 use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_verify::cases::{self, Shape};
+use rasterproof_verify::convention::{
+    Confidence, Convention, Known, Question, Shape as Drawn, diagnose,
+};
 use rasterproof_verify::oracle::Oracle;
 
 use super::By;

@@ -1,9 +1,11 @@
 //! Rasterizers made up for the tests, one for every hypothesis: written from the meaning of each
 //! convention, in floats that are exact for such small numbers, and without the crate's own code.
 
-use rasterproof_convention::{Ask, LineTie, Mirror, Pattern, Question, Rounding, Shape, Windings};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_verify::convention::{
+    Ask, LineTie, Mirror, Pattern, Question, Rounding, Shape, Windings,
+};
 
 /// What a made-up rasterizer does on an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]

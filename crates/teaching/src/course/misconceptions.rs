@@ -1,15 +1,11 @@
 //! What a wrong program believes: for each typical misconception, the answers that it leads to.
 //!
 //! A misconception is named where all answers of a step that it speaks about are the ones that it predicts, and some of
-//! them are wrong. Predictions are computed from the request alone: by [`rasterproof_convention`] where a convention is
+//! them are wrong. Predictions are computed from the request alone: by [`rasterproof_verify::convention`] where a convention is
 //! mistaken, and here for the rest. A program with two mistakes at once follows none of them, and nothing is named.
 
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
-use rasterproof_convention::{
-    Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
-    Rounding, Shape, Ties, Windings,
-};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_judge::ask::runs_of;
@@ -18,6 +14,10 @@ use rasterproof_judge::check::{Truth, expected_answer, picture_of};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::clip_corners;
+use rasterproof_verify::convention::{
+    Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
+    Rounding, Shape, Ties, Windings,
+};
 use rasterproof_verify::oracle::Oracle;
 
 /// What a program was found to believe.

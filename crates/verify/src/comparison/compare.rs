@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::cause::Cause;
 use super::convention::{Convention, Rule};
 use super::finding::{EnginePanic, Finding, Tally, caught};
 use super::spans::{
@@ -9,14 +10,16 @@ use super::spans::{
 };
 use super::tolerance::Tolerance;
 use super::truth::{Bounds, Truth, compare_on_line};
+use crate::cases::named::plain_line;
 use crate::cases::{Case, Kind, Line, Shape, Triangle};
+use crate::convention::{LineQuestion, Question};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
-use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, ScreenTriangle, Span, Varying};
 
 /// The name of the oracle in a pair.
 pub const ORACLE: &str = "oracle";
@@ -44,6 +47,9 @@ pub trait CompareCases: Sync {
 
     /// What an engine draws in a case; nothing where it panics.
     fn coverage(&self, engine: &str, case: &Case) -> Option<Coverage>;
+
+    /// Why an engine is wrong, found by asking it more; nothing where there is no such engine.
+    fn cause(&self, engine: &str) -> Option<Cause>;
 
     /// The findings of one case, where nothing is known before.
     fn findings(&self, case: &Case) -> Vec<Finding> {
@@ -128,6 +134,18 @@ impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
         let (_, engine, _) = self.engines.iter().find(|(name, ..)| *name == engine)?;
         let Shape::Triangles { list, .. } = &case.shape else { return None };
         engine_coverage(engine, list, case.window).ok()
+    }
+
+    fn cause(&self, engine: &str) -> Option<Cause> {
+        let (_, engine, _) = self.engines.iter().find(|(name, ..)| *name == engine)?;
+        Some(Cause::of_triangles(&self.convention, |Question { corners, window }| {
+            let hits = caught(|| {
+                let mut hits = Coverage::new(*window, 0);
+                engine.cover(*corners, *window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                hits
+            });
+            hits.ok()
+        }))
     }
 
     fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
@@ -329,6 +347,19 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
         line_coverage(engine, lines, case.window).ok()
     }
 
+    fn cause(&self, engine: &str) -> Option<Cause> {
+        let (_, engine) = self.engines.iter().find(|(name, _)| *name == engine)?;
+        Some(Cause::of_lines(|LineQuestion { ends, window }| {
+            let [a, b] = ends.map(|[x, y]| PixelPoint::new(x, y));
+            let drawn = caught(|| {
+                let mut pixels = Vec::new();
+                engine.draw(&plain_line(a, b), *window, |f| pixels.push([f.x_px, f.y_px]));
+                pixels
+            });
+            drawn.ok()
+        }))
+    }
+
     fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
         let mut facts = CaseFacts::default();
         let Shape::Lines(lines) = &case.shape else {
@@ -399,6 +430,15 @@ impl<E: RasterizeExact + Sync> CompareCases for UnsnappedComparer<'_, E> {
     fn coverage(&self, engine: &str, case: &Case) -> Option<Coverage> {
         let (_, engine) = self.engines.iter().find(|(name, _)| *name == engine)?;
         exact_coverage(engine, case.free_corners(), case.window).ok().map(|(hits, _)| hits)
+    }
+
+    fn cause(&self, engine: &str) -> Option<Cause> {
+        let (_, engine) = self.engines.iter().find(|(name, _)| *name == engine)?;
+        let cause = Cause::of_triangles(&Convention::default(), |Question { corners, window }| {
+            exact_coverage(engine, &[(*corners).into()], *window).ok().map(|(hits, _)| hits)
+        });
+        // These are judged by one convention.
+        Some(Cause { declare: None, ..cause })
     }
 
     fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {

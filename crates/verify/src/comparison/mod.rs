@@ -9,6 +9,7 @@
 //! [`judge_lines`]; corners that are not snapped, [`judge_exact`]. They return [`NothingJudged`] where the
 //! options leave no case, since a verdict on nothing would agree.
 
+mod cause;
 mod compare;
 mod convention;
 mod disagreement;
@@ -36,6 +37,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
 use tolerance::Tolerance;
 
+pub use cause::Cause;
 pub use convention::{Convention, Rule, Winding};
 pub use disagreement::Disagreement;
 pub use finding::{EnginePanic, Finding, Tally};
@@ -296,9 +298,8 @@ pub struct Verdict {
     pub families: Vec<FamilyReport>,
     /// The smallest failing case found of each family and pair, shrunk, smallest first.
     pub failures: Vec<Failure>,
-    /// The convention that would explain what is wrong, in words and as an expression of Rust: recognised where one
-    /// rasterizer alone is judged.
-    pub convention: Option<[String; 2]>,
+    /// Why it is wrong, where one engine alone is judged and is.
+    pub cause: Option<Cause>,
 }
 
 impl Verdict {
@@ -399,6 +400,15 @@ impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engine
         drive(&[&triangles, &lines, &unsnapped], options, progress)
     }
 
+    /// Why an engine is wrong, found by asking it more; nothing where no engine has this name.
+    #[must_use]
+    pub fn cause(&self, engine: &str) -> Option<Cause> {
+        let triangles = TriangleComparer::new(&self.triangles, Convention::default());
+        let of_lines = || LineComparer::new(&self.lines).cause(engine);
+        let of_unsnapped = || UnsnappedComparer::new(&self.unsnapped).cause(engine);
+        triangles.cause(engine).or_else(of_lines).or_else(of_unsnapped)
+    }
+
     /// Judges one case as [`Self::judge`] judges each generated case.
     #[must_use]
     pub fn judge_case(&self, case: &Case) -> Vec<([String; 2], Finding)> {
@@ -414,6 +424,9 @@ impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engine
         }
     }
 }
+
+/// The name of an engine that is judged alone.
+const CANDIDATE: &str = "candidate";
 
 /// Judges the coverage of any rasterizer against the oracle.
 ///
@@ -449,7 +462,7 @@ pub fn must_agree(verdict: Result<Verdict, NothingJudged>) {
 #[must_use]
 pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
     let cover: &Cover<'_> = &|corners, bounds, emit| engine.cover(corners, bounds, emit);
-    let engines = [("candidate", CoverageOnly(cover), None)];
+    let engines = [(CANDIDATE, CoverageOnly(cover), None)];
     TriangleComparer::new(&engines, Convention::default()).findings(case).swap_remove(0)
 }
 
@@ -471,13 +484,8 @@ fn judge_triangles<R: Interpolate + Sync>(
     tolerance: Option<Tolerance>,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
-    let engines = [("candidate", engine, tolerance)];
-    let comparer = TriangleComparer::new(&engines, options.convention);
-    let mut verdict = judge_alone(&comparer, options)?;
-    if !verdict.agrees() {
-        verdict.convention = disagreement::recognised(&engines[0].1, &options.convention);
-    }
-    Ok(verdict)
+    let engines = [(CANDIDATE, engine, tolerance)];
+    judge_alone(&TriangleComparer::new(&engines, options.convention), options)
 }
 
 /// Judges pixels and values of any line drawer against the oracle.
@@ -489,7 +497,7 @@ pub fn judge_lines<D: DrawLine + Sync>(
     engine: &D,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
-    judge_alone(&LineComparer::new(&[("candidate", engine)]), options)
+    judge_alone(&LineComparer::new(&[(CANDIDATE, engine)]), options)
 }
 
 /// Judges any rasterizer of corners that are not snapped against the oracle.
@@ -501,7 +509,7 @@ pub fn judge_exact<E: RasterizeExact + Sync>(
     engine: &E,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
-    judge_alone(&UnsnappedComparer::new(&[("candidate", engine)]), options)
+    judge_alone(&UnsnappedComparer::new(&[(CANDIDATE, engine)]), options)
 }
 
 fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict, NothingJudged> {
@@ -509,7 +517,11 @@ fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict
     if comparer.kind() != Kind::Triangles && options.convention != Convention::default() {
         return Err(NothingJudged::NoConventions);
     }
-    drive(&[comparer], options, &|_| ()).of_cases()
+    let mut verdict = drive(&[comparer], options, &|_| ()).of_cases()?;
+    if !verdict.agrees() {
+        verdict.cause = comparer.cause(CANDIDATE);
+    }
+    Ok(verdict)
 }
 
 /// Cases that a thread judges in one go.
@@ -606,7 +618,7 @@ fn drive(
     let partials = in_blocks(&chosen, options, progress);
     let failures = shrink_failures(&partials, &chosen, options);
     Verdict {
-        convention: None,
+        cause: None,
         options: options.clone(),
         families: partials.into_iter().map(|partial| partial.report).collect(),
         failures,

@@ -1,8 +1,6 @@
 //! The shapes a program may draw for a triangle, each as a pure function: for every pixel in or on
 //! it, the place where the pixel lies. Exact in whole numbers; independent of the engines.
 
-use serde::Serialize;
-
 use super::area_coverage;
 use super::half_planes::{self, HalfPlanes};
 use super::outline::{self, LineTie};
@@ -14,7 +12,8 @@ use rasterproof_core::grid::PixelRect;
 
 /// Which pixels belong to a triangle, ties apart. Lengths are in subpixels (1/256 px), positions
 /// from the upper left corner of a pixel, y down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Shape {
     /// The sample point lies in the triangle.
     Point {

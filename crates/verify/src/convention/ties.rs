@@ -1,8 +1,6 @@
 //! The compass: who owns a sample that lies exactly on an edge, read off for each direction that the
 //! edge can face, once point and grid are known.
 
-use serde::Serialize;
-
 use super::bench::{Answer, Bench};
 use super::candidate::Candidate;
 use super::general::{area, drawable};
@@ -13,7 +11,8 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Count {
     /// How many were drawn, changed, or right.
     pub drawn: u64,
@@ -38,7 +37,8 @@ impl Count {
     }
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Compass {
     /// Samples on one edge, for each direction the edge faces: see [`super::FACINGS`].
     pub edges: [Count; 8],

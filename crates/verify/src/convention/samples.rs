@@ -1,8 +1,6 @@
 //! Four samples a pixel, of which so many have to be covered: supersampling whose picture is cut to
 //! yes and no.
 
-use serde::Serialize;
-
 use super::half_planes;
 use super::place::{Emit, Place, Points, around};
 use rasterproof_core::frame::Frame;
@@ -10,7 +8,8 @@ use rasterproof_core::grid::PixelRect;
 
 rasterproof_core::named! {
     /// How four samples lie about their middle.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum Pattern {
         /// Each is a quarter of a pixel from the middle along both axes.
         Square = "two by two",

@@ -1,7 +1,5 @@
 //! Lines between whole pixels by the rule for ties, and triangles drawn with such an outline.
 
-use serde::Serialize;
-
 use super::half_planes;
 use super::place::{Emit, Place, Points, edges};
 use rasterproof_core::arrays::MapArray as _;
@@ -10,7 +8,8 @@ use rasterproof_core::grid::PixelRect;
 rasterproof_core::named! {
     /// Where a line goes that passes exactly between two pixels. 'Go' means on, in its minor direction,
     /// as seen from the end that is named; 'stay' means not yet.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum LineTie {
         /// The rule of this project's line drawers, which gives the same pixels from either end.
         SmallGo = "on, seen from the end with the smaller major coordinate",
@@ -58,7 +57,8 @@ impl LineTie {
 
 rasterproof_core::named! {
     /// The end that a line is seen from.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum End {
         First = "the first end",
         Small = "the end with the smaller major coordinate",

@@ -3,10 +3,10 @@
 use super::mask::{Mask, SIDE_PX};
 use super::mirror::Mirror;
 use super::rule::Convention;
+use crate::cases::Rng;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
-use rasterproof_verify::cases::Rng;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Question {
@@ -21,6 +21,12 @@ pub trait Ask {
     /// One answer for each question, in order: the hits of each pixel of its window, or None where
     /// the program refused or died.
     fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>>;
+}
+
+impl<F: FnMut(&[Question]) -> Vec<Option<Coverage>>> Ask for F {
+    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+        self(questions)
+    }
 }
 
 /// What is known of a program before it is asked: its declarations.

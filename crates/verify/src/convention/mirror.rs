@@ -1,13 +1,12 @@
 //! Pictures that come out turned over: a y axis that points up where rows are stored, x and y
 //! exchanged. Taken back before anything is compared.
 
-use serde::Serialize;
-
 use rasterproof_core::grid::PixelRect;
 
 rasterproof_core::named! {
     /// How the whole picture is turned over, about the middle of its window.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum Mirror {
         None = "",
         /// Row y is row height - 1 - y.

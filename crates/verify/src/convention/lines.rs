@@ -1,14 +1,12 @@
 //! The convention of a line drawer, from its answers alone: how the minor coordinate is rounded,
 //! whose pixel a tie is, which ends are drawn, and whether steps touch by sides or by corners.
 
-use serde::Serialize;
-
 use super::diagnosis::Confidence;
 use super::outline::{End, Line, LineTie};
 use super::ties::Count;
+use crate::cases::Rng;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_verify::cases::Rng;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LineQuestion {
@@ -23,8 +21,15 @@ pub trait AskLine {
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>>;
 }
 
+impl<F: FnMut(&[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>>> AskLine for F {
+    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
+        self(questions)
+    }
+}
+
 /// How the minor coordinate of a step becomes a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum LineRounding {
     Nearest(LineTie),
     /// Down: to smaller coordinates.
@@ -44,7 +49,8 @@ pub enum LineRounding {
 }
 
 rasterproof_core::named! {
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum Ends {
         Both = "both ends are drawn",
         WithoutLast = "the last pixel is not drawn",
@@ -55,7 +61,8 @@ rasterproof_core::named! {
 }
 
 /// How a step along both axes at once is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Steps {
     /// By corners: 8-connected.
     Corners,
@@ -65,7 +72,8 @@ pub enum Steps {
     MinorFirst(End),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LineConvention {
     pub rounding: LineRounding,
     pub ends: Ends,
@@ -143,11 +151,12 @@ impl LineConvention {
         let mut last = None;
         for step in 0..=line.steps() {
             let minor = self.rounding.minor(&line, step);
-            if let (Some(last), Some(major)) = (last, self.steps.major_first(&line))
-                && last != minor
-            {
-                let between = if major { (step, last) } else { (step - 1, minor) };
-                pixels.push(line.pixel(between.0, between.1));
+            match (last, self.steps.major_first(&line)) {
+                (Some(last), Some(major)) if last != minor => {
+                    let between = if major { (step, last) } else { (step - 1, minor) };
+                    pixels.push(line.pixel(between.0, between.1));
+                }
+                _ => {}
             }
             pixels.push(line.pixel(step, minor));
             last = Some(minor);
@@ -212,7 +221,8 @@ fn stepped(from: [i64; 2], to: [i64; 2], is_behind: bool) -> Vec<[i64; 2]> {
 }
 
 /// The default is that of a program that answers nothing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LineDiagnosis {
     /// What it does; the nearest hypothesis where that is not known.
     pub convention: LineConvention,

@@ -1,7 +1,5 @@
 //! What was found: the convention, how much it explains, and how sure that is.
 
-use serde::Serialize;
-
 use super::bench::{Answer, Bench, Question};
 use super::candidate::Candidate;
 use super::fit::Fit;
@@ -13,7 +11,8 @@ use super::upright::mirror_of;
 use super::{Ask, Known};
 use rasterproof_core::frame::Coverage;
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Confidence {
     /// It explains every fresh triangle in general position, and no other hypothesis does.
     Certain,
@@ -25,7 +24,8 @@ pub enum Confidence {
 }
 
 /// How far answers agree with a convention.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Agreement {
     /// Triangles whose pixels are exactly the expected ones.
     pub triangles: Count,
@@ -50,7 +50,8 @@ impl Agreement {
 }
 
 /// The agreement on triangles in general position, and on those with samples on their edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Share {
     pub general: Agreement,
     pub ties: Agreement,
@@ -64,7 +65,8 @@ impl Share {
 }
 
 /// The default is that of a program that leaves nothing to see.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Diagnosis {
     /// What it does; the nearest hypothesis where that is not known.
     pub convention: Convention,

@@ -5,15 +5,14 @@
 //! everywhere. Widths and roundings were found by comparison with what the libraries draw
 //! (`docs/league.md`).
 
-use serde::Serialize;
-
 use super::joined;
 use super::place::{Emit, Place, Points, around, edges};
 use rasterproof_core::grid::PixelRect;
 
 rasterproof_core::named! {
     /// How rows and crossings are rounded.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum Scan {
         /// The algorithm by which cairo fills paths without antialiasing.
         Above = "fills the rows whose centres it holds, between crossings taken 1/256 px above the centre \

@@ -1,8 +1,6 @@
 //! A convention: which windings are drawn, what happens to a corner, which shape, and who owns a
 //! sample that lies exactly on an edge. A pure function from corners to pixels.
 
-use serde::Serialize;
-
 use super::mask::{Mask, SIDE_PX};
 use super::mirror::Mirror;
 use super::place::{FACINGS, Place, turn};
@@ -15,7 +13,8 @@ use rasterproof_core::triangle::Corners;
 
 rasterproof_core::named! {
     /// Which windings are drawn, as seen on the screen with y down.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum Windings {
         Both = "",
         Clockwise = "draws clockwise triangles alone, ",
@@ -38,7 +37,8 @@ impl Windings {
 }
 
 /// Samples on a corner, that is on several edges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum CornerRule {
     AsEdges,
     Always,
@@ -46,7 +46,8 @@ pub enum CornerRule {
 }
 
 /// Who owns what lies exactly on the border.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ties {
     /// For each of [`FACINGS`], whether a sample on an edge that faces that way is drawn.
     pub edges: [bool; 8],
@@ -112,7 +113,8 @@ impl Ties {
 }
 
 /// What a program does, as far as its pictures show it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Convention {
     pub draws: Windings,
     pub quantum: Quantum,

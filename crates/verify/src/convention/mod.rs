@@ -13,6 +13,7 @@
 mod area_coverage;
 mod bench;
 mod candidate;
+mod declare;
 mod describe;
 mod diagnosis;
 mod disambiguate;

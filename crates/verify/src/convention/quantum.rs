@@ -1,13 +1,12 @@
 //! What a program does to a corner before it looks at it: the grid, and the way onto it.
 
-use serde::Serialize;
-
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
 rasterproof_core::named! {
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
     pub enum Rounding {
         /// A half is rounded up, to the larger number: v becomes floor(v + 1/2).
         Near = "the nearest, halves up",
@@ -20,7 +19,8 @@ rasterproof_core::named! {
 }
 
 /// The grid of corners: multiples of `step` subpixels (1/256 px).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Quantum {
     /// 1, 4, 16, 64 or 256 subpixels. 1 is the grid of the questions: that, or finer.
     pub step: i32,
