@@ -10,6 +10,7 @@ use super::check::{Check, Truth, picture_of};
 use super::declared::Declared;
 use super::expected::Expect;
 use super::finding::hits;
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::convention::{Count, Quantum};
@@ -30,6 +31,40 @@ pub fn line_leaves(ends: &[PixelPoint; 2], window: PixelRect) -> bool {
     ends.iter().any(|end| !window.contains(end.x, end.y))
 }
 
+/// How shapes that leave the window come out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Leaving {
+    /// Those that come out otherwise than is expected.
+    pub otherwise: Count,
+    /// Of these, those with a pixel that lies further than its neighbours from what is expected.
+    pub gross: u64,
+}
+
+impl Leaving {
+    /// Whether it is a convention: at least a tenth comes out otherwise, and all of these by no more than a pixel, as
+    /// where the shape is cut and its new corners are rounded.
+    pub fn is_convention(&self) -> bool {
+        self.is_usual() && self.gross == 0
+    }
+
+    fn is_usual(&self) -> bool {
+        10 * self.otherwise.drawn >= self.otherwise.of && self.otherwise.drawn > 0
+    }
+
+    /// Said of a convention that does not explain what leaves the window.
+    pub fn sentence(&self, what: &str) -> Option<String> {
+        let Count { drawn, of } = self.otherwise;
+        let outcome = match self.gross {
+            0 => "by at most a pixel, as where they are cut first; they are left out".to_owned(),
+            gross => format!("{gross} of these by more than a pixel; they count as wrong"),
+        };
+        let how = format!(
+            " {what} that leave the window come out otherwise ({drawn} of {of}), {outcome}."
+        );
+        self.is_usual().then_some(how)
+    }
+}
+
 /// Of some shapes that leave the window, how many come out otherwise than `expect` says, which knows
 /// what leaves it.
 pub fn otherwise(
@@ -38,7 +73,7 @@ pub fn otherwise(
     expect: &dyn Expect,
     lines: bool,
     quantum: Quantum,
-) -> Count {
+) -> Leaving {
     let truth = Truth::of(declared);
     let family = adapt_case::families(&[FAMILIES[usize::from(lines)].to_owned()])[0];
     let check = if lines { Check::Line } else { Check::Coverage };
@@ -52,7 +87,7 @@ pub fn otherwise(
         Asked::Line { ends, .. } => line_leaves(ends, window(q)),
         _ => false,
     });
-    let mut count = Count::default();
+    let mut found = Leaving::default();
     let answers = program(&questions);
     for (question, answer) in questions.iter().zip(&answers) {
         let window = window(question);
@@ -71,19 +106,18 @@ pub fn otherwise(
             .rows()
             .zip(drawn.rows())
             .all(|((_, a), (_, b))| a.iter().zip(b).all(|(a, b)| (*a > 0) == (*b > 0)));
-        count.of += 1;
-        count.drawn += u64::from(!same);
+        found.otherwise.of += 1;
+        found.otherwise.drawn += u64::from(!same);
+        let is_near = is_beside(&expected, &drawn) && is_beside(&drawn, &expected);
+        found.gross += u64::from(!is_near);
     }
-    count
+    found
 }
 
-/// Said of a convention where at least a tenth of what leaves the window comes out otherwise.
-pub fn sentence(what: &str, count: Count) -> Option<String> {
-    (10 * count.drawn >= count.of && count.drawn > 0).then(|| {
-        let Count { drawn, of } = count;
-        format!(
-            " {what} that leave the window come out otherwise ({drawn} of {of}), as where they are \
-             cut first; they are left out."
-        )
-    })
+/// Whether every covered pixel of `a` has one of `b` beside it.
+fn is_beside(a: &Coverage, b: &Coverage) -> bool {
+    let near = |x: i32, y: i32| {
+        (y - 1..=y + 1).any(|y| (x - 1..=x + 1).any(|x| b.get(x, y).is_some_and(|hits| hits > 0)))
+    };
+    a.runs().all(|(y, x0, x1)| (x0..x1).all(|x| near(x, y)))
 }

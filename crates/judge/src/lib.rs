@@ -94,9 +94,10 @@ pub fn judge(
     let mut first = Watched { asked: &mut **first, incidents: Vec::new(), end, is_late: false };
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
-    let mut recognised = recognise(&mut first).map(|found| {
-        truth.recognised = found.expect;
-        found.said
+    let mut found_before = recognise(&mut first);
+    let mut recognised = found_before.as_mut().map(|found| {
+        truth.recognised = found.expect.take();
+        found.said.clone()
     });
     if first.is_late {
         let late = "The time was up before its convention was found.".to_owned();
@@ -115,8 +116,15 @@ pub fn judge(
     found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];
     let failures = failures::failures(first, &found, options, &truth);
+    let start = Instant::now();
+    let goes_on = || start.elapsed() < options.patience;
+    let unexplained = [false, true].map(|lines| found.is_unexplained(lines));
+    let causes = recognise::mistakes(first, unexplained, found_before.as_ref(), &goes_on);
     found.strays.extend(first.strays());
-    Verdict::new(declared, options, windings, recognised, found, failures, first.complaints())
+    let mut verdict =
+        Verdict::new(declared, options, windings, recognised, found, failures, first.complaints());
+    verdict.causes = causes;
+    verdict
 }
 
 /// Somebody who is asked before the families, and what came instead of answers.

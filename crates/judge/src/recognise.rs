@@ -4,6 +4,7 @@
 //! A program that draws as it declares is not questioned: a short look at families full of ties says
 //! so, with a few hundred requests instead of a thousand.
 
+use std::cell::RefCell;
 use std::fmt::Write as _;
 
 use super::adapt_case;
@@ -11,19 +12,25 @@ use super::ask::{Answer, Ask, Asked, Question};
 use super::check::{Check, Truth, picture_of};
 use super::declared::Declared;
 use super::expected::Expect;
+use super::in_process::Inside;
 use super::leaving;
 use super::run::MOST_DEATHS;
 use super::text::px;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
+use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_registry::engines::{self, Entry};
 use rasterproof_verify::comparison::{Convention as Promised, Picture, Rule};
 use rasterproof_verify::convention::{
-    Confidence, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion, Quantum,
+    self, Confidence, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion, Quantum,
 };
+use rasterproof_verify::mistakes::{self, Mistakes, Program};
 
 pub struct Recognised {
     pub said: Said,
+    pub triangles: Option<Diagnosis>,
+    pub lines: Option<LineDiagnosis>,
     /// What it is expected to draw under this convention; nothing where no hypothesis explains it.
     pub expect: Option<Box<dyn Expect>>,
 }
@@ -62,9 +69,7 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
-            ask.then(|| {
-                rasterproof_verify::convention::diagnose(&mut bench, &known(&declared), SEED)
-            })
+            ask.then(|| convention::diagnose(&mut bench, &known(&declared), SEED))
         })
         .flatten();
     let lines = (scope.lines && declared.line)
@@ -73,9 +78,7 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
             let most = known(&declared);
             let side_px = (most.window_px.0.min(most.window_px.1) as i32).min(most.range_px);
             let ordered = !declared.line_set;
-            ask.then(|| {
-                rasterproof_verify::convention::diagnose_lines(&mut bench, side_px, ordered, SEED)
-            })
+            ask.then(|| convention::diagnose_lines(&mut bench, side_px, ordered, SEED))
         })
         .flatten();
     if triangles.is_none() && lines.is_none() {
@@ -92,7 +95,9 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
         Found { declaration: declared.convention(), triangles, lines, otherwise: [false; 2] };
     found.look_at_leaving(&mut bench, &declared, &mut sentences);
     let said = Said { sentences, compass, declare, is_explained };
-    Some(Recognised { said, expect: is_explained.then(|| Box::new(found) as Box<dyn Expect>) })
+    let (triangles, lines) = (found.triangles.clone(), found.lines.clone());
+    let expect = is_explained.then(|| Box::new(found) as Box<dyn Expect>);
+    Some(Recognised { said, triangles, lines, expect })
 }
 
 fn clause(about: &str, sentence: &str) -> String {
@@ -128,9 +133,9 @@ impl Found {
                 continue;
             }
             let mut ask = |questions: &[Question]| bench.answers(questions);
-            let count = leaving::otherwise(&mut ask, declared, self, lines, self.quantum());
-            let Some(said) = leaving::sentence(what, count) else { continue };
-            self.otherwise[usize::from(lines)] = true;
+            let found = leaving::otherwise(&mut ask, declared, self, lines, self.quantum());
+            let Some(said) = found.sentence(what) else { continue };
+            self.otherwise[usize::from(lines)] = found.is_convention();
             let about = |sentence: &&mut String| sentence.starts_with(what);
             sentences.iter_mut().filter(about).for_each(|sentence| *sentence += &said);
         }
@@ -148,8 +153,7 @@ impl Expect for Found {
             return None;
         }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
-        let coverage = found
-            .expected(&rasterproof_verify::convention::Question { corners: *corners, window })?;
+        let coverage = found.expected(&convention::Question { corners: *corners, window })?;
         Some(Picture { must: runs(&coverage), may: None })
     }
 
@@ -179,6 +183,87 @@ fn known(declared: &Declared) -> Known {
         window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
         ..known
+    }
+}
+
+/// Why a program is wrong, for triangles and for lines, where it is; asked as long as `goes_on`.
+pub fn mistakes(
+    program: &mut dyn Ask,
+    [triangles, lines]: [bool; 2],
+    found: Option<&Recognised>,
+    goes_on: &dyn Fn() -> bool,
+) -> Vec<Why> {
+    let declared = program.declared().clone();
+    let known = known(&declared);
+    let mut bench = Bench { program, deaths_left: MOST_DEATHS };
+    let mut all = Vec::new();
+    if triangles {
+        let found = found.and_then(|found| found.triangles.as_ref());
+        let why =
+            mistakes::of_triangles(&mut bench, &known, found, &programs(of_triangle), goes_on);
+        all.extend(why.map(|why| Why { lines: false, why }));
+    }
+    if lines {
+        let found = found.and_then(|found| found.lines.as_ref());
+        let why = mistakes::of_lines(&mut bench, &known, found, &programs(of_line), goes_on);
+        all.extend(why.map(|why| Why { lines: true, why }));
+    }
+    all
+}
+
+/// The mistakes of a program in filling triangles, or in drawing lines.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Why {
+    pub lines: bool,
+    #[serde(flatten)]
+    pub why: Mistakes,
+}
+
+/// The planted faults and the published algorithms, as programs whose answers are known.
+fn programs<'a, Q: 'a, A: 'a>(
+    of: impl Fn(&Q, &mut Inside) -> Option<A> + Copy + 'a,
+) -> Vec<Program<'a, Q, A>> {
+    let planted = TriangleMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
+    let planted_lines = LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
+    let planted = planted.into_iter().chain(planted_lines).filter_map(|(name, about)| {
+        Some((engines::find_planted(name)?, format!("draws as the planted fault {name}: {about}")))
+    });
+    let published = engines::SPECIMENS.iter().map(|entry| {
+        let about = entry.about.trim_start_matches("specimen: ");
+        (*entry, format!("draws as the published algorithm {}: {about}", entry.name))
+    });
+    let program = |(entry, about): (Entry, String)| {
+        let inside = RefCell::new(Inside::new(&entry));
+        let draw = move |question: &Q| of(question, &mut inside.borrow_mut());
+        Program { name: entry.name, about, draw: Box::new(draw) }
+    };
+    planted.chain(published).map(program).collect()
+}
+
+fn of_triangle(question: &convention::Question, program: &mut Inside) -> Option<Coverage> {
+    let asked = triangle_question(question);
+    program.ask(&[asked], 1).first().and_then(|answer| picture_of(answer, question.window))
+}
+
+fn of_line(question: &LineQuestion, program: &mut Inside) -> Option<Vec<[i32; 2]>> {
+    program.ask(&[line_question(question, false)], 1).pop().and_then(pixels_of)
+}
+
+fn triangle_question(q: &convention::Question) -> Question {
+    let (width, height) = (q.window.width(), q.window.height());
+    Question { width, height, of: Asked::Coverage(q.corners) }
+}
+
+fn line_question(q: &LineQuestion, whole: bool) -> Question {
+    let (width, height) = (q.window.width(), q.window.height());
+    let ends = q.ends.map(|[x, y]| PixelPoint::new(x, y));
+    Question { width, height, of: Asked::Line { ends, whole } }
+}
+
+fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
+    match answer {
+        Answer::Line(pixels) => Some(pixels.into_iter().map(|(x, y)| [x, y]).collect()),
+        _ => None,
     }
 }
 
@@ -227,35 +312,19 @@ impl Bench<'_> {
     }
 }
 
-impl rasterproof_verify::convention::Ask for Bench<'_> {
-    fn ask(
-        &mut self,
-        questions: &[rasterproof_verify::convention::Question],
-    ) -> Vec<Option<Coverage>> {
-        let asked = questions.iter().map(|q| Question {
-            width: q.window.width(),
-            height: q.window.height(),
-            of: Asked::Coverage(q.corners),
-        });
-        let answers = self.answers(&asked.collect::<Vec<_>>());
+impl convention::Ask for Bench<'_> {
+    fn ask(&mut self, questions: &[convention::Question]) -> Vec<Option<Coverage>> {
+        let asked: Vec<_> = questions.iter().map(triangle_question).collect();
+        let answers = self.answers(&asked);
         answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()
     }
 }
 
-impl rasterproof_verify::convention::AskLine for Bench<'_> {
+impl convention::AskLine for Bench<'_> {
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
         let whole = self.program.declared().grid == 1;
-        let asked = questions.iter().map(|q| Question {
-            width: q.window.width(),
-            height: q.window.height(),
-            of: Asked::Line { ends: q.ends.map(|[x, y]| PixelPoint::new(x, y)), whole },
-        });
-        let answers = self.answers(&asked.collect::<Vec<_>>());
-        let pixels = |answer| match answer {
-            Answer::Line(pixels) => Some(pixels.into_iter().map(|(x, y)| [x, y]).collect()),
-            _ => None,
-        };
-        answers.into_iter().map(pixels).collect()
+        let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();
+        self.answers(&asked).into_iter().map(pixels_of).collect()
     }
 }
 

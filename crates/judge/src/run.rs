@@ -139,6 +139,21 @@ impl Found {
         &mut self.rows[at]
     }
 
+    /// Whether pictures of triangles, or of lines, are wrong that no recognised convention explains.
+    #[must_use]
+    pub fn is_unexplained(&self, lines: bool) -> bool {
+        let families = adapt_case::families(&[]);
+        let is_asked = |row: &&Row| {
+            let family = families.iter().find(|family| family.name == row.name);
+            let is_picture = !["depth-order", "near-plane"].contains(&row.name);
+            is_picture && family.is_some_and(|family| adapt_case::is_lines(family) == lines)
+        };
+        let explained = |row: &Row| {
+            row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0
+        };
+        self.rows.iter().filter(is_asked).any(|row| row.tally.total() > 0 && !explained(row))
+    }
+
     fn merge(&mut self, other: Self) {
         for row in &other.rows {
             *self.row(row.name) += row;

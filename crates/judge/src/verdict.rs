@@ -4,7 +4,7 @@ use super::Options;
 use super::adapt_case;
 use super::declared::Declared;
 use super::failures::Failure;
-use super::recognise::Said;
+use super::recognise::{Said, Why};
 use super::run::{Found, Row};
 use super::windings::Windings;
 
@@ -45,6 +45,8 @@ pub struct Verdict {
     /// Everything that was found; rows in the order of the catalogue.
     pub found: Found,
     pub failures: Vec<Failure>,
+    /// Why it is wrong, where no convention explains it.
+    pub causes: Vec<Why>,
     /// The end of what it wrote on standard error.
     pub complaints: Vec<String>,
     pub properties: Vec<Property>,
@@ -99,6 +101,7 @@ impl Verdict {
             recognised,
             found,
             failures,
+            causes: Vec::new(),
             complaints,
             properties: Vec::new(),
         };

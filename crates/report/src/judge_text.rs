@@ -8,6 +8,7 @@ use super::{ascii, page_cases, summary};
 use rasterproof_judge::check::Check;
 use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
+use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{self, MOST_DEATHS, Row as FamilyRow};
 use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
 
@@ -37,6 +38,7 @@ pub fn text(
         let _ = writeln!(out, "not understood, left aside: {}", d.unknown.join(" "));
     }
     out.push('\n');
+    causes(&mut out, verdict);
     dangers(&mut out, verdict, colour);
     out.push('\n');
     scores(&mut out, verdict);
@@ -146,6 +148,17 @@ fn scores(out: &mut String, verdict: &Verdict) {
     if !recognised.declare.is_empty() {
         let turned = if verdict.declared.yup { " (in its words, y up)" } else { "" };
         line(out, "", &format!("to be judged by it: --declare '{}'{turned}", recognised.declare));
+    }
+}
+
+/// Why it is wrong, where that was looked for.
+fn causes(out: &mut String, verdict: &Verdict) {
+    for Why { lines, why } in &verdict.causes {
+        let about = if *lines { "lines" } else { "triangles" };
+        let known = if why.is_known() { "probable cause" } else { "no cause recognised" };
+        let _ = writeln!(out, "{known}, of the wrong {about}:");
+        why.sentences().iter().for_each(|said| *out += &wrapped(&format!("  {said}"), "    "));
+        out.push('\n');
     }
 }
 

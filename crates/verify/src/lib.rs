@@ -185,6 +185,8 @@ pub mod cases;
 pub mod comparison;
 #[doc(hidden)]
 pub mod convention;
+#[doc(hidden)]
+pub mod mistakes;
 pub mod oracle;
 pub mod partition;
 // So that whoever judges needs this crate alone.

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::Convention;
 use crate::convention::{Confidence, Diagnosis, Known, LineDiagnosis, LineQuestion, Question};
+use crate::mistakes::{self, Mistakes};
 use rasterproof_core::frame::Coverage;
 
 /// What was recognised, or that nothing was.
@@ -25,23 +26,42 @@ const SEED: u64 = 1;
 const LINE_SIDE_PX: i32 = 32;
 
 impl Cause {
-    /// Asks for about 700 triangles in a small window.
+    /// Asks for about 1,900 triangles in a small window.
     pub(super) fn of_triangles(
         declared: &Convention,
         mut draw: impl FnMut(&Question) -> Option<Coverage>,
     ) -> Self {
         let mut ask = |questions: &[Question]| questions.iter().map(&mut draw).collect();
-        let found = crate::convention::diagnose(&mut ask, &Known::from(declared), SEED);
-        Self::of(found.confidence, &found.sentence(), Self::declaration(&found, declared))
+        let known = Known::from(declared);
+        let found = crate::convention::diagnose(&mut ask, &known, SEED);
+        let cause =
+            Self::of(found.confidence, &found.sentence(), Self::declaration(&found, declared));
+        cause.with(mistakes::of_triangles(&mut ask, &known, Some(&found), &[], &|| true))
     }
 
-    /// Asks for some hundred lines in a small window.
+    /// Asks for about 1,100 lines in a small window.
     pub(super) fn of_lines(draw: impl FnMut(&LineQuestion) -> Option<Vec<[i32; 2]>>) -> Self {
         let mut draw = draw;
         let mut ask = |questions: &[LineQuestion]| questions.iter().map(&mut draw).collect();
         let found: LineDiagnosis =
             crate::convention::diagnose_lines(&mut ask, LINE_SIDE_PX, true, SEED);
-        Self::of(found.confidence, &found.sentence(), None)
+        let cause = Self::of(found.confidence, &found.sentence(), None);
+        cause.with(mistakes::of_lines(&mut ask, &Known::default(), Some(&found), &[], &|| true))
+    }
+
+    /// With what is wrong beyond the convention, or instead of one.
+    fn with(mut self, mistakes: Option<Mistakes>) -> Self {
+        let Some(mistakes) = mistakes else { return self };
+        let is_named = !mistakes.causes.is_empty();
+        self.sentence = match self.is_known {
+            true if is_named => format!("{} Beyond that: {mistakes}", self.sentence),
+            true => self.sentence,
+            // A mistake says more than the nearest convention.
+            false if is_named => mistakes.to_string(),
+            false => format!("{} {mistakes}", self.sentence),
+        };
+        self.is_known |= is_named;
+        self
     }
 
     /// What to declare; an empty expression where it draws as it declares.

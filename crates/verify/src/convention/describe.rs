@@ -116,7 +116,11 @@ fn ties(convention: &Convention, compass: &Compass) -> String {
             .collect();
         return format!("; what lies on an edge is drawn in no fixed way ({})", list.join(", "));
     }
+    // Neighbours that share an edge share no pixel by these.
+    let is_of_points = matches!(convention.shape, Shape::Point { .. } | Shape::Rows { .. });
     match convention.ties.name(seen) {
+        Some("inclusive") if !is_of_points => ", its border included".to_owned(),
+        Some("strict") if !is_of_points => ", its border not included".to_owned(),
         Some("inclusive") => {
             " and draws everything on an edge: neighbours are drawn twice".to_owned()
         }
@@ -134,6 +138,16 @@ fn convention(of: &Convention, compass: &Compass) -> String {
     let (mirror, winding) = (of.mirror.name(), of.draws.name());
     let (quantum, ties) = (quantum(of.quantum), ties(of, compass));
     format!("{mirror}{winding}{quantum}{}{ties}", shape(of.shape))
+}
+
+impl Convention {
+    /// What it does, after 'it'.
+    #[must_use]
+    pub fn words(&self) -> String {
+        // Every facing counts as seen.
+        let all = Compass { edges: [Count { drawn: 1, of: 1 }; 8], ..Compass::default() };
+        convention(self, &all)
+    }
 }
 
 impl Diagnosis {

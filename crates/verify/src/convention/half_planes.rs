@@ -15,7 +15,7 @@ struct Side<T> {
 }
 
 /// The facing of the outward normal (-a, -b).
-fn facing(a: i64, b: i64) -> usize {
+pub(crate) fn facing(a: i64, b: i64) -> usize {
     match (a.signum(), b.signum()) {
         (0, 1) => 0,
         (-1, 1) => 1,

@@ -6,17 +6,17 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 
 /// Largest side of the window of a question, in pixels.
-pub(super) const SIDE_PX: i32 = 32;
+pub(crate) const SIDE_PX: i32 = 32;
 
 /// A yes or no for each pixel of a window at the origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Mask([u32; SIDE_PX as usize]);
+pub(crate) struct Mask([u32; SIDE_PX as usize]);
 
 impl Mask {
-    pub(super) const FULL: Self = Self([u32::MAX; SIDE_PX as usize]);
+    pub(crate) const FULL: Self = Self([u32::MAX; SIDE_PX as usize]);
 
     /// The pixels with at least `least` hits.
-    pub(super) fn of(coverage: &Coverage, least: u8) -> Self {
+    pub(crate) fn of(coverage: &Coverage, least: u8) -> Self {
         let mut mask = Self::default();
         for (y_px, row) in coverage.rows().filter(|(y_px, _)| (0..SIDE_PX).contains(y_px)) {
             for (x_px, &hits) in row.iter().enumerate().take(SIDE_PX as usize) {
@@ -26,29 +26,52 @@ impl Mask {
         mask
     }
 
-    pub(super) fn set(&mut self, x_px: i32, y_px: i32) {
+    pub(crate) fn set(&mut self, x_px: i32, y_px: i32) {
         self.0[y_px as usize] |= 1 << x_px;
     }
 
-    pub(super) fn has(&self, x_px: i32, y_px: i32) -> bool {
+    pub(crate) fn has(&self, x_px: i32, y_px: i32) -> bool {
         self.0[y_px as usize] >> x_px & 1 == 1
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.count() == 0
     }
 
-    pub(super) fn count(&self) -> u32 {
+    pub(crate) fn count(&self) -> u32 {
         self.0.iter().map(|row| row.count_ones()).sum()
     }
 
     /// Pixels of `self` that `other` lacks.
-    pub(super) fn beyond(&self, other: &Self) -> u32 {
+    pub(crate) fn beyond(&self, other: &Self) -> u32 {
         self.0.iter().zip(&other.0).map(|(a, b)| (a & !b).count_ones()).sum()
     }
 
+    /// Removes the pixels of the window of which `kept` is false.
+    pub(crate) fn retain(&mut self, window: PixelRect, kept: impl Fn(i32, i32) -> bool) {
+        for y in window.y0..window.y1 {
+            for x in window.x0..window.x1 {
+                if self.has(x, y) && !kept(x, y) {
+                    self.0[y as usize] &= !(1 << x);
+                }
+            }
+        }
+    }
+
+    /// Adds the pixels of `other`.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
+    }
+
+    /// The pixels that one of both has.
+    pub(crate) fn differs(&self, other: &Self) -> Self {
+        let mut mask = *self;
+        mask.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a ^= b);
+        mask
+    }
+
     /// The picture taken back from a mirror.
-    pub(super) fn mirrored(&self, mirror: Mirror, window: PixelRect) -> Self {
+    pub(crate) fn mirrored(&self, mirror: Mirror, window: PixelRect) -> Self {
         if mirror == Mirror::None {
             return *self;
         }

@@ -38,9 +38,11 @@ mod upright;
 
 pub use bench::{Ask, Known, Question};
 pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
+pub(crate) use half_planes::facing;
 pub use lines::{
     AskLine, Ends, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps, diagnose_lines,
 };
+pub(crate) use mask::Mask;
 pub use mirror::Mirror;
 pub use outline::{End, LineTie};
 pub use place::FACINGS;

@@ -152,7 +152,7 @@ impl Convention {
     }
 
     /// As [`Convention::cover`], of a window of at most [`SIDE_PX`] a side.
-    pub(super) fn mask(&self, corners: &Corners, window: PixelRect) -> Option<Mask> {
+    pub(crate) fn mask(&self, corners: &Corners, window: PixelRect) -> Option<Mask> {
         debug_assert!(window.x1 <= SIDE_PX && window.y1 <= SIDE_PX);
         let mut mask = Mask::default();
         self.visit(corners, window, &mut |x, y| mask.set(x, y)).then_some(mask)

@@ -20,7 +20,7 @@ pub struct Count {
 }
 
 impl Count {
-    pub(super) fn add(&mut self, yes: bool) {
+    pub(crate) fn add(&mut self, yes: bool) {
         self.drawn += u64::from(yes);
         self.of += 1;
     }

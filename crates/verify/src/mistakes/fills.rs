@@ -1,0 +1,596 @@
+//! The wrong fills that the table names, as functions of the corners in subpixels (1/256 px).
+
+use crate::convention::{Convention, Mask, facing};
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+
+type Point = [i64; 2];
+
+fn points(corners: &Corners) -> [Point; 3] {
+    corners.map_array(|c| [i64::from(c.x), i64::from(c.y)])
+}
+
+/// Twice the area, positive where the corners turn clockwise on the screen.
+pub(super) fn turn(corners: &Corners) -> i128 {
+    let [a, b, c] = points(corners).map_array(|p| p.map_array(i128::from));
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Every pixel of the window of whose sample it is true.
+fn each_sample(window: PixelRect, sample: [i32; 2], is_in: impl Fn(Point) -> bool) -> Mask {
+    let [sx, sy] = sample.map_array(i64::from);
+    let mut mask = Mask::default();
+    for y in window.y0..window.y1 {
+        for x in window.x0..window.x1 {
+            if is_in([i64::from(x) * 256 + sx, i64::from(y) * 256 + sy]) {
+                mask.set(x, y);
+            }
+        }
+    }
+    mask
+}
+
+/// Fills by a test of each edge: its number in the given order, the edge function in 1/65536 square pixels, positive
+/// inside, and whether the rule gives it its ties.
+pub(super) fn by_edges(
+    corners: &Corners,
+    window: PixelRect,
+    base: &Convention,
+    test: impl Fn(usize, i128, bool) -> bool,
+) -> Mask {
+    let points = points(corners);
+    let sign = turn(corners).signum() as i64;
+    if sign == 0 {
+        return Mask::default();
+    }
+    let edges = [0, 1, 2].map(|i| {
+        let [p, q] = [points[i], points[(i + 1) % 3]];
+        let (a, b) = (sign * (p[1] - q[1]), sign * (q[0] - p[0]));
+        (p, a, b, base.ties.edges[facing(a, b)])
+    });
+    each_sample(window, super::sample_of(base), |at| {
+        edges.iter().enumerate().all(|(i, &(p, a, b, owns))| {
+            let value =
+                i128::from(a) * i128::from(at[0] - p[0]) + i128::from(b) * i128::from(at[1] - p[1]);
+            test(i, value, owns)
+        })
+    })
+}
+
+/// A number in a word of so many bits, as it wraps around.
+fn wrap(v: i128, bits: i64) -> i128 {
+    let shift = 128 - bits as u32;
+    v << shift >> shift
+}
+
+/// Edge functions of coordinates with so many bits of fraction, in words of so many bits.
+pub(super) fn wrapping(
+    corners: &Corners,
+    window: PixelRect,
+    base: &Convention,
+    fraction: i64,
+    bits: i64,
+) -> Mask {
+    let cut = |v: i64| i128::from((v + (256 >> fraction) / 2).div_euclid(256 >> fraction));
+    let points = points(corners).map_array(|p| p.map_array(cut));
+    let word = |v: i128| wrap(v, bits);
+    let cross = |a: [i128; 2], b: [i128; 2], c: [i128; 2]| {
+        word(word((b[0] - a[0]) * (c[1] - a[1])) - word((b[1] - a[1]) * (c[0] - a[0])))
+    };
+    let [a, b, c] = points;
+    let area = cross(a, b, c);
+    if area == 0 {
+        return Mask::default();
+    }
+    let sign = area.signum();
+    let small = |v: i128| v.signum() as i64;
+    each_sample(window, super::sample_of(base), |at| {
+        let at = at.map_array(cut);
+        [[a, b], [b, c], [c, a]].iter().all(|&[p, q]| {
+            let value = word(sign * cross(p, q, at));
+            let [x, y] = [sign * (p[1] - q[1]), sign * (q[0] - p[0])].map_array(small);
+            let owns = (x, y) != (0, 0) && base.ties.edges[facing(x, y)];
+            value > 0 || (value == 0 && owns)
+        })
+    })
+}
+
+/// Corners in words of so many bits with so many of fraction: wrapped around or clamped.
+pub(super) fn in_words(corners: &Corners, clamps: bool, fraction: i64, bits: i64) -> Corners {
+    let most = 1_i64 << (bits - 1);
+    let word = |v: i32| {
+        let scaled = if fraction > 8 {
+            i64::from(v) << (fraction - 8)
+        } else {
+            i64::from(v) >> (8 - fraction)
+        };
+        let rest = if fraction < 8 { i64::from(v) & ((256 >> fraction) - 1) } else { 0 };
+        let kept = match clamps {
+            true => scaled.clamp(-most, most - 1),
+            false => wrap(scaled.into(), bits) as i64,
+        };
+        // What the word does not hold of the fraction is left as it was: grids have an entry of their own.
+        let back =
+            if fraction > 8 { kept >> (fraction - 8) } else { (kept << (8 - fraction)) + rest };
+        back as i32
+    };
+    corners.map_array(|c| SubpixelPoint::new(word(c.x), word(c.y)))
+}
+
+/// The fan of what lies within the window; corners on its border are put on a grid of `step` subpixels.
+pub(super) fn clipped(corners: &Corners, window: PixelRect, step: i64, how: i64) -> Vec<Corners> {
+    let mut polygon = points(corners).to_vec();
+    let [wide, high] = [i64::from(window.x1) * 256, i64::from(window.y1) * 256];
+    let inside = |p: Point, side: usize| match side {
+        0 => p[0],
+        1 => wide - p[0],
+        2 => p[1],
+        _ => high - p[1],
+    };
+    for side in 0..4 {
+        let mut kept = Vec::new();
+        for (i, &from) in polygon.iter().enumerate() {
+            let to = polygon[(i + 1) % polygon.len()];
+            let [u, v] = [inside(from, side), inside(to, side)];
+            if u >= 0 {
+                kept.push(from);
+            }
+            if (u < 0) != (v < 0) {
+                kept.push([0, 1].map_array(|axis| {
+                    // from + (to - from) u / (u - v), in exact numbers until it is cut.
+                    let part = i128::from(u) * i128::from(to[axis] - from[axis]);
+                    let (whole, step) = (i128::from(u - v), i128::from(step));
+                    let cut = |part: i128| {
+                        let (part, whole) = if whole < 0 { (-part, -whole) } else { (part, whole) };
+                        match how {
+                            0 => part / (whole * step) * step,
+                            1 => (2 * part + whole * step).div_euclid(2 * whole * step) * step,
+                            _ => part.div_euclid(whole * step) * step,
+                        }
+                    };
+                    let new = match how {
+                        0 => i128::from(from[axis]) + cut(part),
+                        _ => cut(part + i128::from(from[axis]) * whole),
+                    };
+                    new as i64
+                }));
+            }
+        }
+        polygon = kept;
+    }
+    let narrow = |p: Point| SubpixelPoint::new(p[0] as i32, p[1] as i32);
+    (2..polygon.len()).map(|i| [polygon[0], polygon[i - 1], polygon[i]].map_array(narrow)).collect()
+}
+
+/// The corners from top to bottom.
+fn sorted(corners: &Corners) -> [Point; 3] {
+    let mut points = points(corners);
+    points.sort_by_key(|p| p[1]);
+    points
+}
+
+/// The two halves, where the point on the long edge is put on a grid.
+pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
+    let [top, middle, bottom] = sorted(corners);
+    let narrow = |p: Point| SubpixelPoint::new(p[0] as i32, p[1] as i32);
+    let high = bottom[1] - top[1];
+    if high == 0 || middle[1] == top[1] || middle[1] == bottom[1] {
+        return vec![*corners];
+    }
+    let (part, step) =
+        (i128::from(bottom[0] - top[0]) * i128::from(middle[1] - top[1]), i128::from(step));
+    let (part, whole) = (part + i128::from(top[0]) * i128::from(high), i128::from(high) * step);
+    let x =
+        if down { part.div_euclid(whole) } else { (2 * part + whole).div_euclid(2 * whole) } * step;
+    let cut = [x as i64, middle[1]];
+    vec![[top, middle, cut].map_array(narrow), [middle, cut, bottom].map_array(narrow)]
+}
+
+/// Twice the area in 1/65536 square pixels, or the width or the height in subpixels.
+pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
+    let extent = |v: [i32; 3]| {
+        let (low, high) =
+            (v.iter().min().copied().unwrap_or(0), v.iter().max().copied().unwrap_or(0));
+        i64::from(high) - i64::from(low)
+    };
+    match which {
+        0 => i64::try_from(turn(corners).abs()).unwrap_or(i64::MAX / 8),
+        1 => extent(corners.map_array(|c| c.x)),
+        _ => extent(corners.map_array(|c| c.y)),
+    }
+}
+
+/// `value / of` with three digits that count.
+pub(super) fn decimal(value: i64, of: i64) -> String {
+    let number = value as f64 / of as f64;
+    let digits =
+        if number == 0.0 { 0 } else { (2 - number.abs().log10().floor() as i32).clamp(0, 6) };
+    let text = format!("{number:.*}", digits as usize);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// Whether it has a level edge, and whether that is the upper one.
+pub(super) fn flat(corners: &Corners) -> Option<bool> {
+    let [top, middle, bottom] = sorted(corners);
+    match (top[1] == middle[1], middle[1] == bottom[1]) {
+        (true, false) => Some(true),
+        (false, true) => Some(false),
+        _ => None,
+    }
+}
+
+/// Positive where the middle corner lies right of the long edge.
+pub(super) fn middle_side(corners: &Corners) -> i64 {
+    let [top, middle, bottom] = sorted(corners).map_array(|p| p.map_array(i128::from));
+    if top[1] == middle[1] || middle[1] == bottom[1] {
+        return 0;
+    }
+    let cross =
+        (bottom[0] - top[0]) * (middle[1] - top[1]) - (bottom[1] - top[1]) * (middle[0] - top[0]);
+    -cross.signum() as i64
+}
+
+pub(super) fn holds(window: PixelRect, corner: SubpixelPoint) -> bool {
+    (0..=window.x1 * 256).contains(&corner.x) && (0..=window.y1 * 256).contains(&corner.y)
+}
+
+/// See `ENDS` of the table.
+pub(super) fn ends(mask: &mut Mask, _: &Corners, window: PixelRect, which: i64) {
+    let full = *mask;
+    let has = |x: i32, y: i32| window.contains(x, y) && full.has(x, y);
+    let rows: Vec<i32> =
+        (window.y0..window.y1).filter(|&y| (window.x0..window.x1).any(|x| has(x, y))).collect();
+    let columns: Vec<i32> =
+        (window.x0..window.x1).filter(|&x| (window.y0..window.y1).any(|y| has(x, y))).collect();
+    let (Some((&top, &bottom)), Some((&left, &right))) =
+        (rows.first().zip(rows.last()), columns.first().zip(columns.last()))
+    else {
+        return;
+    };
+    match which {
+        0 => mask.retain(window, |_, y| y != top),
+        1 => mask.retain(window, |_, y| y != bottom),
+        2 => mask.retain(window, |x, y| has(x - 1, y)),
+        3 => mask.retain(window, |x, y| has(x + 1, y)),
+        4 => mask.retain(window, |x, _| x != left),
+        5 => mask.retain(window, |x, _| x != right),
+        _ => {
+            for y in window.y0..window.y1 {
+                for x in window.x0..window.x1 {
+                    let added = match which {
+                        6 => has(x - 1, y),
+                        7 => has(x + 1, y),
+                        8 => y == bottom + 1 && has(x, y - 1),
+                        _ => y == top - 1 && has(x, y + 1),
+                    };
+                    if added {
+                        mask.set(x, y);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Tiles of p mod 100 pixels, tested at their corners, in their middle, or at their first pixel.
+pub(super) fn tiles(mask: &mut Mask, _: &Corners, window: PixelRect, p: i64) {
+    let (side, full) = ((p % 100) as i32, *mask);
+    let has = |x: i32, y: i32| full.has(x.min(window.x1 - 1), y.min(window.y1 - 1));
+    mask.retain(window, |x, y| {
+        let [x, y] = [x / side * side, y / side * side];
+        let last = side - 1;
+        match p / 100 {
+            0 => has(x, y) || has(x + last, y) || has(x, y + last) || has(x + last, y + last),
+            1 => has(x + side / 2, y + side / 2),
+            _ => has(x, y),
+        }
+    });
+}
+
+/// What `float` computes.
+pub(super) const FORMULAS: [&str; 7] = [
+    "the edge function as a difference of two products",
+    "the edge function as a x + b y + c with c computed once",
+    "the edge function in steps that are added up pixel by pixel",
+    "barycentric weights that are divided by the area first",
+    "barycentric weights of which the third is 1 minus the others",
+    "barycentric weights times the reciprocal of the area, the third being 1 minus the others",
+    "the edge function with corners relative to the sample",
+];
+
+/// One of `FORMULAS`, with a rounding to f32 after every operation or without.
+pub(super) fn float(
+    corners: &Corners,
+    window: PixelRect,
+    base: &Convention,
+    formula: usize,
+    single: bool,
+) -> Mask {
+    let r = |v: f64| if single { f64::from(v as f32) } else { v };
+    let turns = turn(corners).signum() as i64;
+    if turns == 0 {
+        return Mask::default();
+    }
+    let points = points(corners);
+    let px = |p: Point| p.map_array(|v| r(v as f64 / 256.0));
+    let mut ordered = points;
+    if turns < 0 {
+        ordered.swap(1, 2);
+    }
+    let edge = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
+        r(r(r(q[0] - p[0]) * r(at[1] - p[1])) - r(r(q[1] - p[1]) * r(at[0] - p[0])))
+    };
+    let corners = ordered.map_array(px);
+    let sides = [[0, 1], [1, 2], [2, 0]];
+    let owns = sides.map_array(|[i, j]| {
+        let [p, q] = [ordered[i], ordered[j]];
+        base.ties.edges[facing(p[1] - q[1], q[0] - p[0])]
+    });
+    let passes = |value: f64, owns: bool| value > 0.0 || (value == 0.0 && owns);
+    let [a, b, c] = corners;
+    let area = edge(a, b, c);
+    let at_sample = super::sample_of(base);
+    if formula == 2 {
+        let start = px(at_sample.map_array(i64::from));
+        let mut mask = Mask::default();
+        let mut rows = sides.map_array(|[i, j]| edge(corners[i], corners[j], start));
+        let steps = sides.map_array(|[i, j]| {
+            [r(corners[i][1] - corners[j][1]), r(corners[j][0] - corners[i][0])]
+        });
+        for y in window.y0..window.y1 {
+            let mut values = rows;
+            for x in window.x0..window.x1 {
+                if (0..3).all(|i| passes(values[i], owns[i])) {
+                    mask.set(x, y);
+                }
+                for i in 0..3 {
+                    values[i] = r(values[i] + steps[i][0]);
+                }
+            }
+            for i in 0..3 {
+                rows[i] = r(rows[i] + steps[i][1]);
+            }
+        }
+        return mask;
+    }
+    let reciprocal = r(1.0 / area);
+    each_sample(window, at_sample, |at| {
+        let at = px(at);
+        let values = match formula {
+            0 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
+            1 => sides.map_array(|[i, j]| {
+                let [p, q] = [corners[i], corners[j]];
+                let [a, b] = [r(p[1] - q[1]), r(q[0] - p[0])];
+                let c = r(-r(r(a * p[0]) + r(b * p[1])));
+                r(r(r(a * at[0]) + r(b * at[1])) + c)
+            }),
+            3 => sides.map_array(|[i, j]| r(edge(corners[i], corners[j], at) / area)),
+            4 | 5 => {
+                let weight = |i: usize, j: usize| {
+                    let value = edge(corners[i], corners[j], at);
+                    if formula == 4 { r(value / area) } else { r(value * reciprocal) }
+                };
+                let [u, v] = [weight(1, 2), weight(2, 0)];
+                [r(r(1.0 - u) - v), u, v]
+            }
+            _ => sides.map_array(|[i, j]| {
+                let [p, q] =
+                    [corners[i], corners[j]].map_array(|p| [r(p[0] - at[0]), r(p[1] - at[1])]);
+                r(r(p[0] * q[1]) - r(p[1] * q[0]))
+            }),
+        };
+        (0..3).all(|i| passes(values[i], owns[i]))
+    })
+}
+
+/// In which numbers the slope of an edge is added.
+#[derive(Clone, Copy)]
+pub(super) enum Slope {
+    Single,
+    Double,
+    /// 1/65536 px, the slope cut toward zero.
+    Fixed,
+    /// 1/65536 px, the slope cut down.
+    FixedDown,
+    /// 1/256 px, the slope cut toward zero.
+    Coarse,
+    /// Not added: computed for each row in single precision.
+    Computed,
+}
+
+impl Slope {
+    pub(super) const ALL: [Self; 6] =
+        [Self::Single, Self::Double, Self::Fixed, Self::FixedDown, Self::Coarse, Self::Computed];
+
+    pub(super) fn about(self) -> &'static str {
+        match self {
+            Self::Single => "in floats of 32 bits",
+            Self::Double => "in floats of 64 bits",
+            Self::Fixed => "in 1/65536 px, cut toward zero",
+            Self::FixedDown => "in 1/65536 px, cut down",
+            Self::Coarse => "in 1/256 px, cut toward zero",
+            Self::Computed => "(or computes it for each row) in floats of 32 bits",
+        }
+    }
+}
+
+/// How a row is filled between its crossings.
+#[derive(Clone, Copy)]
+pub(super) enum Row {
+    /// The samples between them, the left crossing included.
+    HalfOpen,
+    /// Both crossings are rounded to the nearest pixel, and both are drawn.
+    BothEnds,
+}
+
+impl Row {
+    pub(super) const ALL: [Self; 2] = [Self::HalfOpen, Self::BothEnds];
+
+    pub(super) fn about(self) -> &'static str {
+        match self {
+            Self::HalfOpen => "fills the samples between the crossings",
+            Self::BothEnds => "fills from the pixel of the left crossing to that of the right one",
+        }
+    }
+}
+
+/// A crossing that is moved from row to row, in pixels or parts of them.
+struct Walk {
+    x: f64,
+    slope: f64,
+    from: [f64; 2],
+    of: Slope,
+}
+
+impl Walk {
+    fn new(of: Slope, from: Point, to: Point, first_row: i64, late: bool) -> Self {
+        let single = |v: f64| f64::from(v as f32);
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let dy = if dy == 0 { 1 } else { dy };
+        let ahead = if late { 0 } else { first_row * 256 + 128 - from[1] };
+        let px = |v: i64| v as f64 / 256.0;
+        let (x, slope) = match of {
+            Slope::Single | Slope::Computed => {
+                let slope = single(single(px(dx)) / single(px(dy)));
+                (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
+            }
+            Slope::Double => {
+                let slope = px(dx) / px(dy);
+                (px(from[0]) + slope * px(ahead), slope)
+            }
+            Slope::Fixed | Slope::FixedDown | Slope::Coarse => {
+                let unit: i64 = if matches!(of, Slope::Coarse) { 256 } else { 65536 };
+                let scaled = i128::from(dx) * i128::from(unit);
+                let slope = match of {
+                    Slope::FixedDown => scaled.div_euclid(i128::from(dy)),
+                    _ => scaled / i128::from(dy),
+                };
+                let x = i128::from(from[0]) * i128::from(unit / 256)
+                    + ((slope * i128::from(ahead)) >> 8);
+                (x as f64 / unit as f64, slope as f64 / unit as f64)
+            }
+        };
+        Self { x, slope, from: [px(from[0]), px(from[1])], of }
+    }
+
+    /// The crossing with the row, in pixels.
+    fn at(&self, row: i64) -> f64 {
+        match self.of {
+            Slope::Computed => {
+                let single = |v: f64| f64::from(v as f32);
+                let ahead = single(row as f64 + 0.5 - self.from[1]);
+                single(self.from[0] + single(self.slope * ahead))
+            }
+            _ => self.x,
+        }
+    }
+
+    fn step(&mut self) {
+        self.x += self.slope;
+        if matches!(self.of, Slope::Single) {
+            self.x = f64::from(self.x as f32);
+        }
+    }
+}
+
+/// The rows with a sample between the heights, from the first one on.
+fn rows(top: i64, bottom: i64) -> std::ops::Range<i64> {
+    let first = |v: i64| (v + 127).div_euclid(256);
+    first(top)..first(bottom)
+}
+
+/// Rows that are walked above the window, at most: further ones are not expected.
+const MOST_ROWS: i64 = 1 << 16;
+
+/// Row by row with crossings that are added up.
+pub(super) fn stepped(
+    corners: &Corners,
+    window: PixelRect,
+    slope: Slope,
+    late: bool,
+    row: Row,
+) -> Mask {
+    let [top, middle, bottom] = sorted(corners);
+    let mut mask = Mask::default();
+    let all = rows(top[1], bottom[1]);
+    if all.is_empty() || turn(corners) == 0 || all.start < -MOST_ROWS {
+        return mask;
+    }
+    let mut long = Walk::new(slope, top, bottom, all.start, late);
+    for [from, to] in [[top, middle], [middle, bottom]] {
+        let part = rows(from[1], to[1]);
+        let mut short = Walk::new(slope, from, to, part.start, late);
+        for y in part {
+            if y >= i64::from(window.y1) {
+                return mask;
+            }
+            let (a, b) = (long.at(y), short.at(y));
+            let (left, right) = (a.min(b), a.max(b));
+            let (first, last) = match row {
+                Row::HalfOpen => ((left - 0.5).ceil(), (right - 0.5).ceil()),
+                Row::BothEnds => (left.floor(), right.floor() + 1.0),
+            };
+            if y >= 0 {
+                let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
+                for x in clamp(first)..clamp(last) {
+                    mask.set(x, y as i32);
+                }
+            }
+            long.step();
+            short.step();
+        }
+    }
+    mask
+}
+
+/// The loop over whole pixels: bit 0 rounds corners, bit 1 divides down, bit 2 wraps products in 16 bits, and the rest is
+/// what goes wrong at the ends.
+pub(super) fn whole_pixels(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    let [rounds, down, short] = [0, 1, 2].map(|bit| p >> bit & 1 == 1);
+    let whole = |v: i64| if rounds { (v + 128).div_euclid(256) } else { v.div_euclid(256) };
+    let mut points = points(corners).map_array(|c| c.map_array(whole));
+    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+        if points[i][1] > points[j][1] {
+            points.swap(i, j);
+        }
+    }
+    let [[x0, y0], [x1, y1], [x2, y2]] = points;
+    let mut mask = Mask::default();
+    let mut fill = |y: i64, a: i64, b: i64| {
+        let (left, right) = (a.min(b), a.max(b) + i64::from(p >> 3 != 3));
+        if (0..i64::from(window.y1)).contains(&y) {
+            let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;
+            for x in clamp(left)..clamp(right) {
+                mask.set(x, y as i32);
+            }
+        }
+    };
+    if y0 == y2 {
+        fill(y0, x0.min(x1).min(x2), x0.max(x1).max(x2));
+        return mask;
+    }
+    let at = |x: i64, dx: i64, ahead: i64, dy: i64| {
+        let product = if short { wrap(i128::from(dx * ahead), 16) as i64 } else { dx * ahead };
+        x + if down { product.div_euclid(dy.max(1)) } else { product / dy.max(1) }
+    };
+    let last = if y1 == y2 { y1 } else { y1 - 1 };
+    // Only rows of the window can be seen.
+    let seen = |from: i64, to: i64| from.max(0)..=to.min(i64::from(window.y1) - 1);
+    for y in seen(y0, last) {
+        fill(y, at(x0, x1 - x0, y - y0, y1 - y0), at(x0, x2 - x0, y - y0, y2 - y0));
+    }
+    if y1 < y2 {
+        let from_the_top = p >> 3 == 1 && y1 == y0;
+        let first = if from_the_top { 0 } else { y1 };
+        let end = if p >> 3 == 2 { y2 - 1 } else { y2 };
+        for y in seen(first, end) {
+            fill(y, at(x1, x2 - x1, y - y1, y2 - y1), at(x0, x2 - x0, y - y0, y2 - y0));
+        }
+    }
+    mask
+}

@@ -1,0 +1,488 @@
+//! Names the mistake of a rasterizer or a line drawer that no convention explains.
+//!
+//! A mistake is a wrong way of drawing as a pure function, with a parameter such as the length of a word. The tables in
+//! `triangles` and `lines` hold them, each with its sentence, its repair, the page that explains it and what would refute it.
+//! The wrong program answers some hundred questions on which mistakes differ, and every mistake predicts the answers, for
+//! each parameter and several conventions underneath. A mistake is named if it predicts at least 99 % of the wrong answers
+//! and of the right ones, among answers that it was not chosen by. Otherwise the nearest one is a lead, and what all wrong
+//! answers have in common is said.
+
+mod common;
+mod fills;
+mod lines;
+mod questions;
+mod triangles;
+mod weigh;
+
+use std::fmt;
+
+use crate::convention::{
+    Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
+    LineQuestion, Mask, Question, Shape, Ties, Windings,
+};
+use lines::Stroke;
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Corners;
+use triangles::Fill;
+use weigh::{Hypothesis, LEAST_WRONG, Said, Weight, weigh};
+
+/// An entry of a table.
+#[derive(Clone, Copy)]
+struct Mistake<D> {
+    name: &'static str,
+    /// What the program does, after 'it'; from the parameter.
+    sentence: fn(i64) -> String,
+    repair: &'static str,
+    /// The page that explains it, without `.md`.
+    page: &'static str,
+    /// An observation that would refute it.
+    refuted: &'static str,
+    parameters: Parameters,
+    draws: D,
+}
+
+#[derive(Clone, Copy)]
+enum Parameters {
+    Fixed(&'static [i64]),
+    /// Limits between what is drawn and what is not, read off the answers.
+    Sizes,
+}
+
+/// A program whose answers are known, such as a published algorithm.
+pub struct Program<'a, Question, Picture> {
+    /// Its name.
+    pub name: &'static str,
+    /// What is wrong with it, after 'it'.
+    pub about: String,
+    /// What it draws; none where it has no answer.
+    pub draw: Box<dyn Fn(&Question) -> Option<Picture> + 'a>,
+}
+
+/// A mistake that explains what is wrong, or the nearest one.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Explanation {
+    /// What the program does, after 'it'.
+    pub does: String,
+    /// What repairs it.
+    pub repair: String,
+    /// The page of the book that explains it, such as `ch02-scanline`.
+    pub page: &'static str,
+    /// An observation that would refute it.
+    pub refuted: String,
+    /// Wrong answers that it predicts, of those that it was not chosen by.
+    pub wrong: Count,
+    /// Right answers that it predicts, of those that it was not chosen by.
+    pub right: Count,
+}
+
+impl Explanation {
+    fn of((said, weight): (Said, Weight)) -> Self {
+        let Said { sentence, repair, page, refuted } = said;
+        Self { does: sentence, repair, page, refuted, wrong: weight.wrong, right: weight.right }
+    }
+}
+
+/// What was found about a wrong program.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Mistakes {
+    /// The mistakes that explain it: several where they explain the same.
+    pub causes: Vec<Explanation>,
+    /// The nearest one, where none explains it.
+    pub lead: Option<Explanation>,
+    /// What all wrong answers have in common, as sentences; where none explains it.
+    pub common: Vec<String>,
+    /// Questions whose answer was wrong, of all that were answered.
+    pub wrong: Count,
+}
+
+impl Mistakes {
+    /// Whether a mistake is named.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        !self.causes.is_empty()
+    }
+
+    /// What is said of it: a sentence each. The first one says what the program does, or that this is not known.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let share = |wrong: &Count, right: &Count| {
+            let contradicted = right.of - right.drawn;
+            format!(
+                "{} of {} wrong answers and contradicts {contradicted} of {} right ones",
+                wrong.drawn, wrong.of, right.of
+            )
+        };
+        let mut said = Vec::new();
+        for (i, cause) in self.causes.iter().take(MOST_SAID).enumerate() {
+            let it = if i == 0 { "It" } else { "Or it" };
+            said.push(format!("{it} {}.", cause.does));
+            if !cause.repair.is_empty() {
+                said.push(format!("Repair: {}.", cause.repair));
+            }
+            said.push(format!("This explains {}.", share(&cause.wrong, &cause.right)));
+        }
+        if self.is_known() {
+            let more = self.causes.len().saturating_sub(MOST_SAID);
+            said.extend((more > 0).then(|| format!("{more} other causes explain the same.")));
+            return said;
+        }
+        let Count { drawn, of } = self.wrong;
+        said.push(format!(
+            "{drawn} of {of} answers are wrong, and no known mistake explains them."
+        ));
+        said.extend(self.common.iter().cloned());
+        if let Some(lead) = &self.lead {
+            let explained = share(&lead.wrong, &lead.right);
+            said.push(format!("The nearest is that it {}: this explains {explained}.", lead.does));
+        }
+        said
+    }
+}
+
+/// Causes that are said, where several explain the same.
+const MOST_SAID: usize = 2;
+
+impl fmt::Display for Mistakes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.sentences().join(" "))
+    }
+}
+
+/// Questions that are asked at once, so that a slow program can be left in time.
+const AT_ONCE: usize = 100;
+/// The questions are the same in every run.
+const SEED: u64 = 1;
+
+/// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems
+/// to be: where that is certain, answers are judged by it. Nothing where its answers are right, or too few are wrong. It asks for 1,200 triangles,
+/// as long as `goes_on` is true.
+pub fn of_triangles(
+    ask: &mut dyn Ask,
+    known: &Known,
+    found: Option<&Diagnosis>,
+    programs: &[Program<'_, Question, Coverage>],
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Mistakes> {
+    let mut answered: Vec<(Question, Mask, Mask)> = Vec::new();
+    let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
+    let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
+    let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
+    for questions in questions::triangles(known, sample_of(expected), SEED).chunks(AT_ONCE) {
+        if !goes_on() {
+            break;
+        }
+        let answers = ask.ask(questions);
+        for (question, answer) in questions.iter().zip(answers) {
+            let drawn = answer.filter(|a| a.bounds() == question.window);
+            let right = expected.mask(&question.corners, question.window);
+            if let (Some(drawn), Some(right)) = (drawn, right) {
+                answered.push((*question, Mask::of(&drawn, 1), right));
+            }
+        }
+    }
+    let is_wrong: Vec<bool> = answered.iter().map(|(_, drawn, right)| drawn != right).collect();
+    let bases = bases(&known.declared, found);
+    let mut hypotheses = Vec::new();
+    for mistake in triangles::TABLE {
+        let sizes;
+        let parameters = match mistake.parameters {
+            Parameters::Fixed(parameters) => parameters,
+            Parameters::Sizes => {
+                sizes = limits(&answered);
+                &sizes
+            }
+        };
+        for &p in parameters {
+            let said = said(mistake, p);
+            for base in bases.iter().filter(|base| base.serves(mistake.draws)) {
+                let answered = &answered;
+                let predicts = move |i: usize| {
+                    let (Question { corners, window }, drawn, _) = &answered[i];
+                    let mask = fill(mistake.draws, p, &base.convention, corners, *window);
+                    mask.is_none_or(|mask| mask == *drawn)
+                };
+                let mut said = said.clone();
+                said.sentence += &base.words(mistake.draws);
+                hypotheses.push(Hypothesis {
+                    predicts: Box::new(predicts),
+                    name: mistake.name,
+                    said,
+                });
+            }
+        }
+    }
+    for program in programs {
+        let answered = &answered;
+        let predicts = move |i: usize| {
+            let (question, drawn, _) = &answered[i];
+            (program.draw)(question).is_some_and(|picture| Mask::of(&picture, 1) == *drawn)
+        };
+        hypotheses.push(program.hypothesis(Box::new(predicts)));
+    }
+    let seen: Vec<_> = answered
+        .iter()
+        .map(|(question, drawn, right)| {
+            common::Seen::triangle(&question.corners, question.window, *drawn, *right)
+        })
+        .collect();
+    conclude(hypotheses, &is_wrong, &seen)
+}
+
+/// The same for a line drawer: it asks for 700 lines of at most 40,000 steps.
+pub fn of_lines(
+    ask: &mut dyn AskLine,
+    known: &Known,
+    found: Option<&LineDiagnosis>,
+    programs: &[Program<'_, LineQuestion, Vec<[i32; 2]>>],
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Mistakes> {
+    let mut answered: Vec<(LineQuestion, Mask, Mask)> = Vec::new();
+    let default = LineConvention::default();
+    let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
+    let found = found.map(|f| &f.convention);
+    let expected = found.filter(|_| is_certain).unwrap_or(&default);
+    let wide = |ends: [[i32; 2]; 2]| ends.map_array(|end| end.map_array(i64::from));
+    for questions in questions::lines(known, SEED).chunks(AT_ONCE) {
+        if !goes_on() {
+            break;
+        }
+        let answers = ask.ask_lines(questions);
+        for (question, answer) in questions.iter().zip(answers) {
+            let right = lines::of_convention(expected, wide(question.ends), question.window);
+            if let (Some(pixels), Some(right)) = (answer, right) {
+                let pixels: Vec<_> = pixels.into_iter().map(|p| p.map_array(i64::from)).collect();
+                answered.push((*question, lines::mask(&pixels, question.window), right));
+            }
+        }
+    }
+    let is_wrong: Vec<bool> = answered.iter().map(|(_, drawn, right)| drawn != right).collect();
+    let mut bases = vec![*expected];
+    bases.extend(found.into_iter().chain([&default]).filter(|base| *base != expected));
+    let mut hypotheses = Vec::new();
+    for mistake in lines::TABLE {
+        let Parameters::Fixed(parameters) = mistake.parameters else { continue };
+        for (&p, base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
+            let answered = &answered;
+            let predicts = move |i: usize| {
+                let (question, drawn, _) = &answered[i];
+                let (ends, window) = (wide(question.ends), question.window);
+                let mask = match mistake.draws {
+                    Stroke::Instead(other) => match other(ends, window, p) {
+                        Some(other) => lines::of_convention(base, other, window),
+                        None => Some(Mask::default()),
+                    },
+                    Stroke::Own(pixels) => Some(lines::mask(&pixels(ends, window, p), window)),
+                    Stroke::Changed(change) => {
+                        lines::of_convention(base, ends, window).map(|mut mask| {
+                            change(&mut mask, ends, window, p);
+                            mask
+                        })
+                    }
+                };
+                mask.is_none_or(|mask| mask == *drawn)
+            };
+            hypotheses.push(Hypothesis {
+                predicts: Box::new(predicts),
+                name: mistake.name,
+                said: said(mistake, p),
+            });
+        }
+    }
+    for program in programs {
+        let answered = &answered;
+        let predicts = move |i: usize| {
+            let (question, drawn, _) = &answered[i];
+            (program.draw)(question).is_some_and(|pixels| {
+                let pixels: Vec<_> = pixels.into_iter().map(|p| p.map_array(i64::from)).collect();
+                lines::mask(&pixels, question.window) == *drawn
+            })
+        };
+        hypotheses.push(program.hypothesis(Box::new(predicts)));
+    }
+    let seen: Vec<_> = answered
+        .iter()
+        .map(|(question, drawn, right)| common::Seen::line(question, *drawn, *right))
+        .collect();
+    conclude(hypotheses, &is_wrong, &seen)
+}
+
+impl<Question, Picture> Program<'_, Question, Picture> {
+    fn hypothesis<'a>(&self, predicts: Box<dyn Fn(usize) -> bool + 'a>) -> Hypothesis<'a> {
+        let said = Said { sentence: self.about.clone(), page: "planted", ..Said::default() };
+        Hypothesis { predicts, name: self.name, said }
+    }
+}
+
+fn said<D>(mistake: &Mistake<D>, p: i64) -> Said {
+    Said {
+        sentence: (mistake.sentence)(p),
+        repair: mistake.repair.to_owned(),
+        page: mistake.page,
+        refuted: mistake.refuted.to_owned(),
+    }
+}
+
+fn conclude(
+    hypotheses: Vec<Hypothesis<'_>>,
+    is_wrong: &[bool],
+    seen: &[common::Seen],
+) -> Option<Mistakes> {
+    let wrong = is_wrong.iter().filter(|wrong| **wrong).count();
+    if wrong == 0 {
+        return None;
+    }
+    let (causes, lead) = weigh(hypotheses, is_wrong);
+    let common = if causes.is_empty() { common::sentences(seen) } else { Vec::new() };
+    // A lead that explains little leads nowhere.
+    let leads = |weight: &Weight| {
+        2 * weight.wrong.drawn >= weight.wrong.of && 10 * weight.right.drawn >= 9 * weight.right.of
+    };
+    let lead = lead.filter(|(_, weight)| leads(weight) && wrong >= LEAST_WRONG);
+    Some(Mistakes {
+        causes: causes.into_iter().map(Explanation::of).collect(),
+        lead: lead.map(Explanation::of),
+        common,
+        wrong: Count { drawn: wrong as u64, of: is_wrong.len() as u64 },
+    })
+}
+
+/// Where a sample lies in its pixel, in subpixels.
+fn sample_of(convention: &Convention) -> [i32; 2] {
+    match convention.shape {
+        Shape::Point { x, y } => [x, y],
+        _ => [128, 128],
+    }
+}
+
+/// The picture of a mistake; none where it says nothing.
+fn fill(
+    draws: Fill,
+    p: i64,
+    base: &Convention,
+    corners: &Corners,
+    window: PixelRect,
+) -> Option<Mask> {
+    match draws {
+        Fill::Instead(others) => {
+            let mut all = Mask::default();
+            for other in others(corners, window, p) {
+                all.add(&base.mask(&other, window)?);
+            }
+            Some(all)
+        }
+        Fill::Changed(change) => {
+            let mut mask = base.mask(corners, window)?;
+            change(&mut mask, corners, window, p);
+            Some(mask)
+        }
+        Fill::Ruled(draw) | Fill::Sampled(draw) => Some(draw(corners, window, base, p)),
+        Fill::Own(draw) => Some(draw(corners, window, p)),
+    }
+}
+
+/// Where samples may lie in a pixel, in subpixels, and how that is said.
+const SAMPLES: [([i32; 2], &str); 4] = [
+    ([128, 128], "samples at centres"),
+    ([0, 0], "samples at upper left corners"),
+    ([128, 0], "samples in the middle of upper sides"),
+    ([0, 128], "samples in the middle of left sides"),
+];
+
+/// A convention that mistakes are combined with.
+struct Base {
+    convention: Convention,
+    /// Where its samples lie, and its rule: what is said of it. Nothing of the declared one.
+    said: Option<[String; 2]>,
+    /// Whether it is the first with its place of the sample.
+    is_first: bool,
+}
+
+impl Base {
+    /// Whether a mistake needs it: one with a rule of its own needs each place once, another one may need none.
+    fn serves(&self, draws: Fill) -> bool {
+        match draws {
+            Fill::Own(_) => self.said.is_none(),
+            Fill::Sampled(_) => self.is_first,
+            _ => true,
+        }
+    }
+
+    fn words(&self, draws: Fill) -> String {
+        match (&self.said, draws) {
+            (Some([place, _]), Fill::Sampled(_)) => format!(" (apart from that it {place})"),
+            (Some([place, rule]), _) => format!(" (apart from that it {place}{rule})"),
+            (None, _) => String::new(),
+        }
+    }
+}
+
+/// What is declared, what was found, and the rules with a name for several places of the sample.
+fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
+    let mut bases = vec![Base { convention: *declared, said: None, is_first: true }];
+    let mut add = |convention: Convention, said: [String; 2]| {
+        if bases.iter().all(|base| base.convention != convention) {
+            let is_first = bases.iter().all(|base| base.convention.shape != convention.shape);
+            bases.push(Base { convention, said: Some(said), is_first });
+        }
+    };
+    for ([x, y], place) in SAMPLES {
+        for rule in triangles::RULES {
+            let shape = Shape::Point { x, y };
+            let Some(ties) = Ties::named(rule) else { continue };
+            let said = [place.to_owned(), format!(" and follows the {rule} rule")];
+            add(Convention { shape, ties, ..*declared }, said);
+        }
+    }
+    if let Some(found) = found {
+        add(*found, [found.words(), String::new()]);
+    }
+    bases
+}
+
+/// Limits of size between what is drawn and what is not.
+fn limits(answered: &[(Question, Mask, Mask)]) -> Vec<i64> {
+    let mut limits = Vec::new();
+    for metric in 0..3 {
+        let sizes = |lost: bool| {
+            answered
+                .iter()
+                .filter(move |(_, drawn, right)| drawn.is_empty() == lost && !right.is_empty())
+                .map(move |(question, ..)| fills::metric(&question.corners, metric))
+        };
+        // Below: all that is lost is smaller than all that is drawn. Above: the other way.
+        if let (Some(lost), Some(drawn)) =
+            (sizes(true).max(), sizes(false).filter(|size| Some(*size) > sizes(true).max()).min())
+        {
+            limits.push(triangles::packed_size(metric, true, lost + (drawn - lost).max(1) / 2 + 1));
+        }
+        if let Some(lost) = sizes(true).min() {
+            limits.push(triangles::packed_size(metric, false, lost));
+        }
+    }
+    limits
+}
+
+/// The names, sentences and repairs of all mistakes, with an example of the parameter: triangles first.
+#[must_use]
+pub fn table() -> Vec<[String; 5]> {
+    fn row<D>(mistake: &Mistake<D>) -> [String; 5] {
+        let p = match mistake.parameters {
+            Parameters::Fixed(parameters) => parameters[0],
+            Parameters::Sizes => triangles::packed_size(0, true, 131_072),
+        };
+        [
+            mistake.name.to_owned(),
+            (mistake.sentence)(p),
+            mistake.repair.to_owned(),
+            mistake.page.to_owned(),
+            mistake.refuted.to_owned(),
+        ]
+    }
+    triangles::TABLE.iter().map(row).chain(lines::TABLE.iter().map(row)).collect()
+}

@@ -1,0 +1,658 @@
+//! The table of mistakes in filling triangles. To add one, add an entry: everything else follows from it.
+
+use super::fills::{self, Row, Slope};
+use super::{Mistake, Parameters};
+use crate::convention::{Convention, Mask, Ties};
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+
+/// What a mistake does, given its parameter.
+#[derive(Clone, Copy)]
+pub(super) enum Fill {
+    /// These triangles are filled in place of the given one.
+    Instead(fn(&Corners, PixelRect, i64) -> Vec<Corners>),
+    /// The right picture is changed.
+    Changed(fn(&mut Mask, &Corners, PixelRect, i64)),
+    /// The whole picture, from the place of the sample; the rule for ties is its own.
+    Sampled(fn(&Corners, PixelRect, &Convention, i64) -> Mask),
+    /// The whole picture, from the place of the sample and the rule for ties.
+    Ruled(fn(&Corners, PixelRect, &Convention, i64) -> Mask),
+    /// The whole picture, by a rule of its own.
+    Own(fn(&Corners, PixelRect, i64) -> Mask),
+}
+
+/// Everything known, the simplest first.
+pub(super) const TABLE: &[Mistake<Fill>] = &[
+    Mistake {
+        name: "rule by winding",
+        sentence: |p| {
+            let (clockwise, other) = pair(p);
+            format!(
+                "follows the {} rule for clockwise triangles and the {} rule for the others",
+                RULES[clockwise], RULES[other]
+            )
+        },
+        repair: "bring the corners into one winding before the fill rule is applied",
+        page: "ch02-edge-functions",
+        refuted: "a triangle and its reverse that draw the same samples on their edges",
+        parameters: Parameters::Fixed(&PAIRS),
+        draws: Fill::Sampled(|corners, window, base, p| {
+            let (clockwise, other) = pair(p);
+            let rule = if fills::turn(corners) > 0 { clockwise } else { other };
+            base.with_rule(RULES[rule]).mask(corners, window).unwrap_or_default()
+        }),
+    },
+    Mistake {
+        name: "rule by order",
+        sentence: |p| {
+            let edges = [
+                "from the first corner to the second",
+                "from the second to the third",
+                "from the third to the first",
+            ];
+            let drawn: Vec<_> = (0..3).filter(|i| p >> i & 1 == 1).map(|i| edges[i]).collect();
+            format!("draws samples on the edge {} and on no other", drawn.join(" and "))
+        },
+        repair: "let the direction of an edge decide, and not its place in the list",
+        page: "ch02-edge-functions",
+        refuted: "a triangle whose corners are rotated and that draws the same samples",
+        parameters: Parameters::Fixed(&[1, 2, 3, 4, 5, 6]),
+        draws: Fill::Sampled(|corners, window, base, p| {
+            fills::by_edges(corners, window, base, |edge, value, _| {
+                value > 0 || (value == 0 && p >> edge & 1 == 1)
+            })
+        }),
+    },
+    Mistake {
+        name: "rule after the shift",
+        sentence: |p| {
+            let (how, bits) = (p / 100, p % 100);
+            let cut = if how % 2 == 0 { "shifted down" } else { "divided" };
+            match how {
+                0 | 1 => format!(
+                    "subtracts 1 for the fill rule after the edge function was {cut} by {bits} bits, so that edges without the rule lose more than their ties"
+                ),
+                2 => format!(
+                    "asks for more than 0 after the edge function was {cut} by {bits} bits, so that a strip along every edge is lost"
+                ),
+                _ => format!(
+                    "compares the edge function after it was {cut} by {bits} bits, so that a strip outside every edge is drawn"
+                ),
+            }
+        },
+        repair: "apply the fill rule to the edge function before its bits are shifted out",
+        page: "ch02-edge-functions",
+        refuted: "a sample closer to an edge than the bits that are shifted out, and drawn rightly",
+        parameters: Parameters::Fixed(&[
+            4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 104, 106, 108, 110, 112, 116, 204, 206, 208, 210,
+            212, 216, 304, 306, 308, 310, 312, 316,
+        ]),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            let (how, bits) = (p / 100, p % 100);
+            fills::by_edges(corners, window, base, |_, value, owns| {
+                let cut = if how % 2 == 0 { value >> bits } else { value / (1 << bits) };
+                match how {
+                    0 | 1 => cut - i128::from(!owns) >= 0,
+                    2 => cut > 0,
+                    _ => cut >= 0,
+                }
+            })
+        }),
+    },
+    Mistake {
+        name: "rule by a wide bias",
+        sentence: |p| {
+            format!(
+                "subtracts {} units of 1/65536 square pixels for the fill rule where 1 is right, so that samples near an edge are lost",
+                1_i64 << p
+            )
+        },
+        repair: "subtract the smallest step of the edge function",
+        page: "ch02-edge-functions",
+        refuted: "a sample inside, closer to an edge without the rule, that is drawn",
+        parameters: Parameters::Fixed(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            fills::by_edges(corners, window, base, |_, value, owns| {
+                value - if owns { 0 } else { 1 << p } >= 0
+            })
+        }),
+    },
+    Mistake {
+        name: "an edge is not tested",
+        sentence: |p| {
+            format!(
+                "does not test the edge {}",
+                [
+                    "from the first corner to the second",
+                    "from the second corner to the third",
+                    "from the third corner to the first"
+                ][p as usize]
+            )
+        },
+        repair: "test all three edges",
+        page: "ch02-edge-functions",
+        refuted: "a sample beyond that edge alone that is not drawn",
+        parameters: Parameters::Fixed(&[0, 1, 2]),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            fills::by_edges(corners, window, base, |edge, value, owns| {
+                edge as i64 == p || value > 0 || (value == 0 && owns)
+            })
+        }),
+    },
+    Mistake {
+        name: "product overflows",
+        sentence: |p| {
+            let (fraction, bits) = (p / 100, p % 100);
+            let from = 1_i64 << ((bits - 1) / 2 - fraction).max(0);
+            format!(
+                "computes the edge function of coordinates with {fraction} bits of fraction in {bits} bits: the products wrap around from about {from} px on"
+            )
+        },
+        repair: "multiply in words of twice the length, or limit the coordinates",
+        page: "stability",
+        refuted: "a triangle whose products do not fit and that is drawn rightly",
+        parameters: Parameters::Fixed(&[832, 432, 32, 16, 416, 632]),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            fills::wrapping(corners, window, base, p / 100, p % 100)
+        }),
+    },
+    Mistake {
+        name: "coordinates overflow",
+        sentence: |p| {
+            let (how, fraction, bits) = (p / 10_000, p / 100 % 100, p % 100);
+            let most = 1_i64 << (bits - 1 - fraction);
+            let what = if how == 0 { "wrap around" } else { "are clamped" };
+            format!(
+                "keeps coordinates with {fraction} bits of fraction in {bits} bits: corners beyond {most} px {what}"
+            )
+        },
+        repair: "clip to a guard band that the word holds, or use a longer word",
+        page: "stability",
+        refuted: "a triangle with such a corner that is drawn rightly",
+        parameters: Parameters::Fixed(&[
+            16, 416, 616, 816, 10_016, 10_416, 10_616, 10_816, 1632, 11_632,
+        ]),
+        draws: Fill::Instead(|corners, _, p| {
+            vec![fills::in_words(corners, p / 10_000 == 1, p / 100 % 100, p % 100)]
+        }),
+    },
+    Mistake {
+        name: "each axis on a grid of its own",
+        sentence: |p| {
+            let (axis, step, rounding) = (p % 2, STEPS[(p / 2 % 4) as usize], p / 8);
+            let grid = if step == 256 {
+                "whole pixels".to_owned()
+            } else {
+                format!("1/{} px", 256 / step)
+            };
+            let [moved, kept] = if axis == 0 { ["x", "y"] } else { ["y", "x"] };
+            let how = ["down", "to the nearest", "toward zero"][rounding as usize];
+            format!(
+                "moves {moved} of the corners to {grid} ({how}) and keeps the fraction of {kept}, so that slopes change"
+            )
+        },
+        repair: "snap both coordinates to the same grid, once, for every triangle",
+        page: "ch01",
+        refuted: "a corner with such a fraction whose edges pass where they should",
+        parameters: Parameters::Fixed(&[
+            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
+        ]),
+        draws: Fill::Instead(|corners, _, p| {
+            let (step, rounding) = (STEPS[(p / 2 % 4) as usize], p / 8);
+            let cut = |v: i32| match rounding {
+                0 => v.div_euclid(step) * step,
+                1 => v.saturating_add(step / 2).div_euclid(step) * step,
+                _ => v / step * step,
+            };
+            let to = |c: SubpixelPoint| {
+                if p % 2 == 0 {
+                    SubpixelPoint::new(cut(c.x), c.y)
+                } else {
+                    SubpixelPoint::new(c.x, cut(c.y))
+                }
+            };
+            vec![corners.map_array(to)]
+        }),
+    },
+    Mistake {
+        name: "corners are clamped to the window",
+        sentence: |p| {
+            let where_ = [
+                "the window",
+                "the last pixels of the window",
+                "the upper and left border",
+                "the lower and right border",
+            ];
+            format!(
+                "moves corners that lie outside to {}, so that the slopes of edges change",
+                where_[p as usize]
+            )
+        },
+        repair: "clip the edges, or draw the box of the triangle within the window by unchanged edges",
+        page: "ch07",
+        refuted: "a triangle with a corner outside whose edges keep their slope",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3]),
+        draws: Fill::Instead(|corners, window, p| {
+            let clamp = |v: i32, side_px: i32| match p {
+                0 => v.clamp(0, side_px * SUBPIXELS),
+                1 => v.clamp(0, (side_px - 1) * SUBPIXELS),
+                2 => v.max(0),
+                _ => v.min(side_px * SUBPIXELS),
+            };
+            vec![
+                corners.map_array(|c| {
+                    SubpixelPoint::new(clamp(c.x, window.x1), clamp(c.y, window.y1))
+                }),
+            ]
+        }),
+    },
+    Mistake {
+        name: "corners made by clipping are rounded",
+        sentence: |p| {
+            let (step, how) = (
+                CLIP_STEPS[(p % 4) as usize],
+                [
+                    "cut toward the corner where the walk began",
+                    "rounded to the nearest",
+                    "cut down",
+                ][(p / 4) as usize],
+            );
+            let grid = if step == 256 {
+                "whole pixels".to_owned()
+            } else {
+                format!("1/{} px", 256 / step)
+            };
+            format!(
+                "clips triangles at the window and the corners that this makes are {how}, to {grid}: shared edges that cross the border leave holes and doubles"
+            )
+        },
+        repair: "keep the unclipped edges for the fill, or compute new corners in the same order for both neighbours and with more bits",
+        page: "ch07",
+        refuted: "a triangle that crosses the border at a point between those of the grid and is drawn rightly",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]),
+        draws: Fill::Instead(|corners, window, p| {
+            fills::clipped(corners, window, CLIP_STEPS[(p % 4) as usize], p / 4)
+        }),
+    },
+    Mistake {
+        name: "split at a rounded corner",
+        sentence: |p| {
+            let step = STEPS_WITH_ONE[(p % 5) as usize];
+            let how = if p / 5 == 0 { "rounded to the nearest" } else { "cut down" };
+            format!(
+                "splits at the height of the middle corner, at a point that is {how} to 1/{} px, so that the long edge has a kink",
+                256 / step
+            )
+        },
+        repair: "walk both halves along the unsplit long edge",
+        page: "ch02-scanline",
+        refuted: "a triangle whose long edge passes between two points of that grid and is drawn rightly",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
+        draws: Fill::Instead(|corners, _, p| {
+            fills::split(corners, STEPS_WITH_ONE[(p % 5) as usize], p / 5 == 1)
+        }),
+    },
+    Mistake {
+        name: "triangles are left out by size",
+        sentence: |p| {
+            let (metric, below, limit) = size(p);
+            let (what, unit) = [("area", "square px"), ("width", "px"), ("height", "px")][metric];
+            let limit = fills::decimal(limit, if metric == 0 { 131_072 } else { 256 });
+            format!(
+                "does not draw triangles whose {what} is {} about {limit} {unit}",
+                if below { "below" } else { "at least" }
+            )
+        },
+        repair: "remove the test, or leave out only what covers no sample",
+        page: "effects",
+        refuted: "a triangle beyond that size that is drawn",
+        parameters: Parameters::Sizes,
+        draws: Fill::Changed(|mask, corners, _, p| {
+            let (metric, below, limit) = size(p);
+            if (fills::metric(corners, metric) < limit) == below {
+                *mask = Mask::default();
+            }
+        }),
+    },
+    Mistake {
+        name: "triangles are left out by kind",
+        sentence: |p| format!("does not draw triangles {}", KINDS[p as usize].0),
+        repair: "treat this kind as any other: it covers samples",
+        page: "ch02",
+        refuted: "a triangle of that kind that is drawn",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8]),
+        draws: Fill::Changed(|mask, corners, window, p| {
+            if KINDS[p as usize].1(corners, window) {
+                *mask = Mask::default();
+            }
+        }),
+    },
+    Mistake {
+        name: "a half is missing",
+        sentence: |p| {
+            format!(
+                "draws the {} half alone, of the two that the middle corner makes",
+                ["upper", "lower"][p as usize]
+            )
+        },
+        repair: "fill both halves",
+        page: "ch02-scanline",
+        refuted: "a pixel of the other half that is drawn",
+        parameters: Parameters::Fixed(&[0, 1]),
+        draws: Fill::Changed(|mask, corners, window, p| {
+            let mut ys = corners.map_array(|c| c.y);
+            ys.sort_unstable();
+            let middle = i64::from(ys[1]);
+            mask.retain(window, |_, y| (i64::from(y) * 256 + 128 < middle) == (p == 0));
+        }),
+    },
+    Mistake {
+        name: "ends of rows or columns",
+        sentence: |p| format!("{}", ENDS[p as usize]),
+        repair: "compare the bounds of the loop with the fill rule: one of them is one off",
+        page: "ch02-scanline",
+        refuted: "a row or column with both of its ends right",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
+        draws: Fill::Changed(fills::ends),
+    },
+    Mistake {
+        name: "the border of the window",
+        sentence: |p| {
+            format!(
+                "never draws the {} of the window",
+                ["first row", "last row", "first column", "last column"][p as usize]
+            )
+        },
+        repair: "the window ends after its last pixel: compare with the width and the height, not with one less",
+        page: "ch11",
+        refuted: "a pixel of it that is drawn",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3]),
+        draws: Fill::Changed(|mask, _, window, p| {
+            mask.retain(window, |x, y| match p {
+                0 => y > 0,
+                1 => y < window.y1 - 1,
+                2 => x > 0,
+                _ => x < window.x1 - 1,
+            });
+        }),
+    },
+    Mistake {
+        name: "the box is too small",
+        sentence: |p| {
+            let axes = ["both axes", "x", "y"][(p % 3) as usize];
+            format!(
+                "looks for pixels in a box that is too small in {axes}: {}",
+                BOXES[(p / 3) as usize].0
+            )
+        },
+        repair: "the box runs from the floor of the smallest coordinate to the ceiling of the largest one",
+        page: "games101",
+        refuted: "a covered pixel outside that box that is drawn",
+        parameters: Parameters::Fixed(&[
+            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17,
+        ]),
+        draws: Fill::Changed(|mask, corners, window, p| {
+            let of = BOXES[(p / 3) as usize].1;
+            let bounds = |axis: usize| {
+                let v = corners.map_array(|c| i64::from([c.x, c.y][axis]));
+                of(v.into_iter().min().unwrap_or(0), v.into_iter().max().unwrap_or(0))
+            };
+            let ([x0, x1], [y0, y1]) = (bounds(0), bounds(1));
+            let axis = p % 3;
+            mask.retain(window, |x, y| {
+                let (x, y) = (i64::from(x), i64::from(y));
+                (axis == 2 || (x0..x1).contains(&x)) && (axis == 1 || (y0..y1).contains(&y))
+            });
+        }),
+    },
+    Mistake {
+        name: "tiles are skipped",
+        sentence: |p| {
+            let side = p % 100;
+            let tested = [
+                "of whose corner pixels none is covered",
+                "whose middle is not covered",
+                "whose first pixel is not covered",
+            ][(p / 100) as usize];
+            format!("skips tiles of {side} x {side} px {tested}")
+        },
+        repair: "reject a tile only where one edge has the whole tile outside",
+        page: "tiles",
+        refuted: "a covered pixel in such a tile that is drawn",
+        parameters: Parameters::Fixed(&[2, 4, 8, 16, 102, 104, 108, 116, 202, 204, 208, 216]),
+        draws: Fill::Changed(fills::tiles),
+    },
+    Mistake {
+        name: "parts of the window are never drawn",
+        sentence: |p| {
+            let (axis, every, rest) = (p / 10_000, p / 100 % 100, p % 100);
+            format!(
+                "never draws every {every}{} {} of the window (number {rest} from 0)",
+                suffix(every),
+                ["row", "column"][axis as usize]
+            )
+        },
+        repair: "look at the last iteration of the loop over groups of rows or columns",
+        page: "tiles",
+        refuted: "a pixel there that is drawn",
+        parameters: Parameters::Fixed(&GROUPS),
+        draws: Fill::Changed(|mask, _, window, p| {
+            let (axis, every, rest) = (p / 10_000, p / 100 % 100, p % 100);
+            mask.retain(window, |x, y| i64::from(if axis == 0 { y } else { x }) % every != rest);
+        }),
+    },
+    Mistake {
+        name: "rounding of floats",
+        sentence: |p| {
+            let (formula, precision) = (p / 2, ["32", "64"][(p % 2) as usize]);
+            format!(
+                "computes in floats of {precision} bits {}: rounding decides about samples on and near edges",
+                fills::FORMULAS[formula as usize]
+            )
+        },
+        repair: "snap the corners to a grid and compute the edge functions in integers",
+        page: "stability",
+        refuted: "a sample on an edge that this formula rounds away and that is drawn rightly",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            fills::float(corners, window, base, (p / 2) as usize, p % 2 == 0)
+        }),
+    },
+    Mistake {
+        name: "crossings are stepped",
+        sentence: |p| {
+            let (slope, late, row) = stepped(p);
+            format!(
+                "adds the slope of an edge row by row {}{}, and {}",
+                slope.about(),
+                if late { ", beginning at the corner and not at the first row" } else { "" },
+                row.about()
+            )
+        },
+        repair: "compute each crossing from the corner, or keep the remainder of the division as Bresenham's algorithm does",
+        page: "ch02-scanline",
+        refuted: "a long edge whose last rows are where they should be",
+        parameters: Parameters::Fixed(&STEPPED),
+        draws: Fill::Own(|corners, window, p| {
+            let (slope, late, row) = stepped(p);
+            fills::stepped(corners, window, slope, late, row)
+        }),
+    },
+    Mistake {
+        name: "whole pixels by integer divisions",
+        sentence: |p| {
+            let mut words = format!(
+                "cuts corners to whole pixels ({}), divides {} for each row, and draws both ends of it: the loop of many libraries for small displays",
+                if p & 1 == 0 { "down" } else { "to the nearest" },
+                if p & 2 == 0 { "toward zero" } else { "down" }
+            );
+            if p & 4 != 0 {
+                words += "; the products wrap around in 16 bits";
+            }
+            words += [
+                "",
+                "; a flat top is filled from row 0 of the window on",
+                "; the last row is missing",
+                "; the right end is not drawn",
+            ][(p >> 3) as usize];
+            words
+        },
+        repair: "neighbours draw the pixels of a shared edge twice: keep the fraction of the corners and follow a fill rule",
+        page: "ch02-scanline",
+        refuted: "a corner whose fraction moves an edge",
+        parameters: Parameters::Fixed(&[
+            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
+            24, 25, 26, 27, 28, 29, 30, 31,
+        ]),
+        draws: Fill::Own(fills::whole_pixels),
+    },
+    Mistake {
+        name: "the whole box is filled",
+        sentence: |p| {
+            [
+                "fills the box of the corners".to_owned(),
+                "draws the border alone and fills nothing".to_owned(),
+            ][p as usize]
+                .clone()
+        },
+        repair: "test every sample against the three edges",
+        page: "ch02-edge-functions",
+        refuted: "a corner of the box that is not drawn",
+        parameters: Parameters::Fixed(&[0, 1]),
+        draws: Fill::Changed(|mask, corners, window, p| {
+            if p == 1 {
+                let full = *mask;
+                let inner = |x: i32, y: i32| {
+                    [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().all(|(dx, dy)| {
+                        !window.contains(x + dx, y + dy) || full.has(x + dx, y + dy)
+                    })
+                };
+                mask.retain(window, |x, y| !inner(x, y));
+                return;
+            }
+            let ends =
+                |v: [i32; 3]| (v.into_iter().min().unwrap_or(0), v.into_iter().max().unwrap_or(0));
+            let ((x0, x1), (y0, y1)) =
+                (ends(corners.map_array(|c| c.x)), ends(corners.map_array(|c| c.y)));
+            for y in window.y0..window.y1 {
+                for x in window.x0..window.x1 {
+                    let (sx, sy) = (x * 256 + 128, y * 256 + 128);
+                    if (x0..x1).contains(&sx) && (y0..y1).contains(&sy) {
+                        mask.set(x, y);
+                    }
+                }
+            }
+        }),
+    },
+];
+
+/// The rules that mistakes are looked for with.
+pub(super) const RULES: [&str; 6] =
+    ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
+const PAIRS: [i64; 30] = {
+    let mut pairs = [0; 30];
+    let (mut i, mut n) = (0, 0);
+    while i < 36 {
+        if i / 6 != i % 6 {
+            pairs[n] = i;
+            n += 1;
+        }
+        i += 1;
+    }
+    pairs
+};
+
+fn pair(p: i64) -> (usize, usize) {
+    ((p / 6) as usize, (p % 6) as usize)
+}
+
+const STEPS: [i32; 4] = [256, 128, 64, 16];
+const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
+const CLIP_STEPS: [i64; 4] = [256, 64, 16, 4];
+
+/// A metric of the size, whether what lies below it is left out, and the limit: packed in a number.
+pub(super) fn packed_size(metric: usize, below: bool, limit: i64) -> i64 {
+    (limit * 3 + metric as i64) * 2 + i64::from(below)
+}
+
+fn size(p: i64) -> (usize, bool, i64) {
+    ((p / 2 % 3) as usize, p % 2 == 1, p / 6)
+}
+
+type IsKind = fn(&Corners, PixelRect) -> bool;
+const KINDS: [(&str, IsKind); 9] = [
+    ("with a level upper edge", |c, _| fills::flat(c) == Some(true)),
+    ("with a level lower edge", |c, _| fills::flat(c) == Some(false)),
+    ("with an upright edge", |[a, b, c], _| a.x == b.x || b.x == c.x || c.x == a.x),
+    ("whose middle corner lies right of the long edge", |c, _| fills::middle_side(c) > 0),
+    ("whose middle corner lies left of the long edge", |c, _| fills::middle_side(c) < 0),
+    ("with any corner outside the window", |c, w| c.iter().any(|p| !fills::holds(w, *p))),
+    ("with all corners outside the window", |c, w| c.iter().all(|p| !fills::holds(w, *p))),
+    ("whose first corner lies outside the window", |c, w| !fills::holds(w, c[0])),
+    ("with a negative coordinate", |c, _| c.iter().any(|p| p.x < 0 || p.y < 0)),
+];
+
+const ENDS: [&str; 10] = [
+    "loses the first row of every triangle",
+    "loses the last row of every triangle",
+    "loses the first pixel of every row",
+    "loses the last pixel of every row",
+    "loses the first column of every triangle",
+    "loses the last column of every triangle",
+    "draws a pixel too many at the right end of every row",
+    "draws a pixel too many at the left end of every row",
+    "draws the last row once more, one row lower",
+    "draws the first row once more, one row higher",
+];
+
+type Bounds = fn(i64, i64) -> [i64; 2];
+const BOXES: [(&str, Bounds); 6] = [
+    ("the pixel that holds the largest coordinate is left out", |low, high| {
+        [low.div_euclid(256), high.div_euclid(256)]
+    }),
+    ("the pixel that holds the smallest coordinate is left out", |low, high| {
+        [low.div_euclid(256) + 1, high.div_euclid(256) + 1]
+    }),
+    ("its ends are rounded, and the last pixel is left out", |low, high| {
+        [(low + 128).div_euclid(256), (high + 128).div_euclid(256) - 1]
+    }),
+    ("both ends are cut down, and the last pixel and the first are left out", |low, high| {
+        [low.div_euclid(256) + 1, high.div_euclid(256)]
+    }),
+    (
+        "the ceiling of the largest coordinate counts as the last pixel and is left out once more",
+        |low, high| [low.div_euclid(256), (high + 255).div_euclid(256) - 1],
+    ),
+    ("the smallest coordinate is rounded up", |low, high| {
+        [(low + 255).div_euclid(256), high.div_euclid(256) + 1]
+    }),
+];
+
+/// Every 4th, 8th and 16th row or column, the first or the last of them.
+const GROUPS: [i64; 16] = [
+    200, 201, 10_200, 10_201, 400, 403, 10_400, 10_403, 800, 807, 10_800, 10_807, 1600, 1615,
+    11_600, 11_615,
+];
+
+fn suffix(number: i64) -> &'static str {
+    match number {
+        2 => "nd",
+        _ => "th",
+    }
+}
+
+const STEPPED: [i64; 24] =
+    [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23];
+
+fn stepped(p: i64) -> (Slope, bool, Row) {
+    let slope = Slope::ALL[(p % 6) as usize];
+    (slope, p / 6 % 2 == 1, Row::ALL[(p / 12) as usize])
+}
+
+impl Convention {
+    /// The same with a rule for ties that has a name.
+    fn with_rule(&self, rule: &str) -> Self {
+        Self { ties: Ties::named(rule).unwrap_or(self.ties), ..*self }
+    }
+}
