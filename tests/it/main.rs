@@ -30,6 +30,7 @@ mod league;
 mod live_figures;
 mod matrix;
 mod misbehave;
+mod mistakes;
 mod model_files;
 mod model_formats;
 mod models;

@@ -47,6 +47,12 @@ impl Inside {
         Self { entry: *entry, declared: entry.into() }
     }
 
+    /// The name of the entry.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.entry.name
+    }
+
     /// What the server writes for a question, read back.
     fn answer(&self, question: &Question) -> Answer {
         let mut line = Vec::new();

@@ -29,6 +29,7 @@ pub mod recognise;
 pub mod run;
 pub mod server;
 pub mod shrink;
+mod stages;
 pub mod text;
 pub mod verdict;
 pub mod windings;
@@ -118,8 +119,7 @@ pub fn judge(
     let failures = failures::failures(first, &found, options, &truth);
     let start = Instant::now();
     let goes_on = || start.elapsed() < options.patience;
-    let unexplained = [false, true].map(|lines| found.is_unexplained(lines));
-    let causes = recognise::mistakes(first, unexplained, found_before.as_ref(), &goes_on);
+    let causes = recognise::mistakes(first, &found, &truth, found_before.as_ref(), &goes_on);
     found.strays.extend(first.strays());
     let mut verdict =
         Verdict::new(declared, options, windings, recognised, found, failures, first.complaints());

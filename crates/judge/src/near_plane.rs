@@ -70,7 +70,7 @@ pub(super) fn compare(
 
 /// Whether both are the same corners on one way round: from a pair that is near, each step goes to
 /// the next corner of one or of both, every pair is near, and the way ends where it began.
-fn is_round(exact: usize, answer: usize, near: impl Fn(usize, usize) -> bool) -> bool {
+pub(super) fn is_round(exact: usize, answer: usize, near: impl Fn(usize, usize) -> bool) -> bool {
     if exact == 0 || answer == 0 {
         return exact == answer;
     }

@@ -14,7 +14,8 @@ use super::declared::Declared;
 use super::expected::Expect;
 use super::in_process::Inside;
 use super::leaving;
-use super::run::MOST_DEATHS;
+use super::run::{self, MOST_DEATHS};
+use super::stages;
 use super::text::px;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
@@ -186,43 +187,57 @@ fn known(declared: &Declared) -> Known {
     }
 }
 
-/// Why a program is wrong, for triangles and for lines, where it is; asked as long as `goes_on`.
+/// Why a program is wrong in each kind of check, where no convention explains it; asked as long as `goes_on`.
 pub fn mistakes(
     program: &mut dyn Ask,
-    [triangles, lines]: [bool; 2],
-    found: Option<&Recognised>,
+    found: &run::Found,
+    truth: &Truth,
+    recognised: Option<&Recognised>,
     goes_on: &dyn Fn() -> bool,
 ) -> Vec<Why> {
-    let declared = program.declared().clone();
-    let known = known(&declared);
-    let mut bench = Bench { program, deaths_left: MOST_DEATHS };
+    let known = known(&truth.declared);
     let mut all = Vec::new();
-    if triangles {
-        let found = found.and_then(|found| found.triangles.as_ref());
-        let why =
-            mistakes::of_triangles(&mut bench, &known, found, &programs(of_triangle), goes_on);
-        all.extend(why.map(|why| Why { lines: false, why }));
-    }
-    if lines {
-        let found = found.and_then(|found| found.lines.as_ref());
-        let why = mistakes::of_lines(&mut bench, &known, found, &programs(of_line), goes_on);
-        all.extend(why.map(|why| Why { lines: true, why }));
+    for check in found.unexplained() {
+        let mut bench = Bench { program: &mut *program, deaths_left: MOST_DEATHS };
+        let (of, why) = match check {
+            Check::Coverage => {
+                let found = recognised.and_then(|found| found.triangles.as_ref());
+                let programs = programs(of_triangle);
+                ("triangles", mistakes::of_triangles(&mut bench, &known, found, &programs, goes_on))
+            }
+            Check::Line => {
+                let found = recognised.and_then(|found| found.lines.as_ref());
+                let programs = programs(of_line);
+                ("lines", mistakes::of_lines(&mut bench, &known, found, &programs, goes_on))
+            }
+            check => {
+                let of = match check {
+                    Check::Values => "values",
+                    Check::Samples => "samples",
+                    Check::Depth => "depths",
+                    _ => "near plane",
+                };
+                let programs: Vec<_> =
+                    entries().map(|(entry, _)| RefCell::new(Inside::new(&entry))).collect();
+                (of, stages::mistakes(program, check, truth, &programs, goes_on))
+            }
+        };
+        all.extend(why.map(|why| Why { of, why }));
     }
     all
 }
 
-/// The mistakes of a program in filling triangles, or in drawing lines.
+/// The mistakes of a program in one kind of check.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Why {
-    pub lines: bool,
+    /// What is wrong: triangles, lines, values, samples, depths, or the near plane.
+    pub of: &'static str,
     #[serde(flatten)]
     pub why: Mistakes,
 }
 
-/// The planted faults and the published algorithms, as programs whose answers are known.
-fn programs<'a, Q: 'a, A: 'a>(
-    of: impl Fn(&Q, &mut Inside) -> Option<A> + Copy + 'a,
-) -> Vec<Program<'a, Q, A>> {
+/// The planted faults and the published algorithms, each with what is wrong with it.
+fn entries() -> impl Iterator<Item = (Entry, String)> {
     let planted = TriangleMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
     let planted_lines = LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
     let planted = planted.into_iter().chain(planted_lines).filter_map(|(name, about)| {
@@ -232,12 +247,19 @@ fn programs<'a, Q: 'a, A: 'a>(
         let about = entry.about.trim_start_matches("specimen: ");
         (*entry, format!("draws as the published algorithm {}: {about}", entry.name))
     });
+    planted.chain(published)
+}
+
+/// The same as programs whose answers are known.
+fn programs<'a, Q: 'a, A: 'a>(
+    of: impl Fn(&Q, &mut Inside) -> Option<A> + Copy + 'a,
+) -> Vec<Program<'a, Q, A>> {
     let program = |(entry, about): (Entry, String)| {
         let inside = RefCell::new(Inside::new(&entry));
         let draw = move |question: &Q| of(question, &mut inside.borrow_mut());
         Program { name: entry.name, about, draw: Box::new(draw) }
     };
-    planted.chain(published).map(program).collect()
+    entries().map(program).collect()
 }
 
 fn of_triangle(question: &convention::Question, program: &mut Inside) -> Option<Coverage> {

@@ -139,19 +139,35 @@ impl Found {
         &mut self.rows[at]
     }
 
-    /// Whether pictures of triangles, or of lines, are wrong that no recognised convention explains.
+    /// What is wrong that no recognised convention explains, one check of each kind.
     #[must_use]
-    pub fn is_unexplained(&self, lines: bool) -> bool {
+    pub fn unexplained(&self) -> Vec<Check> {
         let families = adapt_case::families(&[]);
-        let is_asked = |row: &&Row| {
-            let family = families.iter().find(|family| family.name == row.name);
-            let is_picture = !["depth-order", "near-plane"].contains(&row.name);
-            is_picture && family.is_some_and(|family| adapt_case::is_lines(family) == lines)
+        let check = |row: &Row| match row.name {
+            "values" => Some(Check::Values),
+            "samples4" => Some(Check::Samples),
+            "depth-order" => Some(Check::Depth),
+            "near-plane" => Some(Check::Near),
+            name => families.iter().find(|family| family.name == name).map(|family| {
+                if adapt_case::is_lines(family) { Check::Line } else { Check::Coverage }
+            }),
         };
-        let explained = |row: &Row| {
+        let is_explained = |row: &Row| {
             row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0
         };
-        self.rows.iter().filter(is_asked).any(|row| row.tally.total() > 0 && !explained(row))
+        let is_wrong = |row: &Row, check: Check| match check {
+            Check::Values => row.worst > 1.0,
+            _ => row.tally.total() > 0 && !is_explained(row),
+        };
+        let mut checks = Vec::new();
+        for row in &self.rows {
+            if let Some(check) = check(row).filter(|check| is_wrong(row, *check)) {
+                if !checks.contains(&check) {
+                    checks.push(check);
+                }
+            }
+        }
+        checks
     }
 
     fn merge(&mut self, other: Self) {

@@ -153,10 +153,9 @@ fn scores(out: &mut String, verdict: &Verdict) {
 
 /// Why it is wrong, where that was looked for.
 fn causes(out: &mut String, verdict: &Verdict) {
-    for Why { lines, why } in &verdict.causes {
-        let about = if *lines { "lines" } else { "triangles" };
+    for Why { of, why } in &verdict.causes {
         let known = if why.is_known() { "probable cause" } else { "no cause recognised" };
-        let _ = writeln!(out, "{known}, of the wrong {about}:");
+        let _ = writeln!(out, "{known}, of the wrong {of}:");
         why.sentences().iter().for_each(|said| *out += &wrapped(&format!("  {said}"), "    "));
         out.push('\n');
     }

@@ -150,6 +150,14 @@ impl Convention {
     }
 }
 
+impl LineConvention {
+    /// What it does, after 'it'.
+    #[must_use]
+    pub fn words(&self) -> String {
+        line_convention(self)
+    }
+}
+
 impl Diagnosis {
     pub fn sentence(&self) -> String {
         match (self.asked, self.asked == self.refused) {

@@ -303,12 +303,14 @@ pub(super) const FORMULAS: [&str; 7] = [
     "the edge function with corners relative to the sample",
 ];
 
-/// One of `FORMULAS`, with a rounding to f32 after every operation or without.
+/// One of `FORMULAS`, with a rounding to f32 after every operation or without. Of corners that turn the other way, two are
+/// exchanged, or the sign of every value is.
 pub(super) fn float(
     corners: &Corners,
     window: PixelRect,
     base: &Convention,
     formula: usize,
+    exchanges: bool,
     single: bool,
 ) -> Mask {
     let r = |v: f64| if single { f64::from(v as f32) } else { v };
@@ -319,7 +321,8 @@ pub(super) fn float(
     let points = points(corners);
     let px = |p: Point| p.map_array(|v| r(v as f64 / 256.0));
     let mut ordered = points;
-    if turns < 0 {
+    let sign = if turns < 0 && !exchanges { -1.0 } else { 1.0 };
+    if turns < 0 && exchanges {
         ordered.swap(1, 2);
     }
     let edge = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
@@ -329,9 +332,12 @@ pub(super) fn float(
     let sides = [[0, 1], [1, 2], [2, 0]];
     let owns = sides.map_array(|[i, j]| {
         let [p, q] = [ordered[i], ordered[j]];
-        base.ties.edges[facing(p[1] - q[1], q[0] - p[0])]
+        let turned = sign as i64;
+        base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))]
     });
-    let passes = |value: f64, owns: bool| value > 0.0 || (value == 0.0 && owns);
+    // Weights that are divided by the area have its sign already.
+    let sign = if (3..6).contains(&formula) { 1.0 } else { sign };
+    let passes = |value: f64, owns: bool| sign * value > 0.0 || (value == 0.0 && owns);
     let [a, b, c] = corners;
     let area = edge(a, b, c);
     let at_sample = super::sample_of(base);

@@ -10,8 +10,8 @@ type Ends = [[i64; 2]; 2];
 /// What a mistake does, given its parameter. Pixels come from the first end to the second.
 #[derive(Clone, Copy)]
 pub(super) enum Stroke {
-    /// This line is drawn in place of the given one; none where nothing is drawn.
-    Instead(fn(Ends, PixelRect, i64) -> Option<Ends>),
+    /// These lines are drawn in place of the given one.
+    Instead(fn(Ends, PixelRect, i64) -> Vec<Ends>),
     /// Its own pixels, in the window and around it.
     Own(fn(Ends, PixelRect, i64) -> Vec<[i64; 2]>),
     /// The right picture is changed.
@@ -42,7 +42,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                 2 => v.max(0),
                 _ => v.min(side - 1),
             };
-            Some(ends.map_array(|[x, y]| [clamp(x, window.x1.into()), clamp(y, window.y1.into())]))
+            vec![ends.map_array(|[x, y]| [clamp(x, window.x1.into()), clamp(y, window.y1.into())])]
         }),
     },
     Mistake {
@@ -53,7 +53,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         refuted: "a line of that kind that is drawn",
         parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
         draws: Stroke::Instead(|ends, window, p| {
-            (!KINDS[p as usize].1(ends, window)).then_some(ends)
+            (!KINDS[p as usize].1(ends, window)).then_some(ends).into_iter().collect()
         }),
     },
     Mistake {
@@ -152,7 +152,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         parameters: Parameters::Fixed(&[8, 12, 16]),
         draws: Stroke::Instead(|ends, _, p| {
             let shift = 64 - p as u32;
-            Some(ends.map_array(|end| end.map_array(|v| v << shift >> shift)))
+            vec![ends.map_array(|end| end.map_array(|v| v << shift >> shift))]
         }),
     },
     Mistake {
@@ -187,22 +187,15 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         page: "ch03",
         refuted: "a step with one pixel",
         parameters: Parameters::Fixed(&[0, 1, 2, 3]),
-        draws: Stroke::Changed(|mask, ends, window, p| {
-            let steep = is_steep(ends);
+        draws: Stroke::Instead(|ends, _, p| {
+            let steep = i64::from(is_steep(ends));
             let [dx, dy] = match p {
                 0 => [1, 0],
                 1 => [0, 1],
-                2 => [i32::from(steep), i32::from(!steep)],
-                _ => [-i32::from(steep), -i32::from(!steep)],
+                2 => [steep, 1 - steep],
+                _ => [-steep, steep - 1],
             };
-            let full = *mask;
-            for y in window.y0..window.y1 {
-                for x in window.x0..window.x1 {
-                    if window.contains(x - dx, y - dy) && full.has(x - dx, y - dy) {
-                        mask.set(x, y);
-                    }
-                }
-            }
+            vec![ends, ends.map_array(|[x, y]| [x + dx, y + dy])]
         }),
     },
     Mistake {
@@ -240,12 +233,12 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         refuted: "a line of that direction that reaches its second end",
         parameters: Parameters::Fixed(&[0, 1, 2, 3]),
         draws: Stroke::Instead(|[[x0, y0], [x1, y1]], _, p| {
-            Some(match p {
+            vec![match p {
                 0 => [[x0, y0], [x1, y0 + (y1 - y0).abs()]],
                 1 => [[x0, y0], [x1, y0 - (y1 - y0).abs()]],
                 2 => [[x0, y0], [x0 + (x1 - x0).abs(), y1]],
                 _ => [[x0, y0], [x0 - (x1 - x0).abs(), y1]],
-            })
+            }]
         }),
     },
 ];

@@ -18,7 +18,7 @@ use std::fmt;
 
 use crate::convention::{
     Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
-    LineQuestion, Mask, Question, Shape, Ties, Windings,
+    LineQuestion, LineRounding, LineTie, Mask, Question, Shape, Ties, Windings,
 };
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
@@ -26,7 +26,9 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use triangles::Fill;
-use weigh::{Hypothesis, LEAST_WRONG, Said, Weight, weigh};
+use weigh::{LEAST_WRONG, weigh};
+
+pub use weigh::Hypothesis;
 
 /// An entry of a table.
 #[derive(Clone, Copy)]
@@ -65,6 +67,8 @@ pub struct Program<'a, Question, Picture> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Explanation {
+    /// The name of the mistake, of a planted fault, or of a published algorithm.
+    pub name: &'static str,
     /// What the program does, after 'it'.
     pub does: String,
     /// What repairs it.
@@ -80,9 +84,18 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    fn of((said, weight): (Said, Weight)) -> Self {
-        let Said { sentence, repair, page, refuted } = said;
-        Self { does: sentence, repair, page, refuted, wrong: weight.wrong, right: weight.right }
+    /// What is said before anything was counted.
+    #[must_use]
+    pub fn new(
+        name: &'static str,
+        does: String,
+        repair: &str,
+        page: &'static str,
+        refuted: &str,
+    ) -> Self {
+        let (repair, refuted) = (repair.to_owned(), refuted.to_owned());
+        let none = Count::default();
+        Self { name, does, repair, page, refuted, wrong: none, right: none }
     }
 }
 
@@ -199,7 +212,7 @@ pub fn of_triangles(
             }
         };
         for &p in parameters {
-            let said = said(mistake, p);
+            let says = says(mistake, p);
             for base in bases.iter().filter(|base| base.serves(mistake.draws)) {
                 let answered = &answered;
                 let predicts = move |i: usize| {
@@ -207,13 +220,9 @@ pub fn of_triangles(
                     let mask = fill(mistake.draws, p, &base.convention, corners, *window);
                     mask.is_none_or(|mask| mask == *drawn)
                 };
-                let mut said = said.clone();
-                said.sentence += &base.words(mistake.draws);
-                hypotheses.push(Hypothesis {
-                    predicts: Box::new(predicts),
-                    name: mistake.name,
-                    said,
-                });
+                let mut says = says.clone();
+                says.does += &base.words(mistake.draws);
+                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
             }
         }
     }
@@ -263,20 +272,33 @@ pub fn of_lines(
     }
     let is_wrong: Vec<bool> = answered.iter().map(|(_, drawn, right)| drawn != right).collect();
     let mut bases = vec![*expected];
-    bases.extend(found.into_iter().chain([&default]).filter(|base| *base != expected));
+    let ties =
+        LineTie::ALL.map(|tie| LineConvention { rounding: LineRounding::Nearest(tie), ..default });
+    for base in found.into_iter().chain(&ties) {
+        if !bases.contains(base) {
+            bases.push(*base);
+        }
+    }
     let mut hypotheses = Vec::new();
     for mistake in lines::TABLE {
         let Parameters::Fixed(parameters) = mistake.parameters else { continue };
+        // What has its own pixels needs no convention underneath.
+        let bases = if matches!(mistake.draws, Stroke::Own(_)) { &bases[..1] } else { &bases };
         for (&p, base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
             let answered = &answered;
             let predicts = move |i: usize| {
                 let (question, drawn, _) = &answered[i];
                 let (ends, window) = (wide(question.ends), question.window);
                 let mask = match mistake.draws {
-                    Stroke::Instead(other) => match other(ends, window, p) {
-                        Some(other) => lines::of_convention(base, other, window),
-                        None => Some(Mask::default()),
-                    },
+                    Stroke::Instead(others) => {
+                        let mut all = Some(Mask::default());
+                        for other in others(ends, window, p) {
+                            let mask = lines::of_convention(base, other, window);
+                            all.iter_mut().zip(&mask).for_each(|(all, mask)| all.add(mask));
+                            all = all.filter(|_| mask.is_some());
+                        }
+                        all
+                    }
                     Stroke::Own(pixels) => Some(lines::mask(&pixels(ends, window, p), window)),
                     Stroke::Changed(change) => {
                         lines::of_convention(base, ends, window).map(|mut mask| {
@@ -287,11 +309,11 @@ pub fn of_lines(
                 };
                 mask.is_none_or(|mask| mask == *drawn)
             };
-            hypotheses.push(Hypothesis {
-                predicts: Box::new(predicts),
-                name: mistake.name,
-                said: said(mistake, p),
-            });
+            let mut says = says(mistake, p);
+            if base != expected {
+                says.does += &format!(" (apart from that it {})", base.words());
+            }
+            hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
         }
     }
     for program in programs {
@@ -314,18 +336,20 @@ pub fn of_lines(
 
 impl<Question, Picture> Program<'_, Question, Picture> {
     fn hypothesis<'a>(&self, predicts: Box<dyn Fn(usize) -> bool + 'a>) -> Hypothesis<'a> {
-        let said = Said { sentence: self.about.clone(), page: "planted", ..Said::default() };
-        Hypothesis { predicts, name: self.name, said }
+        let says = Explanation::new(self.name, self.about.clone(), "", "planted", "");
+        Hypothesis { predicts, says }
     }
 }
 
-fn said<D>(mistake: &Mistake<D>, p: i64) -> Said {
-    Said {
-        sentence: (mistake.sentence)(p),
-        repair: mistake.repair.to_owned(),
-        page: mistake.page,
-        refuted: mistake.refuted.to_owned(),
-    }
+fn says<D>(mistake: &Mistake<D>, p: i64) -> Explanation {
+    let Mistake { name, sentence, repair, page, refuted, .. } = mistake;
+    Explanation::new(name, sentence(p), repair, page, refuted)
+}
+
+/// Weighs hypotheses about answers of any kind. `is_wrong` says of each answer whether it is; nothing where none is.
+#[must_use]
+pub fn of_answers(hypotheses: Vec<Hypothesis<'_>>, is_wrong: &[bool]) -> Option<Mistakes> {
+    conclude(hypotheses, is_wrong, &[])
 }
 
 fn conclude(
@@ -340,13 +364,13 @@ fn conclude(
     let (causes, lead) = weigh(hypotheses, is_wrong);
     let common = if causes.is_empty() { common::sentences(seen) } else { Vec::new() };
     // A lead that explains little leads nowhere.
-    let leads = |weight: &Weight| {
+    let leads = |weight: &Explanation| {
         2 * weight.wrong.drawn >= weight.wrong.of && 10 * weight.right.drawn >= 9 * weight.right.of
     };
-    let lead = lead.filter(|(_, weight)| leads(weight) && wrong >= LEAST_WRONG);
+    let lead = lead.filter(|lead| leads(lead) && wrong >= LEAST_WRONG);
     Some(Mistakes {
-        causes: causes.into_iter().map(Explanation::of).collect(),
-        lead: lead.map(Explanation::of),
+        causes,
+        lead,
         common,
         wrong: Count { drawn: wrong as u64, of: is_wrong.len() as u64 },
     })

@@ -101,24 +101,6 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         }),
     },
     Mistake {
-        name: "rule by a wide bias",
-        sentence: |p| {
-            format!(
-                "subtracts {} units of 1/65536 square pixels for the fill rule where 1 is right, so that samples near an edge are lost",
-                1_i64 << p
-            )
-        },
-        repair: "subtract the smallest step of the edge function",
-        page: "ch02-edge-functions",
-        refuted: "a sample inside, closer to an edge without the rule, that is drawn",
-        parameters: Parameters::Fixed(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]),
-        draws: Fill::Ruled(|corners, window, base, p| {
-            fills::by_edges(corners, window, base, |_, value, owns| {
-                value - if owns { 0 } else { 1 << p } >= 0
-            })
-        }),
-    },
-    Mistake {
         name: "an edge is not tested",
         sentence: |p| {
             format!(
@@ -445,7 +427,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "rounding of floats",
         sentence: |p| {
-            let (formula, precision) = (p / 2, ["32", "64"][(p % 2) as usize]);
+            let (formula, precision) = (p / 4, ["32", "64"][(p % 2) as usize]);
             format!(
                 "computes in floats of {precision} bits {}: rounding decides about samples on and near edges",
                 fills::FORMULAS[formula as usize]
@@ -454,9 +436,9 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "snap the corners to a grid and compute the edge functions in integers",
         page: "stability",
         refuted: "a sample on an edge that this formula rounds away and that is drawn rightly",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]),
+        parameters: Parameters::Fixed(&FLOATS),
         draws: Fill::Ruled(|corners, window, base, p| {
-            fills::float(corners, window, base, (p / 2) as usize, p % 2 == 0)
+            fills::float(corners, window, base, (p / 4) as usize, p / 2 % 2 == 0, p % 2 == 0)
         }),
     },
     Mistake {
@@ -641,6 +623,17 @@ fn suffix(number: i64) -> &'static str {
         _ => "th",
     }
 }
+
+/// A formula, whether corners are exchanged where they turn the other way, and the precision.
+const FLOATS: [i64; 28] = {
+    let mut all = [0; 28];
+    let mut i = 0;
+    while i < 28 {
+        all[i] = i as i64;
+        i += 1;
+    }
+    all
+};
 
 const STEPPED: [i64; 24] =
     [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23];

@@ -1,24 +1,14 @@
 //! Weighs hypotheses by the answers: those that explain what is wrong without predicting faults that are not there.
 
-use super::Count;
+use super::Explanation;
+use crate::convention::Count;
 
 /// A hypothesis about every question.
-pub(super) struct Hypothesis<'a> {
+pub struct Hypothesis<'a> {
     /// Whether the answer to the question of this number is what the hypothesis predicts.
-    pub(super) predicts: Box<dyn Fn(usize) -> bool + 'a>,
-    /// The same for hypotheses that differ in parameters alone.
-    pub(super) name: &'static str,
-    /// Of the mistake, with its parameters.
-    pub(super) said: Said,
-}
-
-/// What is said of a hypothesis.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Said {
-    pub(super) sentence: String,
-    pub(super) repair: String,
-    pub(super) page: &'static str,
-    pub(super) refuted: String,
+    pub predicts: Box<dyn Fn(usize) -> bool + 'a>,
+    /// What it says, with counts of nothing yet.
+    pub says: Explanation,
 }
 
 /// How far a hypothesis explains answers that it was not chosen by.
@@ -40,6 +30,10 @@ impl Weight {
         weight
     }
 
+    fn of_one(&self, hypothesis: &Hypothesis<'_>) -> Explanation {
+        Explanation { wrong: self.wrong, right: self.right, ..hypothesis.says.clone() }
+    }
+
     fn missed(&self) -> u64 {
         (self.wrong.of - self.wrong.drawn) + (self.right.of - self.right.drawn)
     }
@@ -54,7 +48,7 @@ impl Weight {
 /// Answers that a hypothesis is first tried on, of the wrong and of the right ones.
 const FEW: usize = 16;
 /// Hypotheses that are tried on all answers.
-const KEPT: usize = 400;
+const KEPT: usize = 60;
 /// Of these, those that are tried on answers that they were not chosen by.
 const TRIED: usize = 24;
 /// Wrong answers below which nothing is concluded.
@@ -65,7 +59,7 @@ pub(super) const LEAST_WRONG: usize = 6;
 pub(super) fn weigh(
     hypotheses: Vec<Hypothesis<'_>>,
     is_wrong: &[bool],
-) -> (Vec<(Said, Weight)>, Option<(Said, Weight)>) {
+) -> (Vec<Explanation>, Option<Explanation>) {
     let all = |wrong: bool| (0..is_wrong.len()).filter(move |&i| is_wrong[i] == wrong);
     if all(true).count() < LEAST_WRONG {
         return (Vec::new(), None);
@@ -100,15 +94,14 @@ pub(super) fn weigh(
         .collect();
     tried.sort_by_key(|(missed, ..)| *missed);
     let Some(&(least, ..)) = tried.first() else { return (Vec::new(), None) };
-    let mut named: Vec<(&'static str, Said, Weight)> = Vec::new();
+    let mut named: Vec<Explanation> = Vec::new();
     for (missed, weight, hypothesis) in &tried {
-        let is_new = named.iter().all(|(name, ..)| *name != hypothesis.name);
+        let is_new = named.iter().all(|said| said.name != hypothesis.says.name);
         if *missed == least && weight.is_convincing() && is_new {
-            named.push((hypothesis.name, hypothesis.said.clone(), *weight));
+            named.push(weight.of_one(hypothesis));
         }
     }
-    let nearest = tried.into_iter().next().map(|(_, weight, hypothesis)| (hypothesis.said, weight));
-    let named: Vec<_> = named.into_iter().map(|(_, said, weight)| (said, weight)).collect();
+    let nearest = tried.first().map(|(_, weight, hypothesis)| weight.of_one(hypothesis));
     let nearest = nearest.filter(|_| named.is_empty());
     (named, nearest)
 }
@@ -118,7 +111,7 @@ fn first_look(hypothesis: &Hypothesis<'_>, few: &[usize], is_wrong: &[bool]) -> 
     let mut missed = [0, 0];
     for (seen, &i) in few.iter().enumerate() {
         missed[usize::from(is_wrong[i])] += usize::from(!(hypothesis.predicts)(i));
-        if seen >= FEW / 2 && missed[1] > FEW / 2 {
+        if missed[1] > FEW / 4 && 2 * missed[1] > seen {
             return few.len() - seen + missed[0] + missed[1];
         }
     }

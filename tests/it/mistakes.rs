@@ -1,0 +1,657 @@
+//! Wrong programs, written apart from the table of mistakes, and the mistake that is named for each.
+
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_judge as judge;
+use rasterproof_judge::ask::{Answer, Asked};
+use rasterproof_judge::in_process::Inside;
+use rasterproof_registry::engines;
+use rasterproof_verify::convention::{
+    Convention, Known, LineConvention, LineQuestion, Quantum, Question, Rounding, Shape, Ties,
+    diagnose, diagnose_lines,
+};
+use rasterproof_verify::mistakes::{self, Mistakes};
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+type Fill = fn(Corners, PixelRect, &mut Coverage);
+type Stroke = fn([[i32; 2]; 2], &mut dyn FnMut(i32, i32));
+
+fn right(corners: Corners, window: PixelRect, picture: &mut Coverage) {
+    Scanline.cover(corners, window, |s| picture.hit(s.y_px, s.x0_px, s.x1_px));
+}
+
+fn light(picture: &mut Coverage, x: i32, y: i32) {
+    if picture.bounds().contains(x, y) && picture.get(x, y) == Some(0) {
+        picture.hit(y, x, x + 1);
+    }
+}
+
+/// The picture without the pixels of which it is false.
+fn only(picture: &mut Coverage, kept: impl Fn(i32, i32) -> bool) {
+    let all: Vec<_> = picture.runs().flat_map(|(y, a, b)| (a..b).map(move |x| (x, y))).collect();
+    let window = picture.bounds();
+    *picture = Coverage::new(window, 0);
+    all.into_iter().filter(|&(x, y)| kept(x, y)).for_each(|(x, y)| light(picture, x, y));
+}
+
+fn area(c: Corners) -> i64 {
+    let at = |i: usize| (i64::from(c[i].x), i64::from(c[i].y));
+    let ((ax, ay), (bx, by), (cx, cy)) = (at(0), at(1), at(2));
+    (bx - ax).saturating_mul(cy - ay).saturating_sub((by - ay).saturating_mul(cx - ax))
+}
+
+/// Tests each sample at the centre by signed products, positive inside, of the edges in the given order.
+fn tested(
+    c: Corners,
+    picture: &mut Coverage,
+    product: impl Fn([i64; 2], [i64; 2], [i64; 2]) -> i64,
+    inside: impl Fn(usize, i64, [i64; 2]) -> bool,
+) {
+    let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+    let turns = product(p[0], p[1], p[2]);
+    if turns == 0 {
+        return;
+    }
+    let window = picture.bounds();
+    for y in window.y0..window.y1 {
+        for x in window.x0..window.x1 {
+            let at = [i64::from(x) * 256 + 128, i64::from(y) * 256 + 128];
+            let holds = (0..3).all(|i| {
+                let (from, to) = (p[i], p[(i + 1) % 3]);
+                let e = turns.signum() * product(from, to, at);
+                let along = [0, 1].map(|k| turns.signum() * (to[k] - from[k]));
+                inside(i, e, along)
+            });
+            if holds {
+                light(picture, x, y);
+            }
+        }
+    }
+}
+
+fn exactly(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> i64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+/// Clockwise with y down: a top edge runs to the right, a left one up.
+fn owns([dx, dy]: [i64; 2]) -> bool {
+    dy < 0 || (dy == 0 && dx > 0)
+}
+
+fn extent(c: Corners, axis: usize) -> [i32; 2] {
+    let v = c.map_array(|p| [p.x, p.y][axis]);
+    [v.into_iter().min().unwrap(), v.into_iter().max().unwrap()]
+}
+
+const FILLS: &[(&str, Fill)] = &[
+    ("rule by winding", |c, _, out| {
+        let strict = area(c) > 0;
+        tested(c, out, exactly, |_, e, _| e > 0 || (e == 0 && !strict));
+    }),
+    ("rule by winding", |c, _, out| {
+        // The corners are not brought into one winding before top and left are told apart.
+        let flip = area(c).signum();
+        tested(c, out, exactly, |_, e, [dx, dy]| e > 0 || (e == 0 && owns([flip * dx, flip * dy])));
+    }),
+    ("rule by order", |c, _, out| {
+        tested(c, out, exactly, |i, e, _| if i == 1 { e > 0 } else { e >= 0 });
+    }),
+    ("rule after the shift", |c, _, out| {
+        tested(c, out, exactly, |_, e, along| (e >> 6) - i64::from(!owns(along)) >= 0);
+    }),
+    ("rule after the shift", |c, _, out| {
+        tested(c, out, exactly, |_, e, _| e / 1024 >= 0);
+    }),
+    ("an edge is not tested", |c, _, out| {
+        tested(c, out, exactly, |i, e, along| i == 2 || e > 0 || (e == 0 && owns(along)));
+    }),
+    ("product overflows", |c, _, out| {
+        let narrow = |a: [i64; 2], b: [i64; 2], p: [i64; 2]| {
+            let [ax, ay, bx, by, px, py] = [a[0], a[1], b[0], b[1], p[0], p[1]].map(|v| v as i32);
+            let d = |a: i32, b: i32| a.wrapping_sub(b);
+            let first = d(bx, ax).wrapping_mul(d(py, ay));
+            i64::from(first.wrapping_sub(d(by, ay).wrapping_mul(d(px, ax))))
+        };
+        tested(c, out, narrow, |_, e, along| e > 0 || (e == 0 && owns(along)));
+    }),
+    ("coordinates overflow", |c, w, out| {
+        // 12.4 in 16 bits.
+        let word = |v: i32| i32::from((v / 16) as i16) * 16 + v % 16;
+        right(c.map_array(|p| SubpixelPoint::new(word(p.x), word(p.y))), w, out);
+    }),
+    ("each axis on a grid of its own", |c, w, out| {
+        right(c.map_array(|p| SubpixelPoint::new(p.x / 64 * 64, p.y)), w, out);
+    }),
+    ("corners are clamped to the window", |c, w, out| {
+        right(c.map_array(|p| SubpixelPoint::new(p.x.max(0), p.y.max(0))), w, out);
+    }),
+    ("split at a rounded corner", |mut c, w, out| {
+        c.sort_by_key(|p| p.y);
+        let [a, b, z] = c;
+        if z.y == a.y {
+            return;
+        }
+        let x = f64::from(a.x) + f64::from(z.x - a.x) * f64::from(b.y - a.y) / f64::from(z.y - a.y);
+        let cut = SubpixelPoint::new(((x / 64.0 + 0.5).floor() * 64.0) as i32, b.y);
+        if a.y == b.y || b.y == z.y {
+            return right(c, w, out);
+        }
+        for half in [[a, b, cut], [b, cut, z]] {
+            let mut part = Coverage::new(w, 0);
+            right(half, w, &mut part);
+            for (y, x0, x1) in part.runs() {
+                (x0..x1).for_each(|x| light(out, x, y));
+            }
+        }
+    }),
+    ("triangles are left out by size", |c, w, out| {
+        let [low, high] = extent(c, 0);
+        if i64::from(high) - i64::from(low) >= 3 * 256 {
+            right(c, w, out);
+        }
+    }),
+    ("triangles are left out by size", |c, w, out| {
+        if area(c).abs() < 300 * 131_072 {
+            right(c, w, out);
+        }
+    }),
+    ("triangles are left out by kind", |c, w, out| {
+        let mut y = c.map_array(|p| p.y);
+        y.sort_unstable();
+        if y[1] != y[2] || y[0] == y[1] {
+            right(c, w, out);
+        }
+    }),
+    ("a half is missing", |c, w, out| {
+        let mut y = c.map_array(|p| p.y);
+        y.sort_unstable();
+        right(c, w, out);
+        only(out, |_, row| row * 256 + 128 >= y[1]);
+    }),
+    ("ends of rows or columns", |c, w, out| {
+        Scanline.cover(c, w, |s| {
+            if s.x1_px - s.x0_px > 1 {
+                out.hit(s.y_px, s.x0_px, s.x1_px - 1);
+            }
+        });
+    }),
+    ("ends of rows or columns", |c, w, out| {
+        Scanline.cover(c, w, |s| out.hit(s.y_px, s.x0_px, (s.x1_px + 1).min(w.x1)));
+    }),
+    ("the border of the window", |c, w, out| {
+        right(c, w, out);
+        only(out, |x, _| x + 1 < w.x1);
+    }),
+    ("the box is too small", |c, w, out| {
+        let [[_, right_end], [_, lower_end]] = [extent(c, 0), extent(c, 1)];
+        right(c, w, out);
+        only(out, |x, y| x < right_end >> 8 && y < lower_end >> 8);
+    }),
+    ("tiles are skipped", |c, w, out| {
+        right(c, w, out);
+        let full = out.clone();
+        only(out, |x, y| {
+            let at = [x & !7, y & !7].map(|v| v + 4);
+            full.get(at[0].min(w.x1 - 1), at[1].min(w.y1 - 1)).is_some_and(|hits| hits > 0)
+        });
+    }),
+    ("parts of the window are never drawn", |c, w, out| {
+        right(c, w, out);
+        only(out, |x, _| x % 8 != 7);
+    }),
+    ("rounding of floats", |c, w, out| {
+        let px = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
+        let turns = area(c) as f32;
+        if area(c) == 0 {
+            return;
+        }
+        for y in w.y0..w.y1 {
+            for x in w.x0..w.x1 {
+                let at = [x as f32 + 0.5, y as f32 + 0.5];
+                let holds = (0..3).all(|i| {
+                    let (p, q) = (px[i], px[(i + 1) % 3]);
+                    let s = turns.signum();
+                    let e = s * ((q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]));
+                    e >= 0.0
+                });
+                if holds {
+                    light(out, x, y);
+                }
+            }
+        }
+    }),
+    ("rounding of floats", |mut c, w, out| {
+        // Weights divided by the area, the third from the other two.
+        if area(c) == 0 {
+            return;
+        }
+        if area(c) < 0 {
+            c.swap(1, 2);
+        }
+        let px = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
+        let edge = |p: [f32; 2], q: [f32; 2], at: [f32; 2]| {
+            (q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0])
+        };
+        let whole = edge(px[0], px[1], px[2]);
+        for y in w.y0..w.y1 {
+            for x in w.x0..w.x1 {
+                let at = [x as f32 + 0.5, y as f32 + 0.5];
+                let (u, v) = (edge(px[1], px[2], at) / whole, edge(px[2], px[0], at) / whole);
+                if u >= 0.0 && v >= 0.0 && 1.0 - u - v >= 0.0 {
+                    light(out, x, y);
+                }
+            }
+        }
+    }),
+    ("crossings are stepped", |mut c, w, out| {
+        // A 16.16 slope that is cut and added row by row.
+        c.sort_by_key(|p| p.y);
+        let first = |y: i32| (y + 127).div_euclid(256);
+        if first(c[2].y) <= first(c[0].y) || first(c[0].y) < -65_536 {
+            return;
+        }
+        let start = |a: SubpixelPoint, b: SubpixelPoint| {
+            let dy = i64::from((b.y - a.y).max(1));
+            let slope = i64::from(b.x - a.x) * 65536 / dy;
+            let ahead = i64::from(first(a.y)) * 256 + 128 - i64::from(a.y);
+            (i64::from(a.x) * 256 + ((slope * ahead) >> 8), slope)
+        };
+        let (mut x, slope) = start(c[0], c[2]);
+        for [a, b] in [[c[0], c[1]], [c[1], c[2]]] {
+            let (mut other, other_slope) = start(a, b);
+            for y in first(a.y)..first(b.y) {
+                let pixel = |x: i64| ((x + 32767) >> 16) as i32;
+                if (w.y0..w.y1).contains(&y) {
+                    let (l, r) = (pixel(x.min(other)), pixel(x.max(other)));
+                    (l.max(0)..r.min(w.x1)).for_each(|x| light(out, x, y));
+                }
+                (x, other) = (x + slope, other + other_slope);
+                if y >= w.y1 {
+                    return;
+                }
+            }
+        }
+    }),
+    ("whole pixels by integer divisions", |c, w, out| {
+        // The loop of libraries for small displays, with rounded corners.
+        let mut p = c.map_array(|p| [(p.x + 128) >> 8, (p.y + 128) >> 8].map(i64::from));
+        p.sort_by_key(|p| p[1]);
+        let mut row = |y: i64, a: i64, b: i64| {
+            if (0..i64::from(w.y1)).contains(&y) {
+                let (a, b) = (a.min(b).max(0), a.max(b).min(i64::from(w.x1) - 1));
+                (a..=b).for_each(|x| light(out, x as i32, y as i32));
+            }
+        };
+        let [[x0, y0], [x1, y1], [x2, y2]] = p;
+        if y0 == y2 {
+            return row(y0, x0.min(x1).min(x2), x0.max(x1).max(x2));
+        }
+        let last = if y1 == y2 { y1 } else { y1 - 1 };
+        for y in y0.max(-1)..=last.min(64) {
+            row(
+                y,
+                x0 + (x1 - x0) * (y - y0) / (y1 - y0).max(1),
+                x0 + (x2 - x0) * (y - y0) / (y2 - y0),
+            );
+        }
+        for y in y1.max(-1)..=y2.min(64) {
+            if y1 < y2 {
+                row(
+                    y,
+                    x1 + (x2 - x1) * (y - y1) / (y2 - y1),
+                    x0 + (x2 - x0) * (y - y0) / (y2 - y0),
+                );
+            }
+        }
+    }),
+    ("the whole box is filled", |c, w, out| {
+        let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
+        for y in w.y0..w.y1 {
+            for x in w.x0..w.x1 {
+                let (u, v) = (x * 256 + 128, y * 256 + 128);
+                if area(c) != 0 && u >= x0 && u < x1 && v >= y0 && v < y1 {
+                    light(out, x, y);
+                }
+            }
+        }
+    }),
+];
+
+/// Bresenham's loop as mostly printed.
+fn bresenham([[mut x, mut y], [x1, y1]]: [[i32; 2]; 2], emit: &mut dyn FnMut(i32, i32)) {
+    let (dx, dy) = ((x1 - x).abs(), -(y1 - y).abs());
+    let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
+    let mut error = dx + dy;
+    loop {
+        emit(x, y);
+        if (x, y) == (x1, y1) {
+            return;
+        }
+        let twice = 2 * error;
+        if twice >= dy {
+            error += dy;
+            x += sx;
+        }
+        if twice <= dx {
+            error += dx;
+            y += sy;
+        }
+    }
+}
+
+const STROKES: &[(&str, Stroke)] = &[
+    ("ends are clamped to the window", |ends, emit| {
+        bresenham(ends.map(|end| end.map(|v| v.max(0))), emit);
+    }),
+    ("lines are left out by kind", |ends, emit| {
+        if (ends[0][1] - ends[1][1]).abs() <= (ends[0][0] - ends[1][0]).abs() {
+            bresenham(ends, emit);
+        }
+    }),
+    ("every pixel that is touched", |[[x0, y0], [x1, y1]], emit| {
+        // From the left end, and diagonally through corners.
+        let ([mut x, mut y], [x1, y1]) =
+            if (x0, y0) <= (x1, y1) { ([x0, y0], [x1, y1]) } else { ([x1, y1], [x0, y0]) };
+        let (dx, dy) = (i64::from(x1 - x), i64::from((y1 - y).abs()));
+        let down = (y1 - y).signum();
+        let (mut i, mut j) = (0, 0);
+        emit(x, y);
+        while i < dx || j < dy {
+            let side = (2 * i + 1) * dy - (2 * j + 1) * dx;
+            if side <= 0 {
+                x += 1;
+                i += 1;
+            }
+            if side >= 0 {
+                y += down;
+                j += 1;
+            }
+            emit(x, y);
+        }
+    }),
+    ("the slope is cut", |[[x0, y0], [x1, y1]], emit| {
+        // 24.8 numbers.
+        let steps = (x1 - x0).abs().max((y1 - y0).abs());
+        let (sx, sy) = match steps {
+            0 => (0, 0),
+            _ => ((x1 - x0) * 256 / steps, (y1 - y0) * 256 / steps),
+        };
+        let (mut x, mut y) = (x0 * 256 + 128, y0 * 256 + 128);
+        for _ in 0..=steps {
+            emit(x >> 8, y >> 8);
+            x += sx;
+            y += sy;
+        }
+    }),
+    ("steps are added up in floats", |[[x0, y0], [x1, y1]], emit| {
+        let steps = (x1 - x0).abs().max((y1 - y0).abs());
+        let by = |d: i32| if steps == 0 { 0.0 } else { d as f32 / steps as f32 };
+        let (sx, sy) = (by(x1 - x0), by(y1 - y0));
+        let (mut x, mut y) = (x0 as f32, y0 as f32);
+        for _ in 0..=steps {
+            emit(x.round() as i32, y.round() as i32);
+            x += sx;
+            y += sy;
+        }
+    }),
+    ("steps along x alone", |[[x0, y0], [x1, y1]], emit| {
+        let n = (x1 - x0).abs();
+        for i in 0..=n {
+            let t = if n == 0 { 0.0 } else { f64::from(i) / f64::from(n) };
+            let y = (f64::from(y0) + t * f64::from(y1 - y0) + 0.5).floor();
+            emit(x0 + i * (x1 - x0).signum(), y as i32);
+        }
+    }),
+    ("ends overflow", |ends, emit| {
+        bresenham(ends.map(|end| end.map(|v| i32::from(v as i16))), emit);
+    }),
+    ("pixels at the ends", |ends, emit| {
+        bresenham(ends, &mut |x, y| {
+            if ends[1][0] >= ends[0][0] || [x, y] != ends[1] {
+                emit(x, y);
+            }
+        });
+    }),
+    ("two pixels wide", |ends, emit| {
+        bresenham(ends, &mut |x, y| {
+            emit(x, y);
+            emit(x, y + 1);
+        });
+    }),
+    ("the sign of a step", |[[x0, y0], [x1, y1]], emit| {
+        bresenham([[x0, y0], [x1, y0 + (y1 - y0).abs()]], emit);
+    }),
+];
+
+fn of_fill(fill: impl Fn(Corners, PixelRect, &mut Coverage)) -> Option<Mistakes> {
+    let mut ask = |questions: &[Question]| -> Vec<Option<Coverage>> {
+        let draw = |q: &Question| {
+            let mut picture = Coverage::new(q.window, 0);
+            fill(q.corners, q.window, &mut picture);
+            Some(picture)
+        };
+        questions.iter().map(draw).collect()
+    };
+    let known = Known::default();
+    let found = diagnose(&mut ask, &known, 1);
+    mistakes::of_triangles(&mut ask, &known, Some(&found), &[], &|| true)
+}
+
+fn of_stroke(stroke: impl Fn([[i32; 2]; 2], &mut dyn FnMut(i32, i32))) -> Option<Mistakes> {
+    let mut ask = |questions: &[LineQuestion]| -> Vec<Option<Vec<[i32; 2]>>> {
+        let draw = |q: &LineQuestion| {
+            let mut pixels = Vec::new();
+            stroke(q.ends, &mut |x, y| {
+                if q.window.contains(x, y) && !pixels.contains(&[x, y]) {
+                    pixels.push([x, y]);
+                }
+            });
+            Some(pixels)
+        };
+        questions.iter().map(draw).collect()
+    };
+    let found = diagnose_lines(&mut ask, 32, true, 1);
+    mistakes::of_lines(&mut ask, &Known::default(), Some(&found), &[], &|| true)
+}
+
+fn check(number: usize, expected: &str, found: Option<&Mistakes>, failed: &mut Vec<String>) {
+    let is_named = found.is_some_and(|found| found.causes.iter().any(|c| c.name == expected));
+    if !is_named {
+        let said = found.map_or("nothing is wrong".to_owned(), ToString::to_string);
+        failed.push(format!("{number}, {expected}: {said}"));
+    }
+}
+
+/// Every mistake is named for a program that has it, with a parameter of its own.
+#[test]
+#[ignore = "takes half a minute; .ci/run runs it"]
+fn mistakes_in_triangles_are_named() {
+    let mut failed = Vec::new();
+    for (number, (expected, fill)) in FILLS.iter().enumerate() {
+        check(number, expected, of_fill(fill).as_ref(), &mut failed);
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// The same for lines.
+#[test]
+fn mistakes_in_lines_are_named() {
+    let mut failed = Vec::new();
+    for (number, (expected, stroke)) in STROKES.iter().enumerate() {
+        check(number, expected, of_stroke(stroke).as_ref(), &mut failed);
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// Every mistake of the table has a program in this file, but for those that need a window or a number of their own.
+#[test]
+fn mistakes_of_the_table_are_tried() {
+    let tried = |name: &str| {
+        FILLS.iter().map(|(n, _)| n).chain(STROKES.iter().map(|(n, _)| n)).any(|n| *n == name)
+    };
+    let untried: Vec<_> =
+        mistakes::table().into_iter().map(|[name, ..]| name).filter(|name| !tried(name)).collect();
+    assert_eq!(untried, ["corners made by clipping are rounded", "the error term overflows"]);
+}
+
+/// A convention is no mistake: none is named, whichever is drawn by.
+#[test]
+fn mistakes_are_not_named_for_conventions() {
+    for step in [1, 16, 256] {
+        for (i, rule) in ["top-left", "inclusive", "strict", "bottom-right"].into_iter().enumerate()
+        {
+            let [x, y] = [[128, 128], [0, 0], [64, 192], [256, 128]][(i + step as usize) % 4];
+            let convention = Convention {
+                quantum: Quantum { step, rounding: Rounding::Down },
+                shape: Shape::Point { x, y },
+                ties: Ties::named(rule).unwrap(),
+                ..Convention::default()
+            };
+            let fill = |corners: Corners, window: PixelRect, picture: &mut Coverage| {
+                if let Some(drawn) = convention.cover(&corners, window) {
+                    *picture = drawn;
+                }
+            };
+            let found = of_fill(fill);
+            let causes = found.map(|found| found.causes).unwrap_or_default();
+            assert!(causes.is_empty(), "{convention:?}: {causes:?}");
+        }
+    }
+    let strokes = [LineConvention::default(), LineConvention::BEHIND, LineConvention::AHEAD];
+    for convention in strokes {
+        let stroke = |ends: [[i32; 2]; 2], emit: &mut dyn FnMut(i32, i32)| {
+            let window = PixelRect::window(32, 32);
+            let pixels = convention.pixels(&LineQuestion { ends, window }).unwrap_or_default();
+            pixels.into_iter().for_each(|[x, y]| emit(x, y));
+        };
+        let causes = of_stroke(stroke).map(|found| found.causes).unwrap_or_default();
+        assert!(causes.is_empty(), "{convention:?}: {causes:?}");
+    }
+}
+
+/// A right program but for the answers that `changed` gives.
+struct Wrong {
+    right: Inside,
+    changed: fn(&judge::ask::Question, Answer) -> Answer,
+}
+
+impl judge::ask::Ask for Wrong {
+    fn declared(&self) -> &judge::declared::Declared {
+        self.right.declared()
+    }
+
+    fn ask(&mut self, questions: &[judge::ask::Question], most_deaths: u64) -> Vec<Answer> {
+        let answers = self.right.ask(questions, most_deaths);
+        questions
+            .iter()
+            .zip(answers)
+            .map(|(question, answer)| (self.changed)(question, answer))
+            .collect()
+    }
+}
+
+/// The name and the sentence of the causes that the judge finds, as one text.
+fn judged(changed: fn(&judge::ask::Question, Answer) -> Answer, families: &[&str]) -> String {
+    let right = Inside::new(engines::find("scanline").unwrap());
+    let options = judge::Options {
+        cases: 100,
+        families: families.iter().map(|name| (*name).to_owned()).collect(),
+        patience: std::time::Duration::from_secs(60),
+        ..judge::Options::default()
+    };
+    let mut askers = [Box::new(Wrong { right, changed }) as Box<dyn judge::ask::Ask>];
+    let verdict = judge::judge(&mut askers, &options, &|_| None, &|_| ());
+    let said = verdict.causes.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
+    said.collect::<Vec<_>>().join("\n")
+}
+
+/// Mistakes beside coverage are named, too: in values, samples, depths and at the near plane.
+#[test]
+fn mistakes_of_stages_are_named() {
+    // Attributes and depth at the upper left corner of the pixel, where the rest is right.
+    let said = judged(
+        |question, answer| match (&question.of, answer) {
+            (Asked::Values(t), Answer::Values(mut fragments)) => {
+                let at = |v: i32| v.saturating_add(128);
+                let mut moved = *t;
+                for v in &mut moved.vertices {
+                    v.position = SubpixelPoint::new(at(v.position.x), at(v.position.y));
+                }
+                let exact = ExactTriangle::new(
+                    &moved.corners(),
+                    moved.vertices.map(|v| v.depth),
+                    moved.vertices.map(|v| v.inv_w),
+                    moved.vertices.map(|v| v.varying.to_array()),
+                );
+                for f in &mut fragments {
+                    if let Some(exact) = &exact {
+                        let (depth, [a, b]) = exact.at(f.x_px, f.y_px);
+                        f.depth = depth.to_f64();
+                        f.varying = [a.to_f64(), b.to_f64()].into();
+                    }
+                }
+                Answer::Values(fragments)
+            }
+            (_, answer) => answer,
+        },
+        &["w-ratio", "uniform"],
+    );
+    assert!(said.contains("values: It computes right values, at the upper left corner"), "{said}");
+    // The bits of the samples in the reverse order.
+    let said = judged(
+        |_, answer| match answer {
+            Answer::Samples(runs) => Answer::Samples(
+                runs.into_iter().map(|(run, mask)| (run, mask.reverse_bits() >> 4)).collect(),
+            ),
+            answer => answer,
+        },
+        &["uniform"],
+    );
+    assert!(
+        said.contains("samples: It tests the right places, and numbers them 3, 2, 1, 0"),
+        "{said}"
+    );
+    // The last triangle that covers a pixel is seen.
+    let said = judged(
+        |question, answer| match (&question.of, answer) {
+            (Asked::Depth(list), Answer::Seen(_)) => {
+                let window = PixelRect::window(question.width, question.height);
+                let mut seen = std::collections::BTreeMap::new();
+                for (number, t) in (0..).zip(list) {
+                    Scanline.cover(t.corners(), window, |s| {
+                        for x in s.x0_px..s.x1_px {
+                            seen.insert((s.y_px, x), number);
+                        }
+                    });
+                }
+                let run =
+                    |((y_px, x0_px), number)| (Span { y_px, x0_px, x1_px: x0_px + 1 }, number);
+                Answer::Seen(seen.into_iter().map(run).collect())
+            }
+            (_, answer) => answer,
+        },
+        &["depth-order"],
+    );
+    assert!(said.contains("depths: It shows the triangle that was drawn last"), "{said}");
+    // A quadrilateral loses its last corner.
+    let said = judged(
+        |_, answer| match answer {
+            Answer::Polygon(mut corners) => {
+                corners.truncate(3);
+                Answer::Polygon(corners)
+            }
+            answer => answer,
+        },
+        &["near-plane"],
+    );
+    assert!(said.contains("near plane: It keeps at most three corners"), "{said}");
+    // A right program has no cause.
+    assert_eq!(
+        judged(|_, answer| answer, &["uniform", "w-ratio", "depth-order", "near-plane"]),
+        ""
+    );
+}
