@@ -6,9 +6,11 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_judge as judge;
 use rasterproof_judge::ask::{Answer, Asked};
 use rasterproof_judge::in_process::Inside;
+use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_registry::engines;
 use rasterproof_verify::convention::{
     Convention, Known, LineConvention, LineQuestion, Quantum, Question, Rounding, Shape, Ties,
@@ -655,3 +657,41 @@ fn mistakes_of_stages_are_named() {
         ""
     );
 }
+
+/// Every planted fault of a rasterizer or a line drawer is named: by its own name, by a mistake that predicts the same
+/// answers, or as a convention. The others are listed, with why no answer tells them.
+#[test]
+#[ignore = "takes a minute; .ci/run runs it"]
+fn mistakes_that_are_planted_are_named() {
+    let planted = TriangleMutant::ALL.map(|mutant| mutant.name());
+    let planted_lines = LineMutant::ALL.map(|mutant| mutant.name());
+    let mut unnamed = Vec::new();
+    for name in planted.into_iter().chain(planted_lines) {
+        let entry = engines::find_planted(name).unwrap();
+        let options = judge::Options {
+            cases: 120,
+            patience: std::time::Duration::from_secs(60),
+            ..judge::Options::default()
+        };
+        let scope = Scope { triangles: true, lines: true, always: false };
+        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Ask>];
+        let verdict =
+            judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
+        let is_named = verdict.causes.iter().any(|cause| cause.why.is_known());
+        let is_convention = verdict.by_convention().is_some_and(|score| score.wrong == 0);
+        if !is_named && !is_convention {
+            unnamed.push(name);
+        }
+    }
+    let untold: Vec<_> = UNTOLD.iter().map(|(name, _)| *name).collect();
+    assert_eq!(unnamed, untold);
+}
+
+/// Planted faults that no answer of the line protocol tells, and why.
+const UNTOLD: [(&str, &str); 5] = [
+    ("panics-on-flat-bottom", "the judge stops asking after three panics, and shows their message"),
+    ("truncates-towards-zero", "windows begin at the origin, so no column is negative"),
+    ("seam-between-tiles", "windows are narrower than two of its tiles"),
+    ("naive-barycentric", "its values lie within the tolerance"),
+    ("line-weights-from-clip", "lines have no values in the protocol"),
+];

@@ -1,7 +1,8 @@
 //! What all wrong answers have in common, where no mistake explains them.
 
+use super::Answered;
 use super::fills;
-use crate::convention::{LineQuestion, Mask};
+use crate::convention::{LineQuestion, Mask, Question};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
@@ -10,6 +11,7 @@ pub(super) struct Seen {
     is_line: bool,
     missing: u32,
     extra: u32,
+    twice: u32,
     /// Whether the kinds in [`KINDS`] hold, in their order.
     kinds: Vec<bool>,
     /// Width or height of the shape in subpixels, whichever is larger.
@@ -47,15 +49,16 @@ const PLACES: [&str; 6] = [
 ];
 
 impl Seen {
-    fn new(
+    fn new<Q>(
         is_line: bool,
         window: PixelRect,
-        drawn: Mask,
-        right: Mask,
+        answered: &Answered<Q>,
         kinds: Vec<bool>,
         extent: i64,
     ) -> Self {
-        let wrong = drawn.differs(&right);
+        let Answered { drawn, twice, right, .. } = *answered;
+        let mut wrong = drawn.differs(&right);
+        wrong.add(&twice);
         let mut places = [true; 6];
         let pixels = |mask: &Mask| -> Vec<(i32, i32)> {
             let all =
@@ -88,13 +91,18 @@ impl Seen {
             is_line,
             missing: right.beyond(&drawn),
             extra: drawn.beyond(&right),
+            twice: twice.count(),
             kinds,
             extent,
             places,
         }
     }
 
-    pub(super) fn triangle(corners: &Corners, window: PixelRect, drawn: Mask, right: Mask) -> Self {
+    pub(super) fn triangle(
+        corners: &Corners,
+        window: PixelRect,
+        answered: &Answered<Question>,
+    ) -> Self {
         let clockwise = fills::turn(corners) > 0;
         let leaves = corners.iter().any(|c| !fills::holds(window, *c));
         let [a, b, c] = corners;
@@ -102,20 +110,20 @@ impl Seen {
         let side = fills::middle_side(corners);
         let kinds = vec![clockwise, !clockwise, leaves, !leaves, straight, side > 0, side < 0];
         let extent = fills::metric(corners, 1).max(fills::metric(corners, 2));
-        Self::new(false, window, drawn, right, kinds, extent)
+        Self::new(false, window, answered, kinds, extent)
     }
 
-    pub(super) fn line(question: &LineQuestion, drawn: Mask, right: Mask) -> Self {
+    pub(super) fn line(question: &LineQuestion, answered: &Answered<LineQuestion>) -> Self {
         let LineQuestion { ends: [[x0, y0], [x1, y1]], window } = *question;
         let leaves = !window.contains(x0, y0) || !window.contains(x1, y1);
         let (dx, dy) = (i64::from(x1) - i64::from(x0), i64::from(y1) - i64::from(y0));
         let steep = dy.abs() > dx.abs();
         let kinds = vec![leaves, !leaves, steep, !steep, dx < 0, dx > 0, dy < 0, dy > 0];
-        Self::new(true, window, drawn, right, kinds, 256 * dx.abs().max(dy.abs()))
+        Self::new(true, window, answered, kinds, 256 * dx.abs().max(dy.abs()))
     }
 
     fn is_wrong(&self) -> bool {
-        self.missing + self.extra > 0
+        self.missing + self.extra + self.twice > 0
     }
 }
 
@@ -130,7 +138,10 @@ pub(super) fn sentences(seen: &[Seen]) -> Vec<String> {
     let (missing, extra) = wrong.iter().fold((0_u64, 0_u64), |(missing, extra), s| {
         (missing + u64::from(s.missing), extra + u64::from(s.extra))
     });
+    let twice: u64 = wrong.iter().map(|s| u64::from(s.twice)).sum();
+    said.extend((twice > 0).then(|| format!("{twice} pixels are drawn more than once.")));
     said.push(match (missing, extra) {
+        (0, 0) => "None is missing and none is extra.".to_owned(),
         (_, 0) => format!("All {missing} wrong pixels are missing, none is extra."),
         (0, _) => format!("All {extra} wrong pixels are extra, none is missing."),
         _ => format!("{missing} pixels are missing and {extra} are extra."),

@@ -172,6 +172,26 @@ const AT_ONCE: usize = 100;
 /// The questions are the same in every run.
 const SEED: u64 = 1;
 
+/// A question with its answer.
+struct Answered<Question> {
+    question: Question,
+    drawn: Mask,
+    /// Pixels that were hit more than once; none where that cannot be seen.
+    twice: Mask,
+    /// What should have been drawn.
+    right: Mask,
+}
+
+impl<Question> Answered<Question> {
+    fn is_wrong(&self) -> bool {
+        !self.is(self.right, Mask::default())
+    }
+
+    fn is(&self, drawn: Mask, twice: Mask) -> bool {
+        self.drawn == drawn && self.twice == twice
+    }
+}
+
 /// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems
 /// to be: where that is certain, answers are judged by it. Nothing where its answers are right, or too few are wrong. It asks for 1,200 triangles,
 /// as long as `goes_on` is true.
@@ -182,7 +202,7 @@ pub fn of_triangles(
     programs: &[Program<'_, Question, Coverage>],
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
-    let mut answered: Vec<(Question, Mask, Mask)> = Vec::new();
+    let mut answered: Vec<Answered<Question>> = Vec::new();
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
@@ -192,14 +212,15 @@ pub fn of_triangles(
         }
         let answers = ask.ask(questions);
         for (question, answer) in questions.iter().zip(answers) {
+            let Some(right) = expected.mask(&question.corners, question.window) else { continue };
+            // What is not answered is not drawn.
             let drawn = answer.filter(|a| a.bounds() == question.window);
-            let right = expected.mask(&question.corners, question.window);
-            if let (Some(drawn), Some(right)) = (drawn, right) {
-                answered.push((*question, Mask::of(&drawn, 1), right));
-            }
+            let hits = |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
+            let twice = if known.mask { Mask::default() } else { hits(2) };
+            answered.push(Answered { question: *question, drawn: hits(1), twice, right });
         }
     }
-    let is_wrong: Vec<bool> = answered.iter().map(|(_, drawn, right)| drawn != right).collect();
+    let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
     let bases = bases(&known.declared, found);
     let mut hypotheses = Vec::new();
     for mistake in triangles::TABLE {
@@ -216,9 +237,9 @@ pub fn of_triangles(
             for base in bases.iter().filter(|base| base.serves(mistake.draws)) {
                 let answered = &answered;
                 let predicts = move |i: usize| {
-                    let (Question { corners, window }, drawn, _) = &answered[i];
+                    let Question { corners, window } = &answered[i].question;
                     let mask = fill(mistake.draws, p, &base.convention, corners, *window);
-                    mask.is_none_or(|mask| mask == *drawn)
+                    mask.is_none_or(|mask| answered[i].is(mask, Mask::default()))
                 };
                 let mut says = says.clone();
                 says.does += &base.words(mistake.draws);
@@ -229,16 +250,14 @@ pub fn of_triangles(
     for program in programs {
         let answered = &answered;
         let predicts = move |i: usize| {
-            let (question, drawn, _) = &answered[i];
-            (program.draw)(question).is_some_and(|picture| Mask::of(&picture, 1) == *drawn)
+            (program.draw)(&answered[i].question)
+                .is_some_and(|picture| answered[i].is(Mask::of(&picture, 1), Mask::of(&picture, 2)))
         };
         hypotheses.push(program.hypothesis(Box::new(predicts)));
     }
     let seen: Vec<_> = answered
         .iter()
-        .map(|(question, drawn, right)| {
-            common::Seen::triangle(&question.corners, question.window, *drawn, *right)
-        })
+        .map(|a| common::Seen::triangle(&a.question.corners, a.question.window, a))
         .collect();
     conclude(hypotheses, &is_wrong, &seen)
 }
@@ -251,7 +270,7 @@ pub fn of_lines(
     programs: &[Program<'_, LineQuestion, Vec<[i32; 2]>>],
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
-    let mut answered: Vec<(LineQuestion, Mask, Mask)> = Vec::new();
+    let mut answered: Vec<Answered<LineQuestion>> = Vec::new();
     let default = LineConvention::default();
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention);
@@ -264,13 +283,14 @@ pub fn of_lines(
         let answers = ask.ask_lines(questions);
         for (question, answer) in questions.iter().zip(answers) {
             let right = lines::of_convention(expected, wide(question.ends), question.window);
-            if let (Some(pixels), Some(right)) = (answer, right) {
-                let pixels: Vec<_> = pixels.into_iter().map(|p| p.map_array(i64::from)).collect();
-                answered.push((*question, lines::mask(&pixels, question.window), right));
-            }
+            let Some(right) = right else { continue };
+            let pixels = answer.unwrap_or_default();
+            let pixels: Vec<_> = pixels.into_iter().map(|p| p.map_array(i64::from)).collect();
+            let (drawn, twice) = (lines::mask(&pixels, question.window), Mask::default());
+            answered.push(Answered { question: *question, drawn, twice, right });
         }
     }
-    let is_wrong: Vec<bool> = answered.iter().map(|(_, drawn, right)| drawn != right).collect();
+    let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
     let mut bases = vec![*expected];
     let ties =
         LineTie::ALL.map(|tie| LineConvention { rounding: LineRounding::Nearest(tie), ..default });
@@ -287,7 +307,7 @@ pub fn of_lines(
         for (&p, base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
             let answered = &answered;
             let predicts = move |i: usize| {
-                let (question, drawn, _) = &answered[i];
+                let question = &answered[i].question;
                 let (ends, window) = (wide(question.ends), question.window);
                 let mask = match mistake.draws {
                     Stroke::Instead(others) => {
@@ -307,7 +327,7 @@ pub fn of_lines(
                         })
                     }
                 };
-                mask.is_none_or(|mask| mask == *drawn)
+                mask.is_none_or(|mask| mask == answered[i].drawn)
             };
             let mut says = says(mistake, p);
             if base != expected {
@@ -319,18 +339,15 @@ pub fn of_lines(
     for program in programs {
         let answered = &answered;
         let predicts = move |i: usize| {
-            let (question, drawn, _) = &answered[i];
+            let question = &answered[i].question;
             (program.draw)(question).is_some_and(|pixels| {
                 let pixels: Vec<_> = pixels.into_iter().map(|p| p.map_array(i64::from)).collect();
-                lines::mask(&pixels, question.window) == *drawn
+                lines::mask(&pixels, question.window) == answered[i].drawn
             })
         };
         hypotheses.push(program.hypothesis(Box::new(predicts)));
     }
-    let seen: Vec<_> = answered
-        .iter()
-        .map(|(question, drawn, right)| common::Seen::line(question, *drawn, *right))
-        .collect();
+    let seen: Vec<_> = answered.iter().map(|a| common::Seen::line(&a.question, a)).collect();
     conclude(hypotheses, &is_wrong, &seen)
 }
 
@@ -470,14 +487,14 @@ fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
 }
 
 /// Limits of size between what is drawn and what is not.
-fn limits(answered: &[(Question, Mask, Mask)]) -> Vec<i64> {
+fn limits(answered: &[Answered<Question>]) -> Vec<i64> {
     let mut limits = Vec::new();
     for metric in 0..3 {
         let sizes = |lost: bool| {
             answered
                 .iter()
-                .filter(move |(_, drawn, right)| drawn.is_empty() == lost && !right.is_empty())
-                .map(move |(question, ..)| fills::metric(&question.corners, metric))
+                .filter(move |a| a.drawn.is_empty() == lost && !a.right.is_empty())
+                .map(move |a| fills::metric(&a.question.corners, metric))
         };
         // Below: all that is lost is smaller than all that is drawn. Above: the other way.
         if let (Some(lost), Some(drawn)) =
