@@ -500,6 +500,18 @@ fn mistakes_of_the_table_are_tried() {
     assert_eq!(untried, ["corners made by clipping are rounded", "the error term overflows"]);
 }
 
+/// The page lists every mistake, in both languages.
+#[test]
+fn mistakes_of_the_table_are_on_the_page() {
+    for page in
+        [include_str!("../../docs/conventions.md"), include_str!("../../docs/zh/conventions.md")]
+    {
+        for [name, ..] in mistakes::table() {
+            assert!(page.contains(&format!("| {name} |")), "{name}");
+        }
+    }
+}
+
 /// A convention is no mistake: none is named, whichever is drawn by.
 #[test]
 fn mistakes_are_not_named_for_conventions() {
