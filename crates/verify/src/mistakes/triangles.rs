@@ -400,7 +400,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             format!("skips tiles of {side} x {side} px {tested}")
         },
         repair: "reject a tile only where one edge has the whole tile outside",
-        page: "tiles",
+        page: "speed",
         refuted: "a covered pixel in such a tile that is drawn",
         parameters: Parameters::Fixed(&[2, 4, 8, 16, 102, 104, 108, 116, 202, 204, 208, 216]),
         draws: Fill::Changed(fills::tiles),
@@ -416,7 +416,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             )
         },
         repair: "look at the last iteration of the loop over groups of rows or columns",
-        page: "tiles",
+        page: "speed",
         refuted: "a pixel there that is drawn",
         parameters: Parameters::Fixed(&GROUPS),
         draws: Fill::Changed(|mask, _, window, p| {
