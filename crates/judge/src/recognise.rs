@@ -57,12 +57,12 @@ const LOOK_CASES: u64 = 16;
 /// The convention of a program; nothing where it draws as it declares.
 pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
-    let mut bench = Bench { program, deaths_left: MOST_DEATHS };
+    let mut bench = Bench { program, deaths_left: MOST_DEATHS, is_over: false };
     let open = declared.rule == Rule::Unspecified;
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
-            ask.then(|| {
+            (ask && !bench.is_over).then(|| {
                 rasterproof_verify::convention::diagnose(&mut bench, &known(&declared), SEED)
             })
         })
@@ -73,12 +73,12 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
             let most = known(&declared);
             let side_px = (most.window_px.0.min(most.window_px.1) as i32).min(most.range_px);
             let ordered = !declared.line_set;
-            ask.then(|| {
+            (ask && !bench.is_over).then(|| {
                 rasterproof_verify::convention::diagnose_lines(&mut bench, side_px, ordered, SEED)
             })
         })
         .flatten();
-    if triangles.is_none() && lines.is_none() {
+    if bench.is_over || (triangles.is_none() && lines.is_none()) {
         return None;
     }
     let is_explained = triangles.as_ref().is_some_and(|t| t.confidence != Confidence::Unexplained)
@@ -186,16 +186,19 @@ fn known(declared: &Declared) -> Known {
 struct Bench<'a> {
     program: &'a mut dyn Ask,
     deaths_left: u64,
+    /// Whether the time for answers is over.
+    is_over: bool,
 }
 
 impl Bench<'_> {
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
-        if self.deaths_left == 0 {
+        if self.deaths_left == 0 || self.is_over {
             return Vec::new();
         }
         let answers = self.program.ask(questions, self.deaths_left);
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         self.deaths_left = self.deaths_left.saturating_sub(deaths);
+        self.is_over = answers.len() < questions.len() && deaths == 0;
         answers
     }
 

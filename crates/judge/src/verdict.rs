@@ -44,7 +44,10 @@ pub struct Verdict {
     pub recognised: Option<Said>,
     /// Everything that was found; rows in the order of the catalogue.
     pub found: Found,
+    /// Failing cases that are shown; those that a baseline knows are not.
     pub failures: Vec<Failure>,
+    /// Failing cases that the baseline knows.
+    pub known: u64,
     /// The end of what it wrote on standard error.
     pub complaints: Vec<String>,
     pub properties: Vec<Property>,
@@ -99,6 +102,7 @@ impl Verdict {
             recognised,
             found,
             failures,
+            known: 0,
             complaints,
             properties: Vec::new(),
         };

@@ -18,7 +18,7 @@ use rasterproof_verify::cases::{Case, Shape};
 pub struct Amount {
     pub cases: u64,
     pub seed: u64,
-    /// No new family is begun after this.
+    /// Nothing is asked after this, but to make a failing case smaller.
     pub end: Instant,
     /// How long the smallest failing case is looked for.
     pub patience: Duration,
@@ -72,6 +72,7 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     let mut outcome = Outcome::default();
     let mut failing = None;
     let mut restarts = run::MOST_DEATHS;
+    program.end_at(Some(amount.end));
     for exercise in &step.exercises {
         let mut asked = Vec::new();
         let had_failed = failing.is_some();
@@ -97,6 +98,7 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
             outcome.misconception = misconceptions::find(&asked, &truth(exercise));
         }
     }
+    program.end_at(None);
     outcome.failure = failing.map(|failing| shrunk(program, failing, amount.patience));
     outcome
 }
@@ -137,7 +139,13 @@ fn ask_family<'a>(
         let here = program.ask(asked, 1);
         let died = here.last().is_some_and(Answer::is_death);
         // A program that died of no single request goes on, a few times.
-        let strayed = !died && here.len() < asked.len();
+        let is_short = !died && here.len() < asked.len();
+        outcome.out_of_time |= is_short && Instant::now() >= amount.end;
+        if outcome.out_of_time {
+            answers.extend(here);
+            break;
+        }
+        let strayed = is_short;
         *restarts = if died { 0 } else { *restarts - u64::from(strayed) };
         outcome.given_up |= strayed && *restarts == 0;
         answers.extend(here);
