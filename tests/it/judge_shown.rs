@@ -162,7 +162,7 @@ fn judge_sees_the_first_request() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn judge_ends_in_time() {
-    for (engine, batch) in [("scanline", "batch=1"), ("exclusive-edges", "batch=1024")] {
+    for (engine, batch) in [("scanline", "batch=1"), ("games101-strict", "batch=1024")] {
         let is_right = engine == "scanline";
         let one = ["--family", "half-integer", "--case", "0"];
         let limited =

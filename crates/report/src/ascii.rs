@@ -43,17 +43,22 @@ fn shown(actual: &Coverage, target: &Coverage) -> (std::ops::Range<usize>, std::
     // Start just before the first pixel that differs, else before the first one that is hit.
     let find = |wanted: &dyn Fn(u8, u8) -> bool| {
         let mut found: Option<(usize, usize)> = None;
-        let mut least = usize::MAX;
+        let mut left = usize::MAX;
         for (j, ((_, a), (_, t))) in actual.rows().zip(target.rows()).enumerate() {
             if let Some(i) = a.iter().zip(t).position(|(&a, &t)| wanted(a, t)) {
                 found = found.or(Some((i, j)));
-                least = least.min(i);
+                left = left.min(i);
             }
         }
-        // Further left where others are, as long as the first one stays in sight.
-        found.map(|(x, y)| (if x < least + most_x / 2 { least } else { x }, y))
+        found.map(|first| (first, left))
     };
-    let (x, y) = find(&|a, t| a != t).or_else(|| find(&|a, t| a > 0 || t > 0)).unwrap_or((0, 0));
+    let differs = |((x, y), left): ((usize, usize), usize)| {
+        // Further left where others differ, as long as the first one stays in sight.
+        (if x < left + most_x / 2 { left } else { x }, y)
+    };
+    let is_hit = |((_, y), left): ((usize, usize), usize)| (left, y);
+    let differing = find(&|a, t| a != t).map(differs);
+    let (x, y) = differing.or_else(|| find(&|a, t| a > 0 || t > 0).map(is_hit)).unwrap_or((0, 0));
     let start =
         |at: usize, size: usize, most: usize| at.saturating_sub(2).min(size.saturating_sub(most));
     let (x, y) = (start(x, width, most_x), start(y, height, most_y));
