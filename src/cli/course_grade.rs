@@ -1,8 +1,14 @@
 //! `rasterproof course --grade`: points by step, of one program or of a folder of submissions.
+//!
+//! Each submission has a judge of its own, a process of this program, so that nothing it does to the judge
+//! concerns the others.
 
 use std::ffi::{OsStr, OsString};
 use std::fmt::Write as _;
+use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use rasterproof_host::limits;
@@ -12,7 +18,7 @@ use super::progress::Progress as Shown;
 use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
-use rasterproof_judge::process_group;
+use rasterproof_judge::process_group::{self, Group};
 use rasterproof_judge::text::printable;
 use rasterproof_report::json::pretty;
 use rasterproof_teaching::course::examine::{self, Amount};
@@ -61,6 +67,9 @@ pub struct GradeArguments {
     memory: u64,
     #[command(flatten)]
     build: BuildLimits,
+    /// Be the judge of one submission: this folder, or with a dot the program
+    #[arg(long, hide = true, value_name = "NAME")]
+    row: Option<OsString>,
     /// The program and its arguments, last
     #[arg(
         trailing_var_arg = true,
@@ -96,12 +105,15 @@ impl BuildLimits {
 }
 
 struct Submission {
+    /// The name of its folder; a dot where a program is named.
+    id: OsString,
     name: String,
     folder: PathBuf,
     build: Vec<String>,
     run: Vec<OsString>,
 }
 
+#[derive(Default)]
 struct Grade {
     name: String,
     /// For each step whether it is passed, and what came of it as text.
@@ -132,25 +144,43 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
             let (folder, run) = (PathBuf::from("."), arguments.command.clone());
             let words: Vec<_> = run.iter().map(|word| word.to_string_lossy()).collect();
             let name = printable(words.join(" ").as_bytes(), 200);
-            vec![Ok(Submission { name, folder, build: Vec::new(), run })]
+            let id = OsString::from(".");
+            vec![Ok(Submission { id, name, folder, build: Vec::new(), run })]
         }
     };
-    process_group::end_all_on_ctrl_c();
+    if let Some(row) = &arguments.row {
+        return judge_row(row, submissions, arguments, streams);
+    }
+    process_group::end_groups_on_ctrl_c();
+    let names = submissions.iter().map(|found| match found {
+        Ok(Submission { name, .. }) | Err((name, _)) => name,
+    });
+    let wide = names.map(|name| name.chars().count()).max().unwrap_or(0).clamp(10, 40);
+    let is_table = arguments.format == Format::Text && arguments.folder.is_some();
+    if is_table {
+        let numbers: String = (1..=STEPS.len()).map(|n| format!("{n:>4}")).collect();
+        writeln!(streams.output, "{:<wide$}{numbers}  points", "submission")?;
+    }
     let mut grades = Vec::new();
     let shown = Shown::new(streams.progress, "submissions", Some(submissions.len() as u64));
     for submission in submissions {
         let grade = match submission {
-            Ok(submission) => grade(&submission, arguments),
-            Err((name, error)) => {
-                Grade { name, steps: Vec::new(), error: Some(error), seconds: 0.0 }
-            }
+            Ok(submission) => graded_apart(&submission, arguments),
+            Err((name, error)) => Grade { name, error: Some(error), ..Grade::default() },
         };
+        if is_table {
+            // Rows that were judged stay, whatever happens to the rest.
+            shown.without_bar(|| {
+                streams.output.write_all(row(&grade, wide).as_bytes())?;
+                streams.output.flush()
+            })?;
+        }
         grades.push(grade);
         shown.done(1);
     }
     drop(shown);
     let text = match arguments.format {
-        Format::Text => text(&grades, arguments.folder.is_some()),
+        Format::Text => text(&grades, arguments.folder.is_some().then_some(wide)),
         Format::Json => pretty(&everything(&grades, arguments)),
         Format::Gradescope => pretty(&gradescope(&grades[0])),
     };
@@ -181,8 +211,8 @@ fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Fail
         return Err(usage(format!("{shown} holds no folder\n  expected one for each submission")));
     }
     let one = |path: PathBuf| {
-        let name = path.file_name().unwrap_or_default();
-        let name = printable(name.as_encoded_bytes(), 40);
+        let id = path.file_name().unwrap_or_default().to_owned();
+        let name = printable(id.as_encoded_bytes(), 40);
         if !path.is_dir() {
             return Err((name, "it is no folder".to_owned()));
         }
@@ -192,18 +222,167 @@ fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Fail
                 parts.join(path.as_os_str())
             };
             let run = template.split_whitespace().map(word).collect();
-            return Ok(Submission { name, folder: PathBuf::from("."), build: Vec::new(), run });
+            let folder = PathBuf::from(".");
+            return Ok(Submission { id, name, folder, build: Vec::new(), run });
         }
         match Progress::read(&path) {
             Ok(Some(Progress { build, run, .. })) => {
                 let run = run.into_iter().map(OsString::from).collect();
-                Ok(Submission { name, folder: path, build, run })
+                Ok(Submission { id, name, folder: path, build, run })
             }
             Ok(None) => Err((name, format!("it has no {}, and there is no --run", progress::FILE))),
             Err(error) => Err((name, error)),
         }
     };
     Ok(paths.into_iter().map(one).collect())
+}
+
+/// Judges a submission in a process of its own. A program that signals its parent then loses its own row, and
+/// those of others are judged all the same.
+fn graded_apart(submission: &Submission, arguments: &GradeArguments) -> Grade {
+    static STARTED: AtomicU64 = AtomicU64::new(0);
+    let mark = format!("{}-{}", std::process::id(), STARTED.fetch_add(1, Ordering::Relaxed));
+    let start = Instant::now();
+    let found = apart(submission, arguments, &mark);
+    if found.is_err() {
+        // Where the judge was killed, its program lives on.
+        process_group::end_marked(&format!("{MARK}={mark}"));
+    }
+    found.unwrap_or_else(|error| Grade {
+        name: submission.name.clone(),
+        error: Some(error),
+        seconds: start.elapsed().as_secs_f64(),
+        ..Grade::default()
+    })
+}
+
+/// The variable by which the processes of a submission are found.
+const MARK: &str = "RASTERPROOF_SUBMISSION";
+/// Seconds that a judge may take longer than its submission.
+const LONGER_S: u64 = 60;
+
+fn apart(submission: &Submission, arguments: &GradeArguments, mark: &str) -> Result<Grade, String> {
+    let refused = |error: std::io::Error| {
+        format!("its judge cannot be started: {error}\n  allow more processes (ulimit -u)")
+    };
+    let end = Instant::now() + Duration::from_secs(arguments.seconds.saturating_add(LONGER_S));
+    let mut command = Command::new(std::env::current_exe().map_err(refused)?);
+    command.args(["course", "grade", "--format", "json"]).env(MARK, mark);
+    for (option, number) in [
+        ("--cases", arguments.cases),
+        ("--seed", arguments.seed),
+        ("--seconds", arguments.seconds),
+        ("--timeout", arguments.timeout),
+        ("--memory", arguments.memory),
+        ("--build-seconds", arguments.build.build_seconds),
+        ("--build-output", arguments.build.build_output),
+    ] {
+        command.arg(option).arg(number.to_string());
+    }
+    // A name may begin as an option does.
+    let with = |option: &str, value: &OsStr| {
+        let mut word = OsString::from(option);
+        word.push(value);
+        word
+    };
+    command.arg(with("--row=", &submission.id));
+    if let Some(folder) = &arguments.folder {
+        command.arg(with("--folder=", folder.as_os_str()));
+        command.args(arguments.run.iter().map(|run| with("--run=", OsStr::new(run))));
+    } else {
+        command.arg("--").args(&arguments.command);
+    }
+    let text = answer(command, end).map_err(|error| match error.kind() {
+        ErrorKind::TimedOut => "its judge does not end: does it stop its parent?".to_owned(),
+        ErrorKind::Other => error.to_string(),
+        _ => refused(error),
+    })?;
+    let found: Option<Grade> = serde_json::from_slice(&text).ok().and_then(|all: Value| {
+        let grade = all["submissions"].get(0)?;
+        let steps = grade["steps"]
+            .as_array()?
+            .iter()
+            .map(|step| Some((step["passed"].as_bool()?, step["output"].as_str()?.to_owned())));
+        Some(Grade {
+            name: submission.name.clone(),
+            steps: steps.collect::<Option<_>>()?,
+            error: grade["error"].as_str().map(str::to_owned),
+            seconds: grade["seconds"].as_f64()?,
+        })
+    });
+    found.ok_or_else(|| "its judge says nothing".to_owned())
+}
+
+/// What a judge writes to standard output until it ends, at the latest then.
+#[cfg(unix)]
+fn answer(mut command: Command, end: Instant) -> std::io::Result<Vec<u8>> {
+    use std::os::fd::OwnedFd;
+    use std::os::unix::net::UnixStream;
+    // A socket and not a pipe, because reading from it can have a limit without a thread.
+    let (mut ours, theirs) = UnixStream::pair()?;
+    ours.set_read_timeout(Some(Duration::from_millis(50)))?;
+    command.stdin(Stdio::null()).stdout(OwnedFd::from(theirs));
+    let mut judge = Group::start_judge(&mut command)?;
+    // It holds their end of the socket too.
+    drop(command);
+    let (mut text, mut piece) = (Vec::new(), [0; 1 << 14]);
+    loop {
+        match ours.read(&mut piece) {
+            Ok(0) => break,
+            Ok(n) => text.extend_from_slice(&piece[..n]),
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) if !matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
+                return Err(error);
+            }
+            Err(_) if judge.has_ended() => break,
+            Err(_) if Instant::now() >= end => return Err(ErrorKind::TimedOut.into()),
+            Err(_) => {}
+        }
+    }
+    ended(judge.end(Duration::from_secs(2)), text)
+}
+
+/// Elsewhere it is waited for.
+#[cfg(not(unix))]
+fn answer(mut command: Command, _: Instant) -> std::io::Result<Vec<u8>> {
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let mut judge = Group::start_judge(&mut command)?;
+    let mut text = Vec::new();
+    if let Some(stdout) = judge.child().stdout.as_mut() {
+        stdout.read_to_end(&mut text)?;
+    }
+    ended(judge.end(Duration::from_secs(2)), text)
+}
+
+/// What a judge wrote, if it came to its end.
+fn ended(status: Option<ExitStatus>, text: Vec<u8>) -> std::io::Result<Vec<u8>> {
+    let verdicts = [exit::AGREES, exit::DISAGREES, exit::USAGE].map(|code| Some(i32::from(code)));
+    match status {
+        Some(status) if verdicts.contains(&status.code()) => Ok(text),
+        status => {
+            let how = status.map_or_else(String::new, |status| format!(" ({status})"));
+            Err(std::io::Error::other(format!(
+                "its judge was ended{how}: does it send signals to its parent?"
+            )))
+        }
+    }
+}
+
+/// The judge of one submission: its grade as JSON, for the process that started it.
+fn judge_row(
+    row: &OsStr,
+    submissions: Vec<Found>,
+    arguments: &GradeArguments,
+    streams: &mut Streams<'_>,
+) -> Status {
+    process_group::end_all_on_ctrl_c();
+    process_group::end_with_parent();
+    let submission = submissions.into_iter().flatten().find(|one| one.id == row);
+    let submission = submission.ok_or_else(|| usage("the submission is gone"))?;
+    let grade = grade(&submission, arguments);
+    let agrees = grade.points() == STEPS.len();
+    streams.output.write_all(pretty(&everything(&[grade], arguments)).as_bytes())?;
+    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
 fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
@@ -216,8 +395,7 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
         build: bounds.build.min(seconds),
         ..bounds
     };
-    let mut grade =
-        Grade { name: submission.name.clone(), steps: Vec::new(), error: None, seconds: 0.0 };
+    let mut grade = Grade { name: submission.name.clone(), ..Grade::default() };
     match started(submission, &bounds, arguments) {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
@@ -254,19 +432,18 @@ fn started(
     sandbox::start(folder, run, bounds, limits)
 }
 
-/// A table of submissions by steps; of one program also what came of each step.
-fn text(grades: &[Grade], is_folder: bool) -> String {
+/// A row of the table of submissions by steps.
+fn row(grade: &Grade, wide: usize) -> String {
+    let mark = |at| if grade.has_passed(at) { "   +" } else { "   -" };
+    let marks: String = (0..STEPS.len()).map(mark).collect();
+    format!("{:<wide$}{marks}  {:>6}\n", grade.name, grade.points())
+}
+
+/// What follows the rows of a table of this width, or what came of each step of one program.
+fn text(grades: &[Grade], table: Option<usize>) -> String {
     let mut out = String::new();
-    if is_folder {
-        let wide = grades.iter().map(|g| g.name.chars().count()).max().unwrap_or(0).clamp(10, 40);
-        let numbers: String = (1..=STEPS.len()).map(|n| format!("{n:>4}")).collect();
-        let _ = writeln!(out, "{:<wide$}{numbers}  points", "submission");
-        for grade in grades {
-            let marks: String = (0..STEPS.len())
-                .map(|at| if grade.has_passed(at) { "   +" } else { "   -" })
-                .collect();
-            let _ = writeln!(out, "{:<wide$}{marks}  {:>6}", grade.name, grade.points());
-        }
+    let is_folder = table.is_some();
+    if let Some(wide) = table {
         let passed = |at| grades.iter().filter(|grade: &&Grade| grade.has_passed(at)).count();
         let counts: String = (0..STEPS.len()).map(|at| format!("{:>4}", passed(at))).collect();
         let _ = writeln!(out, "{:<wide$}{counts}", "passed by");

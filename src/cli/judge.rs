@@ -14,6 +14,7 @@ use rasterproof_judge::ask::Ask;
 use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::run::cases_of;
 use rasterproof_judge::{Options, adapt_case, process_group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
@@ -24,7 +25,7 @@ pub struct JudgeArguments {
     #[arg(long, visible_alias = "limit", value_name = "N", default_value_t = 1000,
         value_parser = super::parse_count, allow_negative_numbers = true)]
     cases: u64,
-    /// Begin no new case after this many seconds
+    /// Seconds for all that is asked after the start; a last answer is waited for one second more
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     seconds: Option<Duration>,
     /// Only this family; may be repeated
@@ -86,8 +87,9 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 impl JudgeArguments {
-    fn options(&self) -> Options {
+    fn options(&self, baseline: Option<&Baseline>) -> Options {
         Options {
+            known: baseline.map(|baseline| baseline.known().clone()).unwrap_or_default(),
             seed: self.seed,
             cases: self.cases,
             time_limit: self.seconds,
@@ -115,7 +117,7 @@ impl JudgeArguments {
 pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     if let Some(names) = &arguments.league {
-        return league::run(names, &arguments.options(), limits, streams);
+        return league::run(names, &arguments.options(None), limits, streams);
     }
     arguments.page.refuse_idle_folder(typed)?;
     let page = arguments.page.page("judge.html");
@@ -140,25 +142,29 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             declared.name
         )));
     }
-    let families = adapt_case::families(&arguments.family).len() as u64;
-    let cases = if arguments.case.is_some() { 1 } else { arguments.cases };
-    let total = families.saturating_mul(cases);
-    let progress = Progress::new(streams.progress, "cases", Some(total));
+    let options = arguments.options(baseline.as_ref());
+    let total = cases_of(&options, declared);
+    let progress = Progress::new(streams.progress, "cases judged", Some(total));
     let scope = arguments.scope();
     let recognise = |program: &mut dyn Ask| recognise(program, scope);
     let mut verdict =
-        rasterproof_judge::judge(&mut askers, &arguments.options(), &recognise, &|cases| {
-            progress.done(cases)
-        });
+        rasterproof_judge::judge(&mut askers, &options, &recognise, &|step| progress.step(step));
     drop(progress);
     drop(askers);
+    // Whoever draws nothing would agree.
+    let expects = verdict.windings.is_known() || verdict.found.rows.iter().any(|r| r.pixels > 0);
+    let is_empty = verdict.found.rows.is_empty() || (verdict.agrees() && !expects);
+    if let (true, true, Some(limit)) = (is_empty, verdict.found.out_of_time, arguments.seconds) {
+        return Err(usage(format!(
+            "nothing was judged within --seconds {}: the answers take too long; allow more seconds",
+            limit.as_secs_f64()
+        )));
+    }
     if verdict.found.rows.is_empty() {
         return Err(usage(
             "no case was judged: the program does not draw what these families hold",
         ));
     }
-    // Whoever draws nothing would agree.
-    let expects = verdict.windings.is_known() || verdict.found.rows.iter().any(|r| r.pixels > 0);
     if arguments.case.is_none() && verdict.agrees() && !expects {
         return Err(usage(
             "no pixel was expected: the range, the window or the families leave nothing to judge",

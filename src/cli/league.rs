@@ -12,7 +12,7 @@ use rasterproof_judge::ask::Ask;
 use rasterproof_judge::league::{Adapter, League, Standing, date};
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::{Options, process_group};
+use rasterproof_judge::{Options, Step, process_group};
 use rasterproof_report::json::pretty;
 use rasterproof_report::league::tables;
 
@@ -52,8 +52,10 @@ pub fn run(
         let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(program)];
         let progress = Progress::new(streams.progress, "cases", None);
         progress.at(0, &format!("of {}", adapter.name));
-        let verdict = rasterproof_judge::judge(&mut askers, options, &convention, &|cases| {
-            progress.done(cases)
+        let verdict = rasterproof_judge::judge(&mut askers, options, &convention, &|step| {
+            if let Step::Judged(cases) = step {
+                progress.done(cases);
+            }
         });
         drop(progress);
         let standing = Standing::new(adapter, today(), &verdict);

@@ -6,6 +6,7 @@ use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use rasterproof_judge::Step;
 
 /// Before a bar appears.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -55,6 +56,19 @@ impl Progress {
         self.bar.reset_eta();
     }
 
+    /// What the judge does.
+    pub fn step(&self, step: Step) {
+        match step {
+            Step::Rule => self.bar.set_message("(asking for the rule)"),
+            Step::Judged(more) => {
+                self.bar.set_message("");
+                self.bar.inc(more);
+            }
+            Step::Cause => self.bar.set_message("(asking for the cause)"),
+            Step::Smaller => self.bar.set_message("(making a case smaller)"),
+        }
+    }
+
     pub fn done(&self, more: u64) {
         self.bar.inc(more);
     }
@@ -63,6 +77,11 @@ impl Progress {
     pub fn at(&self, count: u64, what: &str) {
         self.bar.set_position(count);
         self.bar.set_message(what.to_owned());
+    }
+
+    /// Writes while the bar is away.
+    pub fn without_bar<T>(&self, write: impl FnOnce() -> T) -> T {
+        self.bar.suspend(write)
     }
 
     pub fn warn(&self, line: &str) {

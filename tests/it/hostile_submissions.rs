@@ -227,3 +227,73 @@ fn progress_is_written_where_it_is() {
         .has(0)
         .prints(r"course check --dir 'it'\''s mine'");
 }
+
+/// A program that ends its parents, its group or both loses its own row, and what it started ends.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_submission_cannot_end_the_grading() {
+    let class = Folder::new("submissions-signals");
+    // It goes on to its next parent, as long as that is this program.
+    let parents = format!(
+        "for i in $(seq 300); do p=$(cut -d' ' -f4 /proc/$$/stat); \
+         [ \"$(readlink /proc/$p/exe)\" = {PROGRAM} ] && kill -KILL $p; done"
+    );
+    let lines = [
+        ("a-int", "kill -INT $PPID"),
+        ("b-term", "kill -TERM $PPID"),
+        ("c-kill", "setsid sleep 4044.17 & sleep 4044.18 & kill -KILL $PPID"),
+        ("d-hup", "kill -HUP $PPID"),
+        ("e-group", "kill -INT 0"),
+        ("f-group", "kill -KILL -$$"),
+        ("g-parents", parents.as_str()),
+    ];
+    for (name, line) in lines {
+        let line = format!("{line}; sleep 0.3; exec {PROGRAM} engine scanline");
+        let text = format!("run = [\"sh\", \"-c\", {line:?}]\nstep = \"pixel\"\n");
+        submit(&class, name, &text);
+    }
+    submit(&class, "z-right", &progress(""));
+    let out = class.check("course --grade --folder . --cases 1", 1).out;
+    let rows: Vec<&str> = out.lines().skip(1).take(lines.len() + 1).collect();
+    let names = lines.iter().map(|(name, _)| *name).chain(["z-right"]);
+    for (row, name) in rows.iter().zip(names) {
+        assert!(row.starts_with(name), "{out}");
+        assert_eq!(row.contains('+'), name == "z-right", "{out}");
+    }
+    for (name, _) in lines {
+        assert!(out.contains(&format!("{name}: cannot be judged: ")), "{name}: {out}");
+    }
+    assert_eq!(processes("4044."), Vec::<String>::new());
+    // A program that is graded alone has a result for its teacher, too.
+    let words = ["course", "--grade", "--format", "gradescope", "--", "sh", "-c"];
+    let run = class.check([&words[..], &["kill -INT $PPID; sleep 0.3"]].concat(), 2);
+    assert_eq!(run.json()["score"], 0);
+    assert!(run.json()["tests"][0]["output"].as_str().unwrap().contains("was ended"), "{run}");
+}
+
+/// A row is there as soon as it is judged, and Ctrl-C ends the judge of the next one with all it started.
+#[cfg(target_os = "linux")]
+#[test]
+fn rows_are_written_as_they_are_judged() {
+    use rustix::process::{Pid, Signal, kill_process};
+    use std::io::{BufRead as _, BufReader};
+    let class = Folder::new("submissions-rows");
+    submit(&class, "a", &progress(""));
+    submit(&class, "b", &progress("setsid sleep 4045.17 & sleep 4045.18"));
+    let mut command = class.command("course --grade --folder . --cases 1");
+    let mut child = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.next().unwrap().unwrap().starts_with("submission"));
+    assert!(lines.next().unwrap().unwrap().starts_with("a  "));
+    let is_building = || {
+        std::thread::sleep(Duration::from_millis(10));
+        processes("4045.17").len() + processes("4045.18").len() >= 2
+    };
+    assert!((0..1000).any(|_| is_building()));
+    kill_process(Pid::from_child(&child), Signal::INT).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!((0..300).any(|_| {
+        std::thread::sleep(Duration::from_millis(10));
+        processes("4045.").is_empty()
+    }));
+}

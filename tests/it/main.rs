@@ -41,6 +41,7 @@ mod own;
 mod page;
 mod page_commands;
 mod pages;
+mod panics;
 mod partition;
 mod plans;
 mod playground;

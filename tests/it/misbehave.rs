@@ -38,7 +38,7 @@ fn misbehaves() {
 fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()> {
     let entry = engines::find(engine).unwrap();
     match fault {
-        // No fault, as `old` and `noisy` are none.
+        // No fault, as `old`, `noisy` and `slow` are none.
         "chatty" => writeln!(out, "INFO: a banner\n> HELLO? 2 lines\n")?,
         // With control characters.
         "noisy" => {
@@ -72,6 +72,10 @@ fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()>
             ("bloats", [_, id, ..]) => {
                 let runs = 170_000;
                 writeln!(out, "C {id} {runs}{}", " 0 0 1".repeat(runs))?;
+            }
+            ("slow", [_, _, ..]) => {
+                std::thread::sleep(Duration::from_millis(900));
+                out.write_all(&answer)?;
             }
             ("out-of-order", [_, _, "16", ..]) if !is_alone => held = std::mem::take(&mut answer),
             ("moody", [_, _, "16", ..]) if !is_alone => abort(),

@@ -512,6 +512,14 @@ fn mistakes_of_the_table_are_on_the_page() {
     }
 }
 
+/// The pages that mistakes name are there.
+#[test]
+fn mistakes_name_pages_that_exist() {
+    for [name, _, _, page, _] in mistakes::table() {
+        assert!(std::path::Path::new("docs").join(format!("{page}.md")).exists(), "{name}: {page}");
+    }
+}
+
 /// A convention is no mistake: none is named, whichever is drawn by.
 #[test]
 fn mistakes_are_not_named_for_conventions() {

@@ -5,6 +5,7 @@
 
 use std::fmt;
 use std::io::Write as _;
+use std::time::Instant;
 
 use glam::DVec2;
 
@@ -145,9 +146,13 @@ impl fmt::Display for Misbehaviour {
 pub trait Ask: Send {
     fn declared(&self) -> &Declared;
 
-    /// An answer for each question, in order; fewer where that many of them are deaths. Never fails:
-    /// what goes wrong is an answer too.
+    /// An answer for each question, in order; fewer where that many of them are deaths, or where its time
+    /// is over. Never fails: what goes wrong is an answer too.
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer>;
+
+    /// Nothing is asked after this, and an answer is waited for only a short while longer. Nothing sets no end.
+    /// Who answers at once need not know.
+    fn end_at(&mut self, _end: Option<Instant>) {}
 
     /// How many cases of a family it is asked at once; the same for every copy.
     fn cases_at_once(&self) -> u64 {

@@ -12,6 +12,7 @@ use std::path::Path;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
+use super::run::Failing;
 use super::verdict::{Outcome, Verdict};
 
 const HEADER: &str = "# rasterproof baseline 1, seed ";
@@ -69,8 +70,16 @@ impl Baseline {
         Ok(Self { seed, known })
     }
 
+    /// The fingerprints of the known failures.
+    #[must_use]
+    pub fn known(&self) -> &BTreeMap<String, u64> {
+        &self.known
+    }
+
     /// Sorts the outcomes of a verdict into known and new.
     pub fn apply(&self, verdict: &mut Verdict) {
+        let is_known = |f: &&Failing| self.known.get(&f.name()) == Some(&f.fingerprint);
+        verdict.known = verdict.found.failing.iter().filter(is_known).count() as u64;
         let failing = failing(verdict);
         let judged = judged(verdict);
         for property in &mut verdict.properties {
@@ -124,9 +133,7 @@ fn judged(verdict: &Verdict) -> HashSet<String> {
 /// What fails, as in the file. What the whole run shows has one case.
 fn failing(verdict: &Verdict) -> BTreeMap<String, u64> {
     let cases = verdict.found.failing.iter();
-    let mut all: BTreeMap<_, _> = cases
-        .map(|f| (format!("{} {}#{}", f.property, f.family, f.index), f.fingerprint))
-        .collect();
+    let mut all: BTreeMap<_, _> = cases.map(|f| (f.name(), f.fingerprint)).collect();
     // That the program draws, in which winding, and by the protocol.
     let whole = verdict.properties.iter().filter(|p| p.outcome == Outcome::Fail);
     let rows: HashSet<&str> = verdict.found.rows.iter().map(|row| row.name).collect();

@@ -364,19 +364,19 @@ fn alike(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
 
 /// The pixels of an answer by hits, those outside the window left out.
 pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
-    match answer {
-        Answer::Coverage(runs) => Some(hits(runs, window).0),
-        Answer::Samples(runs) | Answer::Seen(runs) => {
-            let runs: Vec<_> = runs.iter().map(|(run, _)| *run).collect();
-            Some(hits(&runs, window).0)
-        }
-        Answer::Values(fragments) => {
-            let runs: Vec<_> = fragments.iter().map(pixel_of).collect();
-            Some(hits(&runs, window).0)
-        }
-        Answer::Line(pixels) => Some(hits(&as_runs(pixels), window).0),
-        Answer::Polygon(_) | Answer::Refused(_) | Answer::Died(_) => None,
-    }
+    hits_of(answer, window).map(|(hits, _)| hits)
+}
+
+/// The pixels of an answer by hits, and how many lie outside the window.
+pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
+    let runs: Vec<Span> = match answer {
+        Answer::Coverage(runs) => return Some(hits(runs, window)),
+        Answer::Samples(runs) | Answer::Seen(runs) => runs.iter().map(|(run, _)| *run).collect(),
+        Answer::Values(fragments) => fragments.iter().map(pixel_of).collect(),
+        Answer::Line(pixels) => as_runs(pixels),
+        Answer::Polygon(_) | Answer::Refused(_) | Answer::Died(_) => return None,
+    };
+    Some(hits(&runs, window))
 }
 
 fn as_runs(pixels: &[(i32, i32)]) -> Vec<Span> {
@@ -384,18 +384,24 @@ fn as_runs(pixels: &[(i32, i32)]) -> Vec<Span> {
     pixels.iter().map(run).collect()
 }
 
-fn watertight(finding: &mut Finding, list: &[Triangle], answers: &[Answer], window: PixelRect) {
-    finding.shapes = list.len() as u64;
+/// How many triangles of a mesh cover each pixel. A mesh with a triangle that was refused has a hole for another
+/// reason, and no picture.
+pub fn mesh_of(answers: &[Answer], window: PixelRect) -> Option<Coverage> {
     let mut sum = Coverage::new(window, 0);
     for answer in answers {
-        // A mesh with a triangle that was refused has a hole for another reason.
-        let Some(drawn) = picture_of(answer, window) else { return };
+        let drawn = picture_of(answer, window)?;
         for (y, row) in drawn.rows() {
             for (sum, hits) in sum.row_mut(y).iter_mut().zip(row) {
                 *sum = sum.saturating_add((*hits).min(1));
             }
         }
     }
+    Some(sum)
+}
+
+fn watertight(finding: &mut Finding, list: &[Triangle], answers: &[Answer], window: PixelRect) {
+    finding.shapes = list.len() as u64;
+    let Some(sum) = mesh_of(answers, window) else { return };
     finding.pixels += sum.covered();
     let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
     let (holes, doubles) = mesh::holes_and_doubles(&corners, &sum);

@@ -5,7 +5,8 @@
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
 //! wrong with a case ([`finding`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
-//! convention that is followed, and [`verdict`] says what came of it, property by property;
+//! convention that is followed, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
+//! limited time;
 //! [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
@@ -31,9 +32,11 @@ pub mod server;
 pub mod shrink;
 mod stages;
 pub mod text;
+pub mod timed;
 pub mod verdict;
 pub mod windings;
 
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use ask::{Answer, Ask, Question};
@@ -41,13 +44,14 @@ use check::Truth;
 use declared::Declared;
 use recognise::{Recognised, Said};
 use run::Incident;
+use timed::Timed;
 use verdict::Verdict;
 
 #[derive(Clone, Debug)]
 pub struct Options {
     pub seed: u64,
     pub cases: u64,
-    /// No new case is begun after this long; a failing case is then made smaller for a tenth of it.
+    /// The time for all that is asked. An answer that is waited for at its end is waited for a short while more.
     pub time_limit: Option<Duration>,
     /// Names of families; empty means all.
     pub families: Vec<String>,
@@ -56,6 +60,8 @@ pub struct Options {
     pub patience: Duration,
     /// Every case and every failure is remembered, for a baseline.
     pub remember: bool,
+    /// The fingerprints of failures that are known, by [`run::Failing::name`]. These are not shown.
+    pub known: BTreeMap<String, u64>,
 }
 
 impl Default for Options {
@@ -68,8 +74,22 @@ impl Default for Options {
             only: None,
             patience: Duration::from_secs(5),
             remember: false,
+            known: BTreeMap::new(),
         }
     }
+}
+
+/// What the judge does, for those who wait.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// It asks for the winding and the rule, before the cases.
+    Rule,
+    /// It asks cases; so many more are judged.
+    Judged(u64),
+    /// It makes failing cases smaller, after all others.
+    Smaller,
+    /// It asks for the cause of what is wrong.
+    Cause,
 }
 
 /// Recognises the convention of a program by asking it; nothing where it draws as it declares.
@@ -84,15 +104,18 @@ pub fn judge(
     askers: &mut [Box<dyn Ask>],
     options: &Options,
     recognise: Recognise<'_>,
-    progress: &(dyn Fn(u64) + Sync),
+    progress: &(dyn Fn(Step) + Sync),
 ) -> Verdict {
+    let start = Instant::now();
+    let end = options.time_limit.map(|limit| start + limit);
+    askers.iter_mut().for_each(|asker| asker.end_at(end));
+    progress(Step::Rule);
     let first = askers.first_mut().expect("somebody to be asked");
     let declared = first.declared().clone();
     let mut truth = Truth::of(&declared);
-    let start = Instant::now();
-    // A third of a limited time is for what is asked before the families.
-    let end = options.time_limit.map(|limit| start + limit / 3);
-    let mut first = Watched { asked: &mut **first, incidents: Vec::new(), end, is_late: false };
+    // A third of a limited time is for what is asked before the families, a tenth for what is asked after them.
+    let asked = Timed::new(&mut **first, options.time_limit.map(|limit| start + limit / 3));
+    let mut first = Watched { asked, incidents: Vec::new() };
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
     let mut found_before = recognise(&mut first);
@@ -100,7 +123,7 @@ pub fn judge(
         truth.recognised = found.expect.take();
         found.said.clone()
     });
-    if first.is_late {
+    if first.asked.is_late {
         let late = "The time was up before its convention was found.".to_owned();
         (recognised, truth.recognised) =
             (Some(Said { sentences: vec![late], ..Said::default() }), None);
@@ -108,19 +131,24 @@ pub fn judge(
     let before = first.incidents;
     let mut options = options.clone();
     if let Some(limit) = options.time_limit {
-        options.time_limit = Some(limit.saturating_sub(start.elapsed()));
+        options.time_limit = Some((limit - limit / 10).saturating_sub(start.elapsed()));
         options.patience = options.patience.min(limit / 10);
     }
     let options = &options;
-    let mut found = run::run(askers, options, &truth, progress);
+    let mut found = run::run(askers, options, &truth, &|cases| progress(Step::Judged(cases)));
     found.incidents.splice(0..0, before);
     found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];
-    let failures = failures::failures(first, &found, options, &truth);
+    progress(Step::Smaller);
+    let failures = failures::failures(&mut Timed::new(first, end), &found, options, &truth);
+    progress(Step::Cause);
     let start = Instant::now();
     let goes_on = || start.elapsed() < options.patience;
-    let causes = recognise::mistakes(first, &found, &truth, found_before.as_ref(), &goes_on);
+    let mut asked = Timed::new(first, end);
+    let checks = found.unexplained();
+    let causes = recognise::mistakes(&mut asked, &checks, &truth, found_before.as_ref(), &goes_on);
     found.strays.extend(first.strays());
+    first.end_at(None);
     let mut verdict =
         Verdict::new(declared, options, windings, recognised, found, failures, first.complaints());
     verdict.causes = causes;
@@ -129,11 +157,8 @@ pub fn judge(
 
 /// Somebody who is asked before the families, and what came instead of answers.
 struct Watched<'a> {
-    asked: &'a mut dyn Ask,
+    asked: Timed<'a>,
     incidents: Vec<Incident>,
-    /// Nothing is asked after this, and whether something would have been.
-    end: Option<Instant>,
-    is_late: bool,
 }
 
 impl Ask for Watched<'_> {
@@ -142,26 +167,12 @@ impl Ask for Watched<'_> {
     }
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        // Where the time is limited it is looked at now and then.
-        let at_once = match self.end {
-            Some(_) => self.asked.declared().batch.max(16),
-            None => questions.len().max(1),
-        };
-        let (mut answers, mut deaths) = (Vec::new(), 0);
-        for some in questions.chunks(at_once) {
-            self.is_late |= self.end.is_some_and(|end| Instant::now() >= end);
-            if self.is_late || deaths >= most_deaths {
-                break;
+        let answers = self.asked.ask(questions, most_deaths);
+        for (question, answer) in questions.iter().zip(&answers) {
+            if let Answer::Died(what) = answer {
+                let (what, request) = (what.clone(), question.text(1));
+                self.incidents.push(Incident { family: "", index: 0, what, request });
             }
-            let answered = self.asked.ask(some, most_deaths - deaths);
-            for (question, answer) in some.iter().zip(&answered) {
-                if let Answer::Died(what) = answer {
-                    let (what, request) = (what.clone(), question.text(1));
-                    self.incidents.push(Incident { family: "", index: 0, what, request });
-                    deaths += 1;
-                }
-            }
-            answers.extend(answered);
         }
         answers
     }

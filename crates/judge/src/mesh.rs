@@ -7,7 +7,7 @@
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
-use rasterproof_verify::comparison::area2;
+use rasterproof_verify::comparison::{Tally, area2};
 
 type Edge = [SubpixelPoint; 2];
 
@@ -51,21 +51,27 @@ fn outline(list: &[Corners]) -> Vec<Edge> {
 /// Pixels of the window without a hit whose neighbourhood lies within the mesh, and hits beyond the
 /// first on any pixel; `hits` are those of all triangles together, each counted at most once.
 pub fn holes_and_doubles(list: &[Corners], hits: &Coverage) -> (u64, u64) {
+    let Tally { missing, twice, .. } = Tally::between(hits, &mended(list, hits));
+    (missing, twice)
+}
+
+/// The same picture without its holes and doubles: a hit where there is a hole, and one where there are more.
+pub fn mended(list: &[Corners], hits: &Coverage) -> Coverage {
     let outline = outline(list);
-    let (mut holes, mut doubles) = (0, 0);
+    let mut mended = hits.clone();
     let corners = || list.iter().flatten();
     let px = |sub: i32| sub.div_euclid(SUBPIXELS);
     let (left, right) = (corners().map(|p| px(p.x)).min(), corners().map(|p| px(p.x)).max());
-    let (Some(left), Some(right)) = (left, right) else { return (0, 0) };
-    let x0 = hits.bounds().x0;
-    for (y_px, row) in hits.rows() {
-        for (x_px, &n) in (x0..).zip(row) {
-            doubles += u64::from(n.saturating_sub(1));
+    let (Some(left), Some(right)) = (left, right) else { return mended };
+    let bounds = hits.bounds();
+    for y_px in bounds.y0..bounds.y1 {
+        for (x_px, n) in (bounds.x0..).zip(mended.row_mut(y_px)) {
             let near = left < x_px && x_px < right;
-            holes += u64::from(n == 0 && near && is_within(&outline, x_px, y_px));
+            let is_hole = *n == 0 && near && is_within(&outline, x_px, y_px);
+            *n = if is_hole { 1 } else { (*n).min(1) };
         }
     }
-    (holes, doubles)
+    mended
 }
 
 /// Whether the pixel and its eight neighbours lie within the outline, which is not touched.

@@ -5,15 +5,16 @@
 //! polygon of clip space what it covers in x and y, before the division.
 
 use super::ask::{Answer, Asked, Question};
-use super::check::{Check, Truth, expected_answer, picture_of};
+use super::check::{Check, Truth, expected_answer, hits_of, mesh_of, picture_of};
 use super::depth::Pile;
-use super::near_plane;
+use super::finding::Finding;
+use super::{mesh, near_plane};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_render::pipeline::multisample;
-use rasterproof_verify::cases::Case;
+use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::area2;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
@@ -29,10 +30,56 @@ pub struct Pictured {
 }
 
 /// The answers as one picture, and beside it what was expected; for checks that compare answers with
-/// each other the first and the one that differs.
+/// each other the first and the one that differs. Where the two are the same, it says what is wrong.
 pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<Pictured> {
     let mut questions = Vec::new();
     check.questions(case, truth, &mut questions);
+    let mut picture = picture(check, case, (&questions[..], answers), truth)?;
+    if picture.drawn == picture.expected && answers.len() == questions.len() {
+        let finding = check.judge(case, answers, truth);
+        if finding.is_wrong() {
+            let space = if picture.of.is_empty() { "" } else { "; " };
+            picture.of += &format!(
+                "{space}both pictures are the same; what differs is {}",
+                unseen(check, case, answers, &finding)
+            );
+        }
+    }
+    Some(picture)
+}
+
+/// What is wrong with answers whose picture is right.
+fn unseen(check: Check, case: &Case, answers: &[Answer], finding: &Finding) -> String {
+    let outside = answers.iter().filter_map(|answer| Some(hits_of(answer, case.window)?.1));
+    let outside: u64 = outside.sum();
+    let mut parts = Vec::new();
+    if check == Check::Near {
+        parts.push("z, w or the way round".to_owned());
+    }
+    if outside > 0 {
+        parts.push(format!("{outside} pixels outside the window"));
+    }
+    if finding.tally.order > 0 && check != Check::Depth {
+        parts.push("the order in which the pixels come".to_owned());
+    }
+    if finding.tally.twice > 0 {
+        parts.push(format!("{} pixels that come twice", finding.tally.twice));
+    }
+    if let Some((x, y)) = finding.worst_at.filter(|_| finding.worst > 1.0) {
+        parts.push(format!("a value, at pixel ({x}, {y})"));
+    }
+    if finding.refused + finding.died.len() as u64 > 0 {
+        parts.push("a request that is not answered".to_owned());
+    }
+    if parts.is_empty() { finding.describe(check) } else { parts.join(", ") }
+}
+
+fn picture(
+    check: Check,
+    case: &Case,
+    (questions, answers): (&[Question], &[Answer]),
+    truth: &Truth,
+) -> Option<Pictured> {
     let plain =
         |drawn, expected| Some(Pictured { drawn, expected, of: String::new(), moved: None });
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
@@ -42,8 +89,16 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
             let other = others.iter().find(|other| *other != first)?;
             plain(other.clone(), first.clone())
         }
-        Check::Samples => Some(samples(&questions, answers, case.window, truth)),
-        Check::Near => near(&questions, answers),
+        Check::Samples => Some(samples(questions, answers, case.window, truth)),
+        Check::Near => near(questions, answers),
+        Check::Watertight => {
+            let Shape::Triangles { list, .. } = &case.shape else { return None };
+            let drawn = mesh_of(answers, case.window)?;
+            let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+            let expected = mesh::mended(&corners, &drawn);
+            let of = "the triangles of the mesh together; expected is the same without holes and doubles";
+            Some(Pictured { drawn, expected, of: of.to_owned(), moved: None })
+        }
         Check::Depth => pile(questions.first()?, answers.first()?, truth),
         _ => {
             let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
@@ -152,12 +207,9 @@ fn near(questions: &[Question], answers: &[Answer]) -> Option<Pictured> {
     let expected = fan(&exact, cell, window);
     let drawn = fan(&answered, cell, window);
     let [left, top] = [window.x0, window.y0].map(|v| f64::from(v) * cell);
-    let mut of = format!(
+    let of = format!(
         "x and y of clip space, before the division; a cell is {cell}, the first begins at {left}, {top}"
     );
-    if drawn == expected {
-        of += "; what differs is z, w or the way round";
-    }
     let moved = on_cells(&corners.map(|(x, y)| [x, y]), cell);
     let moved = moved.and_then(|m| <Corners>::try_from(m).ok()).map(|corners| vec![corners]);
     Some(Pictured { drawn, expected, of, moved })
@@ -189,8 +241,8 @@ fn fan(corners: &[[f64; 2]], cell: f64, window: PixelRect) -> Coverage {
 mod tests {
     use super::*;
     use crate::declared::Declared;
+    use rasterproof_verify::cases::Triangle;
     use rasterproof_verify::cases::near_plane::FAMILIES;
-    use rasterproof_verify::cases::{Shape, Triangle};
 
     fn pictures(check: Check, case: &Case, answers: &[Answer]) -> Pictured {
         let truth = Truth::of(&Declared::default());

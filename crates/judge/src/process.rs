@@ -42,10 +42,16 @@ const LOOK: Duration = Duration::from_millis(20);
 /// What comes without such a pause is one flood.
 const SILENCE: Duration = Duration::from_millis(100);
 
+/// How long an answer is waited for when the time of the judge is over; not longer than the program is allowed
+/// for an answer.
+const GRACE: Duration = Duration::from_secs(1);
+
 /// A program under judgement; it is running from the first question on.
 pub struct Program {
     command: Vec<OsString>,
     limits: Limits,
+    /// Nothing is asked after this.
+    end: Option<Instant>,
     declared: Declared,
     /// Words of `--declare`, which are heard after those of the program.
     extra: Vec<String>,
@@ -70,6 +76,14 @@ struct Live {
     heard: usize,
 }
 
+/// Why not everything was answered.
+enum Broken {
+    /// What it did, with so many requests in flight.
+    Misbehaves(Misbehaviour, usize),
+    /// The time of the judge is over.
+    Over,
+}
+
 enum NoLine {
     Ended,
     TimeOut,
@@ -90,6 +104,7 @@ impl Program {
         let mut program = Self {
             command: command.iter().map(|word| word.as_ref().to_owned()).collect(),
             limits,
+            end: None,
             declared: Declared::default(),
             extra: extra.to_vec(),
             live: None,
@@ -105,29 +120,51 @@ impl Program {
     fn restart(&mut self) -> Result<Declared, Misbehaviour> {
         self.live = None;
         let mut live = Live::start(&self.command, &self.complaints)?;
-        let mut declared = live.hello(self.limits)?;
+        let mut declared = live.hello(self.limits_left())?;
         self.extra.iter().for_each(|word| declared.hear(word));
         self.live = Some(live);
         Ok(declared)
     }
 
-    /// Asks with at most `batch` requests in flight, until all are answered or something breaks;
-    /// then also how many were in flight.
+    fn is_over(&self) -> bool {
+        self.end.is_some_and(|end| Instant::now() >= end)
+    }
+
+    /// When nothing is waited for any more.
+    fn last(&self) -> Option<Instant> {
+        self.end.map(|end| end + GRACE.min(self.limits.answer))
+    }
+
+    /// The limits of what begins now.
+    fn limits_left(&self) -> Limits {
+        let Some(last) = self.last() else { return self.limits };
+        let left = last.saturating_duration_since(Instant::now());
+        Limits { answer: self.limits.answer.min(left), start: self.limits.start.min(left) }
+    }
+
+    /// Asks with at most `batch` requests in flight, until all are answered or something breaks.
     fn exchange(
         &mut self,
         questions: &[Question],
         batch: usize,
         answers: &mut Vec<Answer>,
-    ) -> Result<(), (Misbehaviour, usize)> {
-        if self.live.is_none() {
-            self.restart().map_err(|m| (m, 1))?;
+    ) -> Result<(), Broken> {
+        if self.is_over() {
+            return Err(Broken::Over);
         }
+        if self.live.is_none() {
+            let started = self.restart();
+            let is_over = self.is_over();
+            started.map_err(|m| if is_over { Broken::Over } else { Broken::Misbehaves(m, 1) })?;
+        }
+        let (last, limits_left) = (self.last(), self.limits_left());
+        let is_over = || self.end.is_some_and(|end| Instant::now() >= end);
         let Some(live) = &mut self.live else { return Ok(()) };
         let first_id = self.next_id;
         let (mut sent, mut answered) = (0, 0);
         while answered < questions.len() {
             // Filled up when half is answered, so that requests travel in blocks.
-            if sent < questions.len() && sent - answered <= batch / 2 {
+            if sent < questions.len() && sent - answered <= batch / 2 && !is_over() {
                 let mut block = Vec::new();
                 let end = questions.len().min(answered + batch);
                 for (question, id) in questions[sent..end].iter().zip(self.next_id..) {
@@ -138,14 +175,22 @@ impl Program {
                 // Where the pipe is closed, reading tells why.
                 let _ = live.requests.send(block);
             }
+            if sent == answered {
+                return Err(Broken::Over);
+            }
             let id = first_id + answered as u64;
             let answer = live
-                .answer(&questions[answered], id, first_id..self.next_id, self.limits)
-                .map_err(|m| (live.or_flood(m, self.limits), sent - answered))?;
+                .answer(&questions[answered], id, first_id..self.next_id, self.limits, last)
+                .map_err(|what| match what {
+                    Some(what) => {
+                        Broken::Misbehaves(live.or_flood(what, limits_left), sent - answered)
+                    }
+                    None => Broken::Over,
+                })?;
             self.kept += live.heard;
             if self.kept > limits::PROGRAM_BLOCK_BYTES {
                 let said = format!("{} bytes of answers to a block of requests", self.kept);
-                return Err((Breach::Floods.by(said), sent - answered));
+                return Err(Broken::Misbehaves(Breach::Floods.by(said), sent - answered));
             }
             answers.push(answer);
             live.answered = Some((id, questions[answered].clone()));
@@ -165,12 +210,9 @@ impl Ask for Program {
         self.kept = 0;
         while answers.len() < questions.len() && deaths < most_deaths {
             let rest = &questions[answers.len()..];
-            let Err((misbehaviour, in_flight)) =
-                self.exchange(rest, self.declared.batch, &mut answers)
-            else {
-                break;
-            };
+            let Err(broken) = self.exchange(rest, self.declared.batch, &mut answers) else { break };
             self.live = None;
+            let Broken::Misbehaves(misbehaviour, in_flight) = broken else { break };
             deaths += 1;
             if in_flight == 1 {
                 answers.push(Answer::Died(misbehaviour));
@@ -181,17 +223,21 @@ impl Ask for Program {
             let mut found = false;
             while answers.len() < end && !found {
                 let one = &questions[answers.len()..=answers.len()];
-                if let Err((misbehaviour, _)) = self.exchange(one, 1, &mut answers) {
-                    self.live = None;
-                    answers.push(Answer::Died(misbehaviour));
-                    found = true;
-                }
+                let Err(broken) = self.exchange(one, 1, &mut answers) else { continue };
+                self.live = None;
+                let Broken::Misbehaves(misbehaviour, _) = broken else { break };
+                answers.push(Answer::Died(misbehaviour));
+                found = true;
             }
             if !found {
                 self.strays.push(misbehaviour);
             }
         }
         answers
+    }
+
+    fn end_at(&mut self, end: Option<Instant>) {
+        self.end = end;
     }
 
     fn strays(&mut self) -> Vec<Misbehaviour> {
@@ -293,19 +339,23 @@ impl Live {
         }
     }
 
-    /// The answer of one request; `asked` are the ids of this exchange.
+    /// The answer of one request; `asked` are the ids of this exchange. Nothing is waited for after `last`: where
+    /// that ends the waiting, and not the limit of the program, the error is nothing.
     fn answer(
         &mut self,
         question: &Question,
         id: u64,
         asked: std::ops::Range<u64>,
         limits: Limits,
-    ) -> Result<Answer, Misbehaviour> {
+        last: Option<Instant>,
+    ) -> Result<Answer, Option<Misbehaviour>> {
         let start = Instant::now();
         let limit = limits.answer.as_secs_f64();
-        let line = match self.line(start + limits.answer) {
+        let until = |time: Instant| last.map_or(time, |last| time.min(last));
+        let line = match self.line(until(start + limits.answer)) {
+            Err(NoLine::TimeOut) if start.elapsed() < limits.answer => return Err(None),
             // As much time again tells an answer that is late from none at all.
-            Err(NoLine::TimeOut) => match self.line(start + 2 * limits.answer) {
+            Err(NoLine::TimeOut) => match self.line(until(start + 2 * limits.answer)) {
                 Ok(_) => {
                     let took = start.elapsed().as_secs_f64();
                     Err(Breach::Late.by(format!("after {took:.1} s, allowed are {limit} s")))
@@ -319,11 +369,11 @@ impl Live {
         let mut words = Words(line);
         let nonsense = |why: &str| {
             let said = printable(line, 60);
-            Breach::Nonsense.by(if said.is_empty() {
+            Some(Breach::Nonsense.by(if said.is_empty() {
                 "an empty line".to_owned()
             } else {
                 format!("{said} ({why})")
-            })
+            }))
         };
         let letter = match words.word() {
             Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'G' | b'E')]) => *letter,
@@ -333,14 +383,14 @@ impl Live {
         let named_id = std::str::from_utf8(named).ok().and_then(|word| word.parse::<u64>().ok());
         if named_id != Some(id) {
             let text = |id: u64, q: &Question| printable(q.text(id).as_bytes(), 80);
-            return Err(match (named_id, &self.answered) {
+            return Err(Some(match (named_id, &self.answered) {
                 (Some(n), Some((last, q))) if n == *last => Breach::Twice.by(text(n, q)),
                 (Some(n), _) if n < id && n > 0 => Breach::Twice.by(format!("request {n}")),
                 (Some(n), _) if n > id && asked.contains(&n) => {
                     Breach::OutOfOrder.by(format!("{n} before {id}"))
                 }
                 _ => Breach::Unasked.by(format!("{} for {id}", printable(named, 20))),
-            });
+            }));
         }
         question.read(letter, &mut words).map_err(nonsense)
     }

@@ -14,7 +14,7 @@ use super::declared::Declared;
 use super::expected::Expect;
 use super::in_process::Inside;
 use super::leaving;
-use super::run::{self, MOST_DEATHS};
+use super::run::MOST_DEATHS;
 use super::stages;
 use super::text::px;
 use rasterproof_core::frame::Coverage;
@@ -65,12 +65,13 @@ const LOOK_CASES: u64 = 16;
 /// The convention of a program; nothing where it draws as it declares.
 pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
-    let mut bench = Bench { program, deaths_left: MOST_DEATHS };
+    let mut bench = Bench { program, deaths_left: MOST_DEATHS, is_over: false };
     let open = declared.rule == Rule::Unspecified;
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
-            ask.then(|| convention::diagnose(&mut bench, &known(&declared), SEED))
+            (ask && !bench.is_over)
+                .then(|| convention::diagnose(&mut bench, &known(&declared), SEED))
         })
         .flatten();
     let lines = (scope.lines && declared.line)
@@ -79,10 +80,11 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
             let most = known(&declared);
             let side_px = (most.window_px.0.min(most.window_px.1) as i32).min(most.range_px);
             let ordered = !declared.line_set;
-            ask.then(|| convention::diagnose_lines(&mut bench, side_px, ordered, SEED))
+            (ask && !bench.is_over)
+                .then(|| convention::diagnose_lines(&mut bench, side_px, ordered, SEED))
         })
         .flatten();
-    if triangles.is_none() && lines.is_none() {
+    if bench.is_over || (triangles.is_none() && lines.is_none()) {
         return None;
     }
     let is_explained = triangles.as_ref().is_some_and(|t| t.confidence != Confidence::Unexplained)
@@ -190,15 +192,15 @@ fn known(declared: &Declared) -> Known {
 /// Why a program is wrong in each kind of check, where no convention explains it; asked as long as `goes_on`.
 pub fn mistakes(
     program: &mut dyn Ask,
-    found: &run::Found,
+    checks: &[Check],
     truth: &Truth,
     recognised: Option<&Recognised>,
     goes_on: &dyn Fn() -> bool,
 ) -> Vec<Why> {
     let known = known(&truth.declared);
     let mut all = Vec::new();
-    for check in found.unexplained() {
-        let mut bench = Bench { program: &mut *program, deaths_left: MOST_DEATHS };
+    for &check in checks {
+        let mut bench = Bench { program: &mut *program, deaths_left: MOST_DEATHS, is_over: false };
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
@@ -293,16 +295,19 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 struct Bench<'a> {
     program: &'a mut dyn Ask,
     deaths_left: u64,
+    /// Whether the time for answers is over.
+    is_over: bool,
 }
 
 impl Bench<'_> {
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
-        if self.deaths_left == 0 {
+        if self.deaths_left == 0 || self.is_over {
             return Vec::new();
         }
         let answers = self.program.ask(questions, self.deaths_left);
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         self.deaths_left = self.deaths_left.saturating_sub(deaths);
+        self.is_over = answers.len() < questions.len() && deaths == 0;
         answers
     }
 

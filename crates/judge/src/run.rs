@@ -3,6 +3,7 @@
 //! Families take turns, so that a limited time is shared. Cases that leave the window come last.
 //! A family stops at the third time the program had to be started again.
 
+use std::collections::BTreeMap;
 use std::ops::AddAssign;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,7 +13,9 @@ use super::Options;
 use super::adapt_case;
 use super::ask::{Answer, Ask, Misbehaviour, Question};
 use super::check::{Check, Truth};
+use super::declared::Declared;
 use super::finding::Finding;
+use super::timed::Timed;
 use rasterproof_verify::cases::{Case, Family};
 use rasterproof_verify::comparison::Tally;
 
@@ -104,6 +107,14 @@ pub struct Failing {
     pub fingerprint: u64,
 }
 
+impl Failing {
+    /// The name of the case in a baseline.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{} {}#{}", self.property, self.family, self.index)
+    }
+}
+
 /// Something other than an answer, and the request that it came to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Incident {
@@ -118,6 +129,8 @@ pub struct Incident {
 pub struct Found {
     pub rows: Vec<Row>,
     pub failing: Vec<Failing>,
+    /// What is wrong in words, by [`Failing::name`], of the first few of each property.
+    pub described: BTreeMap<String, String>,
     /// Cases that were judged, by property and family, where they are remembered.
     pub judged: Vec<(&'static str, &'static str, u64)>,
     /// Whether more failed than are remembered.
@@ -126,6 +139,11 @@ pub struct Found {
     /// What went wrong without a single request at fault.
     pub strays: Vec<Misbehaviour>,
     pub answered: u64,
+    /// Cases of which all was answered, and those that there are.
+    pub cases: u64,
+    pub of_cases: u64,
+    /// Whether the time was up before all cases were judged.
+    pub out_of_time: bool,
     pub gave_up: bool,
     pub seconds: f64,
 }
@@ -175,11 +193,14 @@ impl Found {
             *self.row(row.name) += row;
         }
         self.failing.extend(other.failing);
+        self.described.extend(other.described);
+        self.out_of_time |= other.out_of_time;
         self.judged.extend(other.judged);
         self.forgot |= other.forgot;
         self.incidents.extend(other.incidents);
         self.strays.extend(other.strays);
         self.answered += other.answered;
+        self.cases += other.cases;
     }
 }
 
@@ -191,6 +212,8 @@ struct Shared<'a> {
     options: &'a Options,
     truth: &'a Truth,
     start: Instant,
+    /// When the time of each pass is over; the first one leaves a quarter.
+    ends: [Option<Instant>; 2],
     copies: u64,
     deaths: Vec<AtomicU64>,
     deaths_in_all: AtomicU64,
@@ -208,11 +231,31 @@ impl Shared<'_> {
         deaths >= most
     }
 
-    /// Whether the time of a pass is over; the first one leaves a quarter.
+    /// Whether the time of a pass is over.
     fn expired(&self, pass: bool) -> bool {
-        let share = if pass { 1.0 } else { 0.75 };
-        self.options.time_limit.is_some_and(|limit| self.start.elapsed() >= limit.mul_f64(share))
+        self.ends[usize::from(pass)].is_some_and(|end| Instant::now() >= end)
     }
+}
+
+/// How many cases there are of which a program that declares this is asked anything.
+#[must_use]
+pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
+    // What is asked depends on the family, and on the remainder of the number by 8.
+    const PERIOD: u64 = 8;
+    let of_family = |family: &&Family| {
+        let is_asked = |index: &u64| {
+            let case = adapt_case::put(family.case(options.seed, *index), declared);
+            !Check::of(family.name, &case, *index, declared).is_empty()
+        };
+        if let Some(index) = options.only {
+            return u64::from(is_asked(&index));
+        }
+        let (whole, rest) = (options.cases / PERIOD, options.cases % PERIOD);
+        let asked = |below: u64| (0..below).filter(is_asked).count() as u64;
+        whole * asked(if whole > 0 { PERIOD } else { 0 }) + asked(rest)
+    };
+    let families = adapt_case::families(&options.families);
+    families.iter().map(of_family).fold(0, u64::saturating_add)
 }
 
 pub fn run(
@@ -222,12 +265,15 @@ pub fn run(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Found {
     let families = adapt_case::families(&options.families);
+    let start = Instant::now();
+    let end = |share: f64| options.time_limit.map(|limit| start + limit.mul_f64(share));
     let shared = Shared {
+        ends: [end(0.75), end(1.0)],
         deaths: families.iter().chain(&families).map(|_| AtomicU64::new(0)).collect(),
         families,
         options,
         truth,
-        start: Instant::now(),
+        start,
         copies: askers.len() as u64,
         deaths_in_all: AtomicU64::new(0),
         answered: AtomicU64::new(0),
@@ -259,6 +305,8 @@ pub fn run(
         (family, f.index, f.property)
     });
     whole.gave_up = shared.gave_up();
+    whole.of_cases = cases_of(options, &truth.declared);
+    whole.out_of_time &= whole.cases < whole.of_cases;
     whole.seconds = shared.start.elapsed().as_secs_f64();
     for (family, deaths) in shared.families.iter().cycle().zip(&shared.deaths) {
         if deaths.load(Ordering::Relaxed) >= MOST_DEATHS {
@@ -268,7 +316,8 @@ pub fn run(
     whole
 }
 
-/// What one copy of the program is asked: every block whose number is its own.
+/// What one copy of the program is asked: every block whose number is its own. `progress` hears how many cases
+/// were judged.
 fn copy(
     asker: &mut dyn Ask,
     part: u64,
@@ -280,10 +329,12 @@ fn copy(
         Some(index) => index..index.saturating_add(1),
         None => 0..shared.options.cases,
     };
+    let mut asker = Timed::new(asker, None);
     for pass in PASSES {
+        asker.end = shared.ends[usize::from(pass)];
         let mut first = cases.start;
         let mut number = 0;
-        while first < cases.end && !(number > 0 && shared.expired(pass)) {
+        'rounds: while first < cases.end {
             // Where the time is limited, blocks begin small: of a slow program each family is asked.
             let most = match shared.options.time_limit {
                 Some(_) => asker.cases_at_once().min(1 << number.min(32)),
@@ -291,25 +342,30 @@ fn copy(
             };
             let end = cases.end.min(first.saturating_add(most));
             for (at, family) in shared.families.iter().enumerate() {
+                if shared.expired(pass) {
+                    found.out_of_time = true;
+                    break 'rounds;
+                }
                 let deaths = &shared.deaths[at + usize::from(pass) * shared.families.len()];
-                let stop = deaths.load(Ordering::Relaxed) >= MOST_DEATHS
-                    || shared.gave_up()
-                    || (number > 0 && shared.expired(pass));
+                let stop = deaths.load(Ordering::Relaxed) >= MOST_DEATHS || shared.gave_up();
                 // Families are dealt out like cards, so that one copy is not left with the slow ones.
                 if (number + at as u64) % shared.copies == part && !stop {
-                    block(asker, family, first..end, pass, shared, deaths, &mut found);
-                    progress(if pass { 0 } else { end - first });
+                    let judged =
+                        block(&mut asker, family, first..end, pass, shared, deaths, &mut found);
+                    found.cases += judged;
+                    progress(judged);
                 }
             }
             number += 1;
             first = end;
         }
     }
+    found.out_of_time |= asker.is_late;
     found.strays.extend(asker.strays());
     found
 }
 
-/// Asks the checks of some cases of a family, and judges the answers.
+/// Asks the checks of some cases of a family, and judges the answers: of how many cases all of them.
 fn block(
     asker: &mut dyn Ask,
     family: &'static Family,
@@ -318,7 +374,7 @@ fn block(
     shared: &Shared<'_>,
     deaths: &AtomicU64,
     found: &mut Found,
-) {
+) -> u64 {
     let truth = shared.truth;
     let mut jobs: Vec<(u64, usize, Check, usize)> = Vec::new();
     let mut cases: Vec<Case> = Vec::new();
@@ -337,13 +393,14 @@ fn block(
     }
     let left = MOST_DEATHS.saturating_sub(deaths.load(Ordering::Relaxed));
     let answers = asker.ask(&questions, left.max(1));
+    let mut judged = 0;
     for (at, (index, first, check, case)) in jobs.iter().enumerate() {
         let next = jobs.get(at + 1).map_or(questions.len(), |(_, next, ..)| *next);
         // Where the program was given up, the rest of the answers is not there.
         let here = &answers[*first.min(&answers.len())..next.min(answers.len())];
         let is_whole = here.len() == next - first;
         let finding = match (is_whole, here.iter().any(Answer::is_death)) {
-            (false, false) => return,
+            (false, false) => return judged,
             (true, _) => check.judge(&cases[*case], here, truth),
             (false, true) => Check::judge_deaths(here),
         };
@@ -353,7 +410,10 @@ fn block(
         shared.answered.fetch_add(finding.answered, Ordering::Relaxed);
         let asked = &questions[*first..next];
         note(found, family, *index, *check, &finding, (asked, shared.options.remember));
+        let is_last = jobs.get(at + 1).is_none_or(|(.., next)| next != case);
+        judged += u64::from(is_last);
     }
+    judged
 }
 
 fn note(
@@ -382,13 +442,17 @@ fn note(
         }
     }
     if finding.is_wrong() {
-        let of_it = || found.failing.iter().filter(|f| f.property == property).count();
-        if !remember && of_it() >= KEPT {
+        let of_it = found.failing.iter().filter(|f| f.property == property).take(KEPT).count();
+        if !remember && of_it >= KEPT {
             return;
         }
         if found.failing.len() < MOST_REMEMBERED {
             let fingerprint = finding.fingerprint();
-            found.failing.push(Failing { property, family: family.name, index, fingerprint });
+            let failing = Failing { property, family: family.name, index, fingerprint };
+            if of_it < KEPT {
+                found.described.insert(failing.name(), finding.describe(check));
+            }
+            found.failing.push(failing);
         } else {
             found.forgot = true;
         }

@@ -44,9 +44,12 @@ pub struct Verdict {
     pub recognised: Option<Said>,
     /// Everything that was found; rows in the order of the catalogue.
     pub found: Found,
+    /// Failing cases that are shown; those that a baseline knows are not.
     pub failures: Vec<Failure>,
     /// Why it is wrong, where no convention explains it.
     pub causes: Vec<Why>,
+    /// Failing cases that the baseline knows.
+    pub known: u64,
     /// The end of what it wrote on standard error.
     pub complaints: Vec<String>,
     pub properties: Vec<Property>,
@@ -102,6 +105,7 @@ impl Verdict {
             found,
             failures,
             causes: Vec::new(),
+            known: 0,
             complaints,
             properties: Vec::new(),
         };

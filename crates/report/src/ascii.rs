@@ -2,7 +2,8 @@
 
 use rasterproof_core::frame::Coverage;
 
-pub const LEGEND: &str = "# agrees, - missing, + extra, 2 twice, * rightly more than once";
+pub const LEGEND: &str =
+    "# agrees, - missing, + extra, 2 twice, * rightly more than once, . neither";
 
 /// Largest grid that is printed whole; a larger window is cropped around what is drawn.
 pub const MOST_COLUMNS: u32 = 96;
@@ -42,15 +43,22 @@ fn shown(actual: &Coverage, target: &Coverage) -> (std::ops::Range<usize>, std::
     // Start just before the first pixel that differs, else before the first one that is hit.
     let find = |wanted: &dyn Fn(u8, u8) -> bool| {
         let mut found: Option<(usize, usize)> = None;
+        let mut left = usize::MAX;
         for (j, ((_, a), (_, t))) in actual.rows().zip(target.rows()).enumerate() {
             if let Some(i) = a.iter().zip(t).position(|(&a, &t)| wanted(a, t)) {
-                let x = found.map_or(i, |(x, _)| x.min(i));
-                found = Some((x, found.map_or(j, |(_, y)| y)));
+                found = found.or(Some((i, j)));
+                left = left.min(i);
             }
         }
-        found
+        found.map(|first| (first, left))
     };
-    let (x, y) = find(&|a, t| a != t).or_else(|| find(&|a, t| a > 0 || t > 0)).unwrap_or((0, 0));
+    let differs = |((x, y), left): ((usize, usize), usize)| {
+        // Further left where others differ, as long as the first one stays in sight.
+        (if x < left + most_x / 2 { left } else { x }, y)
+    };
+    let is_hit = |((_, y), left): ((usize, usize), usize)| (left, y);
+    let differing = find(&|a, t| a != t).map(differs);
+    let (x, y) = differing.or_else(|| find(&|a, t| a > 0 || t > 0).map(is_hit)).unwrap_or((0, 0));
     let start =
         |at: usize, size: usize, most: usize| at.saturating_sub(2).min(size.saturating_sub(most));
     let (x, y) = (start(x, width, most_x), start(y, height, most_y));

@@ -96,7 +96,7 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
                 .collect();
             json!({
                 "property": f.property, "family": f.family, "index": f.index, "what": f.what,
-                "shrunk": shrink::describe(&f.case), "window": f.case.window,
+                "shrunk": shrink::describe(&f.case), "how_far": f.shrunk, "window": f.case.window,
                 "exchanges": exchanges, "repeat": repeat(f.family, f.index),
             })
         })
@@ -111,7 +111,9 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
     json!({
         "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
         "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.seed,
-        "cases": verdict.cases, "agrees": verdict.agrees(), "windings": verdict.windings,
+        "cases": verdict.cases, "judged_cases": verdict.found.cases,
+        "all_cases": verdict.found.of_cases, "out_of_time": verdict.found.out_of_time,
+        "known_failures": verdict.known, "agrees": verdict.agrees(), "windings": verdict.windings,
         "recognised": verdict.recognised, "score_as_declared": verdict.as_declared(),
         "score_by_convention": verdict.by_convention(), "answers": verdict.found.answered,
         "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures,

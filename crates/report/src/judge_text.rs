@@ -9,7 +9,7 @@ use rasterproof_judge::check::Check;
 use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
-use rasterproof_judge::run::{self, MOST_DEATHS, Row as FamilyRow};
+use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow};
 use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
 
 const MOST_EXCHANGES: usize = 3;
@@ -49,6 +49,10 @@ pub fn text(
     incidents(&mut out, verdict, repeat);
     for failure in &verdict.failures {
         one_failure(&mut out, failure, &repeat(failure.family, failure.index));
+    }
+    if verdict.known > 0 {
+        let known = summary::thousands(verdict.known);
+        let _ = writeln!(out, "\nnot shown: {known} failing cases that the baseline knows");
     }
     if !verdict.complaints.is_empty() {
         let _ = writeln!(out, "\nthe end of its standard error:");
@@ -231,7 +235,7 @@ pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64)
 pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
     let (family, index) = (failure.family, failure.index);
     let (property, what) = (failure.property, &failure.what);
-    let _ = writeln!(out, "\n{property}: {what} (from {family} #{index}, shrunk)");
+    let _ = writeln!(out, "\n{property}: {what} (from {family} #{index}, {})", failure.shrunk);
     for exchange in failure.exchanges.iter().take(MOST_EXCHANGES) {
         for (what, line) in [
             ("request", &exchange.request),
@@ -263,7 +267,7 @@ pub fn picture(out: &mut String, drawn_by: &str, picture: &Pictured) {
     for line in ascii::side_by_side(&blocks, 98).lines() {
         let _ = writeln!(out, "{}", format!("  {line}").trim_end());
     }
-    *out += "  (# agrees, - missing, + extra, 2 twice, . neither)\n";
+    let _ = writeln!(out, "  ({})", ascii::LEGEND);
     if !of.is_empty() {
         *out += &wrapped(&format!("  ({of})"), "   ");
     }
@@ -273,8 +277,13 @@ fn closing(verdict: &Verdict) -> String {
     let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
         verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
+    let Found { cases, of_cases, out_of_time, .. } = verdict.found;
+    let until = match out_of_time {
+        true => format!(", {cases} of {of_cases} cases in full when the time was up"),
+        false => String::new(),
+    };
     let what = format!(
-        "{} triangles and {} lines, {wrong} wrong pixels",
+        "{} triangles and {} lines, {wrong} wrong pixels{until}",
         verdict.shapes(false),
         verdict.shapes(true)
     );
@@ -300,7 +309,7 @@ fn closing(verdict: &Verdict) -> String {
 pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
     let views = verdict.failures.iter().map(|f| {
         let name = format!("{}#{}", f.family, f.index);
-        let about = format!("{}: found in {} #{}, shrunk", f.property, f.family, f.index);
+        let about = format!("{}: found in {} #{}, {}", f.property, f.family, f.index, f.shrunk);
         let mut view = page_cases::of_program(
             name,
             about,

@@ -11,14 +11,15 @@ use rasterproof_judge::declared::Declared;
 use rasterproof_judge::finding::Finding;
 use rasterproof_judge::pictured::{Pictured, pictured};
 use rasterproof_judge::shrink::smaller;
-use rasterproof_judge::{adapt_case, run};
+use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::mistakes::Mistakes;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     pub cases: u64,
     pub seed: u64,
-    /// No new family is begun after this.
+    /// Nothing is asked after this, but to make a failing case smaller.
     pub end: Instant,
     /// How long the smallest failing case is looked for.
     pub patience: Duration,
@@ -35,6 +36,8 @@ pub struct Outcome {
     pub failure: Option<Failure>,
     /// What explains the answers of the first exercise that failed, if anything that is known does.
     pub misconception: Option<&'static Misconception>,
+    /// What the program does instead, where no misconception explains it.
+    pub cause: Option<Mistakes>,
 }
 
 impl Outcome {
@@ -72,6 +75,7 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     let mut outcome = Outcome::default();
     let mut failing = None;
     let mut restarts = run::MOST_DEATHS;
+    program.end_at(Some(amount.end));
     for exercise in &step.exercises {
         let mut asked = Vec::new();
         let had_failed = failing.is_some();
@@ -97,6 +101,9 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
             outcome.misconception = misconceptions::find(&asked, &truth(exercise));
         }
     }
+    program.end_at(None);
+    let unexplained = failing.as_ref().filter(|_| outcome.misconception.is_none());
+    outcome.cause = unexplained.and_then(|failing| cause(program, failing, amount.patience));
     outcome.failure = failing.map(|failing| shrunk(program, failing, amount.patience));
     outcome
 }
@@ -137,7 +144,13 @@ fn ask_family<'a>(
         let here = program.ask(asked, 1);
         let died = here.last().is_some_and(Answer::is_death);
         // A program that died of no single request goes on, a few times.
-        let strayed = !died && here.len() < asked.len();
+        let is_short = !died && here.len() < asked.len();
+        outcome.out_of_time |= is_short && Instant::now() >= amount.end;
+        if outcome.out_of_time {
+            answers.extend(here);
+            break;
+        }
+        let strayed = is_short;
         *restarts = if died { 0 } else { *restarts - u64::from(strayed) };
         outcome.given_up |= strayed && *restarts == 0;
         answers.extend(here);
@@ -193,6 +206,22 @@ fn judge(check: Check, case: &Case, answers: &[Answer], asked: usize, truth: &Tr
     } else {
         check.judge(case, answers, truth)
     }
+}
+
+/// The mistake of a program that answers, where a known one explains it.
+fn cause(program: &mut dyn Ask, failing: &Failing<'_>, patience: Duration) -> Option<Mistakes> {
+    if failing.asked.iter().any(|(_, answer)| answer.is_death()) {
+        return None;
+    }
+    let start = Instant::now();
+    let goes_on = || start.elapsed() < patience;
+    let checks = [match failing.exercise.check {
+        Check::Watertight | Check::Order => Check::Coverage,
+        Check::Direction => Check::Line,
+        check => check,
+    }];
+    let found = recognise::mistakes(program, &checks, &failing.truth, None, &goes_on);
+    found.into_iter().map(|found| found.why).find(Mistakes::is_known)
 }
 
 fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Failure {

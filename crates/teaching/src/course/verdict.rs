@@ -35,6 +35,11 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
         out += &(judge_text::hanging(misconception.says, "it looks as if ", "  ") + "\n");
         out += &(judge_text::hanging(misconception.ask, "think about: ", "  ") + "\n");
     }
+    // What it does, and not what repairs it: that is the exercise.
+    if let Some(cause) = outcome.cause.as_ref().and_then(|cause| cause.causes.first()) {
+        out += &(judge_text::hanging(&cause.does, "it looks as if it ", "  ") + "\n");
+        out += &(judge_text::hanging(cause.page, "read: page ", "  ") + "\n");
+    }
     out
 }
 

@@ -73,8 +73,10 @@ pub fn legend(solution: &Solution, language: Language) -> Option<&'static str> {
     let mut rows = solution.grids.iter().flat_map(|(_, lines)| lines);
     let is_needed = rows.any(|row| row.contains(['-', '+', '2']));
     is_needed.then_some(match language {
-        Language::English => "# agrees, - missing, + too many, 2 twice",
-        Language::Chinese => "# 一致，- 缺失，+ 多余，2 画了两次",
+        Language::English => {
+            "# agrees, - missing, + too many, 2 twice, * rightly more than once, . neither"
+        }
+        Language::Chinese => "# 一致，- 缺失，+ 多余，2 画了两次，* 本应多次，. 两者都没有",
     })
 }
 

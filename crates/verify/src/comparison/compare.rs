@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use super::cause::Cause;
 use super::convention::{Convention, Rule};
-use super::finding::{EnginePanic, Finding, Tally, caught};
+use super::finding::{Finding, Tally};
+use super::panics::{EnginePanic, caught};
 use super::spans::{
     Covered, engine_coverage, exact_coverage, fragments_against, line_coverage, unsnapped_truth,
 };

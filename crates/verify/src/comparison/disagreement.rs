@@ -19,6 +19,8 @@ pub struct Disagreement {
     pub wrong_pixels: u64,
     /// Cases in which anything was wrong, and all cases.
     pub wrong_cases: [u64; 2],
+    /// Cases in which the engine panicked.
+    pub panics: u64,
     /// Families with wrong cases, and how many.
     pub families: Vec<(String, u64)>,
     /// The smallest failing case that was found. There is none where the oracle itself failed a check.
@@ -48,6 +50,10 @@ impl Disagreement {
                 families.iter().map(|(_, wrong)| wrong).sum(),
                 verdict.families.iter().map(|family| family.cases).sum(),
             ],
+            panics: {
+                let pairs = verdict.families.iter().flat_map(|family| &family.pairs);
+                pairs.filter(|pair| pair.is_by_oracle()).map(|pair| pair.panics).sum()
+            },
             families,
             smallest: verdict.failures.first().cloned(),
             cause: verdict.cause.clone(),
@@ -60,6 +66,10 @@ impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [wrong, all] = self.wrong_cases;
         writeln!(f, "{} wrong pixels, in {wrong} of {all} cases", self.wrong_pixels)?;
+        if self.panics > 0 {
+            let panics = self.panics;
+            writeln!(f, "it panics in {panics} cases; only the first of these panics was shown")?;
+        }
         if let Some(failure) = &self.smallest {
             let Case { window, .. } = failure.case;
             let described = shrink::describe(&failure.case);
@@ -122,7 +132,7 @@ fn grids(drawn: &Coverage, expected: &Coverage) -> String {
     for ((_, drawn), (_, expected)) in drawn.rows().zip(expected.rows()) {
         let mark = |(&d, &e): (&u8, &u8)| match (d, e) {
             (d, e) if d == e => digit(d),
-            (0, _) => '-',
+            (d, e) if d < e => '-',
             (1, 0) => '+',
             (d, _) => digit(d),
         };
@@ -131,7 +141,7 @@ fn grids(drawn: &Coverage, expected: &Coverage) -> String {
         // Writing to a string does not fail.
         let _ = writeln!(text, "  {left:<0$}   {right}", width.max(5));
     }
-    text + "  # drawn once, - missing, + extra, 2 drawn twice\n"
+    text + "  # drawn once, - missing, + extra, 2 to 9 drawn so often, 9 also more often, . neither\n"
 }
 
 #[cfg(test)]

@@ -1,11 +1,8 @@
 //! What is found when an engine is compared: wrong pixels, differences of values, a panic.
 
-use std::cell::Cell;
-use std::error::Error;
-use std::fmt;
 use std::ops::AddAssign;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use super::panics::EnginePanic;
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::frame::Coverage;
 
@@ -147,48 +144,4 @@ impl Finding {
         self.depth = worse(self.depth, depth);
         self.values += 1;
     }
-}
-
-thread_local! {
-    static JUDGING: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Whether this thread is inside an engine whose panic will become a verdict. A panic hook that asks
-/// can keep such a panic off the terminal.
-#[must_use]
-pub fn is_judging() -> bool {
-    JUDGING.get()
-}
-
-/// What an engine said when it panicked.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EnginePanic(pub String);
-
-impl fmt::Display for EnginePanic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl Error for EnginePanic {}
-
-impl From<EnginePanic> for String {
-    fn from(panic: EnginePanic) -> Self {
-        panic.0
-    }
-}
-
-/// Runs an engine; its panic becomes an error with the message.
-///
-/// # Errors
-/// What the engine said when it panicked.
-pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, EnginePanic> {
-    let outer = JUDGING.replace(true);
-    let result = catch_unwind(AssertUnwindSafe(run));
-    JUDGING.set(outer);
-    result.map_err(|payload| {
-        let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
-        let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
-        EnginePanic(text.unwrap_or_else(|| "panic".to_owned()))
-    })
 }

@@ -3,7 +3,8 @@
 //! Coverage is compared for every pixel of every case, by hit count, with tolerance zero. Values
 //! are compared with exact rationals at a few pixels of every case, and the difference is reported
 //! as a fraction of the bound derived in [`tolerance`]. A panic of an engine is a finding like any
-//! other. A result depends on the options alone, not on the number of threads.
+//! other: the panic hook sees the first one of a run, and the verdict counts the cases. A result depends on the
+//! options alone, not on the number of threads.
 //!
 //! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
 //! [`judge_lines`]; corners that are not snapped, [`judge_exact`]. They return [`NothingJudged`] where the
@@ -15,6 +16,7 @@ mod convention;
 mod disagreement;
 mod finding;
 mod nothing;
+mod panics;
 pub mod shrink;
 #[doc(hidden)]
 pub mod single_precision;
@@ -31,6 +33,7 @@ use crate::cases::{Case, Family, FamilyName, Kind, Shape};
 use compare::{
     CompareCases, Cover, CoverageOnly, LineComparer, ORACLE, TriangleComparer, UnsnappedComparer,
 };
+use panics::Watch;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
@@ -40,13 +43,14 @@ use tolerance::Tolerance;
 pub use cause::Cause;
 pub use convention::{Convention, Rule, Winding};
 pub use disagreement::Disagreement;
-pub use finding::{EnginePanic, Finding, Tally};
+pub use finding::{Finding, Tally};
 pub use nothing::{NoSuchShard, NothingJudged};
+pub use panics::EnginePanic;
 #[doc(hidden)]
 pub use {
     compare::{is_sliver, line_has_tie},
     convention::{Picture, area2},
-    finding::{caught, is_judging},
+    panics::{caught, is_judging},
     spans::{
         engine_coverage, exact_coverage, line_coverage, oracle_coverage, oracle_hits,
         oracle_pixels_each,
@@ -397,12 +401,16 @@ impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engine
         let triangles = TriangleComparer::new(&self.triangles, options.convention);
         let (lines, unsnapped) =
             (LineComparer::new(&self.lines), UnsnappedComparer::new(&self.unsnapped));
-        drive(&[&triangles, &lines, &unsnapped], options, progress)
+        drive(&[&triangles, &lines, &unsnapped], options, progress, &Watch::begin())
     }
 
     /// Why an engine is wrong, found by asking it more; nothing where no engine has this name.
     #[must_use]
     pub fn cause(&self, engine: &str) -> Option<Cause> {
+        Watch::begin().during(|| self.cause_of(engine))
+    }
+
+    fn cause_of(&self, engine: &str) -> Option<Cause> {
         let triangles = TriangleComparer::new(&self.triangles, Convention::default());
         let of_lines = || LineComparer::new(&self.lines).cause(engine);
         let of_unsnapped = || UnsnappedComparer::new(&self.unsnapped).cause(engine);
@@ -413,7 +421,8 @@ impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engine
     #[must_use]
     pub fn judge_case(&self, case: &Case) -> Vec<([String; 2], Finding)> {
         let findings = |comparer: &dyn CompareCases| {
-            comparer.pairs().into_iter().zip(comparer.findings(case)).collect()
+            let findings = Watch::begin().during(|| comparer.findings(case));
+            comparer.pairs().into_iter().zip(findings).collect()
         };
         match case.shape {
             Shape::Triangles { .. } => {
@@ -463,7 +472,8 @@ pub fn must_agree(verdict: Result<Verdict, NothingJudged>) {
 pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
     let cover: &Cover<'_> = &|corners, bounds, emit| engine.cover(corners, bounds, emit);
     let engines = [(CANDIDATE, CoverageOnly(cover), None)];
-    TriangleComparer::new(&engines, Convention::default()).findings(case).swap_remove(0)
+    let comparer = TriangleComparer::new(&engines, Convention::default());
+    Watch::begin().during(|| comparer.findings(case)).swap_remove(0)
 }
 
 /// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
@@ -517,9 +527,10 @@ fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict
     if comparer.kind() != Kind::Triangles && options.convention != Convention::default() {
         return Err(NothingJudged::NoConventions);
     }
-    let mut verdict = drive(&[comparer], options, &|_| ()).of_cases()?;
+    let watch = Watch::begin();
+    let mut verdict = drive(&[comparer], options, &|_| (), &watch).of_cases()?;
     if !verdict.agrees() {
-        verdict.cause = comparer.cause(CANDIDATE);
+        verdict.cause = watch.during(|| comparer.cause(CANDIDATE));
     }
     Ok(verdict)
 }
@@ -562,6 +573,7 @@ fn in_blocks(
     families: &[Chosen<'_>],
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
+    watch: &Watch,
 ) -> Vec<Partial> {
     let start = Instant::now();
     let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
@@ -581,7 +593,7 @@ fn in_blocks(
                 let first = done + number as u64 * BLOCK;
                 let block = first..end.min(first + BLOCK);
                 let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
-                let partial = judge_block(chosen, &indices, options);
+                let partial = watch.during(|| judge_block(chosen, &indices, options));
                 progress(indices.len() as u64);
                 partial
             });
@@ -601,6 +613,7 @@ fn drive(
     comparers: &[&dyn CompareCases],
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
+    watch: &Watch,
 ) -> Verdict {
     let mut chosen = Vec::new();
     for (kind, families) in Kind::ALL {
@@ -615,8 +628,8 @@ fn drive(
             }));
         }
     }
-    let partials = in_blocks(&chosen, options, progress);
-    let failures = shrink_failures(&partials, &chosen, options);
+    let partials = in_blocks(&chosen, options, progress, watch);
+    let failures = shrink_failures(&partials, &chosen, options, watch);
     Verdict {
         cause: None,
         options: options.clone(),
@@ -728,7 +741,12 @@ fn expected(case: &Case, convention: Convention) -> Coverage {
 
 /// Shrinks the first failing cases of each family and pair, and keeps the smallest of each, smallest first, those on the
 /// lattice before the others. Two engines against each other are left out where the oracle says which of them is wrong.
-fn shrink_failures(partials: &[Partial], chosen: &[Chosen<'_>], options: &Options) -> Vec<Failure> {
+fn shrink_failures(
+    partials: &[Partial],
+    chosen: &[Chosen<'_>],
+    options: &Options,
+    watch: &Watch,
+) -> Vec<Failure> {
     let mut failing = Vec::new();
     for (place, (partial, Chosen { pairs, .. })) in partials.iter().zip(chosen).enumerate() {
         let by_oracle = |pair: usize| pairs[pair][1] == ORACLE;
@@ -741,7 +759,7 @@ fn shrink_failures(partials: &[Partial], chosen: &[Chosen<'_>], options: &Option
         let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
         failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
     }
-    let shrunk = parallel::map(failing.len(), |number| {
+    let shrunk = |number: usize| {
         let (place, pair, index) = failing[number];
         let Chosen { family, comparer, pairs } = &chosen[place];
         let original = options.convention.place(family.case(options.seed, index));
@@ -759,7 +777,8 @@ fn shrink_failures(partials: &[Partial], chosen: &[Chosen<'_>], options: &Option
             expected: expected(&case, options.convention),
             case,
         }
-    });
+    };
+    let shrunk = parallel::map(failing.len(), |number| watch.during(|| shrunk(number)));
     let size = |failure: &Failure| {
         (matches!(failure.case.shape, Shape::Unsnapped { .. }), shrink::size(&failure.case))
     };

@@ -2,7 +2,8 @@
 //!
 //! Two engines that agree mostly emit the same spans, and then nothing needs to be drawn.
 
-use super::finding::{EnginePanic, Tally, caught};
+use super::finding::Tally;
+use super::panics::{EnginePanic, caught};
 use crate::cases::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::rational::cover_and_count_ties;
