@@ -543,39 +543,81 @@ fn judge_is_bounded_itself() {
     Run::of(&mut command).has(1).prints("floods its output: ");
 }
 
-/// A question as a library puts it that cuts what leaves the window first: to whole pixels.
-fn cut_first(question: &Question) -> Question {
-    let (right, bottom) = (question.width as i32, question.height as i32);
+/// A question as a library puts it that changes the ends of lines first.
+fn with_ends(
+    question: &Question,
+    change: fn([PixelPoint; 2], [i32; 2]) -> [PixelPoint; 2],
+) -> Question {
+    let last = [question.width as i32 - 1, question.height as i32 - 1];
     let of = match question.of.clone() {
-        Asked::Line { ends, whole } => {
-            let end =
-                |p: PixelPoint| PixelPoint::new(p.x.clamp(0, right - 1), p.y.clamp(0, bottom - 1));
-            Asked::Line { ends: ends.map(end), whole }
-        }
+        Asked::Line { ends, whole } => Asked::Line { ends: change(ends, last), whole },
         other => other,
     };
     Question { of, ..*question }
 }
 
-/// What leaves the window and comes out otherwise is counted, said and left out of the second score;
-/// of who draws it as the rest, nothing is said.
+/// Ends outside are moved to the border, so that the slope changes.
+fn clamped(ends: [PixelPoint; 2], [right, bottom]: [i32; 2]) -> [PixelPoint; 2] {
+    ends.map(|p| PixelPoint::new(p.x.clamp(0, right), p.y.clamp(0, bottom)))
+}
+
+/// The line is cut at the border of the last pixels, and its new ends are rounded to whole pixels in the window.
+fn cut(ends: [PixelPoint; 2], [right, bottom]: [i32; 2]) -> [PixelPoint; 2] {
+    let [from, to] = ends.map(|p| [f64::from(p.x), f64::from(p.y)]);
+    let (mut start, mut end) = (0.0_f64, 1.0_f64);
+    for (axis, most) in [(0, right), (1, bottom)] {
+        let delta = to[axis] - from[axis];
+        if delta != 0.0 {
+            let at = |border: f64| (border - from[axis]) / delta;
+            let (a, b) = (at(-0.5), at(f64::from(most) + 0.5));
+            (start, end) = (start.max(a.min(b)), end.min(a.max(b)));
+        }
+    }
+    if start > end {
+        return ends;
+    }
+    let point = |t: f64| {
+        let at = |axis: usize, most: i32| {
+            let new = from[axis] + t * (to[axis] - from[axis]);
+            (new.round() as i32).clamp(0, most)
+        };
+        PixelPoint::new(at(0, right), at(1, bottom))
+    };
+    [point(start), point(end)]
+}
+
+/// What leaves the window and comes out otherwise by at most a pixel is counted, said and left out of the second score.
+/// Where it comes out otherwise by more, it counts as wrong. Of who draws it as the rest, nothing is said.
 #[test]
 fn judge_tells_what_leaves_the_window() {
     let options = options(30, &["line-octants", "line-clipped"]);
     let entry = engines::find("bresenham").unwrap();
     // Within the window it draws as it declares, so that it is questioned only where that is asked.
     let scope = Scope { triangles: false, lines: true, always: true };
-    let mut engine = Inside::new(entry);
-    let cuts = Answering(engine.declared().clone(), move |questions: &[Question], most: u64| {
-        engine.ask(&questions.iter().map(cut_first).collect::<Vec<_>>(), most)
-    });
-    let mut cuts: [Box<dyn Ask>; 1] = [Box::new(cuts)];
-    let verdict = judge(&mut cuts, &options, &|program| recognise(program, scope), &|_| ());
-    let text = verdict.recognised.as_ref().unwrap().sentences.concat();
-    assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");
+    let judged = |change: fn([PixelPoint; 2], [i32; 2]) -> [PixelPoint; 2]| {
+        let mut engine = Inside::new(entry);
+        let changes =
+            Answering(engine.declared().clone(), move |questions: &[Question], most: u64| {
+                engine
+                    .ask(&questions.iter().map(|q| with_ends(q, change)).collect::<Vec<_>>(), most)
+            });
+        let mut changes: [Box<dyn Ask>; 1] = [Box::new(changes)];
+        let verdict = judge(&mut changes, &options, &|program| recognise(program, scope), &|_| ());
+        let text = verdict.recognised.as_ref().unwrap().sentences.concat();
+        assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");
+        (verdict, text)
+    };
+    let (verdict, text) = judged(cut);
+    assert!(text.contains("by at most a pixel"), "{text}");
     let score = verdict.by_convention().unwrap();
     assert!(verdict.as_declared().wrong > 50 && score.wrong == 0, "{score:?}");
     assert!(score.unscored > 0, "{score:?}");
+    let (verdict, text) = judged(clamped);
+    assert!(text.contains("they count as wrong"), "{text}");
+    let score = verdict.by_convention().unwrap();
+    assert!(score.wrong > 50 && score.unscored == 0, "{score:?}");
+    let cause = &verdict.causes[0].why.causes[0];
+    assert_eq!(cause.name, "ends are clamped to the window");
     let verdict = recognised(inside("line-directed-ties"), &options);
     let text = verdict.recognised.as_ref().unwrap().sentences.concat();
     assert!(!text.contains("leave the window") && !text.is_empty(), "{text}");

@@ -141,11 +141,13 @@ pub fn judge(
     let first = &mut *askers[0];
     progress(Step::Smaller);
     let failures = failures::failures(&mut Timed::new(first, end), &found, options, &truth);
-    progress(Step::Cause);
+    let checks = found.unexplained();
+    if !checks.is_empty() {
+        progress(Step::Cause);
+    }
     let start = Instant::now();
     let goes_on = || start.elapsed() < options.patience;
     let mut asked = Timed::new(first, end);
-    let checks = found.unexplained();
     let causes = recognise::mistakes(&mut asked, &checks, &truth, found_before.as_ref(), &goes_on);
     found.strays.extend(first.strays());
     first.end_at(None);
