@@ -853,6 +853,12 @@ fn files_that_other_programs_read_are_read() {
         stl.replacen("facet", "color 1 0 0\nfacet", 1).as_bytes(),
         &[":2: 'color 1 0 0' is no line of an STL; the line is left out"],
     );
+    let zeros = [stl.as_bytes(), &[0; 3]].concat();
+    check(
+        "zeros.stl",
+        &zeros,
+        &["'\\u{0}\\u{0}\\u{0}' is no line of an STL; the line is left out"],
+    );
     let no_end = stl.replace("endsolid a b\n", "");
     check(
         "no-end.stl",
@@ -891,7 +897,7 @@ fn files_that_other_programs_read_are_read() {
     // Cut off anywhere in a facet.
     let facet = stl.rfind("facet normal").unwrap();
     for end in facet + 12..stl.find("endsolid").unwrap() - 1 {
-        let error = load("cut.stl", stl[..end].as_bytes()).unwrap_err().to_string();
+        let error = load("cut.stl", &stl.as_bytes()[..end]).unwrap_err().to_string();
         assert!(error.contains("it is truncated, with 3 whole triangles"), "{end}: {error}");
     }
     // A byte order mark before everything, and chunks that are filled with zeros.

@@ -34,7 +34,7 @@ pub(crate) fn is_binary(bytes: &[u8], length: u64) -> bool {
 
 /// Whether it begins as the text of an STL. A binary one may do so too, but has zeros in its first record.
 pub(crate) fn is_text(bytes: &[u8]) -> bool {
-    let begin = without_mark(&bytes[..bytes.len().min(1 << 10)]);
+    let begin = without_mark(&bytes[..bytes.len().min(HEADER + RECORD)]);
     let begin = begin.trim_ascii_start();
     let word = begin.split(u8::is_ascii_whitespace).next().unwrap_or_default();
     // Some programs write no `solid`.
