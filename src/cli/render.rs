@@ -159,7 +159,8 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         writeln!(streams.output, "{json}")?;
     } else {
         let files = [drawn_in, difference_in];
-        let mut text = describe(&scene, &drawings, &times, comparison.as_ref(), files);
+        let mut text =
+            describe(&scene, &drawings, &times, comparison.as_ref(), files, maker.why_empty());
         text += &rounding_text(by_rounding.unwrap_or_default(), SNAPPED);
         streams.output.write_all(text.as_bytes())?;
     }
@@ -379,6 +380,7 @@ fn describe(
     times: &Times,
     comparison: Option<&Comparison>,
     [output, difference]: [Option<&Path>; 2],
+    why_empty: &str,
 ) -> String {
     let mut text = String::new();
     let c = &drawings[0].rendered.counters;
@@ -406,6 +408,9 @@ fn describe(
     }
     if is_empty(&drawings[0].rendered) {
         let _ = writeln!(text, "  EMPTY: nothing of it is seen; the picture is background alone");
+        if !why_empty.is_empty() {
+            let _ = writeln!(text, "  the cause is that {why_empty}");
+        }
     }
     let changed = changed(drawings);
     if changed > 0 {

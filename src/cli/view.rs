@@ -356,8 +356,12 @@ impl ViewArguments {
             }
         });
         scene.fog = growth.map(|growth| Fog { colour: [r, g, b], growth });
-        let Model { origins, not_drawn, .. } = model;
-        Ok(Framed { scene, centre, origins, not_drawn, loading })
+        let Model { origins, not_drawn, mut why_empty, .. } = model;
+        if self.opacity.is_some() {
+            // The file does not decide.
+            why_empty.clear();
+        }
+        Ok(Framed { scene, centre, origins, not_drawn, why_empty, loading })
     }
 }
 
@@ -390,6 +394,7 @@ struct Framed {
     centre: DVec3,
     origins: Vec<Origin>,
     not_drawn: String,
+    why_empty: String,
     loading: Duration,
 }
 
@@ -420,6 +425,11 @@ impl Maker {
     /// What the file of a model contains and is not drawn, in words.
     pub(super) fn not_drawn(&self) -> &str {
         self.framed().map_or("", |framed| &framed.not_drawn)
+    }
+
+    /// Why nothing of a model can be seen, in words; empty where something may be.
+    pub(super) fn why_empty(&self) -> &str {
+        self.framed().map_or("", |framed| &framed.why_empty)
     }
 
     pub(super) fn origins(&self) -> &[Origin] {

@@ -34,7 +34,7 @@ fn a_bad_line_of_a_material_file_is_a_warning_with_its_line() {
 fn lines_are_read_as_the_format_says() {
     let folder = Folder::new("model-files-format");
     let read = |text: &str| load(&folder.put("m.obj", text), Shading::Phong);
-    let error = read("v 0 0 0 nan\nf 1 1 1\n").err().unwrap();
+    let error = read("v 0 0 zero\nf 1 1 1\n").err().unwrap();
     assert_eq!((error.line, &error.path), (Some(1), &folder.join("m.obj")), "{error}");
     let triangles = |text: &str| {
         let model = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
@@ -42,6 +42,8 @@ fn lines_are_read_as_the_format_says() {
         (count, model.not_drawn)
     };
     assert_eq!(triangles(&format!("{TRIANGLE}f 1 2 3 # c\n")).0, 1);
+    // The weight of a position is that of curves.
+    assert_eq!(triangles(&format!("{TRIANGLE}v 1 1 0 nan\nf 1 2 4\n")), (1, String::new()));
     let text = "f 1 2 3\nl 1 2 3\nl 1 2\np 1\nf 1 2\nf 1 2/";
     let (count, not_drawn) = triangles(&format!("{TRIANGLE}{text}"));
     assert_eq!((count, not_drawn.as_str()), (1, "2 incomplete faces, 2 lines, 1 point"));

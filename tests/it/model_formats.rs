@@ -696,3 +696,305 @@ fn files_that_are_broken_or_of_other_formats_are_named() {
         assert!(error.contains(cause), "{name}: {error}");
     }
 }
+
+/// The head of a GLB says how long it is.
+#[test]
+fn what_follows_the_length_of_a_glb_is_left_out() {
+    let plain = changed(|_| ());
+    let obj = corners(&load("plain.glb", &plain).unwrap());
+    let bin = [&8u32.to_le_bytes()[..], b"BIN\0", &[0; 8]].concat();
+    for (more, count) in [(&[0; 4][..], 4), (&[7; 3], 3), (&bin, 16), (&[1; 1000], 1000)] {
+        let model = load("more.glb", &[&plain, more].concat()).unwrap();
+        assert_eq!(corners(&model), obj, "{count}");
+        let said = format!("more.glb: {count} bytes follow the last chunk; they are left out");
+        assert!(warning(&model).contains(&said), "{:?}", model.warnings);
+    }
+    // Bytes within the length that are no chunk, and lengths that programs write before they know them.
+    let length = plain.len() as u32;
+    for (said, more, part) in [
+        (length + 2, 2, "2 bytes follow the last chunk"),
+        (0, 0, "its head says that it has 0 bytes, and its chunks have"),
+        (length - 4, 0, "bytes, and its chunks have"),
+        (u32::MAX, 0, "its head says that it has 4294967295 bytes, and it has"),
+    ] {
+        let mut file = plain.clone();
+        file[8..12].copy_from_slice(&said.to_le_bytes());
+        file.resize(plain.len() + more, 9);
+        let model = load("length.glb", &file).unwrap();
+        assert_eq!(corners(&model), obj, "{said}");
+        assert!(warning(&model).contains(part), "{said}: {:?}", model.warnings);
+    }
+    let error = load("cut.glb", &plain[..plain.len() - 1]).unwrap_err().to_string();
+    assert!(error.contains("is cut off: the chunk at byte"), "{error}");
+}
+
+/// Numbers that are not finite, in formats other than OBJ.
+#[test]
+fn faces_without_finite_numbers_are_left_out_of_every_format() {
+    let position = "position that is not finite of 3 faces";
+    let check = |name: &str, bytes: &[u8], left: usize, line: &str, not_drawn: &str| {
+        let model = load(name, bytes).unwrap();
+        let triangles: usize = model.items.iter().map(|item| item.mesh.triangles.len()).sum();
+        assert_eq!((triangles, &*model.not_drawn), (left, not_drawn), "{name}");
+        let said = format!("{name}{line}: {} of 4 faces are left out", 4 - left);
+        assert!(warning(&model).contains(&said), "{name}: {:?}", model.warnings);
+        let positions = model.items.iter().flat_map(|item| item.mesh.positions.iter());
+        assert!(positions.into_iter().all(|position| position.is_finite()), "{name}");
+    };
+    let mut stl = binary(b"");
+    stl[84 + 12..84 + 16].copy_from_slice(&f32::NAN.to_le_bytes());
+    check("b.stl", &stl, 3, "", "position that is not finite of 1 face");
+    let stl = text().replacen("vertex 0 0 0", "vertex -nan(ind) 0 0", 1);
+    check("t.stl", stl.as_bytes(), 3, ":2", "position that is not finite of 1 face");
+    // Vertex 1, which three faces use.
+    for word in ["nan", "-inf", "1.#QNAN"] {
+        let ply = String::from_utf8(ply("ascii")).unwrap().replacen(
+            "1 0 0 255",
+            &format!("{word} 0 0 255"),
+            1,
+        );
+        check(
+            "t.ply",
+            ply.as_bytes(),
+            1,
+            ":21",
+            &format!("1 edge, {position}, value 'quality' of 4 positions"),
+        );
+    }
+    for form in ["binary_little_endian", "binary_big_endian"] {
+        let mut ply = ply(form);
+        let one = if form.contains("big") { 1f64.to_be_bytes() } else { 1f64.to_le_bytes() };
+        let at = ply.windows(8).position(|bytes| bytes == one).unwrap();
+        ply[at..at + 8].fill(0xff);
+        check("b.ply", &ply, 1, "", &format!("1 edge, {position}, value 'quality' of 4 positions"));
+    }
+    let mut file = document(|_| ());
+    file.1[12..16].copy_from_slice(&f32::INFINITY.to_le_bytes());
+    check("a.glb", &glb(file), 1, "", position);
+    // A vertex that no face uses, which may be anywhere.
+    for far in [f32::NAN, f32::MAX] {
+        let mut file = document(|d| d["accessors"][1]["count"] = json!(3));
+        file.1[36..40].copy_from_slice(&far.to_le_bytes());
+        let model = load("unused.glb", &glb(file)).unwrap();
+        assert_eq!((model.warnings.len(), model.not_drawn.as_str()), (0, ""), "{far}");
+    }
+    let mut file = document(|_| ());
+    file.1[36..40].copy_from_slice(&f32::MAX.to_le_bytes());
+    let error = load("far.glb", &glb(file)).unwrap_err().to_string();
+    assert!(
+        error.contains(
+            "position 4 of part 'nodes[0] body meshes[0].primitives[0]' is larger than 1e38"
+        ),
+        "{error}"
+    );
+    let uv = document(|d| {
+        d["accessors"]
+            .as_array_mut()
+            .unwrap()
+            .push(json!({ "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2" }));
+        d["images"] =
+            json!([{ "uri": format!("data:image/png;base64,{}", STANDARD.encode(picture())) }]);
+        d["textures"] = json!([{ "source": 0 }]);
+        d["materials"] =
+            json!([{ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }]);
+        let body = json!({ "attributes": { "POSITION": 0, "TEXCOORD_0": 2 }, "material": 0 });
+        d["meshes"][0]["primitives"][0] = body;
+        d["accessors"][0]["count"] = json!(3);
+    });
+    let mut uv = uv;
+    uv.1[48..56].fill(0xff);
+    let model = load("uv.glb", &glb(uv)).unwrap();
+    assert!(
+        warning(&model).contains("1 texture coordinates are not finite"),
+        "{:?}",
+        model.warnings
+    );
+}
+
+/// Variants of files that many programs write, each with the warnings that it has.
+#[test]
+fn files_that_other_programs_read_are_read() {
+    let expected = corners(&load("plain.obj", obj().as_bytes()).unwrap());
+    let check = |name: &str, bytes: &[u8], warnings: &[&str]| {
+        let model = load(name, bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(corners(&model), expected, "{name}");
+        assert_eq!(model.warnings.len(), warnings.len(), "{name}: {:?}", model.warnings);
+        for (said, part) in model.warnings.iter().zip(warnings) {
+            assert!(said.contains(part), "{name}: {said}");
+        }
+        model.format
+    };
+    let stl = text();
+    let title = |text: &str| {
+        let word = |word: &str| word[..1].to_uppercase() + &word[1..];
+        let line = |line: &str| line.split(' ').map(word).collect::<Vec<_>>().join(" ");
+        text.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let marked = format!("\u{feff}{stl}");
+    for (name, text) in [
+        ("upper.stl", stl.to_uppercase()),
+        ("title.stl", title(&stl)),
+        ("mark.stl", marked),
+        ("end-solid.stl", stl.replace("endsolid", "end solid")),
+        ("end-all.stl", stl.replace("end", "END ")),
+        ("spaces.stl", format!("\n  \t{}", stl.replace('\n', " \r\n\t"))),
+        ("old.stl", stl.replace('\n', "\r")),
+        ("no-name.stl", stl.replace(" a b", "")),
+        ("no-solid.stl", stl.replacen("solid a b\n", "", 1)),
+        (
+            "no-endfacet.stl",
+            stl.replace("endfacet\n", "").replace("endsolid", "endfacet\nendsolid"),
+        ),
+    ] {
+        assert_eq!(check(name, text.as_bytes(), &[]), Format::Stl, "{name}");
+    }
+    check(
+        "colour.stl",
+        stl.replacen("facet", "color 1 0 0\nfacet", 1).as_bytes(),
+        &[":2: 'color 1 0 0' is no line of an STL; the line is left out"],
+    );
+    let zeros = [stl.as_bytes(), &[0; 3]].concat();
+    check(
+        "zeros.stl",
+        &zeros,
+        &["'\\u{0}\\u{0}\\u{0}' is no line of an STL; the line is left out"],
+    );
+    let no_end = stl.replace("endsolid a b\n", "");
+    check(
+        "no-end.stl",
+        no_end.as_bytes(),
+        &["ends without 'endsolid' after 4 triangles: it may be truncated"],
+    );
+    for header in [&b""[..], b"solid from CAD", b"SOLID", b"COLOR=\xff\0\0\xff"] {
+        let binary = binary(header);
+        check("whole.stl", &binary, &[]);
+        for more in [1, 2, 49, 50, 5_000] {
+            let said =
+                format!("{more} bytes follow the last of its 4 triangles; they are left out");
+            check("more.stl", &[&binary, &vec![b' '; more][..]].concat(), &[&said]);
+            check("more.bin", &[&binary, &vec![0; more][..]].concat(), &[&said]);
+        }
+        for less in [1, 49, 51, 150, 200] {
+            let error = load("less.stl", &binary[..binary.len() - less]).unwrap_err().to_string();
+            let there = (200 - less) / 50;
+            let said =
+                format!("is truncated: its header announces 4 triangles, and it has {there}:");
+            assert!(error.contains(&said), "{less}: {error}");
+        }
+        let error = load("head.stl", &binary[..83]).unwrap_err().to_string();
+        assert!(
+            error.contains("is truncated: an STL without text begins with 84 bytes"),
+            "{error}"
+        );
+        for announced in [0u32, u32::MAX] {
+            let mut unknown = binary.clone();
+            unknown[80..84].copy_from_slice(&announced.to_le_bytes());
+            let said =
+                format!("its header announces {announced} triangles, and it has 4, which are read");
+            check("unknown.stl", &unknown, &[&said]);
+        }
+    }
+    // Cut off anywhere in a facet.
+    let facet = stl.rfind("facet normal").unwrap();
+    for end in facet + 12..stl.find("endsolid").unwrap() - 1 {
+        let error = load("cut.stl", &stl.as_bytes()[..end]).unwrap_err().to_string();
+        assert!(error.contains("it is truncated, with 3 whole triangles"), "{end}: {error}");
+    }
+    // A byte order mark before everything, and chunks that are filled with zeros.
+    let mark = |bytes: &[u8]| [b"\xef\xbb\xbf", bytes].concat();
+    check("mark.obj", &mark(obj().as_bytes()), &[]);
+    for form in ["ascii", "binary_little_endian", "binary_big_endian"] {
+        check("mark.ply", &mark(&ply(form)), &[]);
+    }
+    let (json, bytes) = document(|_| ());
+    let uri = format!("data:;base64,{}", STANDARD.encode(&bytes));
+    let (json_alone, _) = document(|d| d["buffers"][0]["uri"] = json!(uri));
+    check("mark.gltf", &mark(json_alone.as_bytes()), &[]);
+    check("mark.glb", &glb((format!("\u{feff}{json}"), bytes.clone())), &[]);
+    check("zeros.glb", &glb((json + "\0\0\0\0\0", bytes)), &[]);
+    let folder = folder();
+    folder.put("m.mtl", mark(b"newmtl a\nKd 1 0 0\n"));
+    folder.put("old.mtl", b"newmtl a\rKd 1 0 0\r");
+    for name in ["m", "old"] {
+        let text = format!("mtllib {name}.mtl\nusemtl a\n{}", obj());
+        let model = load_in(&folder, "m.obj", text.as_bytes()).unwrap();
+        assert_eq!(model.items[0].material.colour, DVec3::X, "{name}");
+    }
+    // Colours of ZBrush in comments, of two positions a line at most here.
+    let text = format!("{}#MRGB ffff0000ff00ff00\n#MRGB ff0000ff\n# a comment\n", obj());
+    assert_eq!(
+        load("z.obj", text.as_bytes()).unwrap().not_drawn,
+        "ZBrush colour (#MRGB) of 3 positions"
+    );
+}
+
+/// A name with a space before or after it is the name of a file with one or without, and what is required is named.
+#[test]
+fn names_of_a_gltf_are_found_and_said() {
+    let folder = folder();
+    for name in [" before.png", "after.png ", "plain.png"] {
+        folder.put(name, picture());
+    }
+    let model = |uri: &str| {
+        let file = changed(|d| {
+            d["images"] = json!([{ "uri": uri }]);
+            d["textures"] = json!([{ "source": 0 }]);
+            d["materials"] =
+                json!([{ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }]);
+            d["meshes"][0]["primitives"][0]["material"] = json!(0);
+        });
+        load_in(&folder, "m.glb", &file).unwrap()
+    };
+    for uri in
+        [" before.png", "%20before.png", "after.png ", "after.png%20", " plain.png ", "plain.png"]
+    {
+        let model = model(uri);
+        assert!(model.items[0].material.texture.is_some(), "{uri:?}: {:?}", model.warnings);
+    }
+    let uri = format!(" data:image/png;base64,{} ", STANDARD.encode(picture()));
+    assert!(model(&uri).items[0].material.texture.is_some());
+    let required = changed(|d| {
+        d["extensionsUsed"] = json!(["FOO_used", "FOO_both", "FOO_both", "KHR_materials_unlit"]);
+        d["extensionsRequired"] = json!(["FOO_bar", "FOO_both", "KHR_materials_unlit"]);
+    });
+    let model = load_in(&folder, "required.glb", &required).unwrap();
+    let names = "1 extension FOO_bar, 1 extension FOO_both, 1 extension FOO_used";
+    assert_eq!(model.not_drawn, names);
+    for (said, name) in model.warnings.iter().zip(["FOO_bar", "FOO_both"]) {
+        assert!(
+            said.contains(&format!("requires the extension {name}, which is not read")),
+            "{said}"
+        );
+    }
+    assert_eq!(model.warnings.len(), 2, "{:?}", model.warnings);
+    for (mode, why) in [("BLEND", "the material 'air' is fully transparent"), ("OPAQUE", "")] {
+        let file = changed(|d| {
+            let colour = json!({ "baseColorFactor": [1, 1, 1, 0], "metallicFactor": 0 });
+            d["materials"] =
+                json!([{ "name": "air", "alphaMode": mode, "pbrMetallicRoughness": colour }]);
+            d["meshes"][0]["primitives"][0]["material"] = json!(0);
+        });
+        assert_eq!(load_in(&folder, "clear.glb", &file).unwrap().why_empty, why, "{mode}");
+    }
+    // What programs write where they have nothing, and addresses and textures as they write them.
+    let bytes = STANDARD.encode(document(|_| ()).1);
+    let lines =
+        format!("DATA:application/octet-stream;BASE64,{}\r\n{}\r\n", &bytes[..40], &bytes[40..]);
+    let (json, _) = document(|d| {
+        d["buffers"][0]["uri"] = json!(lines);
+        for key in ["skins", "samplers", "animations", "extensionsRequired"] {
+            d[key] = Value::Null;
+        }
+        d["images"] = json!([{ "uri": "file:///nowhere/plain.png" }]);
+        d["textures"] = json!([{ "extensions": { "EXT_texture_webp": { "source": 0 } } }]);
+        d["materials"] = json!([{
+            "doubleSided": null, "emissiveFactor": null, "alphaMode": null, "extensions": null,
+            "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } },
+        }]);
+        d["meshes"][0]["primitives"][0]["material"] = json!(0);
+        d["extensionsUsed"] = json!(["EXT_texture_webp"]);
+    });
+    let model = load_in(&folder, "nulls.gltf", json.as_bytes()).unwrap();
+    assert!(model.items[0].material.texture.is_some(), "{:?}", model.warnings);
+    assert_eq!(model.not_drawn, "metal of 1 material");
+}

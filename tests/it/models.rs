@@ -9,6 +9,7 @@ use image::{Rgb, RgbImage};
 use rasterproof_models::{BadFile, Model, Normals, Options, load_texture};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Shading, shapes};
+use rasterproof_verify::cases::Rng;
 
 use crate::program::Folder;
 
@@ -108,12 +109,10 @@ fn broken_files_are_named_with_line_and_cause() {
         assert!(error.cause.contains(cause), "{name}: {error}");
         assert!(error.to_string().contains(name), "{error}");
     };
-    check("nan.obj", b"v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", Some(2), "not a finite number");
     check("huge.obj", b"v 0 0 0\nv 1 1e39 0\nv 0 1 0\nf 1 2 3\n", Some(2), "larger than 1e38");
     check("word.obj", b"v 0 0 zero\nf 1 1 1\n", Some(1), "not a number");
     check("short.obj", b"v 0 0 0\nv 1 0\nf 1 2 1\n", Some(2), "2 numbers where 3");
     check("range.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", Some(4), "position 4 is not there");
-    check("uv.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/9 2/9 3/9\n", Some(4), "texture coordinate 9");
     check("zero.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", Some(4), "not there");
     check("before.obj", b"v 0 0 0\nf -1 -2 -3\n", Some(2), "not there");
     check("faceless.obj", b"v 0 0 0\nv 1 0 0\n", None, "no faces");
@@ -554,4 +553,208 @@ fn another_reader_reads_the_same() {
             assert!(corner.uv.distance(DVec2::new(uv[0].into(), uv[1].into())) < 1e-6);
         }
     }
+}
+
+/// A folder with models in `in`, and beside that folder a file whose text is `SECRET` in several places.
+fn with_secret(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    fs::create_dir(folder.join("in")).unwrap();
+    let secret = "SECRET:x:0\nKd SECRET 1 1\nnewmtl a\nKd 1 SECRET\nSECRET\nmap_Kd SECRET.png\nmap_d SECRET.png\n";
+    folder.put("secret", secret);
+    // A picture up to its first chunk, whose name a decoder may show.
+    let picture = [&b"\x89PNG\r\n\x1a\n\0\0\0\x04SECR"[..], secret.as_bytes()].concat();
+    folder.put("secret.png", picture);
+    folder
+}
+
+#[test]
+fn text_outside_the_folder_is_not_quoted() {
+    let folder = with_secret("models-outside");
+    let faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
+    let check = |name: &str, text: &[u8], expected: &str| {
+        let read = load(&folder.put(name, text), Shading::Phong);
+        let said = match &read {
+            Ok(model) => model.warnings.join("\n") + &model.not_drawn,
+            Err(error) => error.to_string(),
+        };
+        assert!(!said.contains("SECR"), "{name}: {said}");
+        assert!(said.contains(expected), "{name}: {said}");
+        let run = folder.run(["verify", name, "--size", "16x16"]);
+        assert!(!(run.out.clone() + &run.errors).contains("SECR"), "{run}");
+    };
+    let line = "secret:1: the line cannot be read and is left out; it is not quoted, since the file lies outside";
+    let absolute = folder.join("secret").display().to_string();
+    for (number, name) in ["../secret", "..\\secret", &absolute].into_iter().enumerate() {
+        let text = format!("mtllib {name}\n{faces}");
+        check(&format!("in/{number}.obj"), text.as_bytes(), line);
+    }
+    let unreadable = "is not a readable PNG, JPEG, BMP, TGA, TIFF or WebP (why is not quoted";
+    folder.put("in/picture.mtl", "newmtl a\nmap_Kd ../secret.png\n");
+    check("in/picture.obj", format!("mtllib picture.mtl\n{faces}").as_bytes(), unreadable);
+    let ply = "ply\nformat ascii 1.0\ncomment TextureFile ../secret.png\nelement vertex 3\nproperty float x\n\
+               property float y\nproperty float z\nproperty float u\nproperty float v\nelement face 1\n\
+               property list uchar int vertex_indices\nend_header\n0 0 0 0 0\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n";
+    check("in/picture.ply", ply.as_bytes(), unreadable);
+    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"%2e%2e/secret","byteLength":60}],
+        "bufferViews":[{"buffer":0,"byteLength":60}],"images":[IMAGE],"textures":[{"source":0}],
+        "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+            {"bufferView":0,"componentType":5125,"count":12,"type":"SCALAR"}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
+        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}"#;
+    for image in [r#"{"uri":"../secret.png"}"#, r#"{"bufferView":0}"#] {
+        check("in/picture.gltf", gltf.replace("IMAGE", image).as_bytes(), unreadable);
+    }
+    // 'SECR' as a number.
+    let model = load(&folder.join("in/picture.gltf"), Shading::Phong).unwrap();
+    let said = model.warnings.join("\n");
+    assert!(said.contains("name a vertex that is not there; they are left out"), "{said}");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("../secret", folder.join("in/link.mtl")).unwrap();
+        check("in/link.obj", format!("mtllib link.mtl\n{faces}").as_bytes(), "not quoted");
+    }
+    // What lies in the folder or below it is quoted.
+    fs::create_dir(folder.join("in/below")).unwrap();
+    folder.put("in/below/m.mtl", "newmtl a\nPUBLIC\n");
+    let path = folder.put("in/below.obj", format!("mtllib below/m.mtl\n{faces}"));
+    let model = load(&path, Shading::Phong).unwrap();
+    assert!(warning(&model).contains("'PUBLIC' is not a line"), "{:?}", model.warnings);
+    // A name of a file is quoted where it stands in the folder alone.
+    folder.put("in/below/m.mtl", "newmtl a\nmap_Kd nowhere.png\n");
+    let model = load(&path, Shading::Phong).unwrap();
+    assert!(warning(&model).contains("nowhere.png: cannot be read"), "{:?}", model.warnings);
+}
+
+/// Each face with something that is not there, or no number, beside a face that is whole.
+#[test]
+fn what_a_face_cannot_use_does_not_end_the_file() {
+    let folder = Folder::new("models-cannot-use");
+    let whole = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt .5 .5\nvn 0 0 1\nf 1 2 3\n";
+    let check = |lines: &str, triangles: usize, line: usize, cause: &str, not_drawn: &str| {
+        let model = read(&folder, &format!("{whole}{lines}"), Shading::Phong);
+        let drawn = model.items.iter().flat_map(|item| item.mesh.triangles.iter());
+        let corners: Vec<_> = drawn.flatten().collect();
+        assert_eq!((corners.len(), &*model.not_drawn), (3 * triangles, not_drawn), "{lines}");
+        let place = format!("m.obj:{line}: ");
+        let is_said = |said: &String| said.contains(&place) && said.contains(cause);
+        assert!(model.warnings.iter().any(is_said), "{lines}: {:?}", model.warnings);
+        for corner in corners {
+            assert!(corner.normal.is_finite() && corner.uv.is_finite(), "{lines}: {corner:?}");
+            assert!(corner.colour.is_finite(), "{lines}: {corner:?}");
+        }
+        model
+    };
+    let without = "the face is drawn without normals of the file";
+    for corners in ["1//2 2//1 3//1", "1//0 2//0 3//0", "1//-2 2//-1 3//-1", "1//99999999999 2 3"] {
+        let model = check(&format!("f {corners}\n"), 2, 7, without, "");
+        assert_eq!(model.items[0].mesh.triangles.at(1)[0].normal, DVec3::NEG_Z, "{corners}");
+    }
+    check("f 1//2 2//1 3//1\n", 2, 7, "normal 2 is not there; the file has 1", "");
+    check("f 1/7 2/1 3/1\n", 2, 7, "texture coordinate 7 is not there; the file has 1", "");
+    check("f 1/0/0 2/0/0 3/0/0\n", 2, 7, "a texture coordinate that the face names is not", "");
+    check("vn x 0 0\nf 1//2 2//2 3//2\n", 2, 7, "'x' is not a number; the faces that use it", "");
+    check("vn nan 0 0\nf 1//2 2//2 3//2\n", 2, 7, "'nan' is not a finite number", "");
+    check("vt inf 0\nf 1/2 2/2 3/2\n", 2, 7, "'inf' is not a finite number; it is taken as 0", "");
+    let position = "position that is not finite of 1 face";
+    let use_it = "is not a finite number; the faces that use it are left out";
+    for word in ["nan", "-NaN", "inf", "-Infinity", "-nan(ind)", "1.#QNAN", "-1.#IND00", "1.#inf"] {
+        let lines = format!("v 0 {word} 0 # comment\nf 1 2 4\nf 3 2 1\n");
+        check(&lines, 2, 7, &format!("'{word}' {use_it}"), position);
+        check(&lines, 2, 8, "1 of 3 faces are left out, since a position", position);
+        check(&format!("v 0 {word} 0\n"), 1, 7, use_it, "");
+        let colour = format!("v 0 0 1 1 {word} 0\nf 1 2 4\nf 3 2 1\n");
+        check(&colour, 2, 7, use_it, "colour that is not finite of 1 face");
+    }
+    // As many as there may be.
+    let many = format!("{}f 1 2 -1\n", "v nan nan nan\n".repeat(5_000));
+    check(&many, 1, 5_007, "1 of 2 faces are left out", position);
+    // Polygons, groups and colours after a face that is left out are those of the file.
+    let mixed = "v nan 0 0\nv 1 1 0 1 0 0\ns 1\nf 1 2 4\nf 1 2 5 3\nf 2//1 5//1 3//1\n";
+    let model = check(mixed, 4, 10, "1 of 4 faces are left out", position);
+    assert_eq!(model.origins[0].lines, [6, 11, 11, 12]);
+    assert_eq!(model.items[0].mesh.triangles.at(3)[1].colour, DVec3::X);
+    // What only the position lacks cannot be drawn.
+    let error = load(&folder.put("m.obj", format!("{whole}f 1 2 9\n")), Shading::Phong).err();
+    assert_eq!(error.unwrap().line, Some(7));
+}
+
+#[test]
+fn a_file_of_which_no_face_can_be_drawn_is_an_empty_picture() {
+    let folder = Folder::new("models-no-face");
+    folder.put("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+    folder
+        .put("clear.mtl", "newmtl glass\nd 0\nnewmtl other\nTr 1\nnewmtl half\nmap_Kd clear.png\n");
+    image::RgbaImage::new(2, 2).save(folder.join("clear.png")).unwrap();
+    let model = "mtllib clear.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl NAME\nf 1 2 3\n";
+    for name in ["glass", "other", "half"] {
+        folder.put(&format!("{name}.obj"), model.replace("NAME", name));
+    }
+    let glass = "the material 'glass' is fully transparent";
+    let half = "the material 'half' is fully transparent";
+    for (name, cause) in [("nan", "all its faces are left out"), ("glass", glass), ("half", half)] {
+        let empty = "EMPTY: nothing of it is seen; the picture is background alone\n";
+        folder
+            .check(format!("render {name}.obj -o o.png --size 32x24"), 0)
+            .prints(&format!("{empty}  the cause is that {cause}\n"))
+            .says(cause);
+        for command in ["verify", "plan --rounds 1", "study --quick", "cost --quick"] {
+            folder.check(format!("{command} {name}.obj --size 32x24"), 0).says(cause);
+        }
+    }
+    folder.check("inspect glass.obj#1", 0);
+    for words in ["glass.obj --opacity 1", "other.obj"] {
+        folder.check(format!("render {words} -o o.png --size 32x24"), 0).omits("EMPTY");
+    }
+}
+
+/// Polygons in space that do not lie in a plane: all of their outline is the outline of their triangles.
+#[test]
+fn folded_polygons_keep_their_triangles() {
+    let folder = Folder::new("models-folded");
+    let square = "v -5 0 5\nv 5 0 5\nv 5 0 -5\nv -5 0 -5\n";
+    // The area of what a polygon with these further corners becomes.
+    let check = |more: &str| {
+        let count = 4 + more.lines().count() as u32;
+        let corners: String = (1..=count).map(|corner| format!(" {corner}")).collect();
+        let model = read(&folder, &format!("{square}{more}f{corners}\n"), Shading::Flat);
+        let mesh = &model.items[0].mesh;
+        let triangles = mesh.triangles.positions();
+        assert_eq!(triangles.len() as u32, count - 2, "{more}");
+        for corner in 0..count {
+            let edge = (corner, (corner + 1) % count);
+            let has = |[a, b, c]: &&[u32; 3]| [(*a, *b), (*b, *c), (*c, *a)].contains(&edge);
+            assert_eq!(triangles.iter().filter(has).count(), 1, "{more}: {edge:?} {triangles:?}");
+        }
+        let area = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
+            (b - a).cross(c - a).length() / 2.0
+        };
+        (triangles.iter().map(area).sum::<f64>(), model.warnings.join("\n"))
+    };
+    // Above or below the edge before it: seen along the normal it lies on that edge.
+    let fan =
+        "m.obj:6: the face is not planar, so it is drawn as triangles around its first corner";
+    for more in ["v 0 5 -5\n", "v 0 -5 -5\n"] {
+        let (area, said) = check(more);
+        assert!((area - 100.0 - 25.0 * 2f64.sqrt()).abs() < 1e-9, "{more}: {area}");
+        assert!(said.contains(fan), "{more}: {said}");
+    }
+    // Each corner at another place outside the plane of the square.
+    let mut rng = Rng::new("folded polygons", 0, 0);
+    for case in 0..2_000 {
+        let mut more = String::new();
+        for corner in 1..2 + case % 4 {
+            let [x, z, sign] = [rng.int(-2, 2), rng.int(-2, 2), rng.int(0, 1)];
+            more += &format!("v {} {} {}\n", 5 * x, (1 - 2 * sign) * corner, 5 * z);
+        }
+        check(&more);
+    }
+    // Seen along its normal nothing lies over anything else.
+    let (area, said) = check("v -7 3 0\n");
+    assert!(area > 100.0 && said.is_empty(), "{area}: {said}");
+    // A corner on an edge in the plane loses nothing, whatever rounding did to the plane.
+    let text = "v 0 0 0\nv 4 0 1.333333\nv 4 4 0\nv 2 0 .666667\nv 0 4 -1.333333\nf 1 2 3 4 5\n";
+    let model = read(&folder, text, Shading::Flat);
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
 }

@@ -1,5 +1,7 @@
 //! Which format a file has, by its content.
 
+use std::path::Path;
+
 use crate::{gltf, ply, stl};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,8 +92,9 @@ const XML: [(&str, &str); 6] = [
 const OFF: [&str; 5] = ["off", "coff", "noff", "cnoff", "stoff"];
 
 impl Format {
-    /// The format of a file of this length by its first bytes; the cause where it is known and not read. What nothing else is said of is an OBJ.
-    pub(crate) fn of(bytes: &[u8], length: u64) -> Result<Self, String> {
+    /// The format of a file of this length by its first bytes; the cause where it is known and not read. What nothing else is said of is
+    /// an OBJ, but for an STL in records whose length is not that of its triangles.
+    pub(crate) fn of(path: &Path, bytes: &[u8], length: u64) -> Result<Self, String> {
         if bytes.trim_ascii().is_empty() && bytes.len() as u64 >= length {
             return Err("is empty".to_owned());
         }
@@ -139,6 +142,7 @@ impl Format {
         }
         match TEXTS.iter().find(|(start, _)| text.starts_with(start)) {
             Some((_, name)) => refused(name),
+            None if stl::begins_binary(path, bytes) => Ok(Self::Stl),
             None => Ok(Self::Obj),
         }
     }

@@ -1,16 +1,19 @@
 //! From what a file contains to items of a scene: triangles, normals, the axis that points up.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::parallel;
+use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_render::pipeline::opacity::Drawn;
 use rasterproof_render::scene;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
 
+use crate::broken;
 use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface, key};
 use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
@@ -35,6 +38,7 @@ pub(crate) fn model(
     for part in &mut contents.parts {
         place(path, part, turn)?;
     }
+    let left_out = broken::leave_out(path, &mut contents, &mut warnings);
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
@@ -65,16 +69,71 @@ pub(crate) fn model(
         contents.not_drawn.insert(key, shiny);
     }
     let not_drawn = counted(&contents.not_drawn);
+    let mut why_empty = clear_materials(path, &items, &origins, &mut warnings);
     if items.is_empty() {
         if contents.not_drawn.keys().all(|kind| kind == INCOMPLETE_FACE) {
             let why = contents.warnings.first().map_or(String::new(), |why| format!(" ({why})"));
             return Err(bad(path, None, format!("has no faces, so there is nothing to draw{why}")));
         }
-        warnings.add(path, None, "faces", "has no faces, so the picture is empty");
+        let why = if left_out > 0 { "all its faces are left out" } else { "it has no faces" };
+        warnings.add(path, None, "faces", &format!("{why}, so the picture is empty"));
+        why_empty = why.to_owned();
     }
     let mut all = contents.warnings;
     all.extend(warnings.finish());
-    Ok(Model { items, origins, format, up, not_drawn, warnings: all })
+    Ok(Model { items, origins, format, up, not_drawn, why_empty, warnings: all })
+}
+
+/// Says which materials are fully transparent, and returns why the picture is empty where all of them are.
+fn clear_materials(
+    path: &Path,
+    items: &[Item],
+    origins: &[Origin],
+    warnings: &mut Warnings,
+) -> String {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut is_empty = true;
+    for (item, origin) in items.iter().zip(origins) {
+        if is_clear(item) {
+            *counts.entry(&origin.material).or_default() += item.mesh.triangles.len();
+        } else {
+            is_empty = false;
+        }
+    }
+    for (name, count) in &counts {
+        let text = format!(
+            "{} is fully transparent, so nothing is seen of its {count} triangles: give it another opacity, or all \
+             surfaces one by --opacity",
+            named(name)
+        );
+        warnings.add(path, None, "materials that are fully transparent", &text);
+    }
+    match counts.keys().next() {
+        Some(name) if is_empty && counts.len() == 1 => {
+            format!("{} is fully transparent", named(name))
+        }
+        Some(_) if is_empty => "all its materials are fully transparent".to_owned(),
+        _ => String::new(),
+    }
+}
+
+/// A material in words, whether it has a name or not.
+fn named(material: &str) -> String {
+    match material {
+        "" => "the material without a name".to_owned(),
+        name => format!("the material '{}'", printable_short(name, 40)),
+    }
+}
+
+/// Whether no fragment of an item can be seen.
+fn is_clear(item: &Item) -> bool {
+    let Some(opacity) = &item.material.opacity else { return false };
+    let mut corners = item.mesh.triangles.iter().map(|corners| corners.map(|corner| corner.uv));
+    // Without a map all of it is as opaque.
+    match opacity.map {
+        None => opacity.of(DVec2::ZERO) == 0,
+        Some(_) => corners.all(|uvs| opacity.between(uvs) == Drawn::Nothing),
+    }
 }
 
 /// Brings a part into the coordinates of the scene, but for the sign of z.
@@ -104,14 +163,17 @@ fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
             }
         }
     }
+    // Faces with others are left out.
     let is_far =
-        |position: &DVec3| !position.is_finite() || position.abs().max_element() > MOST_COORDINATE;
-    match parallel::first(&part.positions, is_far) {
-        Some(number) => {
+        |position: &DVec3| position.is_finite() && position.abs().max_element() > MOST_COORDINATE;
+    let is_far_corner = |&corner: &u32| is_far(&part.positions[corner as usize]);
+    let far = parallel::first(&part.positions, is_far);
+    match far.and_then(|_| parallel::first(&part.corners, is_far_corner)) {
+        Some(corner) => {
             let cause = format!(
-                "position {} of part '{}' is not a finite number up to 1e38 in size: repair it in the program that wrote the file",
-                number + 1,
-                rasterproof_host::text::printable_short(&part.name, 40)
+                "position {} of part '{}' is larger than 1e38: scale the model down in the program that wrote the file",
+                part.corners[corner] + 1,
+                printable_short(&part.name, 40)
             );
             Err(bad(path, None, cause))
         }
@@ -257,6 +319,7 @@ fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warning
         if let Err(odd) = shape {
             let (what, kind) = match odd {
                 Odd::Crosses => ("crosses itself", "faces that cross themselves"),
+                Odd::Folded => ("is not planar", "faces that are not planar"),
                 Odd::TooManyCorners => ("has more than 65536 corners", "faces of many corners"),
             };
             let (line, face) = match line {

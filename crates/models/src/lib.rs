@@ -4,12 +4,14 @@
 //! the file contains that is not drawn. [`load`] makes items of a scene of them, the same way for every format.
 
 mod ahead;
+mod broken;
 mod contents;
 mod format;
 mod gltf;
 mod items;
 mod mtl;
 mod obj;
+mod outside;
 mod ply;
 mod polygons;
 mod stl;
@@ -97,6 +99,8 @@ pub struct Model {
     pub up: Up,
     /// What the file contains and is not drawn, with counts, as one line; empty if there is nothing.
     pub not_drawn: String,
+    /// Why nothing of it can be seen in any view, as a part of a sentence; empty where something may be.
+    pub why_empty: String,
     /// What is missing or cannot be understood and was done without, for the reader.
     pub warnings: Vec<String>,
 }
@@ -163,8 +167,8 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
     let length = file.length_bytes();
     let mut bytes = Vec::new();
     file.read_more(&mut bytes, PIECE_BYTES).map_err(failed)?;
-    let format = Format::of(&bytes, length).map_err(|cause| bad(path, None, cause))?;
-    let has_records = format == Format::Stl && stl::is_binary(&bytes, length);
+    let format = Format::of(path, &bytes, length).map_err(|cause| bad(path, None, cause))?;
+    let has_records = format == Format::Stl && !stl::is_text(&bytes);
     // Each reader gets the bytes for good, since what it makes of them needs the memory.
     let contents = match format {
         Format::Obj => obj::read(path, Text::new(bytes, file))?,

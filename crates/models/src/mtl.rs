@@ -8,12 +8,15 @@ use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::Warnings;
+use crate::outside::NOT_QUOTED;
 use crate::textures;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Described {
     /// Its name, for `usemtl`.
     pub name: String,
+    /// Whether messages may quote its file.
+    pub is_quoted: bool,
     /// Its diffuse colour (`Kd`).
     pub colour: Option<DVec3>,
     /// Its texture (`map_Kd`).
@@ -40,18 +43,29 @@ const WITHOUT_EFFECT: [&str; 5] = ["", "ni", "sharpness", "map_aat", "halo"];
 /// Words of physically based shading.
 const PHYSICAL: [&str; 8] = ["pr", "pm", "ps", "pc", "pcr", "aniso", "anisor", "nr"];
 
-/// Reads the text of a material file. A line that cannot be understood is a warning.
-pub(crate) fn read(path: &Path, text: &str, warnings: &mut Warnings) -> Vec<Described> {
+/// Reads the text of a material file. A line that cannot be understood is a warning, which quotes it where it may be quoted.
+pub(crate) fn read(
+    path: &Path,
+    text: &str,
+    is_quoted: bool,
+    warnings: &mut Warnings,
+) -> Vec<Described> {
     let mut materials = Vec::new();
-    for (index, line) in text.lines().enumerate() {
+    // Files of old systems end their lines with a carriage return alone.
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    for (index, line) in text.split(end).enumerate() {
         let line = without_comment(line).trim();
         let (kind, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         if let Err(cause) = read_line(kind, rest.trim(), &mut materials) {
-            let text = format!("{cause}; the line is left out");
+            let text = match is_quoted {
+                true => format!("{cause}; the line is left out"),
+                false => format!("the line cannot be read and is left out; it is {NOT_QUOTED}"),
+            };
             warnings.add(path, Some(index + 1), "lines", &text);
         }
     }
     for material in &mut materials {
+        material.is_quoted = is_quoted;
         material.finish();
     }
     materials

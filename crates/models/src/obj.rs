@@ -18,17 +18,24 @@ use std::sync::Arc;
 use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
-use crate::text::Text;
+use crate::outside::{self, NOT_QUOTED, is_outside};
+use crate::text::{self, Text, without_mark};
 use crate::textures::{Decoded, Described, Textures, find, opacity};
 use crate::{BadFile, Warnings, bad, read_bytes};
 
 /// Lines of material files that are read: each is looked for in the folder.
 const MOST_LIBRARIES: usize = 1 << 10;
 
-/// Positions, texture coordinates and normals of a corner, as indices from 0 or [`NONE`].
+/// What a face names where nothing is: it may do so for texture coordinates and normals.
+const ABSENT: u32 = NONE - 1;
+
+/// Positions, texture coordinates and normals of a corner, as indices from 0 or [`NONE`] or [`ABSENT`].
 type FaceCorner = [u32; 3];
 
 const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
+
+/// What is counted of the colours that ZBrush writes into comments, eight digits for each position.
+const ZBRUSH_COLOUR: &str = "ZBrush colour (#MRGB) of position";
 
 /// Faces of one group and material, one after the other in the file.
 struct Run {
@@ -94,12 +101,12 @@ impl Lines {
         index: usize,
         line: usize,
         cause: String,
-    ) -> Result<([f64; 3], usize), String> {
+    ) -> Result<Values<3>, String> {
         if self.broken.len() >= MOST_BROKEN {
             return Err(format!("{cause}, as in {MOST_BROKEN} lines before"));
         }
         self.broken.insert((kind, index as u32), (line, cause));
-        Ok(([0.0; 3], 0))
+        Ok(Values { all: [0.0; 3], count: 0, not_finite: None })
     }
 }
 
@@ -235,6 +242,7 @@ fn surface(
     not_drawn: &mut BTreeMap<String, u64>,
     warnings: &mut Warnings,
 ) -> Surface {
+    let folder = path.parent().unwrap_or(Path::new(""));
     for key in &material.not_drawn {
         *not_drawn.entry(key.clone()).or_default() += 1;
     }
@@ -242,6 +250,13 @@ fn surface(
         let read = textures.get(&described.name, described.clamp);
         read.map_err(|error| {
             let name = printable_short(&material.name, 40);
+            let error = match material.is_quoted {
+                true => outside::of_picture(folder, error).to_string(),
+                false => format!(
+                    "{}: a picture that a material file names cannot be read; its name is {NOT_QUOTED}",
+                    printable_path(path)
+                ),
+            };
             let text = format!("{error}; the material '{name}' is drawn {without}");
             warnings.add_as_it_is(path, "textures", &text);
         })
@@ -305,7 +320,8 @@ fn read_libraries(
                 Ok(bytes) => {
                     left_bytes -= bytes.len() as u64;
                     let text = String::from_utf8_lossy(without_mark(&bytes));
-                    materials.extend(mtl::read(&file, &text, warnings));
+                    let is_quoted = !is_outside(folder, &file);
+                    materials.extend(mtl::read(&file, &text, is_quoted, warnings));
                 }
                 Err(error) => {
                     all_read = false;
@@ -337,11 +353,6 @@ fn library_names(folder: &Path, names: &str) -> Vec<String> {
         at = end;
     }
     found
-}
-
-/// Bytes without the byte order mark that some editors put before a text.
-fn without_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// Words that begin a line and are left out without a loss: what they say has an effect on curves and free-form
@@ -394,8 +405,7 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
         }
         let result = read_line(line, first, &mut read, &mut state);
         if let Some(cause) = result.map_err(|cause| refused(path, first, &cause))? {
-            let text = format!("{cause}; the line is left out");
-            warnings.add(path, Some(first), "lines", &text);
+            warnings.add(path, Some(first), "lines", &cause);
         }
     }
     if read.runs.is_empty() && read.not_drawn.is_empty() {
@@ -412,40 +422,58 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
         return Err(bad(path, None, format!("{what}{ending}; {hint}")));
     }
     // Some programs write bytes.
-    let is_large = |colour: &DVec3| colour.max_element() > 1.0;
+    let is_large = |colour: &DVec3| colour.is_finite() && colour.max_element() > 1.0;
     let scale = if read.colours.iter().any(is_large) { 1.0 / 255.0 } else { 1.0 };
-    for colour in &mut read.colours {
+    for colour in read.colours.iter_mut().filter(|colour| !colour.is_nan()) {
         let scaled = (*colour * scale).clamp(DVec3::ZERO, DVec3::ONE);
         *colour = if *colour == WITHOUT_COLOUR { DVec3::ONE } else { scaled };
     }
     Ok(read)
 }
 
-/// Reads one line, or says why it is left out.
+/// Reads one line, or says what of it is left out and why.
 fn read_line(
     line: &[u8],
     number: usize,
     read: &mut Lines,
     state: &mut State,
 ) -> Result<Option<String>, String> {
+    if let Some(colours) = line.strip_prefix(b"#MRGB") {
+        let count = colours.iter().filter(|byte| byte.is_ascii_hexdigit()).count() / 8;
+        *read.not_drawn.entry(ZBRUSH_COLOUR.to_owned()).or_default() += count as u64;
+        return Ok(None);
+    }
     let mut words = words(line);
     let Some(kind) = words.next() else { return Ok(None) };
     match kind {
-        b"v" => {
-            if let Err(cause) = position(words, read) {
+        b"v" => match position(words, read) {
+            Ok(None) => {}
+            Ok(Some(word)) => {
+                let (what, why) = ("the faces that use it are left out", not_finite(&word));
+                return Ok(Some(format!("{why}; {what}")));
+            }
+            Err(cause) => {
                 read.keep_broken(0, read.positions.len(), number, cause)?;
                 read.positions.push(DVec3::ZERO);
             }
-        }
+        },
         b"vt" => {
-            let (values, _) = numbers::<3>(words, 1)
+            let values = numbers::<3>(words, 1)
                 .or_else(|cause| read.keep_broken(1, read.uvs.len(), number, cause))?;
-            read.uvs.push(DVec2::new(values[0], values[1]));
+            let uv = DVec2::new(values.all[0], values.all[1]);
+            read.uvs.push(if uv.is_finite() { uv } else { DVec2::ZERO });
+            if let (false, Some(word)) = (uv.is_finite(), values.not_finite) {
+                return Ok(Some(format!("{}; it is taken as 0 0", not_finite(&word))));
+            }
         }
         b"vn" => {
-            let (values, _) = numbers::<3>(words, 3)
+            let values = numbers::<3>(words, 3)
                 .or_else(|cause| read.keep_broken(2, read.normals.len(), number, cause))?;
-            read.normals.push(DVec3::from_slice(&values));
+            read.normals.push(DVec3::from_slice(&values.all));
+            if let Some(word) = values.not_finite {
+                let what = "the normal of the face takes its place";
+                return Ok(Some(format!("{}; {what}", not_finite(&word))));
+            }
         }
         b"f" | b"fo" => return face(words, number, read, state),
         b"o" => {
@@ -481,35 +509,44 @@ fn read_line(
             if let Some((_, key)) = NOT_DRAWN.iter().find(|(name, _)| *name == word) {
                 *read.not_drawn.entry((*key).to_owned()).or_default() += 1;
             } else if !WITHOUT_EFFECT.contains(&&*word) {
-                return Ok(Some(format!("'{}' does not begin a line of an OBJ", short(kind))));
+                let what = format!("'{}' does not begin a line of an OBJ", short(kind));
+                return Ok(Some(format!("{what}; the line is left out")));
             }
         }
     }
     Ok(None)
 }
 
-/// Three coordinates, a weight that polygons do not use, a colour.
-fn position<'a>(words: impl Iterator<Item = &'a [u8]>, read: &mut Lines) -> Result<(), String> {
-    let (values, count) = numbers::<7>(words, 3)?;
-    if let Some(far) = values[..3].iter().find(|value| value.abs() > MOST_COORDINATE) {
+/// Three coordinates, a weight that polygons do not use, a colour. Returns the first word that is no finite number, where one of the
+/// coordinates or of the colour is not.
+fn position<'a>(
+    words: impl Iterator<Item = &'a [u8]>,
+    read: &mut Lines,
+) -> Result<Option<String>, String> {
+    let Values { all, count, not_finite } = numbers::<7>(words, 3)?;
+    let position = DVec3::from_slice(&all);
+    if position.is_finite() && position.abs().max_element() > MOST_COORDINATE {
+        let far = position.abs().max_element();
         return Err(format!("the coordinate {far:e} is larger than 1e38: scale the model down"));
     }
     let colour = match count {
-        6 => Some(&values[3..6]),
-        7 => Some(&values[4..7]),
+        6 => Some(&all[3..6]),
+        7 => Some(&all[4..7]),
         _ => None,
     };
+    let colour = colour.map(DVec3::from_slice);
+    let is_finite = position.is_finite() && colour.is_none_or(DVec3::is_finite);
     if let Some(colour) = colour {
         read.colours.resize(read.positions.len(), WITHOUT_COLOUR);
-        read.colours.push(DVec3::from_slice(colour));
+        read.colours.push(if colour.is_finite() { colour } else { DVec3::NAN });
     }
-    read.positions.push(DVec3::from_slice(&values));
-    Ok(())
+    read.positions.push(position);
+    Ok(not_finite.filter(|_| !is_finite))
 }
 
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
-    let end = line.iter().position(|&byte| byte == b'#').unwrap_or(line.len());
-    line[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+    let end = memchr::memchr_iter(b'#', line).find(|&at| !text::is_of_number(line, at));
+    line[..end.unwrap_or(line.len())].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
 /// A name that fills the rest of a line after its first word.
@@ -518,29 +555,41 @@ fn rest(line: &[u8], kind: &[u8]) -> String {
     without_comment(&text).trim().to_owned()
 }
 
-/// At least `least` numbers, and how many there are; of more than N the first N.
+/// The numbers of a line: the first N of them.
+struct Values<const N: usize> {
+    all: [f64; N],
+    /// How many the line has.
+    count: usize,
+    /// The first word that is no finite number.
+    not_finite: Option<String>,
+}
+
+fn not_finite(word: &str) -> String {
+    format!("'{word}' is not a finite number")
+}
+
+/// At least `least` numbers.
 fn numbers<'a, const N: usize>(
     words: impl Iterator<Item = &'a [u8]>,
     least: usize,
-) -> Result<([f64; N], usize), String> {
-    let (mut values, mut count) = ([0.0; N], 0);
+) -> Result<Values<N>, String> {
+    let mut values = Values { all: [0.0; N], count: 0, not_finite: None };
     for word in words {
-        let text = std::str::from_utf8(word).unwrap_or("");
-        match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => {
-                if let Some(place) = values.get_mut(count) {
-                    *place = value;
-                }
-                count += 1;
-            }
-            Ok(_) => return Err(format!("'{}' is not a finite number", short(word))),
-            Err(_) => return Err(format!("'{}' is not a number", short(word))),
+        let Some(value) = text::number(word) else {
+            return Err(format!("'{}' is not a number", short(word)));
+        };
+        if !value.is_finite() && values.not_finite.is_none() {
+            values.not_finite = Some(short(word));
         }
+        if let Some(place) = values.all.get_mut(values.count) {
+            *place = value;
+        }
+        values.count += 1;
     }
-    if count < least {
-        return Err(format!("{count} numbers where {least} are needed"));
+    if values.count < least {
+        return Err(format!("{} numbers where {least} are needed", values.count));
     }
-    Ok((values, count))
+    Ok(values)
 }
 
 fn short(word: &[u8]) -> String {
@@ -581,7 +630,7 @@ fn face<'a>(
     if count < 3 {
         run.truncate(start);
         *read.not_drawn.entry(INCOMPLETE_FACE.to_owned()).or_default() += 1;
-        return Ok(Some("a face needs three corners or more".to_owned()));
+        return Ok(Some("a face needs three corners or more; the line is left out".to_owned()));
     }
     run.polygons.push(count, number as u32, state.smoothing);
     Ok(None)
@@ -612,19 +661,29 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
         if !all_digits {
             return Err(format!("'{}' is not a corner of a face", short(word)));
         }
-        let value = index(digits).ok_or_else(missing)? as usize;
-        let value = if is_back { counts[kind].checked_sub(value) } else { value.checked_sub(1) };
-        let value = value.filter(|_| !is_back || digits != b"0").ok_or_else(missing)?;
-        corner[kind] =
-            u32::try_from(value).ok().filter(|&value| value != NONE).ok_or_else(missing)?;
+        let value = index(digits).and_then(|value| {
+            let value = usize::try_from(value).ok()?;
+            let value =
+                if is_back { counts[kind].checked_sub(value) } else { value.checked_sub(1) }?;
+            let is_there = value < ABSENT as usize && (!is_back || value < counts[kind]);
+            is_there.then_some(value as u32)
+        });
+        corner[kind] = match value {
+            Some(value) => value,
+            None if kind == 0 => return Err(missing()),
+            None => ABSENT,
+        };
     }
     Ok(corner)
 }
 
-/// Faces may come before what they name, so this is checked at the end.
+/// Looks whether what faces name is there, and takes away texture coordinates and normals that are not. Faces may come before what they
+/// name, so this is done at the end.
 fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Result<(), BadFile> {
     let counts = [lines.positions.len(), lines.uvs.len(), lines.normals.len()];
-    for run in &lines.runs {
+    // Vectors that faces are drawn without, by kind and index.
+    let mut used: HashSet<(usize, u32)> = HashSet::new();
+    for run in &mut lines.runs {
         let largest = |numbers: &[u32]| {
             numbers.iter().map(|&number| number.wrapping_add(1)).max().unwrap_or(0) as usize
         };
@@ -640,22 +699,53 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
         if are_there && lines.broken.is_empty() {
             continue;
         }
-        for corner in 0..run.corners.len() {
-            for (kind, index) in run.corner(corner).into_iter().enumerate() {
-                if index != NONE && index as usize >= counts[kind] {
-                    let (name, count, index) = (KINDS[kind], counts[kind], u64::from(index) + 1);
-                    let cause = format!("{name} {index} is not there; the file has {count}");
-                    let line = run.polygons.line(run.polygons.of_corner(corner));
-                    return Err(refused(path, line as usize, &cause));
+        for number in 0..run.polygons.len() {
+            let line = run.polygons.line(number) as usize;
+            let corners = run.polygons.corners(number);
+            for kind in 0..KINDS.len() {
+                let mut indices = corners.clone().map(|corner| run.corner(corner)[kind]);
+                let wrong = indices.find(|&index| {
+                    index != NONE
+                        && (index as usize >= counts[kind]
+                            || lines.broken.contains_key(&(kind, index)))
+                });
+                let Some(index) = wrong else { continue };
+                let (name, count) = (KINDS[kind], counts[kind]);
+                let broken = lines.broken.get(&(kind, index));
+                let cause = match index {
+                    ABSENT => format!("a {name} that the face names is not there"),
+                    index => {
+                        let index = u64::from(index) + 1;
+                        format!("{name} {index} is not there; the file has {count}")
+                    }
+                };
+                if kind == 0 {
+                    return Err(match broken {
+                        Some((line, cause)) => refused(path, *line, cause),
+                        None => refused(path, line, &cause),
+                    });
                 }
-                if let Some((line, cause)) = lines.broken.remove(&(kind, index)) {
-                    return Err(refused(path, line, &cause));
+                let cause =
+                    broken.map_or(cause, |_| format!("the {name} of the face cannot be read"));
+                let text = format!("{cause}; the face is drawn without {name}s of the file");
+                warnings.add(path, Some(line), &format!("faces without their {name}s"), &text);
+                used.extend(corners.clone().map(|corner| (kind, run.corner(corner)[kind])));
+                let numbers = if kind == 1 { &mut run.uvs } else { &mut run.normals };
+                if *numbers == Numbers::OfPositions {
+                    *numbers = Numbers::OfCorners(run.corners.clone());
+                }
+                if let Numbers::OfCorners(numbers) = numbers {
+                    numbers[corners.clone()].fill(NONE);
                 }
             }
         }
     }
-    for (line, cause) in lines.broken.values() {
-        warnings.add(path, Some(*line), "lines", &format!("{cause}; no face uses it"));
+    for (place, (line, cause)) in &lines.broken {
+        let what = match used.contains(place) {
+            true => "the faces that use it are drawn without it",
+            false => "no face uses it",
+        };
+        warnings.add(path, Some(*line), "lines", &format!("{cause}; {what}"));
     }
     Ok(())
 }

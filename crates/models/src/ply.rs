@@ -15,12 +15,13 @@ use rayon::prelude::*;
 
 use crate::ahead::Ahead;
 use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
+use crate::text::{number, without_mark};
 use crate::textures::{Textures, opacity};
-use crate::{BadFile, Warnings, bad};
+use crate::{BadFile, Warnings, bad, outside};
 
 /// Whether these bytes begin as a PLY.
 pub(crate) fn is_ply(bytes: &[u8]) -> bool {
-    bytes.strip_prefix(b"ply").is_some_and(|rest| {
+    without_mark(bytes).strip_prefix(b"ply").is_some_and(|rest| {
         rest.trim_ascii_start().len() < rest.len() && rest.trim_ascii_start().starts_with(b"format")
             || rest.starts_with(b"\n")
             || rest.starts_with(b"\r")
@@ -189,8 +190,7 @@ impl Body {
             let number = word.iter().fold(0, |sum, byte| 10 * sum + u32::from(byte - b'0'));
             return Ok(f64::from(number));
         }
-        let number = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f64>().ok());
-        number.ok_or_else(|| {
+        number(word).ok_or_else(|| {
             let word = printable_short(&String::from_utf8_lossy(word), 40);
             format!("'{word}' is not a number")
         })
@@ -291,9 +291,10 @@ pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
     if !ends(b"\nend_header") && !ends(b"\rend_header") {
         file.read_all().map_err(unread)?;
     }
-    let newline = match file.bytes.iter().find(|byte| matches!(byte, b'\n' | b'\r')) {
+    file.at = file.bytes.len() - without_mark(&file.bytes).len();
+    let newline = match file.left().iter().find(|byte| matches!(byte, b'\n' | b'\r')) {
         // Two bytes end a line of some systems.
-        Some(b'\r') if !file.bytes.starts_with(b"ply\r\n") => b'\r',
+        Some(b'\r') if !file.left().starts_with(b"ply\r\n") => b'\r',
         _ => b'\n',
     };
     let mut body = Body { file, form: Form::Text, newline, line: 0, words: 0..0, long: 0 };
@@ -422,7 +423,7 @@ fn vertices(
             part.uvs.push(DVec2::new(u, v));
         }
         if has_colours {
-            part.colours.push(DVec3::new(r, g, b).clamp(DVec3::ZERO, DVec3::ONE));
+            part.colours.push(clamped(DVec3::new(r, g, b)));
             transparent += u64::from(a < 1.0);
         }
     };
@@ -444,6 +445,11 @@ fn vertices(
     }
     add(contents, "transparent position", transparent);
     Ok(())
+}
+
+/// A colour between black and white. One that is no number stays so.
+fn clamped(colour: DVec3) -> DVec3 {
+    if colour.is_nan() { colour } else { colour.clamp(DVec3::ZERO, DVec3::ONE) }
 }
 
 /// Reads the vertices of a binary file that have no lists, by all threads, and returns how many they are and how many of
@@ -487,7 +493,7 @@ fn columns(
             vectors.par_extend(records.clone().map(move |record| {
                 let vector = DVec3::new(number(record, x), number(record, y), number(record, z));
                 match full {
-                    Some(full) => (vector / full).clamp(DVec3::ZERO, DVec3::ONE),
+                    Some(full) => clamped(vector / full),
                     None => vector,
                 }
             }));
@@ -740,6 +746,7 @@ fn surface(
             });
         }
         Err(error) => {
+            let error = outside::of_picture(folder, error);
             let text = format!("{error}; the model is drawn without it");
             warnings.add_as_it_is(path, "textures", &text);
         }

@@ -3,10 +3,14 @@
 //! A polygon is projected along the axis that is nearest to its normal. Coordinates stay the doubles of the file, so
 //! that whether a corner is convex, and whether two edges cross, is decided exactly.
 
+use std::collections::{HashMap, HashSet};
+
 use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, MIN_ALLOWED_VALUE, Point2, Triangulation as _};
+
+use crate::contents::key;
 
 /// Corners of a polygon whose edges may be anywhere: real ones have hundreds.
 const MOST_CORNERS: usize = 1 << 16;
@@ -24,6 +28,8 @@ pub(crate) enum Shape {
 pub(crate) enum Odd {
     /// Two of its edges cross, or a part of it is covered twice or from behind.
     Crosses,
+    /// It is folded, so that seen along its normal a part of it cannot be told from its outline.
+    Folded,
     /// It has more than [`MOST_CORNERS`] corners.
     TooManyCorners,
 }
@@ -58,14 +64,45 @@ pub(crate) fn triangles(
         fan();
         return Err(Odd::TooManyCorners);
     }
-    match delaunay(&flat) {
-        Some(triangles) => triangles.into_iter().for_each(emit),
-        None => {
-            fan();
-            return Err(Odd::Crosses);
-        }
+    let made = delaunay(&flat);
+    if let Some(triangles) = &made
+        && (is_flat(points, normal) || have_outline(triangles, points))
+    {
+        triangles.iter().for_each(|&triangle| emit(triangle));
+        return Ok(Shape::Concave);
     }
-    Ok(Shape::Concave)
+    fan();
+    Err(if is_flat(points, normal) { Odd::Crosses } else { Odd::Folded })
+}
+
+/// Whether the corners lie in a plane. A part that is nearer to it than this share of the size of the polygon would not be seen.
+fn is_flat(points: &[DVec3], normal: DVec3) -> bool {
+    const SHARE: f64 = 1e-4;
+    let (normal, first) = (normal.normalize_or_zero(), points[0]);
+    let size = points.iter().map(|&point| (point - first).length()).fold(0.0, f64::max);
+    let heights = || points.iter().map(|&point| (point - first).dot(normal));
+    let (least, most) = (heights().fold(0.0, f64::min), heights().fold(0.0, f64::max));
+    most - least <= SHARE * size
+}
+
+/// Whether the outline of these triangles is the outline of the polygon in space: each of its edges is an edge of a triangle, and
+/// every other edge is between two triangles.
+fn have_outline(triangles: &[[usize; 3]], points: &[DVec3]) -> bool {
+    let mut edges: HashSet<(usize, usize)> = HashSet::new();
+    for &[a, b, c] in triangles {
+        edges.extend([(a, b), (b, c), (c, a)]);
+    }
+    // Triangles name the first of several corners at one position.
+    let mut first: HashMap<[u64; 3], usize> = HashMap::new();
+    let corners = points.iter().enumerate();
+    let corners: Vec<usize> =
+        corners.map(|(corner, &point)| *first.entry(key(point)).or_insert(corner)).collect();
+    let next = corners.iter().cycle().skip(1);
+    let outline: HashSet<(usize, usize)> =
+        corners.iter().zip(next).map(|(&a, &b)| (a, b)).filter(|(a, b)| a != b).collect();
+    let is_inside = |&(a, b): &(usize, usize)| edges.contains(&(b, a));
+    outline.iter().all(|edge| edges.contains(edge))
+        && edges.iter().all(|edge| outline.contains(edge) || is_inside(edge))
 }
 
 /// The two coordinates other than the one in which the normal is largest, in the order that makes the polygon

@@ -11,13 +11,14 @@ use glam::{DMat4, DVec3};
 use hashbrown::HashTable;
 use hashbrown::hash_table::Entry;
 use rasterproof_core::parallel::{self, SHARE};
+use rasterproof_host::error::FileError;
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
 use crate::ahead::Ahead;
 use crate::contents::{Contents, Coordinate, FilePart, Polygons};
-use crate::text::Text;
-use crate::{BadFile, bad};
+use crate::text::{Text, without_mark};
+use crate::{BadFile, Warnings, bad};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -26,15 +27,37 @@ fn counted(bytes: &[u8]) -> Option<u64> {
     Some(u32::from_le_bytes(bytes.get(80..HEADER)?.try_into().ok()?).into())
 }
 
-/// Whether the length is that of the records which the header counts: text that begins with `solid` has another one.
+/// Whether the length is that of the records which the header counts. A text that begins with `solid` has another one.
 pub(crate) fn is_binary(bytes: &[u8], length: u64) -> bool {
     counted(bytes).is_some_and(|count| count * RECORD as u64 + HEADER as u64 == length)
 }
 
-/// Whether the first word is `solid`.
+/// Whether it begins as the text of an STL. A binary one may do so too, but has zeros in its first record.
 pub(crate) fn is_text(bytes: &[u8]) -> bool {
-    let rest = bytes.trim_ascii_start();
-    rest.starts_with(b"solid") && rest.get(5).is_none_or(u8::is_ascii_whitespace)
+    let begin = without_mark(&bytes[..bytes.len().min(HEADER + RECORD)]);
+    let begin = begin.trim_ascii_start();
+    let word = begin.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+    // Some programs write no `solid`.
+    let is_known =
+        ["solid", "facet"].iter().any(|known| word.eq_ignore_ascii_case(known.as_bytes()));
+    is_known && !begin.contains(&0)
+}
+
+/// Whether it begins as an STL in records, whatever its length is: with zeros, which no text has, and a first triangle of usual numbers or
+/// the ending of its name.
+pub(crate) fn begins_binary(path: &Path, bytes: &[u8]) -> bool {
+    let begin = &bytes[..bytes.len().min(HEADER + RECORD)];
+    let is_wide = begin.starts_with(b"\xff\xfe") || begin.starts_with(b"\xfe\xff");
+    if is_wide || !begin.contains(&0) {
+        return false;
+    }
+    let is_usual = |word: &[u8; 4]| {
+        let size = f32::from_le_bytes(*word).abs();
+        size == 0.0 || (1e-20..1e20).contains(&size)
+    };
+    let record = begin.get(HEADER..HEADER + RECORD - 2);
+    record.is_some_and(|record| record.as_chunks::<4>().0.iter().all(is_usual))
+        || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("stl"))
 }
 
 /// Corners of triangles in the order of the file, and the positions that they name. Those of records stay `f32`, which take half
@@ -144,8 +167,38 @@ fn renumber(old: &[u32], new: &[u32], to: &mut Vec<u32>) {
 
 /// Reads triangles in records, and counts those that have an attribute, which is not drawn.
 pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
-    let count = counted(&file.bytes).unwrap_or(0);
+    let length = file.left_bytes();
+    let truncated = |cause: String| {
+        bad(path, None, format!("is truncated: {cause}: copy it or export the model again"))
+    };
+    let Some(announced) = counted(&file.bytes) else {
+        let cause = format!("an STL without text begins with {HEADER} bytes, and it has {length}");
+        return Err(truncated(cause));
+    };
     file.at = HEADER;
+    let there = file.left_bytes() / RECORD as u64;
+    let mut warnings = Warnings::default();
+    // Programs that write before they know the number leave one of these.
+    let count = match announced {
+        0 | UNKNOWN if there > 0 => {
+            let text = format!(
+                "its header announces {announced} triangles, and it has {there}, which are read"
+            );
+            warnings.add(path, None, "headers", &text);
+            there
+        }
+        announced if announced > there => {
+            let cause = format!("its header announces {announced} triangles, and it has {there}");
+            return Err(truncated(cause));
+        }
+        announced => announced,
+    };
+    let more = file.left_bytes() - count * RECORD as u64;
+    if more > 0 {
+        let text =
+            format!("{more} bytes follow the last of its {count} triangles; they are left out");
+        warnings.add(path, None, "bytes", &text);
+    }
     let (mut all, mut with_attribute) = (Vec::new(), 0);
     let read = file.records(RECORD, count, |bytes| {
         let records = bytes.as_chunks::<RECORD>().0;
@@ -160,7 +213,7 @@ pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> 
         return Err(bad(path, None, cause));
     }
     drop(file);
-    let mut contents = Contents::default();
+    let mut contents = Contents { warnings: warnings.finish(), ..Contents::default() };
     if with_attribute > 0 {
         contents.not_drawn.insert("attribute of triangle".to_owned(), with_attribute);
     }
@@ -171,6 +224,9 @@ pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> 
         vec![FilePart { to_file, positions, corners, polygons, ..FilePart::default() }];
     Ok(contents)
 }
+
+/// A number of triangles that stands for one which is not known.
+const UNKNOWN: u64 = u32::MAX as u64;
 
 /// Reads the corners of records, a share of them by each of up to so many threads.
 fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
@@ -194,6 +250,8 @@ const TEXT_SHARE: usize = 1 << 17;
 
 /// Reads triangles in text, of which each `solid` becomes a part.
 pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
+    let unread = |error: FileError| bad(path, None, error.cause);
+    let mut warnings = Warnings::default();
     let mut parts: Vec<FilePart> = Vec::new();
     // Those of the last part.
     let mut shares: Vec<Corners<f64>> = Vec::new();
@@ -203,61 +261,96 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
         }
     };
     let mut points: Vec<[f64; 3]> = Vec::new();
-    let (mut number, mut first_line) = (0, 0);
-    while let Some(line) = text.next_line().map_err(|error| bad(path, None, error.cause))? {
+    let (mut number, mut triangles) = (0, 0u64);
+    // The first line of a facet that has not ended, and whether a solid has not.
+    let (mut open, mut is_open) = (None, false);
+    while let Some(line) = text.next_line().map_err(unread)? {
         number += 1;
-        let shown = || printable_short(String::from_utf8_lossy(line).trim(), 60);
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        let Some(kind) = words.next() else { continue };
-        let is = |name: &str| kind.eq_ignore_ascii_case(name.as_bytes());
+        let Some(mut kind) = words.next() else { continue };
+        let is_two = kind.eq_ignore_ascii_case(b"end");
+        if is_two && let Some(next) = words.next() {
+            kind = next;
+        }
+        let is = |name: &str| match name.strip_prefix("end") {
+            Some(name) if is_two => kind.eq_ignore_ascii_case(name.as_bytes()),
+            _ => !is_two && kind.eq_ignore_ascii_case(name.as_bytes()),
+        };
+        let mut wrong = None;
         if is("vertex") {
-            let mut next = || std::str::from_utf8(words.next()?).ok()?.parse::<f64>().ok();
-            let (Some(x), Some(y), Some(z), None) = (next(), next(), next(), words.next()) else {
-                let cause = format!(
-                    "'{}' is not 'vertex X Y Z' with three numbers: repair the line",
-                    shown()
-                );
-                return Err(bad(path, Some(number), cause));
-            };
-            if points.len() == 3 {
-                let cause = "a facet has more than three vertices: export the model as OBJ, which has polygons";
-                return Err(bad(path, Some(number), cause));
+            let mut next = || crate::text::number(words.next()?);
+            match (next(), next(), next(), words.next()) {
+                (Some(_), Some(_), Some(_), None) if points.len() == 3 => {
+                    wrong = Some("a facet has more than three vertices: export the model as OBJ, which has polygons".to_owned());
+                }
+                (Some(x), Some(y), Some(z), None) => points.push([x, y, z]),
+                _ => {
+                    wrong = Some(format!(
+                        "'{}' is not 'vertex X Y Z' with three numbers: repair the line",
+                        shown(line)
+                    ))
+                }
             }
-            points.push([x, y, z]);
-        } else if is("facet") {
-            points.clear();
-            first_line = number;
-        } else if is("endfacet") {
-            let (3, Some(part)) = (points.len(), parts.last_mut()) else {
-                let cause = format!(
+        } else if is("facet") && points.is_empty() {
+            open = Some(number);
+        } else if is("facet") || is("endfacet") {
+            if points.len() != 3 {
+                wrong = Some(format!(
                     "a facet ends with {} vertices instead of 3: export the model again",
                     points.len()
-                );
-                return Err(bad(path, Some(number), cause));
-            };
-            if shares.last().is_none_or(|share| share.numbers.len() >= 3 * TEXT_SHARE) {
-                shares.push(Corners::with_capacity(0));
+                ));
             }
-            if let Some(share) = shares.last_mut() {
-                points.drain(..).for_each(|point| share.push(point));
+            if parts.is_empty() {
+                parts.push(FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() });
             }
-            part.polygons.push(3, first_line as u32, 0);
+            if let (None, Some(part)) = (&wrong, parts.last_mut()) {
+                if shares.last().is_none_or(|share| share.numbers.len() >= 3 * TEXT_SHARE) {
+                    shares.push(Corners::with_capacity(0));
+                }
+                if let Some(share) = shares.last_mut() {
+                    points.drain(..).for_each(|point| share.push(point));
+                }
+                part.polygons.push(3, open.unwrap_or(number) as u32, 0);
+                triangles += 1;
+                // Where no `endfacet` is before it.
+                open = is("facet").then_some(number);
+            }
         } else if is("solid") {
             end(parts.last_mut(), &mut shares);
             let name = words.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ");
             parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
-        } else if !(is("outer") || is("endloop") || is("endsolid")) {
-            let cause =
-                format!("'{}' is no line of an STL: remove it, or export the model again", shown());
+            is_open = true;
+        } else if is("endsolid") {
+            is_open = false;
+        } else if !(is("outer") || is("endloop")) {
+            let text = format!("'{}' is no line of an STL; the line is left out", shown(line));
+            warnings.add(path, Some(number), "lines", &text);
+        }
+        let Some(cause) = wrong else { continue };
+        // The last line of a file that was cut off may be a part of one.
+        if text.next_line().map_err(unread)?.is_some() {
             return Err(bad(path, Some(number), cause));
         }
+        open = open.or(Some(number));
+        break;
     }
-    if !points.is_empty() {
-        let cause = "the file ends inside this facet: it is cut off; export the model again";
-        return Err(bad(path, Some(first_line.max(1)), cause));
+    if let Some(line) = open {
+        let cause = format!(
+            "the file ends inside this facet: it is truncated, with {triangles} whole triangles before; copy it or export the model again"
+        );
+        return Err(bad(path, Some(line), cause));
+    }
+    if is_open && triangles > 0 {
+        let text =
+            format!("ends without 'endsolid' after {triangles} triangles: it may be truncated");
+        warnings.add(path, None, "ends", &text);
     }
     end(parts.last_mut(), &mut shares);
-    Ok(Contents { parts, ..Contents::default() })
+    Ok(Contents { parts, warnings: warnings.finish(), ..Contents::default() })
+}
+
+fn shown(line: &[u8]) -> String {
+    printable_short(String::from_utf8_lossy(line).trim(), 60)
 }
 
 #[cfg(test)]

@@ -1,10 +1,37 @@
-//! The lines of a file that is read piece by piece.
+//! The lines of a file that is read piece by piece, and the numbers in them.
 
 use memchr::memchr;
 use rasterproof_host::error::FileError;
 use rasterproof_host::input::Pieces;
 
 use crate::PIECE_BYTES;
+
+/// What editors put before a text in UTF-8, and some programs before any text.
+pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Bytes without the mark before them.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(MARK).unwrap_or(bytes)
+}
+
+/// A number. What C libraries write where there is none, as `-nan(ind)` or `1.#QNAN`, is one that is not finite.
+pub(crate) fn number(word: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(word).ok()?;
+    text.parse().ok().or_else(|| {
+        let unsigned = word.strip_prefix(b"-").or(word.strip_prefix(b"+")).unwrap_or(word);
+        let is_nan = unsigned.get(..4).is_some_and(|begin| begin.eq_ignore_ascii_case(b"nan("));
+        let hash = unsigned.starts_with(b"1.#").then_some(2);
+        (is_nan || hash.is_some_and(|at| is_of_number(unsigned, at))).then_some(f64::NAN)
+    })
+}
+
+/// Whether the sign `#` at this place is that of a number which is not finite, and begins no comment.
+pub(crate) fn is_of_number(line: &[u8], at: usize) -> bool {
+    let begins = |word: &&[u8]| {
+        line[at + 1..].get(..word.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(word))
+    };
+    line[..at].ends_with(b"1.") && [&b"IND"[..], b"INF", b"QNAN", b"SNAN"].iter().any(begins)
+}
 
 pub(crate) struct Text {
     file: Pieces,
@@ -22,8 +49,7 @@ pub(crate) struct Text {
 impl Text {
     /// The lines of a file whose first bytes were read already.
     pub(crate) fn new(begun: Vec<u8>, file: Pieces) -> Self {
-        // A mark that some editors put before a text.
-        let at = if begun.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        let at = begun.len() - without_mark(&begun).len();
         let is_wide = begun.starts_with(b"\xff\xfe") || begun.starts_with(b"\xfe\xff");
         // Files of old systems end their lines with a carriage return alone.
         let is_old = !begun.contains(&b'\n') && begun.contains(&b'\r');

@@ -18,6 +18,9 @@ use crate::{BadFile, bad, read_bytes};
 /// Entries of a folder that are compared with a name: more than a folder of models has.
 const MOST_ENTRIES: usize = 1 << 16;
 
+/// What is said of a picture that cannot be decoded; what follows may quote its bytes.
+pub(crate) const UNREADABLE: &str = "is not a readable PNG, JPEG, BMP, TGA, TIFF or WebP";
+
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
     pub texture: Arc<Texture>,
@@ -52,7 +55,7 @@ pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
 
 /// Decodes a picture; the path is that of its file, or of the file that contains it.
 pub(crate) fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded, BadFile> {
-    let cause = |error| format!("is not a readable PNG, JPEG, BMP, TGA, TIFF or WebP: {error}");
+    let cause = |error| format!("{UNREADABLE}: {error}");
     let failed = |error| bad(path, None, cause(error));
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
@@ -97,11 +100,15 @@ pub(crate) fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded, BadFile> {
 /// The file that a model means by a name that it contains: as it is written, with slashes for backslashes, with
 /// other cases of letters, or the last part of the name beside the model.
 pub(crate) fn find(folder: &Path, name: &str) -> Option<PathBuf> {
-    let name = name.trim();
-    let name = name.strip_prefix('"').and_then(|name| name.strip_suffix('"')).unwrap_or(name);
-    let slashes = name.replace('\\', "/");
+    let trimmed = name.trim();
+    let plain = trimmed.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
+    let plain = plain.unwrap_or(trimmed);
+    let slashes = plain.replace('\\', "/");
     let bare = slashes.rsplit('/').next().unwrap_or_default();
-    [name, &slashes, bare].into_iter().find_map(|name| find_any_case(folder, Path::new(name)))
+    // A name may begin or end with a space.
+    let as_written = (name != plain).then_some(name);
+    let names = as_written.into_iter().chain([plain, &slashes, bare]);
+    names.into_iter().find_map(|name| find_any_case(folder, Path::new(name)))
 }
 
 /// A path below a folder whose parts may be written with other cases of letters.

@@ -1,7 +1,7 @@
 //! Buffers and accessors: numbers out of bytes. Whatever the file says, nothing outside its bytes is read.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -9,8 +9,8 @@ use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 
 use super::document::{Accessor, Root};
-use crate::read_bytes;
 use crate::textures::find;
+use crate::{outside, read_bytes};
 
 /// Elements of an accessor without bytes, which are zeros.
 const MOST_ZEROS: usize = 1 << 24;
@@ -95,6 +95,12 @@ impl<'a> Data<'a> {
             buffers.push(bytes);
         }
         Ok(Self { root, buffers })
+    }
+
+    /// Whether some of the bytes are those of a file outside the folder of the model.
+    pub(super) fn has_outside_buffer(&self, folder: &Path) -> bool {
+        let mut uris = self.root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+        uris.any(|uri| is_outside(folder, uri))
     }
 
     /// The bytes of a buffer view, and the distance of its elements where it has one.
@@ -295,29 +301,47 @@ fn most(kind: ComponentType) -> f64 {
 
 /// The bytes that a URI names: those within a `data:` address, or of a file beside the model.
 pub(super) fn resource(folder: &Path, uri: &str, limit_bytes: u64) -> Result<Vec<u8>, String> {
-    if let Some(data) = uri.strip_prefix("data:") {
+    if let Some(data) = data_of(uri) {
         let Some((head, data)) = data.split_once(',') else {
             return Err("a 'data:' address without a comma".to_owned());
         };
-        if !head.ends_with(";base64") {
+        if !head.to_ascii_lowercase().ends_with(";base64") {
             return Ok(unescaped(data));
         }
         let config = GeneralPurposeConfig::new()
             .with_decode_padding_mode(DecodePaddingMode::Indifferent)
             .with_decode_allow_trailing_bits(true);
         let engine = GeneralPurpose::new(&base64::alphabet::STANDARD, config);
+        // Some programs break the lines.
+        let data: Vec<u8> = data.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
         return engine.decode(data).map_err(|error| format!("is not base64: {error}"));
     }
     let shown = printable_short(uri, 60);
-    if uri.contains("://") {
+    if uri.contains("://") && !uri.starts_with("file:") {
         return Err(format!("'{shown}' is no file: save it beside the model and name it there"));
     }
-    let plain = String::from_utf8_lossy(&unescaped(uri)).into_owned();
-    let found = find(folder, &plain).or_else(|| find(folder, uri));
-    let Some(file) = found else {
+    let Some(file) = file_of(folder, uri) else {
         return Err(format!("there is no file '{shown}' beside the model: put it there"));
     };
     read_bytes(&file, limit_bytes).map_err(|error| error.to_string())
+}
+
+/// What follows `data:` in an address that contains its bytes.
+fn data_of(uri: &str) -> Option<&str> {
+    let (scheme, data) = uri.trim().split_once(':')?;
+    scheme.eq_ignore_ascii_case("data").then_some(data)
+}
+
+/// The file that a URI names.
+fn file_of(folder: &Path, uri: &str) -> Option<PathBuf> {
+    let plain = String::from_utf8_lossy(&unescaped(uri)).into_owned();
+    find(folder, &plain).or_else(|| find(folder, uri))
+}
+
+/// Whether a URI names a file outside the folder of the model, so that no message may quote it.
+pub(super) fn is_outside(folder: &Path, uri: &str) -> bool {
+    data_of(uri).is_none()
+        && file_of(folder, uri).is_some_and(|file| outside::is_outside(folder, &file))
 }
 
 /// Text in which `%20` stands for a space.

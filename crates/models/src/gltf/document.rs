@@ -21,33 +21,33 @@ pub(super) struct Root {
     #[serde(rename = "asset")]
     _asset: Asset,
     pub scene: Option<usize>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub scenes: Vec<Scene>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub nodes: Vec<Node>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub meshes: Vec<Mesh>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub skins: Vec<Skin>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub materials: Vec<Material>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub textures: Vec<Texture>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub images: Vec<Image>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub samplers: Vec<Sampler>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub accessors: Vec<Accessor>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub buffer_views: Vec<View>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub buffers: Vec<Buffer>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub animations: Vec<IgnoredAny>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub extensions_used: Vec<String>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub extensions_required: Vec<String>,
 }
 
@@ -140,17 +140,17 @@ pub(super) struct Skin {
 #[serde(rename_all = "camelCase")]
 pub(super) struct Material {
     pub name: Option<String>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub alpha_mode: String,
     pub alpha_cutoff: Option<f32>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub double_sided: bool,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub pbr_metallic_roughness: Metallic,
     pub normal_texture: Option<IgnoredAny>,
     pub occlusion_texture: Option<IgnoredAny>,
     pub emissive_texture: Option<IgnoredAny>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub emissive_factor: [f32; 3],
     #[serde(default, deserialize_with = "or_default")]
     pub extensions: Extensions,
@@ -236,6 +236,19 @@ impl Default for Transform {
 pub(super) struct Texture {
     pub sampler: Option<usize>,
     /// None where an extension names a picture of another kind.
+    pub source: Option<usize>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub extensions: TextureExtensions,
+}
+
+#[derive(Default, Deserialize)]
+pub(super) struct TextureExtensions {
+    #[serde(rename = "EXT_texture_webp")]
+    pub webp: Option<Source>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Source {
     pub source: Option<usize>,
 }
 

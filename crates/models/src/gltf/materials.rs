@@ -11,13 +11,14 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
-use super::data::{Data, resource};
+use super::data::{Data, is_outside, resource};
 use super::document::{
     CLAMP_TO_EDGE, Info, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT, Material,
     NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Transform,
 };
 use crate::Warnings;
 use crate::contents::Surface;
+use crate::outside;
 use crate::textures::{Decoded, decode};
 
 /// A surface, and where its texture finds its coordinates.
@@ -66,7 +67,16 @@ impl<'a> Pictures<'a> {
             decode(Path::new(name.unwrap_or("")), bytes).map_err(|error| error.cause)
         };
         let read = self.read.entry(number).or_insert_with(read);
-        read.clone().map_err(|cause| format!("images[{number}] {cause}"))
+        read.clone().map_err(|cause| {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let image = data.root.images.get(number);
+            let is_outside = match image.and_then(|image| image.uri.as_deref()) {
+                Some(uri) => is_outside(folder, uri),
+                None => data.has_outside_buffer(folder),
+            };
+            let cause = if is_outside { outside::without_details(&cause) } else { cause };
+            format!("images[{number}] {cause}")
+        })
     }
 }
 
@@ -192,7 +202,8 @@ fn texture(
     let number = info.index;
     let missing = || format!("textures[{number}] is not there");
     let texture = data.root.textures.get(number).ok_or_else(missing)?;
-    let source = texture.source.filter(|&source| source < data.root.images.len());
+    let webp = texture.extensions.webp.as_ref().and_then(|webp| webp.source);
+    let source = texture.source.or(webp).filter(|&source| source < data.root.images.len());
     let missing = || format!("textures[{number}] has no picture that is read");
     let decoded = pictures.get(data, source.ok_or_else(missing)?)?;
     let sampler = texture.sampler.and_then(|sampler| data.root.samplers.get(sampler));

@@ -11,13 +11,14 @@ mod first;
 mod materials;
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
 use rasterproof_host::text::printable_short;
 
 use crate::contents::{Contents, FilePart, Numbers, Polygons};
+use crate::text::without_mark;
 use crate::{BadFile, Warnings, bad};
 use data::Data;
 use document::{
@@ -33,12 +34,13 @@ const MOST_CORNERS: usize = 1 << 27;
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 12] = [
+const READ: [&str; 13] = [
     draco::EXTENSION,
     LIGHTS,
     "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_texture_transform",
+    "EXT_texture_webp",
     "KHR_mesh_quantization",
     "KHR_xmp_json_ld",
     "KHR_binary_glTF",
@@ -62,11 +64,14 @@ pub(crate) fn is_glb(bytes: &[u8]) -> bool {
 /// Reads a document, as JSON with files beside it or as one GLB.
 pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     let failed = |cause: String| bad(path, None, cause);
-    let (json, bin) = if is_glb(bytes) {
-        chunks(bytes).map_err(failed)?
-    } else {
-        (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None)
+    let Chunks { json, bin, odd } = match is_glb(bytes) {
+        true => chunks(bytes).map_err(failed)?,
+        false => Chunks { json: bytes, bin: None, odd: None },
     };
+    // Some programs fill a chunk with zeros.
+    let is_filling = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
+    let end = json.iter().rposition(|byte| !is_filling(byte)).map_or(0, |last| last + 1);
+    let json = without_mark(&json[..end]);
     let mut contents = Contents::default();
     let json = match first::upgraded(json, &mut contents.not_drawn) {
         Ok(Some(upgraded)) => Cow::Owned(upgraded),
@@ -96,6 +101,9 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         described: HashMap::new(),
         corners: 0,
     };
+    if let Some(odd) = odd {
+        reader.warn("lengths", &odd);
+    }
     reader.scene().map_err(failed)?;
     reader.count_the_rest();
     let Reader { mut contents, warnings, .. } = reader;
@@ -103,26 +111,38 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     Ok(contents)
 }
 
-/// The JSON of a GLB, and its bytes: 12 bytes, then chunks with a head of 8 bytes each. In version 1, a head of 20
-/// bytes with the length of the JSON.
-fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
+/// What a GLB consists of.
+struct Chunks<'a> {
+    json: &'a [u8],
+    /// The bytes of the buffer without a name.
+    bin: Option<&'a [u8]>,
+    /// In which way its length is not the one that its head says.
+    odd: Option<String>,
+}
+
+/// A GLB has a head of 12 bytes, then chunks with a head of 8 bytes each. In version 1, a head of 20 bytes with the length of the
+/// JSON. What follows the length in the head is no part of it.
+fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     let word = |at: usize| {
         let word = bytes.get(at..at + 4).and_then(|word| <[u8; 4]>::try_from(word).ok());
         word.map(u32::from_le_bytes).ok_or_else(|| format!("is cut off at byte {}", bytes.len()))
     };
+    let (all, said) = (bytes.len(), word(8)? as usize);
     if word(4)? == 1 {
         let length = word(12)? as usize;
         let cut = || format!("is cut off: its JSON has {length} bytes from byte 20 on");
-        return bytes[20.min(bytes.len())..]
-            .split_at_checked(length)
-            .map(|(json, bin)| (json, Some(bin)))
-            .ok_or_else(cut);
+        let rest = &bytes[20.min(all)..];
+        let (json, bin) = rest.split_at_checked(length).ok_or_else(cut)?;
+        return Ok(Chunks { json, bin: Some(bin), odd: None });
     }
+    // Some programs do not know the length when they write the head.
+    let end = if said < LEAST_GLB_BYTES { all } else { said.min(all) };
     let (mut json, mut bin, mut at) = (None, None, 12);
-    while at < bytes.len() {
+    while at + CHUNK_HEAD_BYTES <= end {
         let (length, kind) = (word(at)? as usize, word(at + 4)?);
-        let chunk = bytes.get(at + 8..).and_then(|rest| rest.get(..length)).ok_or_else(|| {
-            let left = bytes.len().saturating_sub(at + 8);
+        let chunk = bytes.get(at + CHUNK_HEAD_BYTES..).and_then(|rest| rest.get(..length));
+        let chunk = chunk.ok_or_else(|| {
+            let left = all - at - CHUNK_HEAD_BYTES;
             format!("is cut off: the chunk at byte {at} has {length} bytes, and {left} follow")
         })?;
         match &kind.to_le_bytes() {
@@ -131,10 +151,24 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
             // Others may follow, which are left out as the format says.
             _ => {}
         }
-        at += 8 + length;
+        at += CHUNK_HEAD_BYTES + length;
     }
-    Ok((json.ok_or("has no chunk of JSON")?, bin))
+    let odd = if said > all {
+        Some(format!("its head says that it has {said} bytes, and it has {all}: it may be cut off"))
+    } else if at > said {
+        Some(format!("its head says that it has {said} bytes, and its chunks have {at}"))
+    } else if at < all {
+        Some(format!("{} bytes follow the last chunk; they are left out", all - at))
+    } else {
+        None
+    };
+    Ok(Chunks { json: json.ok_or("has no chunk of JSON")?, bin, odd })
 }
+
+const CHUNK_HEAD_BYTES: usize = 8;
+
+/// The head of a GLB, and that of one chunk.
+const LEAST_GLB_BYTES: usize = 12 + CHUNK_HEAD_BYTES;
 
 struct Reader<'a> {
     path: &'a Path,
@@ -153,6 +187,10 @@ impl Reader<'_> {
         if count > 0 {
             *self.contents.not_drawn.entry(key.to_owned()).or_default() += count;
         }
+    }
+
+    fn has_outside_buffer(&self) -> bool {
+        self.data.has_outside_buffer(self.path.parent().unwrap_or(Path::new("")))
     }
 
     fn warn(&mut self, kind: &str, text: &str) {
@@ -221,9 +259,17 @@ impl Reader<'_> {
         self.count("camera", cameras as u64);
         let lights = root.nodes.iter().filter(|node| node.extensions.light.is_some()).count();
         self.count("light", lights as u64);
-        for name in &root.extensions_used {
-            if !READ.contains(&name.as_str()) {
-                self.count(&format!("extension {}", printable_short(name, 60)), 1);
+        // Some files name what they require here alone.
+        let required: BTreeSet<&String> = root.extensions_required.iter().collect();
+        let all: BTreeSet<&String> = root.extensions_used.iter().chain(required.clone()).collect();
+        for name in all.into_iter().filter(|name| !READ.contains(&name.as_str())) {
+            let shown = printable_short(name, 60);
+            self.count(&format!("extension {shown}"), 1);
+            if required.contains(name) {
+                let text = format!(
+                    "requires the extension {shown}, which is not read, so the picture may lack something"
+                );
+                self.warn("extensions", &text);
             }
         }
     }
@@ -237,7 +283,11 @@ impl Reader<'_> {
         place: &str,
     ) -> Result<(), String> {
         let mode = primitive.mode.unwrap_or(TRIANGLES);
-        let compressed = draco::decode(self.data, primitive)?;
+        let compressed = draco::decode(self.data, primitive).map_err(|cause| {
+            // What is behind the colon may be a number of the file.
+            let before = cause.split_once(':').map(|(before, _)| before.to_owned());
+            before.filter(|_| self.has_outside_buffer()).unwrap_or(cause)
+        })?;
         let vertices = Vertices { data: self.data, primitive, compressed };
         let Some(positions) = vertices.read("POSITION") else {
             self.count("empty primitive", 1);
@@ -394,7 +444,12 @@ impl Reader<'_> {
         let wrong = list.as_chunks::<3>().0.iter().filter(|corners| !is_there(corners)).count();
         if wrong > 0 {
             let named = list.iter().copied().max().unwrap_or(0);
-            self.warn("triangles", &format!("{place}: {wrong} triangles name a vertex that is not there, as {named} of {count}; they are left out"));
+            // The index is what stands in the file.
+            let named = match self.has_outside_buffer() {
+                true => String::new(),
+                false => format!(", as {named} of {count}"),
+            };
+            self.warn("triangles", &format!("{place}: {wrong} triangles name a vertex that is not there{named}; they are left out"));
             let kept = list.as_chunks::<3>().0.iter().filter(|corners| is_there(corners));
             list = kept.flatten().copied().collect();
         }
@@ -553,7 +608,9 @@ fn bend(
         let mut matrix = DMat4::ZERO;
         for (&joint, &weight) in joints.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
             let of = matrices.get(joint as usize);
-            let missing = || format!("vertex {at} is bound to joint {joint} of {}", matrices.len());
+            let joints = matrices.len();
+            let missing =
+                || format!("vertex {at} is bound to a joint that is not there, of {joints}");
             matrix += *of.ok_or_else(missing)? * (weight / sum);
         }
         positions[at] = matrix.transform_point3(positions[at]);
