@@ -3,18 +3,19 @@
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use image::RgbImage;
 use rasterproof_host::text::printable_path;
 
 use super::case_view;
-use super::files::{Use, distinct};
+use super::files::{self, Output, written};
 use super::inspect_case::{
     CaseArguments, Found, face_of_file, find, off_lattice, parse_pixel, recorded, words,
 };
 use super::page::{PageArguments, as_file, save_page};
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{Failure, Status, Streams, exit, explain, png_name, program, study, usage};
+use super::{
+    Failure, Status, Streams, exit, explain, png_name, program, study, usage, write_picture,
+};
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
@@ -112,14 +113,18 @@ fn no_part(plant: Option<&String>) -> Failure {
 pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<'_>) -> Status {
     if let Some(path) = &arguments.output {
         png_name(path)?;
-        let page = arguments.page.page("inspect.html");
-        let output = ("--output", path.as_path(), Use::Writes);
-        distinct(&[output].into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
     }
+    let asked = arguments.output.as_deref().map(Output::typed);
+    let page = arguments.page.page("inspect.html");
+    let output = asked.as_ref().map(|output| written("--output", output));
+    let named: Vec<_> = output.into_iter().chain(as_file(&page)).collect();
+    files::check(&named)?;
     let found = match face_of_file(&arguments.case.what) {
         Some(face) => {
             let exact = arguments.case.exact;
-            match study::face(face, &arguments.view, (command, exact), streams)? {
+            let found = study::face(face, &arguments.view, (command, exact), streams)?;
+            files::check(&named)?;
+            match found {
                 Some(found) if exact => off_lattice(found)?,
                 Some(found) => found,
                 None => return Ok(exit::AGREES),
@@ -193,10 +198,12 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         add_specimen(arguments, &typed, &mut shown, out)?;
         agrees &= say(&typed, &judged, &shown, (out, streams.columns))?;
     }
-    write_picture(arguments, &shown.picture(&title, &case), streams)?;
-    if arguments.page.report {
+    let unasked = arguments.page.place.output("inspect.png");
+    let drawn = picture::png(&shown.picture(&title, &case));
+    write_picture(asked.as_ref(), &unasked, &drawn, streams)?;
+    if let Some(page) = &page {
         let view = page_cases::of_case(name(arguments), title, kind(agrees), &case, &judged);
-        write_report((arguments, command), view, agrees, streams)?;
+        write_report((command, page), view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
@@ -264,7 +271,7 @@ fn kind(agrees: bool) -> page_cases::Kind {
 }
 
 fn write_report(
-    (arguments, command): (&InspectArguments, &Typed),
+    (command, page): (&Typed, &Output),
     mut view: page_cases::CaseView,
     agrees: bool,
     streams: &mut Streams<'_>,
@@ -281,9 +288,8 @@ fn write_report(
         cases: vec![view],
         ..Report::default()
     };
-    let path = arguments.page.place.out.join("inspect.html");
-    if save_page(&path, report, streams) {
-        writeln!(streams.output, "report: {}", printable_path(&path))?;
+    if save_page(page, report, streams) {
+        writeln!(streams.output, "report: {}", printable_path(&page.path))?;
     }
     Ok(())
 }
@@ -331,16 +337,6 @@ fn cropped(case: &Case, arguments: &InspectArguments) -> String {
 /// Largest minus smallest.
 fn reach(values: impl Iterator<Item = i32> + Clone) -> i32 {
     values.clone().max().unwrap_or(0).saturating_sub(values.min().unwrap_or(0))
-}
-
-/// The picture: where it was asked to go, or where it does no harm if it cannot be written.
-fn write_picture(
-    arguments: &InspectArguments,
-    drawn: &RgbImage,
-    streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
-    let unasked = arguments.page.place.out.join("inspect.png");
-    super::write_picture(arguments.output.as_deref(), &unasked, &picture::png(drawn), streams)
 }
 
 /// The specimen to show: the one asked for, or the one of a recorded input.

@@ -46,9 +46,10 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
+use files::Output;
 use guard::{Escape, Guarded};
 use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_path};
-use rasterproof_host::{output, shell};
+use rasterproof_host::{output, read_files, shell};
 use typed::Typed;
 
 use rasterproof_registry::engines;
@@ -284,6 +285,7 @@ fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
     let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
+    read_files::forget();
     let Streams { progress, colour, columns, .. } = *streams;
     let (arguments, typed) = match parse(words.clone()) {
         Ok(parsed) => parsed,
@@ -322,7 +324,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
             result => status_of(result, streams.errors),
         };
     }
-    let mut delivered = Delivered::new(streams.output, &delivery);
+    let mut delivered = Delivered::of_output(streams.output, &delivery);
     let result = {
         let mut guarded = Guarded::new(&mut delivered, escape);
         let mut folded;
@@ -469,8 +471,8 @@ fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
     writeln!(out, "  {name}  {about}")
 }
 
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    output::write(path, bytes).map_err(usage)
+fn write_file(output: &Output, bytes: &[u8]) -> Result<(), Failure> {
+    output::write(&output.path, bytes, output.over).map_err(usage)
 }
 
 fn parse_number(text: &str) -> Result<u64, String> {
@@ -514,13 +516,13 @@ fn png_name(path: &Path) -> Result<(), Failure> {
 /// Writes a picture and says where: a file that was asked for, or else one that costs a warning, and not the
 /// verdict, where it cannot be written.
 fn write_picture(
-    asked: Option<&Path>,
-    unasked: &Path,
+    asked: Option<&Output>,
+    unasked: &Output,
     bytes: &[u8],
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
     let written = match asked {
-        Some(path) => streams.save(path, bytes).then_some(path),
+        Some(output) => streams.save(output, bytes).then_some(output),
         None => match write_file(unasked, bytes) {
             Ok(()) => Some(unasked),
             Err(failure) => {
@@ -529,7 +531,7 @@ fn write_picture(
             }
         },
     };
-    if let Some(path) = written {
+    if let Some(Output { path, .. }) = written {
         writeln!(streams.output, "drawn in {}", printable_path(path))?;
     }
     Ok(())

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use super::page::{PageArguments, write_page};
+use super::files;
+use super::page::{PageArguments, as_file, write_page};
 use super::plan_table::{self, grouped};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -198,7 +199,11 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
         arguments.page.refuse_idle_folder(typed)?;
     }
     let maker = arguments.what.maker(typed, streams)?;
+    let page = arguments.page.page("plan.html");
+    let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
+    check()?;
     let scene = maker.scene(0.0);
+    check()?;
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
     }
@@ -236,9 +241,9 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
         writeln!(streams.output, "{verdict}")?;
     }
     streams.output.flush()?;
-    if arguments.page.report {
+    if let Some(page) = page {
         let report = report_page(typed, &scene, [&everything, &planned], &measured, same);
-        write_page(&arguments.page.place.out.join("plan.html"), report, streams);
+        write_page(&page, report, streams);
     }
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
 }
@@ -275,13 +280,12 @@ fn draw_without(
     let difference = frame_comparison::compare(first, second, None).picture;
     let wrong = frame_comparison::differing(&planned.picture, &other.picture);
     let name = effect.name();
-    let folder = &arguments.page.place.out;
     let stem = format!("{}-without-{name}", arguments.what.name());
     let mut files = String::new();
     for (ending, picture) in [("png", &other.picture), ("difference.png", &difference)] {
-        let path = folder.join(format!("{stem}.{ending}"));
-        if streams.save(&path, &frame_comparison::png(picture)?) {
-            files += &format!("wrote {}\n", printable_path(&path));
+        let output = arguments.page.place.output(format!("{stem}.{ending}"));
+        if streams.save(&output, &frame_comparison::png(picture)?) {
+            files += &format!("wrote {}\n", printable_path(&output.path));
         }
     }
     let pixels =

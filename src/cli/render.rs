@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use image::codecs::gif::{GifEncoder, Repeat};
+use rasterproof_host::output::Over;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, as_file, write_page};
 use super::plan_table;
 use super::progress::Progress;
@@ -90,28 +91,34 @@ struct Drawing {
 pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
-    let default = || arguments.page.place.out.join(format!("{}.{extension}", what.name()));
-    let output = arguments.output.clone().unwrap_or_else(default);
-    let ending = output.extension().and_then(|ending| ending.to_str()).unwrap_or("");
+    let default = || arguments.page.place.output(format!("{}.{extension}", what.name()));
+    let output = arguments.output.as_deref().map_or_else(default, Output::typed);
+    let ending = output.path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
     if !ending.eq_ignore_ascii_case(extension) {
         return Err(usage(format!(
             "{}: {} is written as {}: end its name with .{extension}",
-            printable_path(&output),
+            printable_path(&output.path),
             if extension == "gif" { "a full turn" } else { "the picture" },
             extension.to_ascii_uppercase()
         )));
     }
-    let difference = output.with_extension("difference.png");
+    // Whose name is chosen even where that of the picture is typed. It is not always drawn, so whether it
+    // replaces something is seen when it is.
+    let difference =
+        arguments.page.place.output_in(Path::new(""), output.path.with_extension("difference.png"));
     let page = arguments.page.page("render.html");
     let files = [
         what.source().err().map(|path| ("the model", path, Use::Reads)),
         arguments.plan.as_deref().map(|path| ("--plan", path, Use::Reads)),
-        Some(("--output", output.as_path(), Use::Writes)),
-        Some(("the picture of differences", difference.as_path(), Use::Writes)),
+        Some(written("--output", &output)),
+        Some(("the picture of differences", &difference.path, Use::Writes(Over::Updated))),
         as_file(&page),
     ];
-    distinct(&files.into_iter().flatten().collect::<Vec<_>>())?;
+    let files: Vec<_> = files.into_iter().flatten().collect();
+    files::check(&files)?;
     let maker = what.maker(typed, streams)?;
+    // A model names files of its own.
+    files::check(&files)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
@@ -133,13 +140,13 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         false => Some(by_rounding(&scene, &drawings[0].target, Cause::Snapping)?),
     };
     drop(progress);
-    let drawn_in = streams.save(&output, &picture).then_some(output.as_path());
+    let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
     // What a plan changes in both frames alike is no difference between them.
     let is_drawn = |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || leaves_open(c);
     let mut difference_in = None;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
         let picture = frame_comparison::png(&comparison.picture)?;
-        difference_in = streams.save(&difference, &picture).then_some(difference.as_path());
+        difference_in = streams.save(&difference, &picture).then_some(difference.path.as_path());
     }
     let times = Times {
         loading_s: maker.loading_s(),
@@ -185,7 +192,7 @@ fn is_plan_alone(c: &Comparison, drawings: &[Drawing]) -> bool {
     c.wrong_depths == 0 && c.wrong_pixels > 0 && c.wrong_pixels == changed(drawings)
 }
 
-/// Compares two drawings; ties are looked for where there are depths to look at.
+/// Compares two drawings, where there is something to compare; ties are looked for where there are depths to look at.
 fn compare(
     scene: &Scene,
     drawings: &[Drawing],
@@ -470,7 +477,7 @@ fn is_empty(rendered: &Rendered) -> bool {
 fn draw_in_tiles(
     arguments: &RenderArguments,
     maker: &Maker,
-    output: &Path,
+    output: &Output,
     streams: &mut Streams<'_>,
 ) -> Status {
     let refused = [
@@ -528,7 +535,7 @@ fn draw_in_tiles(
         }
     }
     if streams.save(output, &frame_comparison::png(&picture)?) {
-        let (side, path) = (frames::SIDE_PX, printable_path(output));
+        let (side, path) = (frames::SIDE_PX, printable_path(&output.path));
         match handed_over.triangles() {
             count if count == all => writeln!(streams.output, "  drawn in {path}")?,
             _ => writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?,
@@ -549,9 +556,9 @@ fn draw_in_tiles(
 }
 
 /// Saves a picture, and says where.
-fn saved(output: &Path, picture: &[u8], streams: &mut Streams<'_>) -> String {
+fn saved(output: &Output, picture: &[u8], streams: &mut Streams<'_>) -> String {
     match streams.save(output, picture) {
-        true => format!(", drawn in {}", printable_path(output)),
+        true => format!(", drawn in {}", printable_path(&output.path)),
         false => String::new(),
     }
 }
@@ -559,7 +566,7 @@ fn saved(output: &Path, picture: &[u8], streams: &mut Streams<'_>) -> String {
 fn map(
     arguments: &RenderArguments,
     scene: &Scene,
-    output: &Path,
+    output: &Output,
     streams: &mut Streams<'_>,
 ) -> Status {
     let mut target = arguments.what.view.target()?;
@@ -594,7 +601,7 @@ fn spin(
     arguments: &RenderArguments,
     maker: &Maker,
     frames: u32,
-    output: &Path,
+    output: &Output,
     progress: &Progress,
     streams: &mut Streams<'_>,
 ) -> Status {

@@ -25,8 +25,9 @@ use rasterproof_study::{effects, ties};
 use rasterproof_study::{face_of, triangle_of};
 use rasterproof_verify::cases::{Case, Shape};
 
+use super::files;
 use super::inspect_case::{self, Found};
-use super::page::{PageArguments, write_page};
+use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
@@ -122,7 +123,11 @@ fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
 pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     arguments.page.refuse_idle_folder(typed)?;
+    let page = arguments.page.page("study.html");
+    let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
+    check()?;
     let maker = what.maker(typed, streams)?;
+    check()?;
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
@@ -170,7 +175,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         out.write_all(costs(&subject, &groups).as_bytes())?;
     }
     out.flush()?;
-    if let Some(path) = arguments.page.page("study.html") {
+    if let Some(output) = page {
         let found = report::Found {
             hard: &studied.hard,
             classes: &classes,
@@ -179,7 +184,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
             not_drawn,
         };
         let page = report::page(&subject, &found, &typed.line());
-        write_page(&path, page, streams);
+        write_page(&output, page, streams);
     }
     Ok(exit::AGREES)
 }

@@ -23,6 +23,7 @@ mod hostile_certificates;
 mod hostile_files;
 mod hostile_submissions;
 mod illustrations;
+mod inputs_as_outputs;
 mod judge;
 mod judge_shown;
 mod languages;
