@@ -7,6 +7,7 @@ use super::files;
 use super::page::{PageArguments, as_file, write_page};
 use super::plan_table::{self, grouped};
 use super::progress::Progress;
+use super::render::NOTHING_DRAWN;
 use super::typed::Typed;
 use super::view::SceneArguments;
 use super::{Failure, Status, Streams, exit, usage};
@@ -198,18 +199,19 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     if arguments.without.is_none() {
         arguments.page.refuse_idle_folder(typed)?;
     }
-    let maker = arguments.what.maker(typed, streams)?;
     let page = arguments.page.page("plan.html");
     let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
     check()?;
-    let scene = maker.scene(0.0);
+    let maker = arguments.what.maker(typed, streams)?;
     check()?;
+    let scene = maker.scene(0.0);
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
     }
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let survey_us = time_survey(arguments, &scene)?;
     let same = measured.all().all(|mixture| mixture.same);
+    let is_compared = everything.counters.fragments > 0 || !same;
     if arguments.json {
         // With its scene it can be drawn by.
         let plan = Plan { scene: Some(SceneDigest::of(&scene)), ..planned.plan.clone() };
@@ -220,7 +222,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
             "planned": planned.counters,
             "measured": measured,
             "survey_us": survey_us,
-            "same": same,
+            "same": is_compared.then_some(same),
         });
         writeln!(streams.output, "{json}")?;
     } else {
@@ -233,12 +235,16 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
                 "looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame"
             )?;
         }
-        let verdict = if same {
-            "AGREES: planned and everything-on pictures have the same bits"
-        } else {
-            "DISAGREES: a plan changed the picture"
-        };
-        writeln!(streams.output, "{verdict}")?;
+        match (is_compared, same) {
+            (false, _) => {
+                writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
+            }
+            (_, true) => writeln!(
+                streams.output,
+                "AGREES: planned and everything-on pictures have the same bits"
+            )?,
+            (_, false) => writeln!(streams.output, "DISAGREES: a plan changed the picture")?,
+        }
     }
     streams.output.flush()?;
     if let Some(page) = page {
@@ -453,7 +459,10 @@ fn report_page(
     };
     Report {
         title: format!("What the scene {} calls for", scene.name),
-        outcome: Some(Outcome::of(same, sentence)),
+        outcome: Some(match frames[0].counters.fragments {
+            0 if same => Outcome::not_compared(NOTHING_DRAWN),
+            _ => Outcome::of(same, sentence),
+        }),
         command: command.clone(),
         tables: Some(savings.table()).filter(|table| !table.rows.is_empty()).into_iter().collect(),
         frames: vec![PictureView {

@@ -182,6 +182,14 @@ fn names(drawings: &[Drawing]) -> Vec<&'static str> {
     drawings.iter().map(|drawing| drawing.name).collect()
 }
 
+/// Whether two rasterizers have drawn no pixel at all, so that two backgrounds would be compared.
+fn is_nothing_drawn(drawings: &[Drawing]) -> bool {
+    drawings.len() > 1 && drawings.iter().all(|drawing| drawing.rendered.counters.fragments == 0)
+}
+
+/// What is said instead of a verdict then.
+pub(super) const NOTHING_DRAWN: &str = "No triangle covers a pixel of this view.";
+
 /// Pixels that the plan of a file, or effects that were switched off, change.
 fn changed(drawings: &[Drawing]) -> u64 {
     drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0)
@@ -199,6 +207,9 @@ fn compare(
     follows_plan: bool,
 ) -> Result<Option<Comparison>, Failure> {
     let [a, b] = drawings else { return Ok(None) };
+    if is_nothing_drawn(drawings) {
+        return Ok(None);
+    }
     let ties = if a.is_complete && b.is_complete {
         let engines = [Engine::Scanline, Engine::EdgeFunction];
         let drawn = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawings[i].target });
@@ -264,6 +275,8 @@ fn report_page(
             format!("{names}: {pixels} and {wrong_depths} of {depths} depths differ.{open}");
         Outcome::of(c.agrees(), sentence)
     });
+    let nothing = || is_nothing_drawn(drawings).then(|| Outcome::not_compared(NOTHING_DRAWN));
+    let outcome = outcome.or_else(nothing);
     let layer =
         |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
     let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
@@ -413,6 +426,9 @@ fn describe(
     }
     if is_empty(&drawings[0].rendered) {
         let _ = writeln!(text, "  EMPTY: nothing of it is seen; the picture is background alone");
+    }
+    if is_nothing_drawn(drawings) {
+        let _ = writeln!(text, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.");
     }
     let changed = changed(drawings);
     if changed > 0 {
@@ -607,6 +623,7 @@ fn spin(
 ) -> Status {
     let mut bytes = Vec::new();
     let (mut wrong, mut undecided, mut far) = (0, 0, 0);
+    let mut is_compared = false;
     let mut screen = DoubleBuffer::new(arguments.what.view.target()?);
     let mut counters = Counters::default();
     {
@@ -617,6 +634,7 @@ fn spin(
             let scene = maker.scene(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene, progress)?;
             if let Some(c) = compare(&scene, &drawings, false)? {
+                is_compared = true;
                 wrong += c.wrong_pixels + c.wrong_depths;
                 undecided += c.undecided;
                 far += c.far_texture;
@@ -640,6 +658,9 @@ fn spin(
         writeln!(streams.output, "UNDECIDED: {far} pixels, by large texture coordinates")?;
     }
     match (arguments.engine, wrong) {
+        (DrawnBy::Both, _) if !is_compared => {
+            writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
+        }
         (DrawnBy::Both, 0) => writeln!(streams.output, "AGREES: 0 pixels and depths differ")?,
         (DrawnBy::Both, wrong) => {
             writeln!(streams.output, "DISAGREES: {wrong} pixels and depths differ")?;
