@@ -121,14 +121,13 @@ fn inspect_explains_named_cases() {
 
 #[test]
 fn inspect_takes_coordinates_and_writes_a_picture() {
-    let path = std::env::temp_dir().join(format!("rasterproof-{}.png", std::process::id()));
-    let name = path.to_str().unwrap();
-    check(["inspect", "-1.5,-1.5", "4,0", "0,4", "--window", "-2,-2,8x8", "-o", name], 0)
+    let folder = Folder::new("commands-picture");
+    folder
+        .check("inspect -1.5,-1.5 4,0 0,4 --window -2,-2,8x8 -o a.png", 0)
         .prints("columns -2..6");
-    let picture = image::open(&path).unwrap();
+    let picture = image::open(folder.join("a.png")).unwrap();
     // Eight rows, and the words around them.
     assert!(picture.height() > 8 * 40, "{}", picture.height());
-    std::fs::remove_file(path).unwrap();
     check("inspect --line -5,3 9,-2", 0);
     check("inspect sliver#7 --seed 3", 0);
 }
