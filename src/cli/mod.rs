@@ -204,6 +204,8 @@ pub struct Streams<'a> {
     pub colour: bool,
     /// Columns of the terminal; text is broken to fit.
     pub columns: usize,
+    /// Columns of the terminal of standard error, or none where messages are not broken.
+    pub error_columns: Option<usize>,
     /// Whether the streams and files took what was written to them.
     pub delivery: Delivery,
 }
@@ -285,16 +287,26 @@ fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
     let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
-    read_files::forget();
-    let Streams { progress, colour, columns, .. } = *streams;
+    let Streams { progress, colour, columns, error_columns, .. } = *streams;
     let (arguments, typed) = match parse(words.clone()) {
         Ok(parsed) => parsed,
         Err(error) => {
             let text = refusal(error, &words);
             let output = &mut Delivered::new(streams.output, &delivery);
             let errors = &mut Delivered::new(streams.errors, &delivery);
-            let stream: &mut Delivered<'_> = if text.is_error { errors } else { output };
-            let _ = stream.write_all(text.words.as_bytes()).and_then(|()| stream.flush());
+            let (stream, columns): (&mut Delivered<'_>, _) = match text.is_error {
+                true => (errors, error_columns),
+                // Help is laid out for the usual width.
+                false => (output, Some(columns).filter(|columns| *columns < wrap::USUAL)),
+            };
+            let _ = match columns {
+                Some(columns) => {
+                    let mut folded =
+                        wrap::Folded::new(stream, columns, wrap::NO_COMMAND.to_owned());
+                    folded.write_all(text.words.as_bytes()).and_then(|()| folded.flush())
+                }
+                None => stream.write_all(text.words.as_bytes()).and_then(|()| stream.flush()),
+            };
             report_loss(output, errors);
             return delivery.status(if text.is_error { exit::USAGE } else { exit::AGREES });
         }
@@ -308,7 +320,15 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         (false, false) => Escape::Words,
     };
     let errors = &mut Delivered::new(streams.errors, &delivery);
-    let errors = &mut Guarded::new(errors, Escape::Words);
+    let mut guarded_errors = Guarded::new(errors, Escape::Words);
+    let mut folded_errors;
+    let errors: &mut dyn Write = match error_columns {
+        Some(columns) => {
+            folded_errors = wrap::Folded::new(&mut guarded_errors, columns, program());
+            &mut folded_errors
+        }
+        None => &mut guarded_errors,
+    };
     if uses_pool(&command) {
         threads::prepare(errors);
     }
@@ -316,7 +336,16 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {
         let output = &mut Guarded::new(streams.output, escape);
-        let streams = &mut Streams { input, output, errors, progress, colour, columns, delivery };
+        let streams = &mut Streams {
+            input,
+            output,
+            errors,
+            progress,
+            colour,
+            columns,
+            error_columns,
+            delivery,
+        };
         let result = dispatch(&command, &typed, streams);
         let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
         return match result {
@@ -335,13 +364,23 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
             &mut folded
         };
         let delivery = delivery.clone();
-        let streams = &mut Streams { input, output, errors, progress, colour, columns, delivery };
+        let streams = &mut Streams {
+            input,
+            output,
+            errors,
+            progress,
+            colour,
+            columns,
+            error_columns,
+            delivery,
+        };
         let result = dispatch(&command, &typed, streams);
         result.and_then(|status| Ok(streams.output.flush().map(|()| status)?))
     };
     let status = status_of(result, errors);
     report_loss(&delivered, errors);
     delivery.status(status)
+    let _ = errors.flush();
 }
 
 /// Whether a command computes on several threads. Others leave what the system allows to the programs

@@ -40,6 +40,29 @@ fn text_fits_a_narrow_terminal() {
     }
 }
 
+/// Help and messages are broken for a terminal of twenty columns, too, but for commands and the heads of options.
+#[test]
+fn help_and_messages_fit_twenty_columns() {
+    for (words, status) in [
+        ("--help", 0),
+        ("inspect --help", 0),
+        ("render nowhere.obj", 2),
+        ("--frobnicate", 2),
+        ("exhaust lines --reach 99999", 2),
+        ("list", 0),
+    ] {
+        let run = Run::of(shared().command(words).env("COLUMNS", "20")).has(status);
+        let text = run.out + &run.errors;
+        let fits = |line: &&str| {
+            let words = line.split_whitespace().count();
+            let is_whole = line.contains("rasterproof ") || line.trim_start().starts_with('-');
+            line.chars().count() <= 20 || words < 2 || is_whole
+        };
+        let wide: Vec<_> = text.lines().filter(|line| !fits(line)).collect();
+        assert!(wide.is_empty() && !text.is_empty(), "{words}: {wide:#?}");
+    }
+}
+
 #[test]
 fn verify_reports_a_panicking_engine() {
     let errors = check("--cases 40 --plant panics-on-flat-bottom", 1)
