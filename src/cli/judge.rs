@@ -35,7 +35,7 @@ pub struct JudgeArguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Only the case of this number, to repeat a failure
-    #[arg(long, value_name = "NUMBER", value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = super::parse_case, allow_negative_numbers = true)]
     case: Option<u64>,
     /// Seconds allowed for each answer
     #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, allow_negative_numbers = true)]

@@ -285,6 +285,7 @@ fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
 ///
 /// The words may be any that the system allows: a path need not be UTF-8.
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
+    read_files::forget();
     let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
     let Streams { progress, colour, columns, error_columns, .. } = *streams;
@@ -379,8 +380,8 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     };
     let status = status_of(result, errors);
     report_loss(&delivered, errors);
-    delivery.status(status)
     let _ = errors.flush();
+    delivery.status(status)
 }
 
 /// Whether a command computes on several threads. Others leave what the system allows to the programs
@@ -516,6 +517,12 @@ fn write_file(output: &Output, bytes: &[u8]) -> Result<(), Failure> {
 
 fn parse_number(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "expected a whole number from 0, for example 7".to_owned())
+}
+
+/// The number of a case; there is one for each number but the largest, behind which a range could not end.
+fn parse_case(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| *number < u64::MAX);
+    number.ok_or_else(|| format!("expected a whole number from 0 to {}", u64::MAX - 1))
 }
 
 /// A number of seconds; whether there can be so many is for the command to say.

@@ -71,7 +71,7 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "I/N", value_parser = parse_shard, default_value = "0/1")]
     shard: (u64, u64),
     /// Only the case of this number, to repeat a failure
-    #[arg(long, value_name = "NUMBER", value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = super::parse_case, allow_negative_numbers = true)]
     case: Option<u64>,
     /// The table of all families, too; it is always there where something is wrong
     #[arg(long, conflicts_with = "json")]

@@ -36,6 +36,7 @@ mod model_formats;
 mod models;
 mod mutants;
 mod not_judged;
+mod numbers;
 mod outside_text;
 mod own;
 mod page;
