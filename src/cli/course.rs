@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use image::RgbImage;
+
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
 use super::page::{Place, save_page};
 use super::progress::Progress as Shown;
+use super::render::NOTHING_DRAWN;
 use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_host::output::Over;
@@ -279,7 +282,15 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     on_page.sort_by_key(|(differing, _)| std::cmp::Reverse(*differing));
     report.frames = on_page.into_iter().map(|(_, view)| view).collect();
     let sentence = "what your program draws, beside what this project's engines draw";
-    report.outcome = Some(Outcome::of(differing == 0, sentence));
+    // Of a model that is not seen, two backgrounds would be compared.
+    let is_blank = pictures.iter().all(|(_, picture)| is_plain(&picture.right));
+    report.outcome = Some(match is_blank && differing == 0 {
+        true => Outcome::not_compared(NOTHING_DRAWN),
+        false => Outcome::of(differing == 0, sentence),
+    });
+    if is_blank && differing == 0 {
+        writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
+    }
     if let Some(last) = examine::complaint(&program) {
         writeln!(streams.output, "its standard error ends: {last}")?;
     }
@@ -291,6 +302,13 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         writeln!(streams.output, "page:    {}", printable_path(&page.path))?;
     }
     Ok(if differing == 0 { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Whether a picture has one colour everywhere.
+fn is_plain(picture: &RgbImage) -> bool {
+    let mut pixels = picture.pixels();
+    let first = pixels.next();
+    pixels.all(|pixel| Some(pixel) == first)
 }
 
 fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {

@@ -170,9 +170,10 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     if let Some(at) = arguments.pixel {
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
     }
-    // A shape that is shown whole and has no pixel is compared by that; of a part of one without pixels nobody knows, and
-    // who names a face of a model wants to see pixels of it.
-    let has_answer = expected.is_some() || !is_face && is_whole(&case);
+    // A shape that is shown whole and has no pixel is compared by that, and so is a case whose window is a part of it. Of a
+    // part of a shape without pixels nobody knows, and who names a face of a model wants to see pixels of it.
+    let has_own_window = arguments.window.is_none() && words(&arguments.case).len() == 1;
+    let has_answer = !is_face && (has_own_window || is_whole(&case));
     let mut is_compared = has_answer || !shown.is_blank();
     let mut agrees = say(&case, &judged, &shown, is_compared, (out, streams.columns))?;
     #[cfg(feature = "vulkan")]

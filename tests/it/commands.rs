@@ -49,7 +49,6 @@ fn help_and_messages_fit_twenty_columns() {
         ("render nowhere.obj", 2),
         ("--frobnicate", 2),
         ("exhaust lines --reach 99999", 2),
-        ("list", 0),
     ] {
         let run = Run::of(shared().command(words).env("COLUMNS", "20")).has(status);
         let text = run.out + &run.errors;

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::program::Folder;
+use crate::program::{Folder, PROGRAM};
 
 /// A box, closed and wound alike, whose coordinates f32 holds.
 const BOX: &str = "v -1.25 -0.75 -1\nv 1.25 -0.75 -1\nv 1.25 0.75 -1\nv -1.25 0.75 -1\n\
@@ -198,6 +198,10 @@ fn a_comparison_of_nothing_says_that_nothing_was_compared() {
     assert!(folder.text("render.html").contains("NOT COMPARED"));
     folder.put("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     not_compared("render flat.obj --size 32x24 --spin 2 -o a.gif");
+    let program = format!("-- {PROGRAM} engine scanline");
+    let show = format!("course show --model flat.obj --size 32x24 --out . {program}");
+    folder.check(show, 0).prints("NOT COMPARED");
+    assert!(folder.text("course-model.html").contains("NOT COMPARED"));
     folder.check("study flat.obj --size 32x24 --quick", 0).prints("NOT COMPARED");
     not_compared(&format!("plan {culled} --rounds 1 --whole --report"));
     assert!(folder.text("plan.html").contains("NOT COMPARED"));
