@@ -5,12 +5,12 @@ use std::process::ExitCode;
 
 use rasterproof::cli::{self, Delivery, Streams};
 use rasterproof_judge::process_group::end_strays;
+use terminal_size::{Height, Width, terminal_size_of};
 
-/// Columns of the terminal, or as the environment says where there is none.
-fn columns() -> Option<usize> {
-    let size = terminal_size::terminal_size_of(io::stdout());
+/// Columns of a terminal, or as the environment says where there is none.
+fn columns(size: Option<(Width, Height)>) -> Option<usize> {
     let said = || std::env::var("COLUMNS").ok()?.parse().ok();
-    size.map(|(width, _)| width.0.into()).or_else(said)
+    size.map(|(width, _)| width.0.into()).or_else(said).filter(|&columns| columns > 0)
 }
 
 fn main() -> ExitCode {
@@ -21,7 +21,8 @@ fn main() -> ExitCode {
         progress: io::stderr().is_terminal(),
         // See no-color.org.
         colour: io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
-        columns: columns().filter(|&columns| columns > 0).unwrap_or(cli::wrap::USUAL),
+        columns: columns(terminal_size_of(io::stdout())).unwrap_or(cli::wrap::USUAL),
+        error_columns: columns(terminal_size_of(io::stderr())),
         delivery: Delivery::default(),
     };
     let status = cli::run(std::env::args_os(), &mut streams);

@@ -58,6 +58,12 @@ impl Shown {
         self.engines.is_empty()
     }
 
+    /// Whether nobody draws a pixel, and nobody panics.
+    pub fn is_blank(&self) -> bool {
+        let draws_nothing = |hits: &Hits| hits.as_ref().is_ok_and(|hits| hits.covered() == 0);
+        self.target.covered() == 0 && self.engines.iter().all(|(_, hits)| draws_nothing(hits))
+    }
+
     pub fn hits(&self, at: PixelPoint) -> String {
         let of = |hits: &Coverage| hits.get(at.x, at.y).unwrap_or(0);
         let engines = self.engines.iter().map(|(name, hits)| match hits {

@@ -6,7 +6,7 @@ use clap::builder::{OsStringValueParser, TypedValueParser};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -87,14 +87,19 @@ impl CostArguments {
         self.output.as_deref().unwrap_or(&self.page.place.out)
     }
 
+    fn plot_files(&self, name: &str) -> [Output; 2] {
+        let named = |ending| format!("{name}.{ending}");
+        ["svg", "png"].map(|ending| self.page.place.output_in(self.folder(), named(ending)))
+    }
+
     /// Refuses names of plots and pages that are the file of --from or each other's.
     fn check_files(&self, ladders: &[Ladder]) -> Result<(), Failure> {
         let page = self.page.page("cost.html");
         let names = ladders.iter().map(|&ladder| plot_name(ladder)).chain([PRICE.to_owned()]);
-        let plots: Vec<_> = names.flat_map(|name| plot_files(self.folder(), &name)).collect();
+        let plots: Vec<_> = names.flat_map(|name| self.plot_files(&name)).collect();
         let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
-        let plots = plots.iter().map(|path| ("a plot in --output", path.as_path(), Use::Writes));
-        distinct(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
+        let plots = plots.iter().map(|output| written("a plot in --output", output));
+        files::check(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
     }
 
     /// The devices that are measured beside the rungs.
@@ -116,7 +121,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
     let ladders = match &arguments.what {
         Some(Subject::Model(path)) => {
             if let Some(option) =
-                typed.given(&["from", "seed", "engine", "output", "report", "out"])
+                typed.given(&["from", "seed", "engine", "output", "report", "out", "force"])
             {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
             }
@@ -199,10 +204,6 @@ fn plot_name(ladder: Ladder) -> String {
 /// The plot that answers what exact coverage costs.
 const PRICE: &str = "cost-price";
 
-fn plot_files(folder: &Path, name: &str) -> [PathBuf; 2] {
-    ["svg", "png"].map(|ending| folder.join(name).with_extension(ending))
-}
-
 /// The plots with their names; the one picture that answers the question comes last.
 fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
     let mut plots: Vec<(String, Drawing)> =
@@ -243,7 +244,7 @@ fn write_plots(
 ) -> Vec<String> {
     let mut written = Vec::new();
     for (name, drawing) in plots {
-        let [svg, png] = plot_files(arguments.folder(), name);
+        let [svg, png] = arguments.plot_files(name);
         let is_written = streams.save(&svg, canvas::svg(drawing).as_bytes())
             && streams.save(&png, &picture::png(&canvas::picture(drawing)));
         if is_written {

@@ -3,11 +3,16 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use image::RgbImage;
+
 use super::course_grade::{self, BuildLimits, GradeArguments};
+use super::files::{self, Output, written};
 use super::page::{Place, save_page};
 use super::progress::Progress as Shown;
+use super::render::NOTHING_DRAWN;
 use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, usage, write_file};
+use rasterproof_host::output::Over;
 use rasterproof_host::shell::quote;
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::target::{Antialias, check_size};
@@ -150,7 +155,7 @@ fn start(language: Language, solution: bool, folder: &Path, streams: &mut Stream
         if path.symlink_metadata().is_ok() {
             writeln!(streams.output, "kept:    {}", printable_path(&path))?;
         } else {
-            write_file(&path, text.as_bytes())?;
+            write_file(&Output::typed(&path), text.as_bytes())?;
             writeln!(streams.output, "written: {}", printable_path(&path))?;
         }
     }
@@ -226,6 +231,9 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         (Some(word @ ("all" | CUBE)), _) => word.to_owned(),
         _ => steps[0].name.clone(),
     };
+    let sheet = arguments.place.output(format!("course-{name}.png"));
+    let page = arguments.place.output(format!("course-{name}.html"));
+    files::check(&[written("the picture", &sheet), written("the page", &page)])?;
     let bar = Shown::new(streams.progress, "pictures", Some(steps.len() as u64 + 1));
     let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
     let mut pictures = Vec::new();
@@ -274,20 +282,33 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     on_page.sort_by_key(|(differing, _)| std::cmp::Reverse(*differing));
     report.frames = on_page.into_iter().map(|(_, view)| view).collect();
     let sentence = "what your program draws, beside what this project's engines draw";
-    report.outcome = Some(Outcome::of(differing == 0, sentence));
+    // Of a model that is not seen, two backgrounds would be compared.
+    let is_blank = pictures.iter().all(|(_, picture)| is_plain(&picture.right));
+    report.outcome = Some(match is_blank && differing == 0 {
+        true => Outcome::not_compared(NOTHING_DRAWN),
+        false => Outcome::of(differing == 0, sentence),
+    });
+    if is_blank && differing == 0 {
+        writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
+    }
     if let Some(last) = examine::complaint(&program) {
         writeln!(streams.output, "its standard error ends: {last}")?;
     }
     let sheets: Vec<_> = pictures.iter().map(|(_, picture)| picture.sheet()).collect();
-    let path = arguments.place.out.join(format!("course-{name}.png"));
-    if streams.save(&path, &picture::png(&picture::stack(&sheets))) {
-        writeln!(streams.output, "picture: {}", printable_path(&path))?;
+    if streams.save(&sheet, &picture::png(&picture::stack(&sheets))) {
+        writeln!(streams.output, "picture: {}", printable_path(&sheet.path))?;
     }
-    let page = path.with_extension("html");
     if save_page(&page, report, streams) {
-        writeln!(streams.output, "page:    {}", printable_path(&page))?;
+        writeln!(streams.output, "page:    {}", printable_path(&page.path))?;
     }
     Ok(if differing == 0 { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Whether a picture has one colour everywhere.
+fn is_plain(picture: &RgbImage) -> bool {
+    let mut pixels = picture.pixels();
+    let first = pixels.next();
+    pixels.all(|pixel| Some(pixel) == first)
 }
 
 fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
@@ -310,7 +331,9 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     progress.note(step, outcome.passes());
     let text = verdict::text(step, &outcome);
     streams.output.write_all(text.as_bytes())?;
-    streams.save(&progress::path(&arguments.dir), progress.text().as_bytes());
+    // It was read, and is written anew.
+    let noted = Output { path: progress::path(&arguments.dir), over: Over::Updated };
+    streams.save(&noted, progress.text().as_bytes());
     if outcome.passes() {
         let next = match STEPS.iter().all(|step| progress.has_passed(step)) {
             true => "all twelve steps are passed; next: rasterproof judge -- CMD\n".to_owned(),

@@ -63,7 +63,8 @@ pub struct GradeArguments {
         value_parser = clap::value_parser!(u64).range(1..=1000))]
     timeout: u64,
     /// MiB of addresses that a process may map; 0 sets no bound
-    #[arg(long, value_name = "MIB", default_value_t = 2048)]
+    #[arg(long, value_name = "MIB", default_value_t = 2048,
+        value_parser = clap::value_parser!(u64).range(0..=1 << 30))]
     memory: u64,
     #[command(flatten)]
     build: BuildLimits,

@@ -4,6 +4,11 @@
 //! output: where standard output fails, the command goes on without it. A verdict that agrees becomes
 //! an error where something was lost that the user should have (a full disk, a file that cannot be
 //! written), since a script would believe otherwise that it is there. A failing verdict stays one.
+//!
+//! A standard output that was closed (`>&-`) is not noticed. Rust opens `/dev/null` in its place before `main`, for
+//! reading and writing, so that no file which is opened later gets its number. Callers that want no output pass the
+//! same: Python's `DEVNULL` and `ignore` of Node.js are `/dev/null` for reading and writing too, and nothing that
+//! `/proc` says of the two differs. An error for the one would be a false alarm for the other.
 
 use std::cell::Cell;
 use std::fmt::Display;
@@ -11,9 +16,10 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use std::rc::Rc;
 
-use rasterproof_host::output;
+use rasterproof_host::output::{self, Over};
 use rasterproof_host::text::printable_lines;
 
+use super::files::{Output, STANDARD_OUTPUT};
 use super::{Streams, exit};
 
 /// Whether all that a command wrote was delivered.
@@ -51,18 +57,28 @@ pub(super) struct Delivered<'a> {
     delivery: Delivery,
     /// Why nothing is passed on any more.
     failure: Option<io::Error>,
+    /// Whether something was passed on, or is this standard error.
+    is_begun: bool,
 }
 
 impl<'a> Delivered<'a> {
     pub(super) fn new(inner: &'a mut dyn Write, delivery: &Delivery) -> Self {
-        Self { inner, delivery: delivery.clone(), failure: None }
+        Self { inner, delivery: delivery.clone(), failure: None, is_begun: true }
+    }
+
+    /// Standard output, which must not go to a file that the command reads, as in `verify m.obj >> m.obj`.
+    pub(super) fn of_output(inner: &'a mut dyn Write, delivery: &Delivery) -> Self {
+        Self { is_begun: false, ..Self::new(inner, delivery) }
     }
 
     fn pass(&mut self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) {
         if self.failure.is_some() {
             return;
         }
-        if let Err(error) = write(self.inner) {
+        let check = || output::check(Path::new(STANDARD_OUTPUT), Over::Any);
+        let may_begin = if self.is_begun { Ok(()) } else { check().map_err(io::Error::other) };
+        self.is_begun = true;
+        if let Err(error) = may_begin.and_then(|()| write(self.inner)) {
             let is_closed = error.kind() == ErrorKind::BrokenPipe;
             self.delivery.note(if is_closed { Loss::Unread } else { Loss::Failed });
             self.failure = Some(error);
@@ -90,8 +106,8 @@ impl Write for Delivered<'_> {
 impl Streams<'_> {
     /// Writes a file. Where that fails, the reason is printed, the command can go on, and its exit
     /// status says at the end that something is missing. Returns whether the file was written.
-    pub(super) fn save(&mut self, path: &Path, bytes: &[u8]) -> bool {
-        match output::write(path, bytes) {
+    pub(super) fn save(&mut self, output: &Output, bytes: &[u8]) -> bool {
+        match output::write(&output.path, bytes, output.over) {
             Ok(()) => true,
             Err(error) => {
                 self.lose(&error);

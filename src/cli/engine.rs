@@ -1,7 +1,12 @@
 //! `rasterproof engine`: the line protocol on standard input and output, and who speaks it.
 
-use clap::builder::PossibleValue;
+use std::path::Path;
 
+use clap::builder::PossibleValue;
+use rasterproof_host::output::{self, Over};
+use rasterproof_host::read_files;
+
+use super::files::STANDARD_OUTPUT;
 use super::{Failure, Status, Streams, exit};
 use rasterproof_faults::planted::Mutant;
 use rasterproof_faults::planted::exact::ExactMutant;
@@ -16,6 +21,8 @@ pub(super) fn find(name: &str) -> Result<Entry, Failure> {
 }
 
 pub fn run(name: &str, streams: &mut Streams<'_>) -> Status {
+    read_files::note_standard_input();
+    output::check(Path::new(STANDARD_OUTPUT), Over::Any).map_err(super::usage)?;
     server::serve(&find(name)?, &mut *streams.input, streams.output)?;
     Ok(exit::AGREES)
 }

@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use clap::Subcommand;
 use rasterproof_host::lock::Lock;
+use rasterproof_host::output::Over;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits, output};
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, Use, written};
 use super::progress::Progress;
 use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_exhaustive::Plan;
@@ -151,11 +152,15 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let plan = arguments.plan();
     plan.check().map_err(usage)?;
     let shard = Shard { part: arguments.common.shard.0, parts: arguments.common.shard.1 };
-    let path = arguments.checkpoint(&plan);
-    let lock = Lock::file_of(&path);
-    let output = arguments.common.output.as_deref().map(|path| ("--output", path, Use::Writes));
-    let kept = [("--checkpoint", path.as_path(), Use::Writes), ("its lock", &lock, Use::Writes)];
-    distinct(&kept.into_iter().chain(output).collect::<Vec<_>>())?;
+    let certificate_file = arguments.common.output.as_deref().map(Output::typed);
+    let certificate_file = certificate_file.as_ref();
+    // Whether it is a checkpoint is seen when it is read.
+    let state = Output { path: arguments.checkpoint(&plan), over: Over::Updated };
+    let path = &state.path;
+    let lock = Lock::file_of(path);
+    let kept = [written("--checkpoint", &state), ("its lock", &lock, Use::Writes(Over::Updated))];
+    let output = certificate_file.map(|output| written("--output", output));
+    files::check(&kept.into_iter().chain(output).collect::<Vec<_>>())?;
     let cases = Counts::of(&plan, shard.chunks(&plan)).cases;
     if cases == 0 {
         let Shard { part, parts } = shard;
@@ -166,51 +171,69 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
         )));
     }
     // Another process that resumed and saved the same state would count chunks twice or lose them.
-    let _lock = Lock::acquire(&path).map_err(|error| usage(format!("the checkpoint {error}")))?;
-    let start = if arguments.common.restart { None } else { resume(&path, &plan, shard)? };
+    let _lock = Lock::acquire(path).map_err(|error| usage(format!("the checkpoint {error}")))?;
+    let start = match kept_state(path)? {
+        Some(state) if !arguments.common.restart => Some(resume(state, path, &plan, shard)?),
+        _ => None,
+    };
     let start = start.unwrap_or_else(|| run::Progress::new(&plan, shard));
 
     let progress = Progress::new(streams.progress, "cases", Some(cases));
     progress.resume_at(start.tally.cases);
-    let save = |state: &run::Progress| {
-        let text = serde_json::to_string(state).unwrap_or_default();
+    let save = |progressed: &run::Progress| {
+        let text = serde_json::to_string(progressed).unwrap_or_default();
         // A full disk must not end a proof; the next save may succeed.
-        if let Err(failure) = write_file(&path, text.as_bytes()) {
+        if let Err(failure) = write_file(&state, text.as_bytes()) {
             progress.warn(&format!("warning: {failure}"));
         }
     };
     // Find out at once, not after hours, whether it can be written.
     let text = serde_json::to_string(&start).unwrap_or_default();
-    write_file(&path, text.as_bytes())?;
+    write_file(&state, text.as_bytes())?;
     let finished = run::run(start, SAVE_EVERY, &save, &|cases| progress.done(cases));
     // Until the certificate is written, the checkpoint is all there is.
     save(&finished);
     drop(progress);
     let certificate = Certificate::new(finished, rayon::current_num_threads());
-    let status = issue(&certificate, arguments.common.output.as_deref(), streams)?;
+    let status = issue(&certificate, certificate_file, streams)?;
     // Standard output, too, holds the certificate only if it was taken.
     streams.output.flush()?;
     if streams.delivery.is_whole() {
-        if let Err(error) = output::remove(&path) {
+        if let Err(error) = output::remove(path) {
             writeln!(streams.errors, "warning: {error}")?;
         }
     } else {
-        let kept = printable_path(&path);
+        let kept = printable_path(path);
         writeln!(streams.errors, "the result is kept in {kept}; the same command writes it again")?;
     }
     Ok(status)
 }
 
-fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<run::Progress>, Failure> {
+/// The state in a checkpoint; nothing where there is no file. What is no checkpoint is not replaced, whatever the options
+/// say: it is the file of somebody else.
+fn kept_state(path: &Path) -> Result<Option<run::Progress>, Failure> {
     let name = printable_path(path);
     let text = match input::read_text(path, limits::DOCUMENT_BYTES) {
         Err(error) if error.missing => return Ok(None),
         read => read.map_err(|error| usage(format!("the checkpoint {error}")))?,
     };
-    let progress: run::Progress = serde_json::from_str(&text).map_err(|error| {
+    serde_json::from_str(&text).map(Some).map_err(|error| {
         let error = error.to_string();
-        usage(format!("{name} is not a checkpoint ({}); --restart ignores it", printable(&error)))
-    })?;
+        usage(format!(
+            "{name} is not a checkpoint ({}); name another file by --checkpoint, or remove this one",
+            printable(&error)
+        ))
+    })
+}
+
+/// The state of a checkpoint as one from which this run can go on.
+fn resume(
+    progress: run::Progress,
+    path: &Path,
+    plan: &Plan,
+    shard: Shard,
+) -> Result<run::Progress, Failure> {
+    let name = printable_path(path);
     if !progress.belongs_to(plan, shard) {
         let what = "was made by other options or other code; --restart ignores it";
         return Err(usage(format!("the checkpoint {name} {what}")));
@@ -220,11 +243,11 @@ fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<run::Progress
             "the checkpoint {name} was changed or is damaged: {error}; --restart ignores it"
         ))
     })?;
-    Ok(Some(progress))
+    Ok(progress)
 }
 
 /// Writes the certificate, says what it says, and returns the exit status.
-fn issue(certificate: &Certificate, file: Option<&Path>, streams: &mut Streams<'_>) -> Status {
+fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams<'_>) -> Status {
     if file.is_none() {
         streams.output.write_all(certificate.to_json().as_bytes())?;
     }
@@ -247,16 +270,17 @@ fn issue(certificate: &Certificate, file: Option<&Path>, streams: &mut Streams<'
         certificate.timing.seconds,
         certificate.timing.threads,
     )?;
-    if let Some(path) = file {
-        streams.save(path, certificate.to_json().as_bytes());
+    if let Some(file) = file {
+        streams.save(file, certificate.to_json().as_bytes());
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
 pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     let read = arguments.files.iter().map(|path| ("a shard", path.as_path(), Use::Reads));
-    let written = arguments.output.as_deref().map(|path| ("--output", path, Use::Writes));
-    distinct(&read.chain(written).collect::<Vec<_>>())?;
+    let output = arguments.output.as_deref().map(Output::typed);
+    let written = output.as_ref().map(|output| written("--output", output));
+    files::check(&read.chain(written).collect::<Vec<_>>())?;
     let mut shards = Vec::new();
     for path in &arguments.files {
         let name = printable_path(path);
@@ -269,7 +293,7 @@ pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     if let Some(count) = arguments.check {
         judge_again(&merged, count, arguments.seed, streams)?;
     }
-    issue(&merged, arguments.output.as_deref(), streams)
+    issue(&merged, output.as_ref(), streams)
 }
 
 /// Judges some chunks again; what the certificate says otherwise is an error.

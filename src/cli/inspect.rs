@@ -3,18 +3,19 @@
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use image::RgbImage;
 use rasterproof_host::text::printable_path;
 
 use super::case_view;
-use super::files::{Use, distinct};
+use super::files::{self, Output, written};
 use super::inspect_case::{
-    CaseArguments, Found, face_of_file, find, off_lattice, parse_pixel, recorded, words,
+    CaseArguments, Found, all_around, face_of_file, find, off_lattice, parse_pixel, recorded, words,
 };
 use super::page::{PageArguments, as_file, save_page};
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{Failure, Status, Streams, exit, explain, png_name, program, study, usage};
+use super::{
+    Failure, Status, Streams, exit, explain, png_name, program, study, usage, write_picture,
+};
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
@@ -112,17 +113,23 @@ fn no_part(plant: Option<&String>) -> Failure {
 pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<'_>) -> Status {
     if let Some(path) = &arguments.output {
         png_name(path)?;
-        let page = arguments.page.page("inspect.html");
-        let output = ("--output", path.as_path(), Use::Writes);
-        distinct(&[output].into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
     }
-    let found = match face_of_file(&arguments.case.what) {
+    let asked = arguments.output.as_deref().map(Output::typed);
+    let page = arguments.page.page("inspect.html");
+    let output = asked.as_ref().map(|output| written("--output", output));
+    let named: Vec<_> = output.into_iter().chain(as_file(&page)).collect();
+    files::check(&named)?;
+    let face = face_of_file(&arguments.case.what);
+    let is_face = face.is_some();
+    let found = match face {
         Some(face) => {
             let exact = arguments.case.exact;
-            match study::face(face, &arguments.view, (command, exact), streams)? {
+            let found = study::face(face, &arguments.view, (command, exact), streams)?;
+            files::check(&named)?;
+            match found {
                 Some(found) if exact => off_lattice(found)?,
                 Some(found) => found,
-                None => return Ok(exit::AGREES),
+                None => return Ok(exit::USAGE),
             }
         }
         None => {
@@ -144,7 +151,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     }
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
-    write!(out, "{}", cropped(&case, arguments))?;
+    write!(out, "{}", cropped(&case, arguments, is_face))?;
     case_view::facts(&case, out)?;
     if let Some(at) = arguments.pixel {
         write!(out, "\n{}", explain::pixel(&case, at))?;
@@ -163,7 +170,12 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     if let Some(at) = arguments.pixel {
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
     }
-    let mut agrees = say(&case, &judged, &shown, (out, streams.columns))?;
+    // A shape that is shown whole and has no pixel is compared by that, and so is a case whose window is a part of it. Of a
+    // part of a shape without pixels nobody knows, and who names a face of a model wants to see pixels of it.
+    let has_own_window = arguments.window.is_none() && words(&arguments.case).len() == 1;
+    let has_answer = !is_face && (has_own_window || is_whole(&case));
+    let mut is_compared = has_answer || !shown.is_blank();
+    let mut agrees = say(&case, &judged, &shown, is_compared, (out, streams.columns))?;
     #[cfg(feature = "vulkan")]
     if let Some((said, is_right)) = on_device {
         writeln!(out, "{said}")?;
@@ -191,14 +203,25 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         }
         let mut shown = case_view::draw(&typed, &judged);
         add_specimen(arguments, &typed, &mut shown, out)?;
-        agrees &= say(&typed, &judged, &shown, (out, streams.columns))?;
+        let is_seen = has_answer || !shown.is_blank();
+        is_compared |= is_seen;
+        agrees &= say(&typed, &judged, &shown, is_seen, (out, streams.columns))?;
     }
-    write_picture(arguments, &shown.picture(&title, &case), streams)?;
-    if arguments.page.report {
+    if !is_compared {
+        writeln!(out, "{NOT_COMPARED}; choose other pixels with --window")?;
+    }
+    let unasked = arguments.page.place.output("inspect.png");
+    let drawn = picture::png(&shown.picture(&title, &case));
+    write_picture(asked.as_ref(), &unasked, &drawn, streams)?;
+    if let Some(page) = &page {
         let view = page_cases::of_case(name(arguments), title, kind(agrees), &case, &judged);
-        write_report((arguments, command), view, agrees, streams)?;
+        write_report((command, page), view, is_compared.then_some(agrees), streams)?;
     }
-    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+    Ok(match (is_compared, agrees) {
+        (false, true) => exit::USAGE,
+        (_, true) => exit::AGREES,
+        (_, false) => exit::DISAGREES,
+    })
 }
 
 /// Draws the case on the Vulkan device that is named: how it stands to the oracle.
@@ -222,16 +245,22 @@ fn device(
     Ok(Some((format!("{engine} against oracle: {said}"), tally.total() == 0)))
 }
 
+/// What is said of a window in which nothing is drawn.
+const NOT_COMPARED: &str =
+    "NOT COMPARED: no pixel of this window is drawn, so nothing was compared";
+
 /// The pixels of each engine, then a line for each pair that is compared; says whether all agree.
 fn say(
     case: &Case,
     judged: &Judged,
     shown: &case_view::Shown,
+    is_compared: bool,
     (out, columns): (&mut dyn std::io::Write, usize),
 ) -> Result<bool, Failure> {
     writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), columns))?;
     let mut agrees = true;
-    for ([actual, target], finding) in judged.judge_case(case) {
+    let findings = if is_compared { judged.judge_case(case) } else { Vec::new() };
+    for ([actual, target], finding) in findings {
         agrees &= !finding.is_wrong();
         let values = match finding.values {
             0 => String::new(),
@@ -264,53 +293,39 @@ fn kind(agrees: bool) -> page_cases::Kind {
 }
 
 fn write_report(
-    (arguments, command): (&InspectArguments, &Typed),
+    (command, page): (&Typed, &Output),
     mut view: page_cases::CaseView,
-    agrees: bool,
+    agrees: Option<bool>,
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
     view.command = command.clone().without(&["report"]).line();
-    let sentence = match agrees {
-        true => "Every engine draws what the oracle draws.",
-        false => "Not every engine draws what the oracle draws.",
+    let outcome = match agrees {
+        Some(true) => Outcome::of(true, "Every engine draws what the oracle draws."),
+        Some(false) => Outcome::of(false, "Not every engine draws what the oracle draws."),
+        None => Outcome::not_compared("No pixel of this window is drawn."),
     };
     let report = Report {
         title: format!("One case: {}", view.name),
-        outcome: Some(Outcome::of(agrees, sentence)),
+        outcome: Some(outcome),
         command: command.line(),
         cases: vec![view],
         ..Report::default()
     };
-    let path = arguments.page.place.out.join("inspect.html");
-    if save_page(&path, report, streams) {
-        writeln!(streams.output, "report: {}", printable_path(&path))?;
+    if save_page(page, report, streams) {
+        writeln!(streams.output, "report: {}", printable_path(&page.path))?;
     }
     Ok(())
 }
 
 /// What is not shown, if anything, and how to see it.
-fn cropped(case: &Case, arguments: &InspectArguments) -> String {
+fn cropped(case: &Case, arguments: &InspectArguments, is_face: bool) -> String {
     let w = case.window;
     let mut out = String::new();
-    if arguments.window.is_none() && words(&arguments.case).len() > 1 {
-        let (width, height) = match &case.shape {
-            Shape::Triangles { list, .. } => {
-                let corners = || list.iter().flat_map(|t| t.corners());
-                (
-                    reach(corners().map(|p| p.x)) / SUBPIXELS,
-                    reach(corners().map(|p| p.y)) / SUBPIXELS,
-                )
-            }
-            Shape::Lines(list) => {
-                let ends = || list.iter().flat_map(|l| l.ends.map(|end| end.pixel));
-                (reach(ends().map(|p| p.x)), reach(ends().map(|p| p.y)))
-            }
-            Shape::Unsnapped { list, .. } => {
-                let corners = || list.iter().flat_map(|t| t.px());
-                (reach(corners().map(|p| p[0] as i32)), reach(corners().map(|p| p[1] as i32)))
-            }
-        };
-        if width >= w.width() as i32 || height >= w.height() as i32 {
+    if arguments.window.is_none() && (is_face || words(&arguments.case).len() > 1) {
+        let all = box_of(case);
+        let (width, height) =
+            (all.x1.saturating_sub(all.x0) - 3, all.y1.saturating_sub(all.y0) - 3);
+        if !is_whole(case) {
             out += &format!(
                 "cropped: the shape is {width} x {height} px, the window {} x {}; see more with --window\n",
                 w.width(),
@@ -328,19 +343,29 @@ fn cropped(case: &Case, arguments: &InspectArguments) -> String {
     out
 }
 
-/// Largest minus smallest.
-fn reach(values: impl Iterator<Item = i32> + Clone) -> i32 {
-    values.clone().max().unwrap_or(0).saturating_sub(values.min().unwrap_or(0))
+/// The pixels around a shape, with one to spare.
+fn box_of(case: &Case) -> PixelRect {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            let corners = list.iter().flat_map(|t| t.corners());
+            all_around(corners.map(|p| [p.x, p.y].map(|sub| sub.div_euclid(SUBPIXELS))))
+        }
+        Shape::Lines(list) => {
+            let ends = list.iter().flat_map(|l| l.ends.map(|end| end.pixel));
+            all_around(ends.map(|p| [p.x, p.y]))
+        }
+        Shape::Unsnapped { list, .. } => {
+            let corners = list.iter().flat_map(|t| t.px());
+            all_around(corners.map(|p| p.map(|px| px.floor() as i32)))
+        }
+    }
 }
 
-/// The picture: where it was asked to go, or where it does no harm if it cannot be written.
-fn write_picture(
-    arguments: &InspectArguments,
-    drawn: &RgbImage,
-    streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
-    let unasked = arguments.page.place.out.join("inspect.png");
-    super::write_picture(arguments.output.as_deref(), &unasked, &picture::png(drawn), streams)
+/// Whether every pixel that a shape may draw is in its window.
+fn is_whole(case: &Case) -> bool {
+    let (all, w) = (box_of(case), case.window);
+    // One pixel on each side is to spare.
+    w.x0 <= all.x0 + 1 && w.y0 <= all.y0 + 1 && w.x1 >= all.x1 - 1 && w.y1 >= all.y1 - 1
 }
 
 /// The specimen to show: the one asked for, or the one of a recorded input.

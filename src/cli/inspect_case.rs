@@ -3,16 +3,18 @@
 use glam::DVec2;
 
 use super::{Failure, did_you_mean, program, usage};
+use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
+use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{
-    FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, check_value, refused_number,
+    FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, Span, check_value, refused_number,
 };
 use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
 use rasterproof_render::scene::named;
 use rasterproof_verify::cases::named::{Input, plain_line, plain_triangle};
 use rasterproof_verify::cases::{self, Case, Line, Shape, Triangle};
 
-/// Largest side of the window around corners that were typed.
+/// Largest side of the window around corners that were typed, or of a face of a model.
 const MOST_AROUND_PX: i32 = 64;
 
 #[derive(clap::Args, Debug)]
@@ -60,7 +62,7 @@ pub(super) fn find(arguments: &CaseArguments) -> Result<Found, Failure> {
             ));
         }
         [word] => called(word, arguments)?,
-        _ => triangles(&words, arguments.exact)?,
+        _ => triangles(&words, arguments.exact, None)?,
     };
     if !arguments.exact {
         return Ok(found);
@@ -125,7 +127,12 @@ fn lines(words: &[String]) -> Result<Found, Failure> {
     Ok(plain(title, Case { window, shape: Shape::Lines(list) }))
 }
 
-pub(super) fn triangles(words: &[String], exact: bool) -> Result<Found, Failure> {
+/// Triangles by their corners. `screen` is where they can be seen, where they are not seen everywhere.
+pub(super) fn triangles(
+    words: &[String],
+    exact: bool,
+    screen: Option<PixelRect>,
+) -> Result<Found, Failure> {
     let (triples, rest) = words.as_chunks::<3>();
     if !rest.is_empty() {
         return Err(usage(
@@ -149,8 +156,7 @@ pub(super) fn triangles(words: &[String], exact: bool) -> Result<Found, Failure>
         [[a, b, c]] => format!("triangle {a} {b} {c}"),
         _ => format!("{} triangles", list.len()),
     };
-    let corners = list.iter().flat_map(ScreenTriangle::corners);
-    let window = around(corners.map(|p| [p.x, p.y].map(|sub| sub.div_euclid(SUBPIXELS))));
+    let window = window_of(&list, screen);
     let disjoint = list.len() == 1;
     let case = Case { window, shape: Shape::Triangles { list, disjoint } };
     Ok(Found::Case { title, case, expected: None, typed })
@@ -292,13 +298,65 @@ pub(super) fn face_of_file(words: &[String]) -> Option<(&std::path::Path, &str)>
     (!is_family && looks_like_file).then_some((path, number))
 }
 
-/// The pixels around these, with one to spare.
+/// The pixels around triangles where they are few, else some of them from the first that is drawn.
+///
+/// That pixel is looked for by an engine, since the oracle would test each of the pixels around.
+fn window_of(list: &[Triangle], screen: Option<PixelRect>) -> PixelRect {
+    let corners = list.iter().flat_map(ScreenTriangle::corners);
+    let all = all_around(corners.map(|p| [p.x, p.y].map(|sub| sub.div_euclid(SUBPIXELS))));
+    let all = screen.map_or(all, |screen| all.intersect(&screen));
+    let is_small = [all.width(), all.height()].iter().all(|side| *side <= MOST_AROUND_PX as u32);
+    let corner = PixelRect { x1: cut(all.x0, all.x1), y1: cut(all.y0, all.y1), ..all };
+    if is_small {
+        return corner;
+    }
+    let drawn = |rows: PixelRect, of_span: &mut dyn FnMut(Span)| {
+        list.iter().for_each(|triangle| Scanline.cover(triangle.corners(), rows, &mut *of_span));
+    };
+    // Twice as many rows each time, so that few are looked at behind the first that is drawn.
+    let (mut start, mut count) = (all.y0, MOST_AROUND_PX);
+    let mut first: Option<(i32, i32)> = None;
+    while first.is_none() && start < all.y1 {
+        let end = all.y1.min(start.saturating_add(count));
+        drawn(PixelRect { y0: start, y1: end, ..all }, &mut |span| {
+            let pixel = (span.y_px, span.x0_px);
+            first = Some(first.map_or(pixel, |first| first.min(pixel)));
+        });
+        (start, count) = (end, count.saturating_mul(2));
+    }
+    let Some((y, x)) = first else { return corner };
+    // One pixel to spare, as around a small triangle.
+    let y0 = y.saturating_sub(1).min(all.y1.saturating_sub(MOST_AROUND_PX)).max(all.y0);
+    let rows = PixelRect { y0, y1: cut(y0, all.y1), ..all };
+    let (mut least, mut most) = (x, x);
+    drawn(rows, &mut |span| {
+        least = least.min(span.x0_px);
+        most = most.max(span.x1_px);
+    });
+    let all_fits = most.saturating_sub(least) < MOST_AROUND_PX;
+    let x0 = if all_fits { least } else { x }.saturating_sub(1);
+    // Not so far to the right that the window gets narrow.
+    let x0 = x0.min(all.x1.saturating_sub(MOST_AROUND_PX)).max(all.x0);
+    PixelRect { x0, x1: cut(x0, all.x1), ..rows }
+}
+
+/// The end of a window that begins here.
+fn cut(start: i32, end: i32) -> i32 {
+    end.min(start.saturating_add(MOST_AROUND_PX))
+}
+
+/// The pixels around these, with one to spare, and no more than are shown.
 fn around(pixels: impl Iterator<Item = [i32; 2]> + Clone) -> PixelRect {
+    let all = all_around(pixels);
+    PixelRect { x1: cut(all.x0, all.x1), y1: cut(all.y0, all.y1), ..all }
+}
+
+/// The pixels around these, with one to spare.
+pub(super) fn all_around(pixels: impl Iterator<Item = [i32; 2]> + Clone) -> PixelRect {
     let range = |axis: usize| {
         let along = pixels.clone().map(|pixel| pixel[axis]);
         let low = along.clone().min().unwrap_or(0).saturating_sub(1);
-        let high = along.max().unwrap_or(0).saturating_add(2);
-        (low, high.min(low.saturating_add(MOST_AROUND_PX)))
+        (low, along.max().unwrap_or(0).saturating_add(2))
     };
     let ((x0, x1), (y0, y1)) = (range(0), range(1));
     PixelRect { x0, y0, x1, y1 }

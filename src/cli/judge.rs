@@ -1,11 +1,12 @@
 //! `rasterproof judge -- CMD`: any program that speaks the line protocol, on the stand.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use rasterproof_host::output::Over;
 use rasterproof_host::text::printable_path;
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, Use};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -35,7 +36,7 @@ pub struct JudgeArguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Only the case of this number, to repeat a failure
-    #[arg(long, value_name = "NUMBER", value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = super::parse_case, allow_negative_numbers = true)]
     case: Option<u64>,
     /// Seconds allowed for each answer
     #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, allow_negative_numbers = true)]
@@ -117,12 +118,13 @@ impl JudgeArguments {
 pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     if let Some(names) = &arguments.league {
-        return league::run(names, &arguments.options(None), limits, streams);
+        let options = arguments.options(None);
+        return league::run(names, &options, limits, &arguments.page.place, streams);
     }
     arguments.page.refuse_idle_folder(typed)?;
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
-    distinct(&known.into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
+    files::check(&known.into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(path, arguments.seed).map_err(usage)?),
         None => None,
@@ -190,9 +192,9 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     };
     streams.output.write_all(text.as_bytes())?;
     streams.output.flush()?;
-    if let Some(path) = page {
+    if let Some(page) = page {
         write_page(
-            &path,
+            &page,
             judge_text::page(
                 &verdict,
                 &typed.clone().set("seed", arguments.seed).line(),
@@ -202,12 +204,14 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         );
     }
     let mut agrees = verdict.agrees();
+    // It was read, and is written anew.
+    let updated = |path: &Path| Output { path: path.to_owned(), over: Over::Updated };
     if let (Some(baseline), Some(path), true) =
         (&baseline, &arguments.baseline, arguments.update_baseline)
     {
         match baseline.updated(&verdict) {
             Err(why) => streams.lose(&format!("{}: not written: {why}", printable_path(path))),
-            Ok(text) if streams.save(path, text.as_bytes()) => {
+            Ok(text) if streams.save(&updated(path), text.as_bytes()) => {
                 writeln!(streams.errors, "baseline: {}", printable_path(path))?;
                 // A baseline that was just written knows everything.
                 agrees = true;

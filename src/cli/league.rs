@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use super::page::Place;
 use super::progress::Progress;
-use rasterproof_host::text::printable;
+use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::{Status, Streams, exit, usage};
@@ -18,14 +19,14 @@ use rasterproof_report::league::tables;
 
 const ADAPTERS: &str = "adapters/league.json";
 /// Where it is written, as data and as a page.
-const JSON: &str = "target/rasterproof/league.json";
-const PAGES: [(&str, bool); 2] =
-    [("target/rasterproof/league.md", false), ("target/rasterproof/league.zh.md", true)];
+const JSON: &str = "league.json";
+const PAGES: [(&str, bool); 2] = [("league.md", false), ("league.zh.md", true)];
 
 pub fn run(
     names: &[String],
     options: &Options,
     limits: Limits,
+    place: &Place,
     streams: &mut Streams<'_>,
 ) -> Status {
     let text = input::read_text(Path::new(ADAPTERS), limits::NOTE_BYTES)
@@ -81,9 +82,10 @@ pub fn run(
     };
     let json = pretty(&league);
     let pages = PAGES.map(|(path, chinese)| (path, tables(&league, chinese)));
-    for (path, text) in [(JSON, json)].into_iter().chain(pages) {
-        if streams.save(Path::new(path), text.as_bytes()) {
-            writeln!(streams.errors, "league: {path}")?;
+    for (name, text) in [(JSON, json)].into_iter().chain(pages) {
+        let output = place.output(name);
+        if streams.save(&output, text.as_bytes()) {
+            writeln!(streams.errors, "league: {}", printable_path(&output.path))?;
         }
     }
     Ok(exit::AGREES)

@@ -46,9 +46,10 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
+use files::Output;
 use guard::{Escape, Guarded};
 use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_path};
-use rasterproof_host::{output, shell};
+use rasterproof_host::{output, read_files, shell};
 use typed::Typed;
 
 use rasterproof_registry::engines;
@@ -203,6 +204,8 @@ pub struct Streams<'a> {
     pub colour: bool,
     /// Columns of the terminal; text is broken to fit.
     pub columns: usize,
+    /// Columns of the terminal of standard error, or none where messages are not broken.
+    pub error_columns: Option<usize>,
     /// Whether the streams and files took what was written to them.
     pub delivery: Delivery,
 }
@@ -282,17 +285,29 @@ fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
 ///
 /// The words may be any that the system allows: a path need not be UTF-8.
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
+    read_files::forget();
     let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
-    let Streams { progress, colour, columns, .. } = *streams;
+    let Streams { progress, colour, columns, error_columns, .. } = *streams;
     let (arguments, typed) = match parse(words.clone()) {
         Ok(parsed) => parsed,
         Err(error) => {
             let text = refusal(error, &words);
             let output = &mut Delivered::new(streams.output, &delivery);
             let errors = &mut Delivered::new(streams.errors, &delivery);
-            let stream: &mut Delivered<'_> = if text.is_error { errors } else { output };
-            let _ = stream.write_all(text.words.as_bytes()).and_then(|()| stream.flush());
+            let (stream, columns): (&mut Delivered<'_>, _) = match text.is_error {
+                true => (errors, error_columns),
+                // Help is laid out for the usual width.
+                false => (output, Some(columns).filter(|columns| *columns < wrap::USUAL)),
+            };
+            let _ = match columns {
+                Some(columns) => {
+                    let mut folded =
+                        wrap::Folded::new(stream, columns, wrap::NO_COMMAND.to_owned());
+                    folded.write_all(text.words.as_bytes()).and_then(|()| folded.flush())
+                }
+                None => stream.write_all(text.words.as_bytes()).and_then(|()| stream.flush()),
+            };
             report_loss(output, errors);
             return delivery.status(if text.is_error { exit::USAGE } else { exit::AGREES });
         }
@@ -306,7 +321,15 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         (false, false) => Escape::Words,
     };
     let errors = &mut Delivered::new(streams.errors, &delivery);
-    let errors = &mut Guarded::new(errors, Escape::Words);
+    let mut guarded_errors = Guarded::new(errors, Escape::Words);
+    let mut folded_errors;
+    let errors: &mut dyn Write = match error_columns {
+        Some(columns) => {
+            folded_errors = wrap::Folded::new(&mut guarded_errors, columns, program());
+            &mut folded_errors
+        }
+        None => &mut guarded_errors,
+    };
     if uses_pool(&command) {
         threads::prepare(errors);
     }
@@ -314,7 +337,16 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {
         let output = &mut Guarded::new(streams.output, escape);
-        let streams = &mut Streams { input, output, errors, progress, colour, columns, delivery };
+        let streams = &mut Streams {
+            input,
+            output,
+            errors,
+            progress,
+            colour,
+            columns,
+            error_columns,
+            delivery,
+        };
         let result = dispatch(&command, &typed, streams);
         let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
         return match result {
@@ -322,7 +354,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
             result => status_of(result, streams.errors),
         };
     }
-    let mut delivered = Delivered::new(streams.output, &delivery);
+    let mut delivered = Delivered::of_output(streams.output, &delivery);
     let result = {
         let mut guarded = Guarded::new(&mut delivered, escape);
         let mut folded;
@@ -333,12 +365,22 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
             &mut folded
         };
         let delivery = delivery.clone();
-        let streams = &mut Streams { input, output, errors, progress, colour, columns, delivery };
+        let streams = &mut Streams {
+            input,
+            output,
+            errors,
+            progress,
+            colour,
+            columns,
+            error_columns,
+            delivery,
+        };
         let result = dispatch(&command, &typed, streams);
         result.and_then(|status| Ok(streams.output.flush().map(|()| status)?))
     };
     let status = status_of(result, errors);
     report_loss(&delivered, errors);
+    let _ = errors.flush();
     delivery.status(status)
 }
 
@@ -469,12 +511,18 @@ fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
     writeln!(out, "  {name}  {about}")
 }
 
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    output::write(path, bytes).map_err(usage)
+fn write_file(output: &Output, bytes: &[u8]) -> Result<(), Failure> {
+    output::write(&output.path, bytes, output.over).map_err(usage)
 }
 
 fn parse_number(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "expected a whole number from 0, for example 7".to_owned())
+}
+
+/// The number of a case; there is one for each number but the largest, behind which a range could not end.
+fn parse_case(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| *number < u64::MAX);
+    number.ok_or_else(|| format!("expected a whole number from 0 to {}", u64::MAX - 1))
 }
 
 /// A number of seconds; whether there can be so many is for the command to say.
@@ -514,13 +562,13 @@ fn png_name(path: &Path) -> Result<(), Failure> {
 /// Writes a picture and says where: a file that was asked for, or else one that costs a warning, and not the
 /// verdict, where it cannot be written.
 fn write_picture(
-    asked: Option<&Path>,
-    unasked: &Path,
+    asked: Option<&Output>,
+    unasked: &Output,
     bytes: &[u8],
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
     let written = match asked {
-        Some(path) => streams.save(path, bytes).then_some(path),
+        Some(output) => streams.save(output, bytes).then_some(output),
         None => match write_file(unasked, bytes) {
             Ok(()) => Some(unasked),
             Err(failure) => {
@@ -529,7 +577,7 @@ fn write_picture(
             }
         },
     };
-    if let Some(path) = written {
+    if let Some(Output { path, .. }) = written {
         writeln!(streams.output, "drawn in {}", printable_path(path))?;
     }
     Ok(())

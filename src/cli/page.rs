@@ -5,9 +5,10 @@ use std::io::Read as _;
 use std::path::{Component, Path, PathBuf};
 
 use rasterproof_host::input;
+use rasterproof_host::output::Over;
 use rasterproof_host::text::printable_path;
 
-use super::files::Use;
+use super::files::{Named, Output, written};
 use super::typed::Typed;
 use super::{Failure, Streams, usage};
 use rasterproof_report::html::{self, Report};
@@ -28,6 +29,22 @@ pub struct Place {
     /// Folder of pages and pictures
     #[arg(long, value_name = "DIR", default_value = "target/rasterproof")]
     pub out: PathBuf,
+    /// Replace a file in that folder also where this program did not make it
+    #[arg(long)]
+    pub force: bool,
+}
+
+impl Place {
+    /// A file in a folder whose name the program has chosen.
+    pub(super) fn output_in(&self, folder: &Path, name: impl AsRef<Path>) -> Output {
+        let over = if self.force { Over::Any } else { Over::Marked };
+        Output { path: folder.join(name), over }
+    }
+
+    /// A file in this folder.
+    pub(super) fn output(&self, name: impl AsRef<Path>) -> Output {
+        self.output_in(&self.out, name)
+    }
 }
 
 /// Bytes of a page that hold what an index says of it.
@@ -36,37 +53,37 @@ const HEAD_BYTES: u64 = 8192;
 impl PageArguments {
     /// Refuses a folder into which nothing would be written.
     pub(super) fn refuse_idle_folder(&self, typed: &Typed) -> Result<(), Failure> {
-        match typed.given(&["out"]) {
-            Some(_) if !self.report => Err(usage(
-                "--out is the folder of a page, and none is written: add --report, or leave --out away",
-            )),
+        match typed.given(&["out", "force"]) {
+            Some(option) if !self.report => Err(usage(format!(
+                "--{option} is about the folder of a page, and none is written: add --report, or leave --{option} away",
+            ))),
             _ => Ok(()),
         }
     }
 
     /// The page of a command, as a file that it writes; none where no page was asked for.
-    pub(super) fn page(&self, name: &str) -> Option<PathBuf> {
-        self.report.then(|| self.place.out.join(name))
+    pub(super) fn page(&self, name: &str) -> Option<Output> {
+        self.report.then(|| self.place.output(name))
     }
 }
 
 /// A page as an entry of the files that a command line names.
-pub(super) fn as_file(page: &Option<PathBuf>) -> Option<(&'static str, &Path, Use)> {
-    page.as_deref().map(|path| ("the page of --report", path, Use::Writes))
+pub(super) fn as_file(page: &Option<Output>) -> Option<Named<'_>> {
+    page.as_ref().map(|page| written("the page of --report", page))
 }
 
 /// Writes the page of a command and says on standard error where it is.
-pub(super) fn write_page(path: &Path, report: Report, streams: &mut Streams<'_>) {
-    if save_page(path, report, streams) {
-        let _ = writeln!(streams.errors, "report: {}", printable_path(path));
+pub(super) fn write_page(page: &Output, report: Report, streams: &mut Streams<'_>) {
+    if save_page(page, report, streams) {
+        let _ = writeln!(streams.errors, "report: {}", printable_path(&page.path));
     }
 }
 
 /// Writes a page and the index of its folder; returns whether the page was written.
-pub(super) fn save_page(path: &Path, report: Report, streams: &mut Streams<'_>) -> bool {
-    let folder = path.parent().unwrap_or(Path::new(""));
+pub(super) fn save_page(page: &Output, report: Report, streams: &mut Streams<'_>) -> bool {
+    let folder = page.path.parent().unwrap_or(Path::new(""));
     let report = Report { docs: docs_from(folder), ..report };
-    let is_written = streams.save(path, html::page(&report).as_bytes());
+    let is_written = streams.save(page, html::page(&report).as_bytes());
     if is_written && let Err(error) = write_index(folder, streams) {
         let folder = printable_path(folder);
         streams.lose(&format!("{folder}: the pages cannot be listed in index.html: {error}"));
@@ -91,6 +108,8 @@ fn write_index(folder: &Path, streams: &mut Streams<'_>) -> std::io::Result<()> 
         }
     }
     pages.sort();
+    // Its head was read, to see whose it is.
+    let index = Output { path: index, over: Over::Updated };
     streams.save(&index, html::index(&pages).as_bytes());
     Ok(())
 }

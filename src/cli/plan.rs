@@ -3,9 +3,11 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use super::page::{PageArguments, write_page};
+use super::files;
+use super::page::{PageArguments, as_file, write_page};
 use super::plan_table::{self, grouped};
 use super::progress::Progress;
+use super::render::NOTHING_DRAWN;
 use super::typed::Typed;
 use super::view::SceneArguments;
 use super::{Failure, Status, Streams, exit, usage};
@@ -197,7 +199,11 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     if arguments.without.is_none() {
         arguments.page.refuse_idle_folder(typed)?;
     }
+    let page = arguments.page.page("plan.html");
+    let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
+    check()?;
     let maker = arguments.what.maker(typed, streams)?;
+    check()?;
     let scene = maker.scene(0.0);
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
@@ -205,6 +211,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let survey_us = time_survey(arguments, &scene)?;
     let same = measured.all().all(|mixture| mixture.same);
+    let is_compared = everything.counters.fragments > 0 || !same;
     if arguments.json {
         // With its scene it can be drawn by.
         let plan = Plan { scene: Some(SceneDigest::of(&scene)), ..planned.plan.clone() };
@@ -215,7 +222,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
             "planned": planned.counters,
             "measured": measured,
             "survey_us": survey_us,
-            "same": same,
+            "same": is_compared.then_some(same),
         });
         writeln!(streams.output, "{json}")?;
     } else {
@@ -228,17 +235,21 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
                 "looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame"
             )?;
         }
-        let verdict = if same {
-            "AGREES: planned and everything-on pictures have the same bits"
-        } else {
-            "DISAGREES: a plan changed the picture"
-        };
-        writeln!(streams.output, "{verdict}")?;
+        match (is_compared, same) {
+            (false, _) => {
+                writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
+            }
+            (_, true) => writeln!(
+                streams.output,
+                "AGREES: planned and everything-on pictures have the same bits"
+            )?,
+            (_, false) => writeln!(streams.output, "DISAGREES: a plan changed the picture")?,
+        }
     }
     streams.output.flush()?;
-    if arguments.page.report {
+    if let Some(page) = page {
         let report = report_page(typed, &scene, [&everything, &planned], &measured, same);
-        write_page(&arguments.page.place.out.join("plan.html"), report, streams);
+        write_page(&page, report, streams);
     }
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
 }
@@ -275,13 +286,12 @@ fn draw_without(
     let difference = frame_comparison::compare(first, second, None).picture;
     let wrong = frame_comparison::differing(&planned.picture, &other.picture);
     let name = effect.name();
-    let folder = &arguments.page.place.out;
     let stem = format!("{}-without-{name}", arguments.what.name());
     let mut files = String::new();
     for (ending, picture) in [("png", &other.picture), ("difference.png", &difference)] {
-        let path = folder.join(format!("{stem}.{ending}"));
-        if streams.save(&path, &frame_comparison::png(picture)?) {
-            files += &format!("wrote {}\n", printable_path(&path));
+        let output = arguments.page.place.output(format!("{stem}.{ending}"));
+        if streams.save(&output, &frame_comparison::png(picture)?) {
+            files += &format!("wrote {}\n", printable_path(&output.path));
         }
     }
     let pixels =
@@ -449,7 +459,10 @@ fn report_page(
     };
     Report {
         title: format!("What the scene {} calls for", scene.name),
-        outcome: Some(Outcome::of(same, sentence)),
+        outcome: Some(match frames[0].counters.fragments {
+            0 if same => Outcome::not_compared(NOTHING_DRAWN),
+            _ => Outcome::of(same, sentence),
+        }),
         command: command.clone(),
         tables: Some(savings.table()).filter(|table| !table.rows.is_empty()).into_iter().collect(),
         frames: vec![PictureView {

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use rasterproof_host::output::Over;
 use rasterproof_host::text::printable_path;
 use rasterproof_host::{input, limits};
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, Use, written};
 use super::{Status, Streams, exit, usage, write_file};
 use rasterproof_playground::{Parts, page};
 
@@ -24,17 +25,23 @@ pub(super) struct PlaygroundArguments {
     /// Where the page goes [default: a file with the name of the command in target/rasterproof]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Replace the file that --output does not name also where this program did not make it
+    #[arg(long)]
+    force: bool,
 }
 
 /// Writes a page around the compiled engines.
 pub(super) fn run(
     (name, parts): (&str, &Parts),
-    PlaygroundArguments { module, output }: &PlaygroundArguments,
+    PlaygroundArguments { module, output, force }: &PlaygroundArguments,
     streams: &mut Streams<'_>,
 ) -> Status {
-    let usual = || Path::new("target/rasterproof").join(name).with_extension("html");
-    let output = &output.clone().unwrap_or_else(usual);
-    distinct(&[("--module", module, Use::Reads), ("--output", output, Use::Writes)])?;
+    let usual = || Output {
+        path: Path::new("target/rasterproof").join(name).with_extension("html"),
+        over: if *force { Over::Any } else { Over::Marked },
+    };
+    let output = output.as_deref().map_or_else(usual, Output::typed);
+    files::check(&[("--module", module, Use::Reads), written("--output", &output)])?;
     let refused = |why: String| {
         usage(format!("{why}\nCompile the engines for the page: crates/playground/build"))
     };
@@ -45,8 +52,8 @@ pub(super) fn run(
     }
     let page = page(parts, &bytes)
         .map_err(|problem| refused(format!("{} {problem}", printable_path(module))))?;
-    write_file(output, page.as_bytes())?;
-    writeln!(streams.output, "{name}: {}", printable_path(output))?;
+    write_file(&output, page.as_bytes())?;
+    writeln!(streams.output, "{name}: {}", printable_path(&output.path))?;
     Ok(exit::AGREES)
 }
 

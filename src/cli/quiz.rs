@@ -4,7 +4,7 @@ use std::io::{BufRead, Write};
 use std::path::PathBuf;
 
 use rasterproof_host::text::{printable, printable_path};
-use rasterproof_host::{input, limits};
+use rasterproof_host::{input, limits, read_files};
 
 use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_teaching::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
@@ -66,6 +66,9 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
         return paper(&asked, count.into(), arguments, language, streams);
     }
     let is_file = arguments.answers.as_os_str() != "-";
+    if !is_file {
+        read_files::note_standard_input();
+    }
     let text = if is_file {
         input::read_text(&arguments.answers, limits::NOTE_BYTES)
             .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?

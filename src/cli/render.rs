@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use image::codecs::gif::{GifEncoder, Repeat};
+use rasterproof_host::output::Over;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, as_file, write_page};
 use super::plan_table;
 use super::progress::Progress;
@@ -90,28 +91,34 @@ struct Drawing {
 pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
-    let default = || arguments.page.place.out.join(format!("{}.{extension}", what.name()));
-    let output = arguments.output.clone().unwrap_or_else(default);
-    let ending = output.extension().and_then(|ending| ending.to_str()).unwrap_or("");
+    let default = || arguments.page.place.output(format!("{}.{extension}", what.name()));
+    let output = arguments.output.as_deref().map_or_else(default, Output::typed);
+    let ending = output.path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
     if !ending.eq_ignore_ascii_case(extension) {
         return Err(usage(format!(
             "{}: {} is written as {}: end its name with .{extension}",
-            printable_path(&output),
+            printable_path(&output.path),
             if extension == "gif" { "a full turn" } else { "the picture" },
             extension.to_ascii_uppercase()
         )));
     }
-    let difference = output.with_extension("difference.png");
+    // Whose name is chosen even where that of the picture is typed. It is not always drawn, so whether it
+    // replaces something is seen when it is.
+    let difference =
+        arguments.page.place.output_in(Path::new(""), output.path.with_extension("difference.png"));
     let page = arguments.page.page("render.html");
     let files = [
         what.source().err().map(|path| ("the model", path, Use::Reads)),
         arguments.plan.as_deref().map(|path| ("--plan", path, Use::Reads)),
-        Some(("--output", output.as_path(), Use::Writes)),
-        Some(("the picture of differences", difference.as_path(), Use::Writes)),
+        Some(written("--output", &output)),
+        Some(("the picture of differences", &difference.path, Use::Writes(Over::Updated))),
         as_file(&page),
     ];
-    distinct(&files.into_iter().flatten().collect::<Vec<_>>())?;
+    let files: Vec<_> = files.into_iter().flatten().collect();
+    files::check(&files)?;
     let maker = what.maker(typed, streams)?;
+    // A model names files of its own.
+    files::check(&files)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
@@ -133,13 +140,13 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         false => Some(by_rounding(&scene, &drawings[0].target, Cause::Snapping)?),
     };
     drop(progress);
-    let drawn_in = streams.save(&output, &picture).then_some(output.as_path());
+    let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
     // What a plan changes in both frames alike is no difference between them.
     let is_drawn = |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || leaves_open(c);
     let mut difference_in = None;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
         let picture = frame_comparison::png(&comparison.picture)?;
-        difference_in = streams.save(&difference, &picture).then_some(difference.as_path());
+        difference_in = streams.save(&difference, &picture).then_some(difference.path.as_path());
     }
     let times = Times {
         loading_s: maker.loading_s(),
@@ -176,6 +183,14 @@ fn names(drawings: &[Drawing]) -> Vec<&'static str> {
     drawings.iter().map(|drawing| drawing.name).collect()
 }
 
+/// Whether two rasterizers have drawn no pixel at all, so that two backgrounds would be compared.
+fn is_nothing_drawn(drawings: &[Drawing]) -> bool {
+    drawings.len() > 1 && drawings.iter().all(|drawing| drawing.rendered.counters.fragments == 0)
+}
+
+/// What is said instead of a verdict then.
+pub(super) const NOTHING_DRAWN: &str = "No triangle covers a pixel of this view.";
+
 /// Pixels that the plan of a file, or effects that were switched off, change.
 fn changed(drawings: &[Drawing]) -> u64 {
     drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0)
@@ -186,13 +201,16 @@ fn is_plan_alone(c: &Comparison, drawings: &[Drawing]) -> bool {
     c.wrong_depths == 0 && c.wrong_pixels > 0 && c.wrong_pixels == changed(drawings)
 }
 
-/// Compares two drawings; ties are looked for where there are depths to look at.
+/// Compares two drawings, where there is something to compare; ties are looked for where there are depths to look at.
 fn compare(
     scene: &Scene,
     drawings: &[Drawing],
     follows_plan: bool,
 ) -> Result<Option<Comparison>, Failure> {
     let [a, b] = drawings else { return Ok(None) };
+    if is_nothing_drawn(drawings) {
+        return Ok(None);
+    }
     let ties = if a.is_complete && b.is_complete {
         let engines = [Engine::Scanline, Engine::EdgeFunction];
         let drawn = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawings[i].target });
@@ -258,6 +276,8 @@ fn report_page(
             format!("{names}: {pixels} and {wrong_depths} of {depths} depths differ.{open}");
         Outcome::of(c.agrees(), sentence)
     });
+    let nothing = || is_nothing_drawn(drawings).then(|| Outcome::not_compared(NOTHING_DRAWN));
+    let outcome = outcome.or_else(nothing);
     let layer =
         |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
     let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
@@ -412,6 +432,9 @@ fn describe(
             let _ = writeln!(text, "  the cause is that {why_empty}");
         }
     }
+    if is_nothing_drawn(drawings) {
+        let _ = writeln!(text, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.");
+    }
     let changed = changed(drawings);
     if changed > 0 {
         let _ = writeln!(text, "  what is switched off is called for: it changes {changed} pixels");
@@ -475,7 +498,7 @@ fn is_empty(rendered: &Rendered) -> bool {
 fn draw_in_tiles(
     arguments: &RenderArguments,
     maker: &Maker,
-    output: &Path,
+    output: &Output,
     streams: &mut Streams<'_>,
 ) -> Status {
     let refused = [
@@ -533,7 +556,7 @@ fn draw_in_tiles(
         }
     }
     if streams.save(output, &frame_comparison::png(&picture)?) {
-        let (side, path) = (frames::SIDE_PX, printable_path(output));
+        let (side, path) = (frames::SIDE_PX, printable_path(&output.path));
         match handed_over.triangles() {
             count if count == all => writeln!(streams.output, "  drawn in {path}")?,
             _ => writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?,
@@ -554,9 +577,9 @@ fn draw_in_tiles(
 }
 
 /// Saves a picture, and says where.
-fn saved(output: &Path, picture: &[u8], streams: &mut Streams<'_>) -> String {
+fn saved(output: &Output, picture: &[u8], streams: &mut Streams<'_>) -> String {
     match streams.save(output, picture) {
-        true => format!(", drawn in {}", printable_path(output)),
+        true => format!(", drawn in {}", printable_path(&output.path)),
         false => String::new(),
     }
 }
@@ -564,7 +587,7 @@ fn saved(output: &Path, picture: &[u8], streams: &mut Streams<'_>) -> String {
 fn map(
     arguments: &RenderArguments,
     scene: &Scene,
-    output: &Path,
+    output: &Output,
     streams: &mut Streams<'_>,
 ) -> Status {
     let mut target = arguments.what.view.target()?;
@@ -599,12 +622,13 @@ fn spin(
     arguments: &RenderArguments,
     maker: &Maker,
     frames: u32,
-    output: &Path,
+    output: &Output,
     progress: &Progress,
     streams: &mut Streams<'_>,
 ) -> Status {
     let mut bytes = Vec::new();
     let (mut wrong, mut undecided, mut far) = (0, 0, 0);
+    let mut is_compared = false;
     let mut screen = DoubleBuffer::new(arguments.what.view.target()?);
     let mut counters = Counters::default();
     {
@@ -615,6 +639,7 @@ fn spin(
             let scene = maker.scene(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene, progress)?;
             if let Some(c) = compare(&scene, &drawings, false)? {
+                is_compared = true;
                 wrong += c.wrong_pixels + c.wrong_depths;
                 undecided += c.undecided;
                 far += c.far_texture;
@@ -638,6 +663,9 @@ fn spin(
         writeln!(streams.output, "UNDECIDED: {far} pixels, by large texture coordinates")?;
     }
     match (arguments.engine, wrong) {
+        (DrawnBy::Both, _) if !is_compared => {
+            writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
+        }
         (DrawnBy::Both, 0) => writeln!(streams.output, "AGREES: 0 pixels and depths differ")?,
         (DrawnBy::Both, wrong) => {
             writeln!(streams.output, "DISAGREES: {wrong} pixels and depths differ")?;

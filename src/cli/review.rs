@@ -19,7 +19,7 @@ use rasterproof_host::limits::{self, DOCUMENT_BYTES};
 use rasterproof_host::shell;
 use rasterproof_host::text::{printable, printable_path, printable_short};
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, Use, written};
 use super::page::{Place, save_page};
 use super::{Status, Streams, exit, program, usage};
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report, TextDiff};
@@ -93,12 +93,12 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
             None => accepted += 1,
         }
     }
-    let default = || arguments.place.out.join("review.html");
-    let output = arguments.output.clone().unwrap_or_else(default);
+    let default = || arguments.place.output("review.html");
+    let output = arguments.output.as_deref().map_or_else(default, Output::typed);
     let read = found.iter().map(|path| ("a pending snapshot", path.as_path(), Use::Reads));
     let olds = pending.iter().map(|one| ("a snapshot", one.path.as_path(), Use::Reads));
-    let page = ("the page", output.as_path(), Use::Writes);
-    distinct(&read.chain(olds).chain([page]).collect::<Vec<_>>())?;
+    let page = written("the page", &output);
+    files::check(&read.chain(olds).chain([page]).collect::<Vec<_>>())?;
     for one in &pending {
         writeln!(streams.output, "\n{}: {}", printable_path(&one.path), one.what)?;
         writeln!(streams.output, "  accept: {}", accept(one))?;
@@ -125,7 +125,7 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     writeln!(streams.output, "{}{sentence}", if pending.is_empty() { "" } else { "\n" })?;
     // What was found is printed before the page is written, which may fail.
     if save_page(&output, report, streams) {
-        writeln!(streams.output, "report: {}", printable_path(&output))?;
+        writeln!(streams.output, "report: {}", printable_path(&output.path))?;
     }
     Ok(match (pending.is_empty(), unread.is_empty()) {
         (false, _) => exit::DISAGREES,

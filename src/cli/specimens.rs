@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::files::{Use, distinct};
+use super::files::{self, Output, written};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -37,9 +37,10 @@ pub struct SpecimensArguments {
 /// Surveys, prints and draws. A specimen that its case does not expose is a disagreement.
 pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let page = arguments.page.page("specimens.html");
-    let sheet_file = arguments.output.as_deref().map(|path| ("--output", path, Use::Writes));
+    let sheet = arguments.output.as_deref().map(Output::typed);
+    let sheet_file = sheet.as_ref().map(|sheet| written("--output", sheet));
     let files: Vec<_> = sheet_file.into_iter().chain(as_file(&page)).collect();
-    distinct(&files)?;
+    files::check(&files)?;
     if let Some(path) = &arguments.output {
         png_name(path)?;
     }
@@ -64,14 +65,14 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
     } else {
         writeln!(streams.output, "{text}")?;
     }
-    let (png, unasked) = (picture::png(&drawn), arguments.page.place.out.join("specimens.png"));
-    match &arguments.output {
-        Some(path) if arguments.json => drop(streams.save(path, &png)),
+    let (png, unasked) = (picture::png(&drawn), arguments.page.place.output("specimens.png"));
+    match &sheet {
+        Some(sheet) if arguments.json => drop(streams.save(sheet, &png)),
         None if arguments.json => {}
-        asked => write_picture(asked.as_deref(), &unasked, &png, streams)?,
+        asked => write_picture(asked.as_ref(), &unasked, &png, streams)?,
     }
-    if let Some(path) = page {
-        write_page(&path, report_page(arguments, typed, &reports), streams);
+    if let Some(page) = page {
+        write_page(&page, report_page(arguments, typed, &reports), streams);
     }
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }

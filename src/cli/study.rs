@@ -6,7 +6,10 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::time::Duration;
 
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
+use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::check_value;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_models::Origin;
@@ -16,7 +19,7 @@ use rasterproof_report::board::number;
 use rasterproof_report::study::{
     self as report, Subject, costs, costs_json, hard_cases, hard_cases_json, needs_json, ties_json,
 };
-use rasterproof_report::summary::thousands;
+use rasterproof_report::summary::{thousands, word};
 use rasterproof_report::table::{Column, Table};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::hard::{self, HardCases, Kind};
@@ -25,8 +28,9 @@ use rasterproof_study::{effects, ties};
 use rasterproof_study::{face_of, triangle_of};
 use rasterproof_verify::cases::{Case, Shape};
 
+use super::files;
 use super::inspect_case::{self, Found};
-use super::page::{PageArguments, write_page};
+use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
@@ -122,7 +126,11 @@ fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
 pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     arguments.page.refuse_idle_folder(typed)?;
+    let page = arguments.page.page("study.html");
+    let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
+    check()?;
     let maker = what.maker(typed, streams)?;
+    check()?;
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
@@ -170,7 +178,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         out.write_all(costs(&subject, &groups).as_bytes())?;
     }
     out.flush()?;
-    if let Some(path) = arguments.page.page("study.html") {
+    if let Some(output) = page {
         let found = report::Found {
             hard: &studied.hard,
             classes: &classes,
@@ -179,7 +187,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
             not_drawn,
         };
         let page = report::page(&subject, &found, &typed.line());
-        write_page(&path, page, streams);
+        write_page(&output, page, streams);
     }
     Ok(exit::AGREES)
 }
@@ -251,7 +259,15 @@ fn head(studied: &Studied<'_>) -> String {
     let (triangles, pieces) =
         (studied.scene.triangles() as u64, studied.sampled.at_centres().len() as u64);
     let (triangles, pieces) = (thousands(triangles), thousands(pieces));
-    format!("{}: {triangles} triangles, {pieces} pieces in the window", studied.scene.name)
+    let head =
+        format!("{}: {triangles} triangles, {pieces} pieces in the window", studied.scene.name);
+    let window = studied.sampled.window;
+    match studied.sampled.all().any(|piece| has_pixel(piece, window)) {
+        true => head,
+        false => {
+            head + "\nNOT COMPARED: none of them has a pixel, so nothing was compared in what follows"
+        }
+    }
 }
 
 /// Refuses options of a view where no model is named.
@@ -298,7 +314,18 @@ pub(super) fn verify(
     for &engine in &judged.unsnapped {
         faults.push((engine.name(), judge(&judgeable, &engine.into(), &unsnapped)));
     }
-    let agrees = faults.iter().all(|(_, fault)| fault.is_none());
+    // To draw nothing where nothing is expected shows nothing of an engine.
+    let expects = judgeable.iter().any(|piece| has_pixel(piece, window));
+    let is_wrong = faults.iter().any(|(_, fault)| fault.is_some());
+    let agrees = (expects || is_wrong).then_some(!is_wrong);
+    let status = match agrees {
+        Some(true) => exit::AGREES,
+        Some(false) => exit::DISAGREES,
+        None => {
+            faults.clear();
+            exit::USAGE
+        }
+    };
     let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
     let out = &mut *streams.output;
     if is_json {
@@ -317,7 +344,7 @@ pub(super) fn verify(
             "agrees": agrees,
         });
         writeln!(out, "{json}")?;
-        return Ok(if agrees { exit::AGREES } else { exit::DISAGREES });
+        return Ok(status);
     }
     writeln!(out, "{}\n", head(&studied))?;
     writeln!(out, "{}", hard_cases(&subject, &studied.hard, &[]))?;
@@ -339,10 +366,24 @@ pub(super) fn verify(
             "not judged: {left} pieces, whose texture coordinates are too large for the engines"
         )?;
     }
-    let word = if agrees { "AGREES" } else { "DISAGREES" };
     let count = thousands(count as u64);
-    writeln!(out, "{word}: {count} pieces of {}", printable_path(path))?;
-    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+    let shown = printable_path(path);
+    match agrees {
+        Some(agrees) => writeln!(out, "{}: {count} pieces of {shown}", word(agrees))?,
+        None => writeln!(
+            out,
+            "NOT JUDGED: the {count} pieces of {shown} in the window have no pixel, so nothing was compared; \
+             look at it from another side (--yaw, --pitch, --zoom)"
+        )?,
+    }
+    Ok(status)
+}
+
+/// Whether a piece covers the centre of a pixel.
+fn has_pixel(piece: &Piece, window: PixelRect) -> bool {
+    let mut has_one = false;
+    Scanline.cover(piece.corners(), window, |_| has_one = true);
+    has_one
 }
 
 /// What an engine gets wrong, and the first triangle for which it does so alone.
@@ -415,6 +456,7 @@ pub(super) fn face(
     let pieces: Vec<&Piece> = studied.sampled.at_centres().iter().filter(of_face).collect();
     if pieces.is_empty() {
         writeln!(out, "  not in the window: outside of it, or seen from a side that is culled")?;
+        writeln!(out, "NOT COMPARED: nothing of this face is drawn, so nothing was compared")?;
         return Ok(None);
     }
     writeln!(out, "  in the window: {} piece(s)\n", pieces.len())?;
@@ -429,7 +471,7 @@ pub(super) fn face(
         }
     }
     let title = format!("{shown}#{}", printable(word));
-    Ok(Some(match inspect_case::triangles(&words, is_exact)? {
+    Ok(Some(match inspect_case::triangles(&words, is_exact, Some(studied.sampled.size))? {
         Found::Case { case, expected, typed, .. } => Found::Case { title, case, expected, typed },
         found => found,
     }))

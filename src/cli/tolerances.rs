@@ -6,6 +6,7 @@ use rasterproof_invariants::acceptance::rules::RULES;
 use rasterproof_invariants::acceptance::{Report, Row, report};
 use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
 
+use super::files::Output;
 use super::progress::Progress;
 use super::{Status, Streams, exit, usage};
 
@@ -33,7 +34,7 @@ pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status
     let report = report(arguments.seed, &|| progress.done(1));
     drop(progress);
     if let Some(path) = &arguments.plot {
-        super::write_file(path, canvas::svg(&plot(&report)).as_bytes())?;
+        super::write_file(&Output::typed(path), canvas::svg(&plot(&report)).as_bytes())?;
     }
     if arguments.json {
         writeln!(streams.output, "{}", json(arguments.seed, &report))?;

@@ -1,14 +1,15 @@
 //! `rasterproof verify`: the differential table and the verdict.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
 use super::case_view;
-use super::page::{PageArguments, write_page};
+use super::files::{self, Output};
+use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
@@ -24,7 +25,7 @@ use rasterproof_verify::comparison::{self, Options, Shard, Verdict};
 #[derive(clap::Args, Debug)]
 pub struct VerifyCommand {
     /// Judge the engines on the triangles of this model instead, and show its hard cases
-    #[arg(value_name = "MODEL", conflicts_with_all = ["cases", "seconds", "family", "invariant", "seed", "shard", "case", "table", "report", "out"])]
+    #[arg(value_name = "MODEL", conflicts_with_all = ["cases", "seconds", "family", "invariant", "seed", "shard", "case", "table", "report", "out", "force"])]
     model: Option<PathBuf>,
     #[command(flatten)]
     view: ViewArguments,
@@ -70,7 +71,7 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "I/N", value_parser = parse_shard, default_value = "0/1")]
     shard: (u64, u64),
     /// Only the case of this number, to repeat a failure
-    #[arg(long, value_name = "NUMBER", value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = super::parse_case, allow_negative_numbers = true)]
     case: Option<u64>,
     /// The table of all families, too; it is always there where something is wrong
     #[arg(long, conflicts_with = "json")]
@@ -191,6 +192,8 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     if arguments.engine.iter().any(|name| name.starts_with(VULKAN)) {
         return on_a_device(arguments, options, streams);
     }
+    let page = arguments.page.page("verify.html");
+    files::check(&as_file(&page).into_iter().collect::<Vec<_>>())?;
     let judged = arguments.judged();
     if judged.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
@@ -211,8 +214,8 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     }
     // What was asked for may fail, but not before the verdict is said.
     streams.output.flush()?;
-    if arguments.page.report {
-        write_page(&arguments.page.place.out.join("verify.html"), run.report_page(), streams);
+    if let Some(page) = page {
+        write_page(&page, run.report_page(), streams);
     }
     Ok(if run.verdict.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
@@ -321,7 +324,7 @@ impl Run<'_> {
             true => ("worst.png", self.worst_cases(out)?),
             false => ("failures.png", failures),
         };
-        write_sheet(&arguments.page.place.out.join(name), &drawn, streams)?;
+        write_sheet(&arguments.page.place.output(name), &drawn, streams)?;
         let out = &mut *streams.output;
         if !arguments.table && agrees {
             writeln!(out, "every family as a table: add --table")?;
@@ -436,9 +439,13 @@ fn heading(failure: &impl std::fmt::Display) -> String {
 }
 
 /// Draws what nobody asked for: where that fails, the verdict stands.
-fn write_sheet(path: &Path, drawn: &[RgbImage], streams: &mut Streams<'_>) -> Result<(), Failure> {
+fn write_sheet(
+    output: &Output,
+    drawn: &[RgbImage],
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
     if drawn.is_empty() {
         return Ok(());
     }
-    write_picture(None, path, &picture::png(&picture::stack(drawn)), streams)
+    write_picture(None, output, &picture::png(&picture::stack(drawn)), streams)
 }

@@ -94,9 +94,9 @@ fn print(
     };
     streams.output.write_all(said.as_bytes())?;
     streams.output.flush()?;
-    if job.page.report {
+    if let Some(path) = job.page.page("vulkan.html") {
         let page = text::page(stand, &format!("{command}{all}"), &repeat);
-        write_page(&job.page.place.out.join("vulkan.html"), page, streams);
+        write_page(&path, page, streams);
     }
     Ok(())
 }

@@ -4,8 +4,11 @@ use std::io::{self, Write};
 
 /// Where there is no terminal.
 pub const USUAL: usize = 100;
-/// Narrower terminals break lines themselves.
-const LEAST: usize = 40;
+/// On narrower terminals most words would stand alone.
+const LEAST: usize = 20;
+
+/// For text whose commands may be broken, too: no line contains this.
+pub const NO_COMMAND: &str = "\0";
 
 /// Passes lines on, those that are too long in pieces. A command stays whole, to be copied, and so does
 /// a row of a table that does not end in words.
@@ -88,9 +91,11 @@ fn fold(line: &str, columns: usize) -> String {
     let hang = if cell > 0 && below <= columns * 2 / 3 { below } else { indent + 2 };
     let (head, words) = text.split_at(indent + cell);
     let (mut out, mut used) = (head.to_owned(), below);
-    let mut is_first = true;
+    // Whether a word comes first in its line, and so begins no other one; but a cell may begin in the next line.
+    let (mut is_first, mut may_break) = (true, cell > 0);
     for word in words.split(' ') {
-        if !is_first && used + 1 + width(word) > columns {
+        let gap = usize::from(!is_first);
+        if (!is_first || may_break) && used + gap + width(word) > columns {
             out = format!("{}\n{}", out.trim_end(), " ".repeat(hang));
             (used, is_first) = (hang, true);
         }
@@ -101,6 +106,7 @@ fn fold(line: &str, columns: usize) -> String {
         out += word;
         used += width(word);
         is_first &= word.is_empty();
+        may_break = false;
     }
     if line.ends_with('\n') { out + "\n" } else { out }
 }
@@ -117,6 +123,12 @@ mod tests {
             "  name   what it is\n         about and more\n         of that\n"
         });
         assert_eq!(fold("C 1 2  3 4 5  6 7 8", 12), "C 1 2  3 4 5\n       6 7 8");
+        assert_eq!(fold("      --cases <N>      Cases of each family\n", 20), {
+            "      --cases <N>\n        Cases of\n        each family\n"
+        });
+        assert_eq!(fold("error: cube.txt is no model; name one\n", 20), {
+            "error: cube.txt is\n  no model; name one\n"
+        });
         assert_eq!(fold("a   0   1   one two three four", 24), {
             "a   0   1   one two\n            three four"
         });

@@ -40,6 +40,28 @@ fn text_fits_a_narrow_terminal() {
     }
 }
 
+/// Help and messages are broken for a terminal of twenty columns, too, but for commands and the heads of options.
+#[test]
+fn help_and_messages_fit_twenty_columns() {
+    for (words, status) in [
+        ("--help", 0),
+        ("inspect --help", 0),
+        ("render nowhere.obj", 2),
+        ("--frobnicate", 2),
+        ("exhaust lines --reach 99999", 2),
+    ] {
+        let run = Run::of(shared().command(words).env("COLUMNS", "20")).has(status);
+        let text = run.out + &run.errors;
+        let fits = |line: &&str| {
+            let words = line.split_whitespace().count();
+            let is_whole = line.contains("rasterproof ") || line.trim_start().starts_with('-');
+            line.chars().count() <= 20 || words < 2 || is_whole
+        };
+        let wide: Vec<_> = text.lines().filter(|line| !fits(line)).collect();
+        assert!(wide.is_empty() && !text.is_empty(), "{words}: {wide:#?}");
+    }
+}
+
 #[test]
 fn verify_reports_a_panicking_engine() {
     let errors = check("--cases 40 --plant panics-on-flat-bottom", 1)
@@ -121,14 +143,13 @@ fn inspect_explains_named_cases() {
 
 #[test]
 fn inspect_takes_coordinates_and_writes_a_picture() {
-    let path = std::env::temp_dir().join(format!("rasterproof-{}.png", std::process::id()));
-    let name = path.to_str().unwrap();
-    check(["inspect", "-1.5,-1.5", "4,0", "0,4", "--window", "-2,-2,8x8", "-o", name], 0)
+    let folder = Folder::new("commands-picture");
+    folder
+        .check("inspect -1.5,-1.5 4,0 0,4 --window -2,-2,8x8 -o a.png", 0)
         .prints("columns -2..6");
-    let picture = image::open(&path).unwrap();
+    let picture = image::open(folder.join("a.png")).unwrap();
     // Eight rows, and the words around them.
     assert!(picture.height() > 8 * 40, "{}", picture.height());
-    std::fs::remove_file(path).unwrap();
     check("inspect --line -5,3 9,-2", 0);
     check("inspect sliver#7 --seed 3", 0);
 }

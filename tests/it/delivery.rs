@@ -236,3 +236,26 @@ fn names_need_not_be_utf8() {
     // Where text is expected, the word is named.
     run("--family", &[Path::new(OsStr::from_bytes(b"f\xffn"))]).has(USAGE).says("not UTF-8: f");
 }
+
+/// A process that is killed while it writes leaves what it has written so far, beside the old file; the next one that writes there
+/// removes it.
+#[test]
+fn what_a_killed_process_left_is_removed() {
+    let folder = folder("killed");
+    folder.put("a.png", "old");
+    // The system kills a process whose file grows beyond the limit, which is 512 bytes here.
+    let words = format!("ulimit -f 1; exec '{PROGRAM}' inspect T2 -o a.png --out .");
+    let mut shell = std::process::Command::new("sh");
+    let killed = shell.args(["-c", &words]).current_dir(&*folder).output().unwrap();
+    assert_eq!(killed.status.code(), None, "{killed:?}");
+    assert_eq!(folder.text("a.png"), "old");
+    let parts = || {
+        let names = fs::read_dir(&*folder).unwrap();
+        let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.ends_with(".part")).count()
+    };
+    assert_eq!(parts(), 1);
+    folder.run("inspect T2 -o a.png --out .").has(AGREES);
+    assert_eq!(parts(), 0);
+    assert!(fs::metadata(folder.join("a.png")).unwrap().len() > 512);
+}

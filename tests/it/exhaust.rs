@@ -308,7 +308,7 @@ fn exhaust_command_resumes_its_own_checkpoint_alone() {
     folder.check(words, 1).says("7 wrong");
     assert!(!folder.join("c.json").exists(), "removed at the end");
 
-    // Of another run, of other code, damaged or not a checkpoint at all: refused unless --restart.
+    // Of another run, of other code or damaged: refused unless --restart.
     let mut other_code = half.clone();
     other_code.identity.sources.clear();
     let mut damaged = half.clone();
@@ -317,11 +317,33 @@ fn exhaust_command_resumes_its_own_checkpoint_alone() {
     let other_part = Progress::new(&plan, Shard { part: 0, parts: 2 });
     let states = [other_code, damaged, other_plan, other_part];
     let texts = states.map(|state| serde_json::to_string(&state).unwrap());
-    for text in texts.iter().map(String::as_str).chain([""]) {
+    for text in &texts {
         folder.put("c.json", text);
         folder.check(words, 2).says("--restart");
         folder.check(format!("{words} --restart"), 0);
     }
+}
+
+/// What somebody else wrote is neither replaced nor removed, whatever the options say; nor what is half a checkpoint.
+#[test]
+fn exhaust_command_leaves_what_is_no_checkpoint() {
+    let folder = Folder::new("exhaust-no-checkpoint");
+    let whole = Progress::new(&Plan::Lines(lines(2)), Shard::WHOLE);
+    let whole = serde_json::to_string(&whole).unwrap();
+    for text in ["my notes\n", "", "{}", "[1, 2]", &whole[..whole.len() / 2], &format!("{whole}x")]
+    {
+        folder.put("notes.txt", text);
+        for restart in ["", " --restart"] {
+            let words = format!("exhaust lines --reach 2 --checkpoint notes.txt{restart}");
+            folder.check(words, 2).says("notes.txt is not a checkpoint").says("--checkpoint");
+            assert_eq!(folder.text("notes.txt"), text);
+        }
+    }
+    // One of another run is replaced where that is asked for.
+    folder.put("notes.txt", whole);
+    folder.check("exhaust lines --reach 3 --checkpoint notes.txt", 2).says("--restart");
+    folder.check("exhaust lines --reach 3 --checkpoint notes.txt --restart", 0);
+    assert!(!folder.join("notes.txt").exists());
 }
 
 #[test]

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::page::{PATIENCE, Tab, folder};
+use crate::page::{PATIENCE, TEMPORARY, Tab, folder};
 
 pub struct Firefox {
     display: Child,
@@ -52,6 +52,7 @@ impl Firefox {
             .arg(&folder)
             .env("DISPLAY", format!(":{}", number.trim()))
             .env("HOME", &folder)
+            .env("TMPDIR", TEMPORARY)
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()

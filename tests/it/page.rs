@@ -4,9 +4,11 @@
 //! but JSON. Without Chromium these tests say so and pass, unless `RASTERPROOF_NEEDS_CHROMIUM` is set,
 //! as `.ci/run` does.
 
+use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
@@ -21,6 +23,9 @@ use serde_json::{Value, json};
 
 use crate::program::{Run, shared};
 use crate::snapshots::ELSEWHERE;
+
+/// Where a browser puts its own files, too. A socket is among them, whose path must be short.
+pub const TEMPORARY: &str = env!("CARGO_TARGET_TMPDIR");
 
 /// An answer that takes longer never comes.
 pub const PATIENCE: Duration = Duration::from_secs(30);
@@ -65,6 +70,7 @@ impl Browser {
             .args(options)
             .arg(format!("--user-data-dir={}", folder.display()))
             .arg("about:blank")
+            .env("TMPDIR", TEMPORARY)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -228,8 +234,14 @@ impl Drop for Browser {
     }
 }
 
+/// A folder below the build's temporary folder. What an earlier run left there is removed when the folder is first
+/// named.
 pub fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("rasterproof-{name}-{}", std::process::id()));
+    static NAMED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let folder = Path::new(TEMPORARY).join(format!("page-{name}"));
+    if NAMED.lock().unwrap().insert(name.to_owned()) {
+        let _ = std::fs::remove_dir_all(&folder);
+    }
     std::fs::create_dir_all(&folder).unwrap();
     folder
 }

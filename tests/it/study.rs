@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::program::Folder;
+use crate::program::{Folder, PROGRAM};
 
 /// A box, closed and wound alike, whose coordinates f32 holds.
 const BOX: &str = "v -1.25 -0.75 -1\nv 1.25 -0.75 -1\nv 1.25 0.75 -1\nv -1.25 0.75 -1\n\
@@ -132,6 +132,86 @@ fn the_commands_of_a_study_work() {
     let planted = folder.check("verify m.obj --plant drops-first-row", 1);
     planted.prints("DISAGREES").prints("inspect 'm.obj#");
     folder.check("verify --yaw 3", 2).says("--yaw is for models");
+}
+
+/// A face whose box is empty at its left upper corner: what is shown begins where it has pixels.
+const CORNERLESS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+const FROM_THE_FRONT: &str = "--yaw 0 --pitch 0";
+
+#[test]
+fn a_face_is_shown_where_it_has_pixels() {
+    let folder = Folder::new("study-window");
+    folder.put("m.obj", CORNERLESS);
+    for more in ["", " --exact", " --aa msaa4", " --size 2000x1500"] {
+        let words = format!("inspect m.obj#1 {FROM_THE_FRONT}{more}");
+        let run = folder.check(words, 0).prints("agrees").prints("cropped: the shape is");
+        let grid = run.out.lines().filter(|line| line.contains("##")).count();
+        assert!(grid > 20, "{run}");
+    }
+    // All of a small one, as before.
+    let words = format!("inspect m.obj#1 {FROM_THE_FRONT} --size 60x45");
+    folder.check(words, 0).prints("agrees").omits("cropped");
+    // The same of corners that are typed, however far apart they are.
+    for words in ["500,1 0,500 500,500", "8388000,-8388000 -8388000,8388000 8388000,8388000"] {
+        let run = folder.check(format!("inspect {words}"), 0).prints("cropped: the shape is");
+        assert!(run.out.lines().any(|line| line.contains('#')), "{run}");
+    }
+}
+
+/// What compares nothing says so, and its status is not that of agreement.
+#[test]
+fn a_comparison_of_nothing_says_that_nothing_was_compared() {
+    let folder = Folder::new("study-nothing");
+    folder.put("m.obj", CORNERLESS);
+    let front = format!("m.obj {FROM_THE_FRONT} --size 64x48");
+    let face = front.replacen("m.obj", "m.obj#1", 1);
+    let nothing = "nothing was compared";
+    for words in [
+        format!("inspect {face} --window 0,0,4x4"),
+        format!("inspect {face} --cull cw"),
+        format!("inspect {face} --cull ccw"),
+        "inspect 0,0 300,0 0,300 --window 290,290,8x8".to_owned(),
+        "inspect 0,0 300,0 0,300 --window 290,290,8x8 --exact".to_owned(),
+        "inspect --line 0,0 300,300 --window 200,0,8x8".to_owned(),
+    ] {
+        let run = folder.run(&words);
+        // Of the two windings one is culled.
+        if words.contains("--cull") && run.status == Some(0) {
+            continue;
+        }
+        run.has(2).prints("NOT COMPARED").prints(nothing).omits("oracle: agrees");
+    }
+    let culled = ["cw", "ccw"].map(|cull| format!("{front} --cull {cull}"));
+    let culled = culled.into_iter().find(|words| {
+        let run = folder.run(format!("verify {words}"));
+        run.status == Some(2) && run.out.contains("NOT JUDGED") && !run.out.contains("AGREES")
+    });
+    let culled = culled.expect("one of the two is culled");
+    let judged = folder.check(format!("verify {culled} --json"), 2).json();
+    assert!(judged["agrees"].is_null() && judged["pieces"] == 0, "{judged}");
+    assert!(judged["engines"].as_array().unwrap().is_empty(), "{judged}");
+    let not_compared = |words: &str| {
+        let run = folder.check(format!("{words} --out ."), 0);
+        run.shows("NOT COMPARED").omits("AGREES");
+    };
+    not_compared(&format!("render {culled} --report"));
+    assert!(folder.text("render.html").contains("NOT COMPARED"));
+    folder.put("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    not_compared("render flat.obj --size 32x24 --spin 2 -o a.gif");
+    let program = format!("-- {PROGRAM} engine scanline");
+    let show = format!("course show --model flat.obj --size 32x24 --out . {program}");
+    folder.check(show, 0).prints("NOT COMPARED");
+    assert!(folder.text("course-model.html").contains("NOT COMPARED"));
+    folder.check("study flat.obj --size 32x24 --quick", 0).prints("NOT COMPARED");
+    not_compared(&format!("plan {culled} --rounds 1 --whole --report"));
+    assert!(folder.text("plan.html").contains("NOT COMPARED"));
+    let compared = folder.check(format!("render {culled} --json"), 0).json();
+    assert!(compared["comparison"].is_null(), "{compared}");
+    // A shape without area that is shown whole: that nobody draws a pixel is the answer.
+    folder.check("inspect 0,0 4,4 8,8", 0).prints("agrees");
+    // What is drawn where nothing should be is a difference.
+    let planted = "inspect 0,0 300,0 0,300 --window 148,148,4x4 --plant inclusive-edges";
+    folder.check(planted, 1);
 }
 
 /// A folder into which nothing would be written is refused, with the word that is missing.

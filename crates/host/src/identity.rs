@@ -29,14 +29,27 @@ impl Identity {
         Some(Self { place: place(path) })
     }
 
+    /// The path without links, `.` and `..`.
+    #[must_use]
+    pub fn place(&self) -> &Path {
+        &self.place
+    }
+
     /// Whether both are one file.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
+        self.has_number_of(other) || self.place == other.place
+    }
+
+    /// Whether both exist and the system gives them one number.
+    pub(crate) fn has_number_of(&self, other: &Self) -> bool {
         #[cfg(unix)]
-        if self.number.is_some() && self.number == other.number {
-            return true;
+        return self.number.is_some() && self.number == other.number;
+        #[cfg(not(unix))]
+        {
+            let _ = other;
+            false
         }
-        self.place == other.place
     }
 }
 
@@ -61,7 +74,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::output::tests::Folder;
+    use crate::testing::Folder;
 
     fn are_one(a: &Path, b: &Path) -> bool {
         Identity::of(a).unwrap().is(&Identity::of(b).unwrap())

@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::error::{FileError, refused};
+use crate::read_files;
 
 fn failed(path: &Path, error: &io::Error) -> FileError {
     let missing = error.kind() == io::ErrorKind::NotFound;
@@ -38,7 +39,8 @@ fn wrong_kind(kind: std::fs::FileType) -> Option<&'static str> {
 /// Opens a regular file of at most `limit_bytes` for reading. Links are followed.
 ///
 /// The kind is looked at before the file is opened, since to open a device can have an effect, and
-/// again afterwards, since the name may mean another file by then.
+/// again afterwards, since the name may mean another file by then. From now on no output of the command
+/// replaces the file: see [`crate::output::Over`].
 ///
 /// # Errors
 /// [`FileError`] where the file is missing, is not a regular file, is too large, or may not be read.
@@ -64,6 +66,7 @@ pub fn open(path: &Path, limit_bytes: u64) -> Result<File, FileError> {
     if data.len() > limit_bytes {
         return Err(too_large(path, limit_bytes));
     }
+    read_files::note(path);
     Ok(file)
 }
 
@@ -154,7 +157,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::output::tests::Folder;
+    use crate::testing::Folder;
 
     #[test]
     fn a_file_is_read_in_pieces_up_to_its_limit() {
@@ -200,7 +203,7 @@ mod tests {
                 "is a device, not a file"
             );
             let pipe = folder.path("pipe");
-            crate::output::tests::make_pipe(&pipe);
+            crate::testing::make_pipe(&pipe);
             assert!(read(&pipe, 9).unwrap_err().cause.starts_with("is a pipe"));
             let link = folder.path("link");
             std::os::unix::fs::symlink("/dev/zero", &link).unwrap();

@@ -127,7 +127,7 @@ impl Drop for Lock {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::tests::Folder;
+    use crate::testing::Folder;
 
     #[test]
     fn the_second_one_is_refused_until_the_first_has_ended() {

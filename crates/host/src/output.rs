@@ -4,25 +4,78 @@
 //! reader sees half of it and a failed write leaves the old file as it was. A link is followed: the
 //! file that it names is replaced, and the link stays. A pipe or a device is written to where it
 //! is, and never replaced.
+//!
+//! The file with the random name is locked while it is written. One that is not locked belongs to a process
+//! that was killed, and the next write in its folder removes it.
 
+use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
-use std::io::{self, Write};
+use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::error::{FileError, refused};
 use crate::limits::STALLED_WRITE_SECONDS;
 use crate::text::printable_path;
+use crate::{mark, read_files};
 
-/// Writes `bytes` to `path`, and makes the folder of `path` where it is missing.
+/// Which file a write may replace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Over {
+    /// Any that the command has not read: the user has typed its name.
+    Any,
+    /// Of these only one that this program made, by its [mark](crate::mark): the program has chosen the name.
+    Marked,
+    /// Also one that the command has read, in order to write it anew.
+    Updated,
+}
+
+/// Refuses a file that may not be replaced.
+///
+/// # Errors
+/// [`FileError`] where there is such a file.
+pub fn check(path: &Path, over: Over) -> Result<(), FileError> {
+    if over != Over::Updated && read_files::hold(path) {
+        return Err(refused(path, "is read by this command; give the output another name"));
+    }
+    // What is written to a pipe or a device replaces nothing.
+    let is_file = || std::fs::metadata(path).is_ok_and(|data| data.is_file());
+    if over == Over::Marked && is_file() && !mark::is_marked(&head(path)) {
+        return Err(refused(
+            path,
+            "exists, and rasterproof did not make it: name another folder, move the file, or replace it with --force",
+        ));
+    }
+    Ok(())
+}
+
+/// The first bytes of a file; none of one that cannot be read.
+#[allow(clippy::disallowed_methods, reason = "to read a mark is not to read an input")]
+fn head(path: &Path) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let file = File::open(path).map(|file| file.take(mark::HEAD_BYTES));
+    match file.and_then(|mut file| file.read_to_end(&mut bytes)) {
+        Ok(_) => bytes,
+        Err(_) => Vec::new(),
+    }
+}
+
+/// Writes `bytes` to `path` with the mark of this program, and makes the folder of `path` where it is missing.
 ///
 /// The mode and, where that is permitted, the owner of a file that is replaced are kept. Where the file cannot be
 /// written, the one that was there before is unchanged.
 ///
 /// # Errors
-/// [`FileError`] where the file cannot be written; a link that leads nowhere is refused.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+/// [`FileError`] where the file cannot be written, or may not be replaced; a link that leads nowhere is refused.
+pub fn write(path: &Path, bytes: &[u8], over: Over) -> Result<(), FileError> {
+    let bytes = &*mark::marked(bytes);
+    let is_missing = |error: io::Error| error.kind() == io::ErrorKind::NotFound;
+    if std::fs::symlink_metadata(path).is_err_and(is_missing) {
+        create_folder(path)?;
+    }
+    // After that, since `new/../file` names a file only where there is a folder `new`.
+    check(path, over)?;
     let failed = |error: io::Error| refused(path, format!("cannot be written: {error}"));
     match std::fs::metadata(path) {
         Ok(data) if data.is_file() => {
@@ -36,7 +89,6 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
                 let target = printable_path(&target);
                 return Err(refused(path, format!("is a link to {target}, which does not exist")));
             }
-            create_folder(path)?;
             replace(path, bytes, None).map_err(failed)
         }
         Err(error) => Err(failed(error)),
@@ -80,17 +132,66 @@ impl Drop for Temporary {
 
 #[allow(clippy::disallowed_methods, reason = "this is the one function that writes a file")]
 fn replace(target: &Path, bytes: &[u8], old: Option<&std::fs::Metadata>) -> io::Result<()> {
-    let (mut file, path) = create_beside(target)?;
-    let mut temporary = Temporary(Some(path.clone()));
-    if let Some(old) = old {
-        keep_owner(&file, old);
-        file.set_permissions(old.permissions())?;
+    remove_left_parts(folder_of(target));
+    let mut tries = 0;
+    loop {
+        let (mut file, path) = create_beside(target)?;
+        let mut temporary = Temporary(Some(path.clone()));
+        if let Some(old) = old {
+            keep_owner(&file, old);
+            file.set_permissions(old.permissions())?;
+        }
+        file.write_all(bytes)?;
+        tries += 1;
+        // Open, and so locked, until it has its name.
+        match std::fs::rename(&path, target) {
+            // Another machine does not see the lock in every shared folder, and has taken the part for a left one.
+            Err(error) if error.kind() == io::ErrorKind::NotFound && tries < 3 => {}
+            Err(error) => return Err(error),
+            Ok(()) => {
+                temporary.0 = None;
+                return Ok(());
+            }
+        }
     }
-    file.write_all(bytes)?;
-    drop(file);
-    std::fs::rename(&path, target)?;
-    temporary.0 = None;
-    Ok(())
+}
+
+fn folder_of(target: &Path) -> &Path {
+    let folder = target.parent().unwrap_or(Path::new(""));
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
+}
+
+/// The name of a file that is being written.
+fn part_name() -> String {
+    format!(".rasterproof-{:016x}.part", random())
+}
+
+fn is_part_name(name: &OsStr) -> bool {
+    let number = name.to_str().and_then(|name| {
+        let name = name.strip_prefix(".rasterproof-")?;
+        name.strip_suffix(".part")
+    });
+    let is_digit = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
+    number.is_some_and(|number| number.len() == 16 && number.chars().all(is_digit))
+}
+
+/// Removes the parts in a folder that no process writes. What cannot be looked at is left.
+#[allow(clippy::disallowed_methods, reason = "the lock has to be that of the file")]
+fn remove_left_parts(folder: &Path) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let is_part =
+            is_part_name(&entry.file_name()) && entry.file_type().is_ok_and(|kind| kind.is_file());
+        if !is_part {
+            continue;
+        }
+        // Removed while it is locked: who has just made the file waits for the lock, and then sees that it is gone.
+        if let Ok(file) = OpenOptions::new().write(true).open(entry.path())
+            && file.try_lock().is_ok()
+        {
+            let _ = remove(&entry.path());
+        }
+    }
 }
 
 /// A user other than root cannot give a file away; then the new file belongs to who wrote it.
@@ -104,14 +205,15 @@ fn keep_owner(file: &File, old: &std::fs::Metadata) {
     let _ = (file, old);
 }
 
-/// A new file in the folder of `target`. `create_new` refuses whatever has its name already, links
+/// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has its name already, links
 /// included, so that nothing of other people is written over.
 #[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
 fn create_beside(target: &Path) -> io::Result<(File, PathBuf)> {
-    let folder = target.parent().unwrap_or(Path::new(""));
     loop {
-        let path = folder.join(format!(".rasterproof-{:016x}.part", random()));
+        let path = folder_of(target).join(part_name());
         match OpenOptions::new().write(true).create_new(true).open(&path) {
+            // Another process may have removed it before it was locked.
+            Ok(file) if file.lock().is_ok() && !path.exists() => {}
             Ok(file) => return Ok((file, path)),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),
@@ -184,65 +286,102 @@ fn is_unread_pipe(error: &io::Error) -> bool {
 
 #[cfg(test)]
 #[allow(clippy::disallowed_methods, reason = "the tests make and read the files in question")]
-pub(crate) mod tests {
+mod tests {
     use std::fs;
 
     use super::*;
-
-    /// An empty folder below the system's folder for such files, removed with what is in it.
-    pub(crate) struct Folder(pub(crate) PathBuf);
-
-    impl Folder {
-        pub(crate) fn new(name: &str) -> Self {
-            let folder = std::env::temp_dir().join(format!("rasterproof-{name}-{:016x}", random()));
-            fs::create_dir(&folder).unwrap();
-            Self(folder)
-        }
-
-        pub(crate) fn path(&self, name: &str) -> PathBuf {
-            self.0.join(name)
-        }
-
-        fn names(&self) -> Vec<String> {
-            let entries = fs::read_dir(&self.0).unwrap();
-            let mut names: Vec<_> =
-                entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-            names.sort();
-            names
-        }
-    }
-
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            let _ = fs::remove_dir_all(&self.0);
-        }
-    }
-
+    use crate::testing::Folder;
     #[cfg(unix)]
-    pub(crate) fn make_pipe(path: &Path) {
-        let status = std::process::Command::new("mkfifo").arg(path).status().unwrap();
-        assert!(status.success());
-    }
+    use crate::testing::make_pipe;
 
     #[test]
     fn a_file_is_written_with_its_folder_and_nothing_else() {
         let folder = Folder::new("write");
         let file = folder.path("a/b/c.txt");
-        write(&file, b"one").unwrap();
-        write(&file, b"two").unwrap();
+        write(&file, b"one", Over::Any).unwrap();
+        write(&file, b"two", Over::Any).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"two");
         assert_eq!(fs::read_dir(file.parent().unwrap()).unwrap().count(), 1);
-        assert_eq!(write(&folder.0, b"").unwrap_err().cause, "is a directory, not a file");
+        assert_eq!(
+            write(&folder.0, b"", Over::Any).unwrap_err().cause,
+            "is a directory, not a file"
+        );
         remove(&file).unwrap();
         remove(&file).unwrap();
         assert!(!file.exists());
     }
 
     #[test]
+    fn only_parts_that_nobody_writes_are_removed() {
+        let folder = Folder::new("parts");
+        let kept = [
+            ".rasterproof-0123456789abcdef.part",
+            ".rasterproof-0123456789abcdeg.part",
+            ".rasterproof-0123456789ABCDEF.part",
+            ".rasterproof-0123.part",
+            "rasterproof-0123456789abcdef.part",
+        ];
+        for name in kept {
+            fs::write(folder.path(name), "x").unwrap();
+        }
+        fs::create_dir(folder.path(".rasterproof-00000000000000aa.part")).unwrap();
+        fs::write(folder.path(".rasterproof-00000000000000bb.part"), "left").unwrap();
+        let written = File::open(folder.path(kept[0])).unwrap();
+        written.lock().unwrap();
+        write(&folder.path("a.txt"), b"a", Over::Any).unwrap();
+        let names = folder.names();
+        assert!(kept.iter().all(|name| names.iter().any(|n| n == name)), "{names:?}");
+        assert_eq!(names.len(), kept.len() + 2, "{names:?}");
+        // Its process has ended.
+        drop(written);
+        write(&folder.path("a.txt"), b"b", Over::Any).unwrap();
+        assert!(!folder.path(kept[0]).exists() && folder.path(kept[1]).exists());
+    }
+
+    /// Threads that write one file do not take each other's parts for left ones.
+    #[test]
+    fn many_may_write_in_one_folder() {
+        let folder = Folder::new("many-writers");
+        std::thread::scope(|scope| {
+            for thread in 0..4u8 {
+                let folder = &folder;
+                scope.spawn(move || {
+                    for _ in 0..100 {
+                        write(&folder.path("one.txt"), &[thread; 9], Over::Any).unwrap();
+                    }
+                });
+            }
+        });
+        assert_eq!(folder.names(), ["one.txt"]);
+        let bytes = fs::read(folder.path("one.txt")).unwrap();
+        assert!(bytes.len() == 9 && bytes.iter().all(|byte| *byte == bytes[0]), "{bytes:?}");
+    }
+
+    #[test]
+    fn only_some_files_are_replaced() {
+        let folder = Folder::new("over");
+        let page = folder.path("a.html");
+        fs::write(&page, "<!DOCTYPE html>\n<html></html>").unwrap();
+        let error = write(&page, b"<!DOCTYPE html>\nb", Over::Marked).unwrap_err();
+        assert!(error.cause.contains("did not make it") && error.cause.contains("--force"));
+        assert_eq!(fs::read(&page).unwrap(), b"<!DOCTYPE html>\n<html></html>");
+        write(&page, b"<!DOCTYPE html>\nb", Over::Any).unwrap();
+        write(&page, b"<!DOCTYPE html>\nc", Over::Marked).unwrap();
+        assert!(fs::read(&page).unwrap().ends_with(b"rasterproof -->\nc"));
+        crate::input::read(&page, 99).unwrap();
+        for over in [Over::Any, Over::Marked] {
+            let error = write(&page, b"d", over).unwrap_err();
+            assert_eq!(error.cause, "is read by this command; give the output another name");
+        }
+        write(&page, b"d", Over::Updated).unwrap();
+        assert_eq!(fs::read(&page).unwrap(), b"d");
+    }
+
+    #[test]
     fn what_has_the_name_of_a_part_is_left_alone() {
         let folder = Folder::new("part");
         fs::write(folder.path("x.png.part"), "mine").unwrap();
-        write(&folder.path("x.png"), b"picture").unwrap();
+        write(&folder.path("x.png"), b"picture", Over::Any).unwrap();
         assert_eq!(fs::read(folder.path("x.png.part")).unwrap(), b"mine");
         assert_eq!(folder.names(), ["x.png", "x.png.part"]);
     }
@@ -256,12 +395,12 @@ pub(crate) mod tests {
         fs::write(&file, "old").unwrap();
         fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
         symlink("file", &link).unwrap();
-        write(&link, b"new").unwrap();
+        write(&link, b"new", Over::Any).unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
         symlink("nothing", folder.path("lost")).unwrap();
-        let error = write(&folder.path("lost"), b"new").unwrap_err();
+        let error = write(&folder.path("lost"), b"new", Over::Any).unwrap_err();
         assert_eq!(error.cause, "is a link to nothing, which does not exist");
     }
 
@@ -278,15 +417,15 @@ pub(crate) mod tests {
         };
         // More than a pipe holds.
         let bytes = vec![7; 300_000];
-        write(&pipe, &bytes).unwrap();
+        write(&pipe, &bytes, Over::Any).unwrap();
         assert!(reader.join().unwrap() == bytes);
         assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
         // By links: a fault here must not replace the machine's devices.
         let (null, full) = (folder.path("null"), folder.path("full"));
         std::os::unix::fs::symlink("/dev/null", &null).unwrap();
         std::os::unix::fs::symlink("/dev/full", &full).unwrap();
-        write(&null, b"gone").unwrap();
-        assert!(write(&full, b"lost").unwrap_err().cause.contains("No space"));
+        write(&null, b"gone", Over::Any).unwrap();
+        assert!(write(&full, b"lost", Over::Any).unwrap_err().cause.contains("No space"));
         assert!(fs::symlink_metadata(&null).unwrap().is_symlink());
     }
 
@@ -296,7 +435,7 @@ pub(crate) mod tests {
         use std::os::unix::ffi::OsStrExt as _;
         let folder = Folder::new("names");
         let file = folder.0.join(std::ffi::OsStr::from_bytes(b"a\xffb"));
-        write(&file, b"x").unwrap();
+        write(&file, b"x", Over::Any).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"x");
     }
 }

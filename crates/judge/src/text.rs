@@ -4,7 +4,8 @@
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_host::text::printable_short;
 
-/// A decimal number or a C99 hex float. NaN and infinities are read; who asks refuses them by name.
+/// A decimal number, as the nearest double, or a C99 hex float that a double holds exactly. NaN and infinities are
+/// read; who asks refuses them by name.
 pub fn number(word: &str) -> Option<f64> {
     let (sign, digits) = match word.as_bytes().first()? {
         b'-' => (-1.0, &word[1..]),

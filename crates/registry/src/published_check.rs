@@ -143,6 +143,8 @@ pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
 
 /// Cases that one core judges at a time.
 const BLOCK: u64 = 16;
+/// Cases whose counts are kept until they are summed, so that any number of cases takes no more memory.
+const MOST_PER_ROUND: u64 = 1 << 16;
 
 fn over(
     families: &'static [Family],
@@ -151,15 +153,21 @@ fn over(
     judge: impl Fn(&Case) -> Counts + Sync,
 ) -> Vec<(&'static str, Counts)> {
     let counts = |family: &Family| {
-        let block = |number: usize| {
-            let first = number as u64 * BLOCK;
-            let cases = first..cases.min(first + BLOCK);
-            cases
-                .map(|index| judge(&family.case(seed, index)))
-                .fold(Counts::default(), Counts::merge)
-        };
-        let blocks = parallel::map(cases.div_ceil(BLOCK) as usize, block);
-        blocks.into_iter().fold(Counts::default(), Counts::merge)
+        let (mut sum, mut done) = (Counts::default(), 0);
+        while done < cases {
+            let end = cases.min(done.saturating_add(MOST_PER_ROUND));
+            let block = |number: usize| {
+                let first = done + number as u64 * BLOCK;
+                let cases = first..end.min(first.saturating_add(BLOCK));
+                cases
+                    .map(|index| judge(&family.case(seed, index)))
+                    .fold(Counts::default(), Counts::merge)
+            };
+            let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, block);
+            sum = blocks.into_iter().fold(sum, Counts::merge);
+            done = end;
+        }
+        sum
     };
     families.iter().map(|family| (family.name, counts(family))).collect()
 }

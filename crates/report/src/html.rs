@@ -67,6 +67,13 @@ impl Outcome {
         let word = super::summary::word(agrees).to_owned();
         Self { good: agrees, word, sentence: sentence.into() }
     }
+
+    /// The outcome where there was nothing to compare.
+    #[must_use]
+    pub fn not_compared(reason: &str) -> Self {
+        let sentence = format!("{reason} Nothing was compared.");
+        Self { good: false, word: "NOT COMPARED".to_owned(), sentence }
+    }
 }
 
 #[derive(Clone, Debug, Default)]

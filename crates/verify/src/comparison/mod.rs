@@ -591,7 +591,7 @@ fn in_blocks(
         for (slot, chosen) in partials.iter_mut().zip(families) {
             let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
                 let first = done + number as u64 * BLOCK;
-                let block = first..end.min(first + BLOCK);
+                let block = first..end.min(first.saturating_add(BLOCK));
                 let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
                 let partial = watch.during(|| judge_block(chosen, &indices, options));
                 progress(indices.len() as u64);
