@@ -152,7 +152,7 @@ function formula(page, tex, displayMode) {
 /**
  * What is above a chapter. mdBook opens and closes the contents by a label, which a keyboard does not reach and which may
  * have none of the attributes that mdBook's script sets. It stays for readers without scripts, and all others get a button.
- * The bar and the search are landmarks, and the search has a name.
+ * The bar and the search are landmarks, the help is a dialog, and the last two have names.
  */
 function reachable(head) {
   const [label, attributes, icon] = head.match(/<label id="mdbook-sidebar-toggle"([^>]*)>([^]*?)<\/label>/);
@@ -160,7 +160,8 @@ function reachable(head) {
   const button = once(head, label, `<button type="button" id="mdbook-sidebar-toggle"${attributes.replace(/ for="[^"]*"/, '')}>${icon}</button>
 <noscript><label for="mdbook-sidebar-toggle-anchor"${others}>${icon}</label></noscript>`);
   const [bar, search, field] = ['<div id="mdbook-menu-bar" ', '<div id="mdbook-search-wrapper" ', '<input type="search" '];
-  return once(once(once(button, bar, `${bar}role="banner" `), search, `${search}role="search" `), field, `${field}aria-label="Search this book ..." `);
+  const help = once(button, '<div id="mdbook-help-popup">', '<div id="mdbook-help-popup" role="dialog" aria-label="Keyboard shortcuts">');
+  return once(once(once(help, bar, `${bar}role="banner" `), search, `${search}role="search" `), field, `${field}aria-label="Search this book ..." `);
 }
 
 /** The text of a chapter, finished. */
