@@ -25,6 +25,12 @@ const kept = execFileSync('git', ['ls-files', '-z'], { encoding: 'utf8', maxBuff
 const isKept = new Set(kept);
 const wrong = [];
 
+/** Replaces what must be there exactly once. */
+function once(text, old, right) {
+  if (text.split(old).length !== 2) throw new Error(`not there exactly once: ${old}`);
+  return text.replace(old, () => right);
+}
+
 // Files of the repository that pages show or lead to: pictures as they are, texts as pages.
 const shown = new Set();
 const SHOWN_AS_IT_IS = /\.(png|svg|gif|gz)$/;
@@ -57,7 +63,7 @@ function filePage(file) {
     body = `<ul>\n${inside.map(link).join('\n')}\n</ul>`;
   } else {
     const language = HIGHLIGHTED[path.extname(file).slice(1)] ?? (read(file).startsWith('#!/usr/bin/env bash') ? 'bash' : '');
-    body = `<pre tabindex="0"><code class="hljs">${highlighted(read(file), language)}</code></pre>`;
+    body = `<pre><code class="hljs" tabindex="0" role="group" aria-label="${escaped(file)}">${highlighted(read(file), language)}</code></pre>`;
   }
   const sheet = (name, scheme) => `<link rel="stylesheet" href="${root}/en/${name}" media="(prefers-color-scheme: ${scheme})">`;
   write(path.join(site, place), `<!DOCTYPE html>
@@ -71,6 +77,7 @@ function filePage(file) {
 ${sheet(asset('en', /^highlight-.*\.css$/), 'light')}
 ${sheet(asset('en', /^tomorrow-night-.*\.css$/), 'dark')}
 <style>
+html { background: canvas; color: canvastext; }
 body { font-family: sans-serif; margin: 1em; overflow-wrap: anywhere; }
 pre { overflow-x: auto; font-size: 0.9em; }
 pre code { display: block; padding: 0.5em; }
@@ -78,8 +85,10 @@ pre code { display: block; padding: 0.5em; }
 </head>
 <body>
 <nav><a href="${root}/en/index.html">rasterproof</a> · <a href="${root}/zh/index.html" lang="zh-CN">中文</a></nav>
+<main>
 <h1>${escaped(file)}</h1>
 ${body}
+</main>
 </body>
 </html>
 `);
@@ -140,6 +149,21 @@ function formula(page, tex, displayMode) {
   }
 }
 
+/**
+ * What is above a chapter. mdBook opens and closes the contents by a label, which a keyboard does not reach and which may
+ * have none of the attributes that mdBook's script sets. It stays for readers without scripts, and all others get a button.
+ * The bar and the search are landmarks, the help is a dialog, and the last two have names.
+ */
+function reachable(head) {
+  const [label, attributes, icon] = head.match(/<label id="mdbook-sidebar-toggle"([^>]*)>([^]*?)<\/label>/);
+  const others = attributes.replace(/ (for|aria-[a-z]+)="[^"]*"/g, '');
+  const button = once(head, label, `<button type="button" id="mdbook-sidebar-toggle"${attributes.replace(/ for="[^"]*"/, '')}>${icon}</button>
+<noscript><label for="mdbook-sidebar-toggle-anchor"${others}>${icon}</label></noscript>`);
+  const [bar, search, field] = ['<div id="mdbook-menu-bar" ', '<div id="mdbook-search-wrapper" ', '<input type="search" '];
+  const help = once(button, '<div id="mdbook-help-popup">', '<div id="mdbook-help-popup" role="dialog" aria-label="Keyboard shortcuts">');
+  return once(once(once(help, bar, `${bar}role="banner" `), search, `${search}role="search" `), field, `${field}aria-label="Search this book ..." `);
+}
+
 /** The text of a chapter, finished. */
 function finished(book, page, place, main) {
   const away = (where) => path.posix.relative(path.posix.dirname(place), where);
@@ -189,7 +213,21 @@ for (const book of ['en', 'zh']) {
     const away = (where) => path.posix.relative(path.posix.dirname(place), where);
     let more = formulas > before ? `<link rel="stylesheet" href="${away('katex/katex.css')}">\n` : '';
     if (text.includes('<rp-figure')) more += `<script defer src="${away('try/figure.js')}"></script>\n`;
-    write(path.join(site, place), head.replace('</head>', `${more}</head>`) + text + foot);
+    write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + foot);
+  }
+}
+// The contents alone, for readers without scripts, are a page like others.
+for (const [book, title] of [['en', 'Table of contents'], ['zh', '目录']]) {
+  const file = path.join(site, book, 'toc.html');
+  const [start, end] = ['<body class="sidebar-iframe-inner">', '</body>'];
+  const titled = once(read(file), '</head>', `<title>${title} - rasterproof</title>\n</head>`);
+  write(file, once(once(titled, start, `${start}\n<main>\n<h1>${title}</h1>`), end, `</main>\n${end}`));
+}
+// Two colours of code lack contrast in the dark: the first has 4.45 of 4.5, the second 2.9.
+for (const book of ['en', 'zh']) {
+  for (const [sheet, old, brighter] of [[/^tomorrow-night-.*\.css$/, '#cc6666', '#d77c7c'], [/^ayu-highlight-.*\.css$/, '#5c6773', '#84909c']]) {
+    const file = path.join(site, book, asset(book, sheet));
+    write(file, once(read(file), old, brighter));
   }
 }
 for (const file of shown) {
@@ -199,12 +237,6 @@ for (const file of shown) {
   } else {
     filePage(file);
   }
-}
-
-/** Replaces what must be there exactly once. */
-function once(text, old, right) {
-  if (text.split(old).length !== 2) throw new Error(`not there exactly once: ${old}`);
-  return text.replace(old, () => right);
 }
 
 // mdBook splits texts at spaces, which Chinese does not have. Here a word of the Chinese index is two characters that stand
@@ -265,7 +297,10 @@ for (const name of ['playground', 'your-gpu']) {
 <title>rasterproof: ${name}</title>
 <link rel="icon" href="data:,">
 <header></header>
+<main>
+<h1>rasterproof: ${name}</h1>
 <p>This site was built where the engines could not be compiled for the browser: <code>crates/playground/build</code> says why.</p>
+</main>
 `);
   }
 }
@@ -291,7 +326,10 @@ location.replace((language.startsWith('zh') ? 'zh' : 'en') + '/index.html');
 </script>
 </head>
 <body>
+<main>
+<h1>rasterproof</h1>
 <p><a href="en/index.html">rasterproof in English</a> · <a href="zh/index.html" lang="zh-CN">rasterproof 中文</a></p>
+</main>
 </body>
 </html>
 `);

@@ -1,4 +1,5 @@
-// The switch of languages stays on the page, and what mdBook itself says is in the language of the book.
+// The switch of languages stays on the page, and what mdBook itself says is in the language of the book. The keyboard reaches
+// the contents, and whatever scrolls.
 'use strict';
 
 const ZH = {
@@ -14,6 +15,9 @@ const ZH = {
   'Next chapter': '下一章',
   'Copy to clipboard': '复制',
   'Keyboard shortcuts': '快捷键',
+  'Code': '代码',
+  'Table': '表格',
+  'Formula': '公式',
   'Auto': '自动',
   'Light': '浅色',
   'Rust': '铁锈',
@@ -32,7 +36,29 @@ for (const link of links.querySelectorAll('[rel=alternate]')) {
 // Pages of both languages lead back to the book that was read.
 try { localStorage.setItem('rasterproof-language', document.documentElement.lang); } catch {}
 
-if (document.documentElement.lang.startsWith('zh')) {
+// mdBook's script, which has run before, shows the contents at a click, but leaves the switch to a label.
+document.getElementById('mdbook-sidebar-toggle').addEventListener('click', () => {
+  document.getElementById('mdbook-sidebar-toggle-anchor').click();
+});
+
+const isChinese = document.documentElement.lang.startsWith('zh');
+
+// What is wider than its place scrolls inside itself. The keyboard stops there, and nowhere else.
+const SCROLLING = { 'pre > code': 'Code', '.table-wrapper': 'Table', '.katex-display': 'Formula' };
+const watcher = new ResizeObserver((entries) => {
+  for (const { target } of entries) {
+    const doesScroll = target.scrollWidth > target.clientWidth;
+    const name = SCROLLING[Object.keys(SCROLLING).find((selector) => target.matches(selector))];
+    const attributes = { tabindex: '0', role: 'group', 'aria-label': isChinese ? ZH[name] : name };
+    for (const [attribute, value] of Object.entries(attributes)) {
+      if (doesScroll) target.setAttribute(attribute, value);
+      else target.removeAttribute(attribute);
+    }
+  }
+});
+for (const element of document.querySelectorAll(Object.keys(SCROLLING).join())) watcher.observe(element);
+
+if (isChinese) {
   for (const name of ['title', 'aria-label', 'placeholder']) {
     for (const element of document.querySelectorAll(`[${name}]`)) {
       const text = ZH[element.getAttribute(name)];

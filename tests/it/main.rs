@@ -4,6 +4,7 @@
     reason = "tests and benches read and write files of their own"
 )]
 
+mod accessibility;
 mod book;
 mod by_hand;
 mod circles;

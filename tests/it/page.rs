@@ -151,7 +151,7 @@ impl Browser {
     }
 
     /// Waits for two frames: what was asked before has been handled and laid out in the first.
-    fn draw(&mut self) {
+    pub fn draw(&mut self) {
         self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))");
     }
 
@@ -681,7 +681,7 @@ fn two_pictures() -> Vec<PictureLayer> {
     vec![PictureLayer::new("scanline", &old), PictureLayer::new(HOSTILE, &new)]
 }
 
-fn every_section() -> Report {
+pub fn every_section() -> Report {
     let hostile = || HOSTILE.to_owned();
     Report {
         title: hostile(),
@@ -710,9 +710,9 @@ fn every_section() -> Report {
             narrow: None,
         }],
         plan: Some(Table {
+            caption: hostile(),
             columns: ["effect", "reason"].map(Column::words).to_vec(),
             rows: vec![vec![hostile(), hostile()].into()],
-            ..Table::default()
         }),
         diffs: vec![TextDiff {
             name: hostile(),

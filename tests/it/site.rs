@@ -18,14 +18,14 @@ const FIRST_VIEW_BYTES: u64 = 300_000;
 /// The compiled engines, before a server compresses them.
 const MODULE_BYTES: usize = 1_200_000;
 
-fn site() -> PathBuf {
+pub fn site() -> PathBuf {
     let site = root().join("target/site");
     assert!(site.join("index.html").is_file(), "no {}: run docs/build", site.display());
     site
 }
 
 /// Every file of a folder, as a path from there with `/`.
-fn names(root: &Path) -> BTreeSet<String> {
+pub fn names(root: &Path) -> BTreeSet<String> {
     let name = |path: PathBuf| path.strip_prefix(root).unwrap().to_str().unwrap().to_owned();
     files(root, "").into_iter().map(name).collect()
 }
@@ -284,7 +284,7 @@ fn site_opens_in_a_browser() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-fn go(browser: &mut Browser, site: &Path, page: &str) {
+pub fn go(browser: &mut Browser, site: &Path, page: &str) {
     let url = format!("file://{}", site.join(page).display());
     browser.call("Page.navigate", json!({ "url": url }));
     browser.wait_for("document.readyState === 'complete'");

@@ -10,7 +10,7 @@ use crate::page::{Browser, Tab};
 use crate::playground::written;
 
 /// Without a card Chromium draws WebGL by SwiftShader, and WebGPU where it is told to.
-const SWIFTSHADER: [&str; 4] = [
+pub const SWIFTSHADER: [&str; 4] = [
     "--disable-gpu-sandbox",
     "--enable-unsafe-swiftshader",
     "--enable-unsafe-webgpu",

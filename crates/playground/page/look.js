@@ -49,7 +49,7 @@ function aboutTriangle(triangle) {
     word(edge.sign === 0 ? 'onEdge' : edge.sign > 0 ? 'inside' : 'outside') + (edge.byFilter === false ? word('byExact') : ''),
     word(edge.topLeft ? 'topLeft' : 'notTopLeft'),
   ]);
-  const heads = [word('edge'), word('value'), ...(state.snap ? [] : ['±']), '', word('ifOn')];
+  const heads = [word('edge'), word('value'), ...(state.snap ? [] : ['±']), word('sample'), word('ifOn')];
   return [make('p', {}, make('strong', {}, title)), table(heads, rows),
     make('p', { className: 'quiet' }, `${word('belongs')}: ${rulesOf(triangle).map((rule) => rule.join(': ')).join('; ')}`)];
 }
@@ -59,7 +59,7 @@ function crossingsOf(triangle) {
   const rows = triangle.crossings.map((crossing, i) => [
     word(i ? 'shortEdge' : 'longEdge'), round(crossing.x, 6), crossing.error.toExponential(0), crossing.column, word(crossing.by_filter ? 'byFloats' : 'byIntegers'),
   ]);
-  return make('div', {}, make('p', {}, make('strong', {}, word('crossings'))), table(['', 'x', '±', word('column'), ''], rows),
+  return make('div', {}, make('p', {}, make('strong', {}, word('crossings'))), table([word('edge'), 'x', '±', word('column'), word('decided')], rows),
     make('p', { className: 'quiet' }, word('crossNote')));
 }
 

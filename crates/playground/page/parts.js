@@ -2,8 +2,10 @@
 
 const at = (x, y, more = {}) => ({ x, y, w: 1, depth: 0, u: 0, v: 0, ...more });
 const corner = (i) => LETTERS[i % LETTERS.length];
-const table = (head, rows) => make('div', { className: 'scroll' }, make('table', {},
-  make('thead', {}, make('tr', {}, ...head.map((cell) => make('th', {}, cell)))),
+/** What may be wider than its place scrolls there, by the keyboard as well. */
+const scrolling = (...children) => make('div', { className: 'scroll', tabIndex: 0, attr: { role: 'group', 'aria-label': word('table') } }, ...children);
+const table = (head, rows) => scrolling(make('table', {},
+  make('thead', {}, make('tr', {}, ...head.map((cell) => make('th', { scope: 'col' }, cell)))),
   make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((cell, i) => (
     cell instanceof Node ? make('td', {}, cell) : make('td', { className: i && /^[-\d.]/.test(cell) ? 'number' : '' }, String(cell)))))))));
 const round = (value, digits = 4) => (Number.isFinite(value) ? String(Number(value.toFixed(digits))) : '–');

@@ -274,7 +274,7 @@ const SCENES = {
       const turn = (i) => button(`${word('turn')} ${i + 1}`, () => { const t = state.triangles[i]; [t[1], t[2]] = [t[2], t[1]]; redraw(); });
       return [make('label', { className: 'group' }, `${word('cullWhat')} `, select), ...state.triangles.map((_, i) => turn(i))];
     },
-    look: (answer) => [make('h2', {}, word('culling')), table([word('ofTriangle'), '2A', '', ''], (answer.areas ?? []).map((area, i) => [
+    look: (answer) => [make('h2', {}, word('culling')), table([word('ofTriangle'), '2A', word('winding'), word('result')], (answer.areas ?? []).map((area, i) => [
       String(i + 1), area.twiceArea, word(area.sign > 0 ? 'clockwise' : area.sign < 0 ? 'counter-clockwise' : 'degenerate'), word(area.removed ? 'removed' : 'drawn')]))],
   },
 

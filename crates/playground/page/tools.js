@@ -69,7 +69,7 @@ function drawCorners() {
 
 function buildCorners(all, fields) {
   const columns = [{ key: 'x' }, { key: 'y' }, ...fields];
-  const head = make('tr', {}, make('th', {}, word(state.lines ? 'end' : 'corner')), ...columns.map((c) => make('th', {}, c.key)));
+  const head = make('tr', {}, make('th', { scope: 'col' }, word(state.lines ? 'end' : 'corner')), ...columns.map((c) => make('th', { scope: 'col' }, c.key)));
   const rows = all.map((handle, i) => {
     const cells = columns.map((column) => {
       const step = state.lines ? 1 : column.step ?? (state.snap ? 1 / SUB : 'any');
@@ -87,6 +87,6 @@ function buildCorners(all, fields) {
   });
   fill($('corners'), all.length === 0 ? [] : [
     make('h2', { id: 'corners-title' }, word('corners')),
-    make('div', { className: 'scroll' }, make('table', {}, make('thead', {}, head), make('tbody', {}, ...rows))),
+    scrolling(make('table', {}, make('thead', {}, head), make('tbody', {}, ...rows))),
   ]);
 }

@@ -199,9 +199,9 @@ function drawFinding() {
     ...pairs, make('p', { className: 'quiet' }, word('legend')(check)),
     ...view.marks.filter(({ note }) => note).slice(0, 4).map(({ x, y, note }) => make('p', {}, `${x}, ${y}: ${note}`)),
     make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),
-    make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', {}, corners(view.subject)),
+    make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', { tabIndex: 0 }, corners(view.subject)),
     make('p', {}, make('a', { href: link }, word('address')), ' ', ...copying(link)),
-    make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report' }, text), ...copying(text)));
+    make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report', tabIndex: 0 }, text), ...copying(text)));
 }
 
 function drawAll() {

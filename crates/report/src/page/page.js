@@ -790,7 +790,7 @@
       return el('tr', {}, el('th', { scope: 'row' }, edge.name), el('td', { className: 'number' }, value),
         ...[side, edge.kind, edge.isTopLeft ? 'yes' : 'no'].map((text) => el('td', {}, text)));
     });
-    return el('div', { className: 'scroll' }, el('table', { className: 'edges' },
+    return el('div', { className: 'scroll', tabIndex: 0, role: 'group', 'aria-label': `edges, ${unit}` }, el('table', { className: 'edges' },
       el('caption', {}, unit), el('thead', {}, el('tr', {}, ...head)), el('tbody', {}, ...rows)));
   };
 
@@ -967,7 +967,7 @@
       return el('tr', { className: differs ? 'wrong' : '' }, el('th', { scope: 'row' }, String(item.y0 + y)),
         ...[...texts, differs].map((text) => el('td', {}, text)));
     });
-    const head = ['row', ...columns.map(([name, i]) => (name === 'oracle' ? name : `${name}: ${item.layers[i].label}`)), ''];
+    const head = ['row', ...columns.map(([name, i]) => (name === 'oracle' ? name : `${name}: ${item.layers[i].label}`)), 'difference'];
     $('#rows .scroll').replaceChildren(el('table', {}, el('caption', {}, 'Columns that are hit in each row'),
       el('thead', {}, el('tr', {}, ...head.map((text) => el('th', { scope: 'col' }, text)))),
       el('tbody', {}, ...rows)));
