@@ -95,6 +95,8 @@ pub struct Model {
     pub format: Format,
     /// The axis of the file that points up in the picture.
     pub up: Up,
+    /// The bytes of the file, and of the files of vertices that it names.
+    pub file_bytes: u64,
     /// What the file contains and is not drawn, with counts, as one line; empty if there is nothing.
     pub not_drawn: String,
     /// What is missing or cannot be understood and was done without, for the reader.
@@ -177,7 +179,9 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
             gltf::read(path, &file.bytes)?
         }
     };
-    items::model(path, contents, format, options)
+    let mut model = items::model(path, contents, format, options)?;
+    model.file_bytes += length;
+    Ok(model)
 }
 
 /// `specular colour of 18 materials, 1 bump map`: keys in the singular, with their counts.

@@ -245,6 +245,10 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
         } else if is("solid") {
             end(parts.last_mut(), &mut shares);
             let name = words.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ");
+            // A line is six bytes, and a part hundreds.
+            if parts.last().is_some_and(|part| part.polygons.len() == 0) {
+                parts.pop();
+            }
             parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
         } else if !(is("outer") || is("endloop") || is("endsolid")) {
             let cause =
@@ -257,7 +261,11 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
         return Err(bad(path, Some(first_line.max(1)), cause));
     }
     end(parts.last_mut(), &mut shares);
-    Ok(Contents { parts, ..Contents::default() })
+    let mut contents = Contents::default();
+    for part in parts {
+        contents.add(part).map_err(|cause| bad(path, None, cause))?;
+    }
+    Ok(contents)
 }
 
 #[cfg(test)]
