@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::page::{Place, save_page};
 use super::progress::Progress as Shown;
-use super::view::ViewArguments;
+use super::view::{Purpose, ViewArguments};
 use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_host::shell::quote;
 use rasterproof_host::text::printable_path;
@@ -218,7 +218,9 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         (None, None) => vec![progress.current()],
     };
     let model = match &arguments.model {
-        Some(path) => Some(ViewArguments::of(size).maker(path, streams)?.scene(0.0)),
+        Some(path) => {
+            Some(ViewArguments::of(size).maker(path, Purpose::Drawn, streams)?.scene(0.0))
+        }
         None => None,
     };
     let name = match (word, &model) {

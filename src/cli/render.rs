@@ -13,7 +13,7 @@ use super::page::{PageArguments, as_file, write_page};
 use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, SceneArguments};
+use super::view::{Maker, Purpose, SceneArguments};
 use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
@@ -111,7 +111,11 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         as_file(&page),
     ];
     distinct(&files.into_iter().flatten().collect::<Vec<_>>())?;
-    let maker = what.maker(typed, streams)?;
+    let purpose = match arguments.engine {
+        DrawnBy::Both => Purpose::Compared,
+        DrawnBy::Scanline | DrawnBy::EdgeFunction | DrawnBy::Tiles => Purpose::Drawn,
+    };
+    let maker = what.maker(typed, purpose, streams)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
