@@ -60,6 +60,8 @@ pub struct CostArguments {
     /// Smaller scenes and fewer rounds: under ten seconds for all ladders
     #[arg(long)]
     quick: bool,
+    #[command(flatten)]
+    once: study::OnceArgument,
     /// Decides every scene
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
@@ -125,7 +127,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
             {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
             }
-            let how = (arguments.quick, arguments.json);
+            let how = (arguments.once.effort(arguments.quick), arguments.json);
             return study::cost(path, &arguments.view, how, typed, streams);
         }
         Some(Subject::Ladders(ladders)) => ladders,

@@ -10,7 +10,7 @@ use super::files::{self, Output, written};
 use super::page::{Place, save_page};
 use super::progress::Progress as Shown;
 use super::render::NOTHING_DRAWN;
-use super::view::ViewArguments;
+use super::view::{Purpose, ViewArguments};
 use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_host::output::Over;
 use rasterproof_host::shell::quote;
@@ -223,7 +223,9 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         (None, None) => vec![progress.current()],
     };
     let model = match &arguments.model {
-        Some(path) => Some(ViewArguments::of(size).maker(path, streams)?.scene(0.0)),
+        Some(path) => {
+            Some(ViewArguments::of(size).maker(path, Purpose::Drawn, streams)?.scene(0.0))
+        }
         None => None,
     };
     let name = match (word, &model) {

@@ -9,7 +9,7 @@ use super::plan_table::{self, grouped};
 use super::progress::Progress;
 use super::render::NOTHING_DRAWN;
 use super::typed::Typed;
-use super::view::SceneArguments;
+use super::view::{Purpose, SceneArguments};
 use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
@@ -202,7 +202,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     let page = arguments.page.page("plan.html");
     let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
     check()?;
-    let maker = arguments.what.maker(typed, streams)?;
+    let maker = arguments.what.maker(typed, Purpose::Planned, streams)?;
     check()?;
     let scene = maker.scene(0.0);
     if let Some(effect) = arguments.without {
@@ -331,12 +331,14 @@ fn measure(
         progress.done(1);
         Ok::<_, Failure>((start.elapsed(), rendered))
     };
-    // The first round warms up and keeps the pictures.
+    // The first round warms up and compares the pictures. Only those are kept that are shown.
     let mut frames: Vec<Rendered> = Vec::new();
+    let mut same = Vec::new();
     let mut warm = Duration::ZERO;
     for (_, effects) in &mixtures[..WHOLE.len()] {
         let (time, rendered) = draw(effects)?;
         warm += time;
+        same.push(frames.first().is_none_or(|first| first.picture == rendered.picture));
         frames.push(rendered);
     }
     let (rounds, kept) = match arguments.rounds {
@@ -345,7 +347,7 @@ fn measure(
     };
     mixtures.truncate(kept);
     for (_, effects) in &mixtures[WHOLE.len()..] {
-        frames.push(draw(effects)?.1);
+        same.push(draw(effects)?.1.picture == frames[0].picture);
     }
     let mut times: Vec<Vec<Duration>> = vec![Vec::new(); mixtures.len()];
     for round in 1..=rounds {
@@ -357,7 +359,7 @@ fn measure(
     }
     drop(progress);
     let measured =
-        mixtures.into_iter().zip(&mut times).zip(&frames).map(|(((effects, _), times), frame)| {
+        mixtures.into_iter().zip(&mut times).zip(same).map(|(((effects, _), times), same)| {
             times.sort_unstable();
             let us = |time: Duration| time.as_secs_f64() * 1e6;
             Measured {
@@ -366,7 +368,7 @@ fn measure(
                 time_us: us(times[times.len() / 2]),
                 range_us: [us(times[0]), us(times[times.len() - 1])],
                 quartiles_us: [1, 3].map(|n| us(times[(times.len() - 1) * n / 4])),
-                same: frame.picture == frames[0].picture,
+                same,
             }
         });
     let nothing = || usage("nothing was drawn");

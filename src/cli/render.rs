@@ -14,7 +14,7 @@ use super::page::{PageArguments, as_file, write_page};
 use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, SceneArguments};
+use super::view::{Maker, Purpose, SceneArguments};
 use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
@@ -116,7 +116,11 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     ];
     let files: Vec<_> = files.into_iter().flatten().collect();
     files::check(&files)?;
-    let maker = what.maker(typed, streams)?;
+    let purpose = match arguments.engine {
+        DrawnBy::Both => Purpose::Compared,
+        DrawnBy::Scanline | DrawnBy::EdgeFunction | DrawnBy::Tiles => Purpose::Drawn,
+    };
+    let maker = what.maker(typed, purpose, streams)?;
     // A model names files of its own.
     files::check(&files)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };

@@ -4,7 +4,6 @@
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::Path;
-use std::time::Duration;
 
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::PixelRect;
@@ -25,7 +24,7 @@ use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::hard::{self, HardCases, Kind};
 use rasterproof_study::view::{Piece, Sampled};
 use rasterproof_study::{effects, ties};
-use rasterproof_study::{face_of, triangle_of};
+use rasterproof_study::{face_of, faces, triangle_of};
 use rasterproof_verify::cases::{Case, Shape};
 
 use super::files;
@@ -33,7 +32,7 @@ use super::inspect_case::{self, Found};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
+use super::view::{Maker, Purpose, SceneArguments, VIEW_OPTIONS, ViewArguments};
 use super::{Failure, Status, Streams, exit, usage};
 
 #[derive(clap::Args, Debug)]
@@ -45,12 +44,32 @@ pub struct StudyArguments {
     /// Fewer rounds and smaller samples for the times
     #[arg(long)]
     quick: bool,
+    #[command(flatten)]
+    once: OnceArgument,
     /// Look at the model from so many sides, a line for each
     #[arg(long, value_name = "N", conflicts_with = "report", value_parser = clap::value_parser!(u32).range(1..=360))]
     views: Option<u32>,
     /// For machines
     #[arg(long)]
     json: bool,
+}
+
+/// Shared with `cost`.
+#[derive(clap::Args, Debug)]
+pub(super) struct OnceArgument {
+    /// Time everything a single time, for tests that look at all but times
+    #[arg(long, hide = true)]
+    once: bool,
+}
+
+impl OnceArgument {
+    pub(super) fn effort(&self, quick: bool) -> Effort {
+        match (self.once, quick) {
+            (true, _) => Effort::Once,
+            (false, true) => Effort::Quick,
+            (false, false) => Effort::Usual,
+        }
+    }
 }
 
 /// A scene in a view, taken apart.
@@ -83,13 +102,12 @@ impl<'a> Studied<'a> {
 fn measure(
     studied: &Studied<'_>,
     view: &ViewArguments,
-    quick: bool,
+    effort: Effort,
     on_terminal: bool,
 ) -> Result<Vec<Group>, Failure> {
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let told = |share: f64, what: &str| progress.at((share * 100.0) as u64, what);
     let mut target = view.target()?;
-    let effort = Effort { quick };
     let seen = (&studied.sampled, &studied.hard);
     cost::measure(&studied.scene, seen, &mut target, effort, &told).map_err(usage)
 }
@@ -98,13 +116,13 @@ fn measure(
 pub(super) fn cost(
     path: &Path,
     view: &ViewArguments,
-    (quick, is_json): (bool, bool),
+    (effort, is_json): (Effort, bool),
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
-    let maker = view.maker(path, streams)?;
+    let maker = view.maker(path, Purpose::Measured, streams)?;
     let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
-    let groups = measure(&studied, view, quick, streams.progress)?;
+    let groups = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     let out = &mut *streams.output;
@@ -129,21 +147,22 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let page = arguments.page.page("study.html");
     let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
     check()?;
-    let maker = what.maker(typed, streams)?;
+    let maker = what.maker(typed, Purpose::Measured, streams)?;
     check()?;
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
     let scene = maker.scene(0.0);
     let studied = Studied::new(scene, maker.origins(), &what.view)?;
-    let groups = measure(&studied, &what.view, arguments.quick, streams.progress)?;
+    let effort = arguments.once.effort(arguments.quick);
+    let groups = measure(&studied, &what.view, effort, streams.progress)?;
     let mut target = what.view.target()?;
     let window = target.size();
     let classes = ties::classify(&studied.sampled);
     let pieces = studied.sampled.at_centres();
     let seen = cost::exactly_seen(pieces, window);
-    let budget = Duration::from_millis(if arguments.quick { 700 } else { 5000 });
     let visible = (pieces, &seen);
+    let budget = effort.survey();
     let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, budget);
     let needs = needs.map_err(usage)?;
     let inspect = |face| match what.source() {
@@ -206,7 +225,7 @@ fn all_around(
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
         let studied = Studied::new(maker.scene(turn), maker.origins(), view)?;
-        let groups = measure(&studied, view, arguments.quick, false)?;
+        let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
         let classes = ties::classify(&studied.sampled);
         let pixels = |kind: Kind| {
             let found = studied.hard.cases.iter().find(|case| case.kind == kind);
@@ -288,7 +307,7 @@ pub(super) fn verify(
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
-    let maker = view.maker(path, streams)?;
+    let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
@@ -421,15 +440,14 @@ pub(super) fn face(
     streams: &mut Streams<'_>,
 ) -> Result<Option<Found>, Failure> {
     let shown = printable_path(path);
-    let maker = view.maker(path, streams)?;
+    let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
     let (scene, origins) = (&studied.scene, studied.origins);
     let number = word.parse::<u32>().ok();
-    let all = 0..scene.triangles() as u32;
-    let triangles: Vec<u32> =
-        all.clone().filter(|&one| Some(face_of(scene, origins, one)) == number).collect();
+    let of_face = |(triangle, face)| (Some(face) == number).then_some(triangle);
+    let triangles: Vec<u32> = (0..).zip(faces(scene, origins)).filter_map(of_face).collect();
     let Some(&first) = triangles.first() else {
-        let last = all.map(|one| face_of(scene, origins, one)).max().unwrap_or(0);
+        let last = faces(scene, origins).max().unwrap_or(0);
         let word = printable(word);
         return Err(usage(format!(
             "{shown}#{word}: no such face is drawn; those of this model have numbers from 1 to {last}"

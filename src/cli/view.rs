@@ -12,6 +12,9 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Streams, did_you_mean, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_host::limits;
+use rasterproof_host::text::printable_path;
 use rasterproof_models::{Model, Normals, Options, Origin, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
@@ -25,6 +28,8 @@ use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
+use rasterproof_report::summary::thousands;
+use rasterproof_study::work::Work;
 
 #[derive(clap::Args, Debug)]
 pub struct SceneArguments {
@@ -200,6 +205,67 @@ fn parse_fog(text: &str) -> Result<Growth, &'static str> {
     growth.ok_or("expected a start and a larger end, for example 0,1, or a density above 0")
 }
 
+/// What a command does with a scene, by which it is decided how much of one is too much.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// It is drawn by one rasterizer.
+    Drawn,
+    /// It is drawn by two, and their frames are compared.
+    Compared,
+    /// It is drawn many times, by different plans.
+    Planned,
+    /// Each of its triangles is judged.
+    Judged,
+    /// Each of its triangles is drawn by every rung of the ladders, and it is drawn by every planner.
+    Measured,
+}
+
+/// What a scene takes, each number measured on models that are little else: rows of needles, layers of large squares, and
+/// frames of 4 million samples with one triangle.
+struct Costs {
+    /// What is held of a sample of the frame at the same time.
+    bytes_of_sample: u64,
+    /// Time for each row of each triangle, and for each sample of each triangle, hidden or not.
+    ns_of_row: u64,
+    ns_of_sample: u64,
+    /// Time that a model may take for each byte of its file: of one that is not made to be slow a byte takes less.
+    ns_of_byte: u64,
+}
+
+/// A texel of a shadow map.
+const MAP_TEXEL_BYTES: u64 = 8;
+
+/// A picture may be covered so often whatever its size, as a model covers it from most sides.
+const MOST_LAYERS: u64 = 16;
+
+/// Samples that wait to be mixed in the order of their depths, each of which takes 48 bytes while they are sorted.
+const MOST_LAYER_SAMPLES: u64 = 1 << 24;
+
+/// The time that a small file may take.
+const MOST_NS: u64 = 16_000_000_000;
+
+impl Purpose {
+    fn costs(self) -> Costs {
+        let (bytes_of_sample, ns_of_row, ns_of_sample, ns_of_byte) = match self {
+            Self::Drawn => (20, 700, 90, 1_500),
+            Self::Compared => (40, 700, 90, 1_500),
+            Self::Planned => (40, 2_500, 350, 1_500),
+            Self::Judged => (40, 7_000, 80, 1_500),
+            Self::Measured => (120, 24_000, 700, 10_000),
+        };
+        Costs { bytes_of_sample, ns_of_row, ns_of_sample, ns_of_byte }
+    }
+
+    /// Triangles of a file of so many bytes: each of those that are judged takes a kilobyte, so what a few bytes of a file
+    /// ask for is bounded, while of a large file all are judged that it holds without compression.
+    fn most_triangles(self, file_bytes: u64) -> u64 {
+        match self {
+            Self::Drawn | Self::Compared | Self::Planned => u64::MAX,
+            Self::Judged | Self::Measured => (file_bytes / 8).max(1 << 20),
+        }
+    }
+}
+
 impl SceneArguments {
     /// The name of the scene, or the path of the model.
     pub(super) fn source(&self) -> Result<&str, &Path> {
@@ -218,7 +284,12 @@ impl SceneArguments {
     }
 
     /// The scene, turned by a share of a full turn, as a function that makes it.
-    pub(super) fn maker(&self, typed: &Typed, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
+    pub(super) fn maker(
+        &self,
+        typed: &Typed,
+        purpose: Purpose,
+        streams: &mut Streams<'_>,
+    ) -> Result<Maker, Failure> {
         let view = &self.view;
         match self.source() {
             Ok(name) => {
@@ -231,7 +302,10 @@ impl SceneArguments {
                         "--{option} is for models; the scene '{name}' has an eye and a light of its own"
                     )));
                 }
-                Ok(Maker { base: Base::Chapter(name.to_owned()), aspect, cull: view.cull })
+                let base = Base::Chapter(name.to_owned());
+                let maker = Maker { base, aspect, cull: view.cull };
+                view.refuse_too_much(name, &maker, purpose)?;
+                Ok(maker)
             }
             Err(path) if path.extension().is_none() && !path.exists() => {
                 let word = path.to_string_lossy();
@@ -241,7 +315,7 @@ impl SceneArguments {
                     program()
                 )))
             }
-            Err(path) => view.maker(path, streams),
+            Err(path) => view.maker(path, purpose, streams),
         }
     }
 }
@@ -264,10 +338,91 @@ impl ViewArguments {
         Ok(f64::from(width) / f64::from(height))
     }
 
-    pub(super) fn maker(&self, path: &Path, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
+    pub(super) fn maker(
+        &self,
+        path: &Path,
+        purpose: Purpose,
+        streams: &mut Streams<'_>,
+    ) -> Result<Maker, Failure> {
         let aspect = self.aspect()?;
+        self.refuse_large_frames(purpose)?;
         let base = Base::Model(Box::new(self.frame_model(path, aspect, streams)?));
-        Ok(Maker { base, aspect, cull: self.cull })
+        let maker = Maker { base, aspect, cull: self.cull };
+        self.refuse_too_much(&printable_path(path).to_string(), &maker, purpose)?;
+        Ok(maker)
+    }
+
+    /// Refuses sizes of which the frames, with what is computed beside them, take too much memory.
+    fn refuse_large_frames(&self, purpose: Purpose) -> Result<(), Failure> {
+        let (width, height) = self.size;
+        let samples = u64::from(width) * u64::from(height) * self.aa.samples();
+        let map =
+            self.shadows.map_or(0, |size| u64::from(size) * u64::from(size) * MAP_TEXEL_BYTES);
+        let bytes = samples * purpose.costs().bytes_of_sample + map;
+        if bytes <= limits::FRAME_BYTES {
+            return Ok(());
+        }
+        let [bytes, most] = [bytes, limits::FRAME_BYTES].map(|bytes| bytes >> 20);
+        let less = match purpose {
+            Purpose::Compared => {
+                "give a smaller --size, or draw by one rasterizer (--engine scanline)"
+            }
+            _ => "give a smaller --size",
+        };
+        Err(usage(format!(
+            "{width} x {height} px with {samples} samples take about {bytes} MiB here, and the most are {most}: {less}"
+        )))
+    }
+
+    /// Refuses a scene that takes too long to draw, or whose pieces or layers take too much memory.
+    fn refuse_too_much(&self, name: &str, maker: &Maker, purpose: Purpose) -> Result<(), Failure> {
+        self.refuse_large_frames(purpose)?;
+        let scene = maker.scene(0.0);
+        let (width, height) = self.size;
+        let scale = self.aa.scale();
+        let planes = self.aa.planes() as u64;
+        let work = Work::of(&scene, PixelRect::window(width * scale, height * scale));
+        let all = u64::from(width) * u64::from(height) * self.aa.samples();
+        let of_planes = |count: u64| count.saturating_mul(planes);
+        let (rows, samples) = (of_planes(work.rows), of_planes(work.samples));
+        let blended = of_planes(work.blended);
+        let shown = |count: u64| thousands(count);
+        let file_bytes = maker.framed().map_or(0, |framed| framed.file_bytes);
+        let Costs { ns_of_row, ns_of_sample, ns_of_byte, .. } = purpose.costs();
+        let ns =
+            rows.saturating_mul(ns_of_row).saturating_add(samples.saturating_mul(ns_of_sample));
+        let of_picture = (all * MOST_LAYERS).saturating_mul(ns_of_sample);
+        let most = MOST_NS.max(file_bytes.saturating_mul(ns_of_byte)).max(of_picture);
+        if ns > most {
+            let [seconds, most] = [ns, most].map(|ns| shown(ns / 1_000_000_000));
+            return Err(usage(format!(
+                "{name}: its {} triangles in the window have about {} samples in {} rows, hidden ones counted, which would take \
+                 about {seconds} s here, and the most are {most} s: give a smaller --size, or a part of the model",
+                shown(work.triangles),
+                shown(samples),
+                shown(rows)
+            )));
+        }
+        if scene.layers.is_some() && blended > MOST_LAYER_SAMPLES {
+            return Err(usage(format!(
+                "{name}: --layers keeps all samples of what is not opaque until the frame is drawn, here about {}, and the most \
+                 are {}: give a smaller --size, or leave out --layers",
+                shown(blended),
+                shown(MOST_LAYER_SAMPLES)
+            )));
+        }
+        let most = purpose.most_triangles(file_bytes);
+        let triangles = scene.triangles() as u64;
+        if triangles > most {
+            return Err(usage(format!(
+                "{name}: each triangle is judged, which takes memory: it has {}, and the most are {} of a file of {} bytes: \
+                 export a part of the model",
+                shown(triangles),
+                shown(most),
+                shown(file_bytes)
+            )));
+        }
+        Ok(())
     }
 
     fn frame_model(
@@ -356,12 +511,12 @@ impl ViewArguments {
             }
         });
         scene.fog = growth.map(|growth| Fog { colour: [r, g, b], growth });
-        let Model { origins, not_drawn, mut why_empty, .. } = model;
+        let Model { origins, not_drawn, file_bytes, mut why_empty, .. } = model;
         if self.opacity.is_some() {
             // The file does not decide.
             why_empty.clear();
         }
-        Ok(Framed { scene, centre, origins, not_drawn, why_empty, loading })
+        Ok(Framed { scene, centre, origins, not_drawn, why_empty, file_bytes, loading })
     }
 }
 
@@ -395,6 +550,7 @@ struct Framed {
     origins: Vec<Origin>,
     not_drawn: String,
     why_empty: String,
+    file_bytes: u64,
     loading: Duration,
 }
 

@@ -22,6 +22,7 @@ mod firefox;
 mod fixtures;
 mod hostile_certificates;
 mod hostile_files;
+mod hostile_models;
 mod hostile_submissions;
 mod illustrations;
 mod inputs_as_outputs;

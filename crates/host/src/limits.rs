@@ -5,14 +5,29 @@ use std::time::Duration;
 /// Models: 2 GiB, since 5 million triangles of an STL in text take more than 1 GiB.
 pub const MODEL_BYTES: u64 = 1 << 31;
 
+/// What the meshes of a glTF may take where its file is small: a few bytes can ask for millions of copies.
+pub const MODEL_CONTENTS_BYTES: u64 = 1 << 29;
+
+/// The same for each byte of a larger file. A triangle without compression has 12 bytes or more, and takes some 200.
+pub const MODEL_CONTENTS_BYTES_PER_BYTE: u64 = 64;
+
 /// One texture file, before it is decoded.
 pub const TEXTURE_BYTES: u64 = 1 << 28;
 
 /// All material files of a model together: a million materials are some 50 MB.
 pub const MATERIAL_BYTES: u64 = 1 << 26;
 
+/// All texture files of a model together, before they are decoded: a hash of each of them is taken.
+pub const ALL_TEXTURE_FILES_BYTES: u64 = 1 << 30;
+
 /// One texture after decoding: 16,384 x 16,384 px in RGBA take 1 GiB, so this allows half of that.
 pub const DECODED_TEXTURE_BYTES: u64 = 1 << 29;
+
+/// All textures of a model together after decoding: with what draws them the program stays below 2 GiB.
+pub const ALL_TEXTURES_BYTES: u64 = 1 << 30;
+
+/// The frames of a command, with what is computed for each of their samples.
+pub const FRAME_BYTES: u64 = 1 << 31;
 
 /// Certificates: some 2 KB and five examples. All files of a merge are in memory together.
 pub const CERTIFICATE_BYTES: u64 = 1 << 20;

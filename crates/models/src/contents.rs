@@ -1,11 +1,11 @@
 //! What a file contains, in its own right-handed coordinates, before it becomes items of a scene.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
 use rasterproof_render::pipeline::texture::Texture;
@@ -13,9 +13,20 @@ use rasterproof_render::pipeline::texture::Texture;
 /// What a reader counts of faces with fewer than three corners, which show nothing.
 pub(crate) const INCOMPLETE_FACE: &str = "incomplete face";
 
+/// Parts that stay as the file has them. An item of a scene takes kilobytes, however small it is, so later parts of one
+/// material become one part.
+const MOST_SINGLE_PARTS: usize = 1 << 12;
+
+/// Parts, merged ones too: there is at least one for each material that is used.
+const MOST_PARTS: usize = 1 << 16;
+
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
     pub parts: Vec<FilePart>,
+    /// The bytes of other files with vertices.
+    pub other_bytes: u64,
+    /// Of the parts that others are merged into their places in the list, by what has to be equal.
+    pub merged: HashMap<Kind, usize>,
     /// Its materials, which parts name by their index.
     pub materials: Vec<Surface>,
     /// What the file contains and nobody draws, in the singular, with its count. A key that ends in `of material` counts
@@ -24,6 +35,40 @@ pub(crate) struct Contents {
     pub not_drawn: BTreeMap<String, u64>,
     /// What is missing or cannot be understood and was done without, one line each.
     pub warnings: Vec<String>,
+}
+
+/// What has to be equal for two parts to become one: the material, and whether there are colours.
+pub(crate) type Kind = (Option<usize>, bool);
+
+impl Contents {
+    /// Adds a part; many parts become few. An error in words where that cannot be.
+    pub(crate) fn add(&mut self, mut part: FilePart) -> Result<(), String> {
+        if self.parts.len() < MOST_SINGLE_PARTS {
+            self.parts.push(part);
+            return Ok(());
+        }
+        let kind = (part.material, part.colours.is_empty());
+        match self.merged.get(&kind) {
+            Some(&place) => {
+                part.place(part.to_file);
+                part.to_file = DMat4::IDENTITY;
+                self.parts[place].append(part);
+            }
+            None if self.parts.len() < MOST_PARTS => {
+                part.place(part.to_file);
+                part.to_file = DMat4::IDENTITY;
+                part.name = format!("parts from number {} on", MOST_SINGLE_PARTS + 1);
+                self.merged.insert(kind, self.parts.len());
+                self.parts.push(part);
+            }
+            None => {
+                return Err(format!(
+                    "has more than {MOST_PARTS} parts of different materials: export it with fewer materials"
+                ));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Polygons of one material. The lists of vectors are those of the file.
@@ -46,6 +91,55 @@ pub(crate) struct FilePart {
     pub normal_numbers: Numbers,
     pub uv_numbers: Numbers,
     pub polygons: Polygons,
+}
+
+impl FilePart {
+    /// Moves its positions, normals and the winding of its polygons by a matrix.
+    pub(crate) fn place(&mut self, matrix: DMat4) {
+        if matrix == DMat4::IDENTITY {
+            return;
+        }
+        for position in &mut self.positions {
+            *position = matrix.transform_point3(*position);
+        }
+        let linear = DMat3::from_mat4(matrix);
+        // The cofactors turn normals as the inverse does, and exist where it does not.
+        let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+        let mirrors = linear.determinant() < 0.0;
+        for normal in &mut self.normals {
+            *normal = cofactors * *normal * if mirrors { -1.0 } else { 1.0 };
+        }
+        if mirrors {
+            for number in 0..self.polygons.len() {
+                let corners = self.polygons.corners(number);
+                self.corners[corners.clone()].reverse();
+                for numbers in [&mut self.normal_numbers, &mut self.uv_numbers] {
+                    if let Numbers::OfCorners(numbers) = numbers {
+                        numbers[corners.clone()].reverse();
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the polygons of another part in the same coordinates. Both have colours, or neither has.
+    fn append(&mut self, mut other: Self) {
+        let before = self.positions.len();
+        let corners = [&*self.corners, &*other.corners];
+        let counts = [before, other.positions.len()];
+        let normals = [&mut self.normals, &mut other.normals];
+        self.normal_numbers.append(&other.normal_numbers, normals, corners, counts);
+        let uvs = [&mut self.uvs, &mut other.uvs];
+        self.uv_numbers.append(&other.uv_numbers, uvs, corners, counts);
+        if !other.colours.is_empty() {
+            self.colours.resize(before, DVec3::ONE);
+            self.colours.append(&mut other.colours);
+        }
+        self.positions.append(&mut other.positions);
+        self.corners.extend(other.corners.iter().map(|corner| corner + before as u32));
+        self.polygons.append(&other.polygons);
+    }
 }
 
 /// A coordinate in the precision of its file: `f32` in records of an STL, `f64` elsewhere.
@@ -121,6 +215,40 @@ impl Numbers {
         }
     }
 
+    /// Adds the numbers of the corners of another part, whose vectors come after the own ones. The corners, and how many
+    /// positions there are, are those of both.
+    fn append<V>(
+        &mut self,
+        other: &Self,
+        [own_values, values]: [&mut Vec<V>; 2],
+        [own_corners, corners]: [&[u32]; 2],
+        [own_count, count]: [usize; 2],
+    ) {
+        match (&*self, other) {
+            (Self::Nothing, Self::Nothing) => return,
+            // Some files have more vectors than positions.
+            (Self::OfPositions, Self::OfPositions) => {
+                own_values.truncate(own_count);
+                values.truncate(count);
+                return own_values.append(values);
+            }
+            _ => {}
+        }
+        let numbers = |of: &Self, corners: &[u32], before: usize| -> Vec<u32> {
+            let number = |(corner, &position)| of.get(corner, position);
+            let moved = |number| number + before as u32;
+            let all = corners.iter().enumerate().map(number);
+            all.map(|number| number.map_or(NONE, moved)).collect()
+        };
+        if !matches!(self, Self::OfCorners(_)) {
+            *self = Self::OfCorners(numbers(self, own_corners, 0));
+        }
+        if let Self::OfCorners(own) = self {
+            own.append(&mut numbers(other, corners, own_values.len()));
+        }
+        own_values.append(values);
+    }
+
     /// The number of a corner, whose position has a number too.
     #[inline]
     pub(crate) fn get(&self, corner: usize, position: u32) -> Option<u32> {
@@ -177,6 +305,27 @@ impl Polygons {
         } else {
             (0..count).for_each(|_| self.push(3, 0, 0));
         }
+    }
+
+    /// Adds the polygons of the corners that come after the own ones.
+    fn append(&mut self, other: &Self) {
+        let corners = self.ends.last().map_or(3 * self.count, |end| *end);
+        if !(self.are_triangles() && other.are_triangles()) {
+            if self.ends.is_empty() {
+                self.ends = (1..=self.count).map(|number| 3 * number).collect();
+            }
+            let ends = (0..other.len()).map(|number| corners + other.corners(number).end as u32);
+            self.ends.extend(ends);
+        }
+        self.lines.extend(&other.lines);
+        let is_grouped = self.smoothing.last().is_some_and(|(_, group)| *group > 0);
+        if is_grouped && other.smoothing(0) == 0 {
+            self.smoothing.push((self.count, 0));
+        }
+        let before = self.count;
+        self.smoothing
+            .extend(other.smoothing.iter().map(|(first, group)| (before + first, *group)));
+        self.count += other.count;
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -275,5 +424,59 @@ mod tests {
         }
         let two = Polygons::triangles(2);
         assert_eq!((two.len(), two.corners(1), two.of_corner(5), two.line(1)), (2, 3..6, 1, 0));
+    }
+
+    /// Parts of all kinds of numbers, merged: each corner has what it had.
+    #[test]
+    fn parts_that_are_merged_keep_their_corners() {
+        let part = |seed: u32, normals: Numbers, polygon: &[(usize, u32)]| {
+            let count: usize = polygon.iter().map(|(corners, _)| *corners).sum();
+            let vector = |number: u32| DVec3::splat(f64::from(100 * seed + number));
+            let mut polygons = Polygons::default();
+            polygon.iter().for_each(|&(corners, group)| polygons.push(corners, seed, group));
+            FilePart {
+                positions: (0..5).map(vector).collect(),
+                normals: (0..7).map(vector).collect(),
+                corners: (0..count as u32).map(|corner| (corner * 3) % 5).collect(),
+                normal_numbers: normals,
+                polygons,
+                ..FilePart::default()
+            }
+        };
+        let seen = |part: &FilePart| -> Vec<(DVec3, Option<DVec3>, u32, u32)> {
+            let polygons = (0..part.polygons.len()).flat_map(|number| {
+                let (group, line) = (part.polygons.smoothing(number), part.polygons.line(number));
+                part.polygons.corners(number).map(move |corner| (corner, group, line))
+            });
+            let corner = |(corner, group, line): (usize, u32, u32)| {
+                let position = part.corners[corner];
+                let normal = part.normal_numbers.get(corner, position);
+                let normal = normal.map(|number| part.normals[number as usize]);
+                (part.positions[position as usize], normal, group, line)
+            };
+            polygons.map(corner).collect()
+        };
+        let numbers = || {
+            [
+                Numbers::Nothing,
+                Numbers::OfPositions,
+                Numbers::OfCorners(vec![6, NONE, 0, 1, 2, 6, 5]),
+            ]
+        };
+        for first in numbers() {
+            for second in numbers() {
+                for polygons in [[(3, 0), (4, 0)], [(4, 2), (3, 2)], [(3, 0), (4, 7)]] {
+                    let mut all = part(1, first.clone(), &polygons);
+                    let others = [
+                        part(2, second.clone(), &[(3, 2), (4, 0)]),
+                        part(3, first.clone(), &[(7, 0)]),
+                    ];
+                    let expected: Vec<_> =
+                        [&all].into_iter().chain(&others).flat_map(seen).collect();
+                    others.into_iter().for_each(|other| all.append(other));
+                    assert_eq!(seen(&all), expected, "{first:?} {second:?} {polygons:?}");
+                }
+            }
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! From what a file contains to items of a scene: triangles, normals, the axis that points up.
 
 use std::collections::{BTreeMap, HashMap};
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::parallel;
-use rasterproof_host::text::printable_short;
+use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Drawn;
@@ -39,6 +40,14 @@ pub(crate) fn model(
         place(path, part, turn)?;
     }
     let left_out = broken::leave_out(path, &mut contents, &mut warnings);
+    if let Some(power) = to_usual_size(&mut contents.parts) {
+        let what = if power > 0 { "small" } else { "large" };
+        let text = format!(
+            "is so {what} that all positions are multiplied by 2^{power}; the picture is the same, and the coordinates that \
+             are shown are those after that"
+        );
+        warnings.add_as_it_is(path, "sizes", &format!("{}: {text}", printable_path(path)));
+    }
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
@@ -79,9 +88,10 @@ pub(crate) fn model(
         warnings.add(path, None, "faces", &format!("{why}, so the picture is empty"));
         why_empty = why.to_owned();
     }
+    let file_bytes = contents.other_bytes;
     let mut all = contents.warnings;
     all.extend(warnings.finish());
-    Ok(Model { items, origins, format, up, not_drawn, why_empty, warnings: all })
+    Ok(Model { items, origins, format, up, file_bytes, not_drawn, why_empty, warnings: all })
 }
 
 /// Says which materials are fully transparent, and returns why the picture is empty where all of them are.
@@ -138,31 +148,7 @@ fn is_clear(item: &Item) -> bool {
 
 /// Brings a part into the coordinates of the scene, but for the sign of z.
 fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
-    let matrix = turn * part.to_file;
-    if matrix != DMat4::IDENTITY {
-        for position in &mut part.positions {
-            *position = matrix.transform_point3(*position);
-        }
-        let linear = DMat3::from_mat4(matrix);
-        // The cofactors turn normals as the inverse does, and exist where it does not.
-        let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
-        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-        let mirrors = linear.determinant() < 0.0;
-        for normal in &mut part.normals {
-            *normal = cofactors * *normal * if mirrors { -1.0 } else { 1.0 };
-        }
-        if mirrors {
-            for number in 0..part.polygons.len() {
-                let corners = part.polygons.corners(number);
-                part.corners[corners.clone()].reverse();
-                for numbers in [&mut part.normal_numbers, &mut part.uv_numbers] {
-                    if let Numbers::OfCorners(numbers) = numbers {
-                        numbers[corners.clone()].reverse();
-                    }
-                }
-            }
-        }
-    }
+    part.place(turn * part.to_file);
     // Faces with others are left out.
     let is_far =
         |position: &DVec3| position.is_finite() && position.abs().max_element() > MOST_COORDINATE;
@@ -179,6 +165,46 @@ fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
         }
         None => Ok(()),
     }
+}
+
+/// Powers of two between which the longest side of a model is left as it is. Beyond them products of coordinates, and
+/// distances as single-precision numbers, leave the range in which they have all their digits.
+const USUAL_SIZES: RangeInclusive<i32> = -32..=32;
+
+/// Multiplies all positions by a power of two where the model is so small or so large that products of its coordinates
+/// would be lost. That changes no digit, and no pixel, since the eye is placed by the size of the model. Returns the
+/// power where there is one.
+fn to_usual_size(parts: &mut [FilePart]) -> Option<i32> {
+    let bounds = |part: &FilePart| {
+        let used = part.corners.iter().map(|&corner| part.positions[corner as usize]);
+        used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
+    };
+    let (min, max) = parts
+        .iter()
+        .map(bounds)
+        .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+        .filter(|(min, max)| min.cmple(*max).all())?;
+    let side = (max - min).max_element();
+    // All of it in one point: then the point's distance from the origin.
+    let size = if side > 0.0 { side } else { max.abs().max(min.abs()).max_element() };
+    let exponent = exponent(size)?;
+    if USUAL_SIZES.contains(&exponent) {
+        return None;
+    }
+    // 2^1074 is no double, so it is done in two steps; both are exact.
+    let power = -exponent;
+    let steps = [power / 2, power - power / 2].map(|power| libm::ldexp(1.0, power));
+    for part in parts {
+        parallel::each_share(&mut part.positions, &|share| {
+            share.iter_mut().for_each(|position| *position = *position * steps[0] * steps[1]);
+        });
+    }
+    Some(power)
+}
+
+/// The largest power of two that is no larger than a number above 0.
+fn exponent(size: f64) -> Option<i32> {
+    (size > 0.0 && size.is_finite()).then(|| libm::ilogb(size))
 }
 
 fn material(surface: Option<&Surface>, part: &FilePart, shading: Shading) -> Material {

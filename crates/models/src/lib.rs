@@ -97,6 +97,8 @@ pub struct Model {
     pub format: Format,
     /// The axis of the file that points up in the picture.
     pub up: Up,
+    /// The bytes of the file, and of the files of vertices that it names.
+    pub file_bytes: u64,
     /// What the file contains and is not drawn, with counts, as one line; empty if there is nothing.
     pub not_drawn: String,
     /// Why nothing of it can be seen in any view, as a part of a sentence; empty where something may be.
@@ -181,7 +183,9 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
             gltf::read(path, &file.bytes)?
         }
     };
-    items::model(path, contents, format, options)
+    let mut model = items::model(path, contents, format, options)?;
+    model.file_bytes += length;
+    Ok(model)
 }
 
 /// `specular colour of 18 materials, 1 bump map`: keys in the singular, with their counts.

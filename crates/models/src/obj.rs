@@ -11,8 +11,6 @@ use rasterproof_host::error::FileError;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 
-use rasterproof_render::pipeline::opacity::OpacityMap;
-use rasterproof_render::pipeline::texture::Texture;
 use std::sync::Arc;
 
 use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Surface};
@@ -20,7 +18,7 @@ use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
 use crate::outside::{self, NOT_QUOTED, is_outside};
 use crate::text::{self, Text, without_mark};
-use crate::textures::{Decoded, Described, Textures, find, opacity};
+use crate::textures::{Decoded, Textures, find, opacity};
 use crate::{BadFile, Warnings, bad, read_bytes};
 
 /// Lines of material files that are read: each is looked for in the folder.
@@ -172,7 +170,7 @@ pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
                 }
             }
         }
-        contents.parts.push(part);
+        contents.add(part).map_err(|cause| bad(path, None, cause))?;
     }
     contents.warnings = warnings.finish();
     Ok(contents)
@@ -246,33 +244,32 @@ fn surface(
     for key in &material.not_drawn {
         *not_drawn.entry(key.clone()).or_default() += 1;
     }
-    let mut read = |described: &Described, without: &str| {
-        let read = textures.get(&described.name, described.clamp);
-        read.map_err(|error| {
-            let name = printable_short(&material.name, 40);
-            let error = match material.is_quoted {
-                true => outside::of_picture(folder, error).to_string(),
-                false => format!(
-                    "{}: a picture that a material file names cannot be read; its name is {NOT_QUOTED}",
-                    printable_path(path)
-                ),
-            };
-            let text = format!("{error}; the material '{name}' is drawn {without}");
-            warnings.add_as_it_is(path, "textures", &text);
-        })
-        .ok()
+    let mut failed = |error: BadFile, without: &str| {
+        let name = printable_short(&material.name, 40);
+        let error = match material.is_quoted {
+            true => outside::of_picture(folder, error).to_string(),
+            false => format!(
+                "{}: a picture that a material file names cannot be read; its name is {NOT_QUOTED}",
+                printable_path(path)
+            ),
+        };
+        let text = format!("{error}; the material '{name}' is drawn {without}");
+        warnings.add_as_it_is(path, "textures", &text);
     };
-    let texture = material.texture.as_ref().and_then(|texture| read(texture, "in its colour"));
+    let texture = material.texture.as_ref().and_then(|texture| {
+        let read = textures.get(&texture.name, texture.clamp);
+        read.map_err(|error| failed(error, "in its colour")).ok()
+    });
     // An opacity map is a grey picture, or one with opacities of its own.
     let map = match &material.opacity_map {
         None => texture.as_ref().and_then(Decoded::opacity),
-        Some(map) => read(map, "without its opacity map").map(|decoded| {
-            let of_colours = || Arc::new(OpacityMap::new(Texture::clone(&decoded.texture)));
-            decoded.opacity().unwrap_or_else(of_colours)
-        }),
+        Some(map) => {
+            let read = textures.opacity_map(&map.name, map.clamp);
+            read.map_err(|error| failed(error, "without its opacity map")).ok()
+        }
     };
     let opacity = opacity(material.opacity.unwrap_or(1.0), map);
-    let texture = texture.map(|decoded| decoded.texture);
+    let texture = texture.map(|decoded| Arc::new(decoded.texture));
     // A texture is as bright as its picture, where the file does not say otherwise.
     let missing = if texture.is_some() { DVec3::ONE } else { DVec3::splat(0.8) };
     Surface {

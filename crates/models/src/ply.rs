@@ -739,7 +739,7 @@ fn surface(
                 name: String::new(),
                 colour: DVec3::ONE,
                 opacity: opacity(1.0, decoded.opacity()),
-                texture: Some(decoded.texture),
+                texture: Some(decoded.texture.into()),
                 specular: Specular::default(),
                 unlit: false,
                 both_sides: true,

@@ -318,6 +318,10 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
         } else if is("solid") {
             end(parts.last_mut(), &mut shares);
             let name = words.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ");
+            // A line is six bytes, and a part hundreds.
+            if parts.last().is_some_and(|part| part.polygons.len() == 0) {
+                parts.pop();
+            }
             parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
             is_open = true;
         } else if is("endsolid") {
@@ -346,7 +350,11 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
         warnings.add(path, None, "ends", &text);
     }
     end(parts.last_mut(), &mut shares);
-    Ok(Contents { parts, warnings: warnings.finish(), ..Contents::default() })
+    let mut contents = Contents { warnings: warnings.finish(), ..Contents::default() };
+    for part in parts {
+        contents.add(part).map_err(|cause| bad(path, None, cause))?;
+    }
+    Ok(contents)
 }
 
 fn shown(line: &[u8]) -> String {

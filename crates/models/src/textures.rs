@@ -1,5 +1,6 @@
 //! Pictures that materials name: search beside the model, the options of a texture in an MTL, decoding.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::io::Cursor;
@@ -12,6 +13,7 @@ use rasterproof_core::grid::MAX_SIDE_PX;
 use rasterproof_host::limits;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
+use sha2::{Digest as _, Sha256};
 
 use crate::{BadFile, bad, read_bytes};
 
@@ -23,16 +25,18 @@ pub(crate) const UNREADABLE: &str = "is not a readable PNG, JPEG, BMP, TGA, TIFF
 
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
-    pub texture: Arc<Texture>,
-    /// The opacities of its texels, grey, where some are not opaque.
-    pub alpha: Option<Arc<Texture>>,
+    pub texture: Texture,
+    /// The opacities of its texels, where some are not opaque.
+    alpha: Option<OpacityMap>,
+    /// The texture as opacities, of one that is named as an opacity map and has none of its own.
+    of_colours: OnceCell<OpacityMap>,
 }
 
 impl Decoded {
+    /// Its opacities, read as the texture is.
     pub(crate) fn opacity(&self) -> Option<Arc<OpacityMap>> {
         let (filter, wrap) = (self.texture.filter, self.texture.wrap);
-        let alpha = Texture::clone(self.alpha.as_ref()?).with(filter, wrap);
-        Some(Arc::new(OpacityMap::new(alpha)))
+        Some(Arc::new(self.alpha.clone()?.with(filter, wrap)))
     }
 }
 
@@ -49,19 +53,60 @@ pub(crate) fn opacity(factor: f64, map: Option<Arc<OpacityMap>>) -> Option<Opaci
 /// # Errors
 /// [`BadFile`] where it cannot be read or decoded, or a side exceeds the largest one.
 pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
-    let decoded = decode(path, read_bytes(path, limits::TEXTURE_BYTES)?)?;
-    Ok(Arc::unwrap_or_clone(decoded.texture))
+    let bytes = read_bytes(path, limits::TEXTURE_BYTES)?;
+    let decoded = decode(path, bytes, &mut 0).map_err(|cause| bad(path, None, cause))?;
+    Ok(decoded.texture)
 }
 
-/// Decodes a picture; the path is that of its file, or of the file that contains it.
-pub(crate) fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded, BadFile> {
-    let cause = |error| format!("{UNREADABLE}: {error}");
-    let failed = |error| bad(path, None, cause(error));
+/// The pictures that materials name, each decoded once, however often and by however many names it is named.
+#[derive(Default)]
+pub(crate) struct Pictures {
+    decoded: HashMap<PictureKey, Result<Decoded, String>>,
+    /// Bytes of the files so far, one that was read several times counted as often.
+    read_bytes: u64,
+    /// What the textures take so far, those that turned out to be broken too, since they took as long.
+    taken_bytes: u64,
+}
+
+/// The hash of the bytes, and whether they are those of a TGA.
+type PictureKey = ([u8; 32], bool);
+
+impl Pictures {
+    /// A picture by its bytes, of which at most so many as are given to it are read; the path is that of its file, or of
+    /// the file that contains it.
+    pub(crate) fn get(
+        &mut self,
+        path: &Path,
+        read: impl FnOnce(u64) -> Result<Vec<u8>, String>,
+    ) -> Result<&Decoded, String> {
+        let most = limits::ALL_TEXTURE_FILES_BYTES;
+        let left_bytes = most.saturating_sub(self.read_bytes);
+        if left_bytes == 0 {
+            let most = most >> 20;
+            return Err(format!(
+                "is not read, since the pictures before it have {most} MiB, the most of a model: make them smaller"
+            ));
+        }
+        let bytes = read(left_bytes.min(limits::TEXTURE_BYTES))?;
+        self.read_bytes += bytes.len() as u64;
+        let key = (Sha256::digest(&bytes).into(), is_tga(path));
+        let Self { decoded, taken_bytes, .. } = self;
+        let decoded = decoded.entry(key).or_insert_with(|| decode(path, bytes, taken_bytes));
+        decoded.as_ref().map_err(String::clone)
+    }
+}
+
+fn is_tga(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("tga"))
+}
+
+/// Decodes a picture, and adds what it takes to what all pictures took before.
+fn decode(path: &Path, bytes: Vec<u8>, taken_bytes: &mut u64) -> Result<Decoded, String> {
+    let failed = |error| format!("{UNREADABLE}: {error}");
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
-        .map_err(|error| bad(path, None, error.to_string()))?;
-    let is_tga = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("tga"));
-    if reader.format().is_none() && is_tga {
+        .map_err(|error| error.to_string())?;
+    if reader.format().is_none() && is_tga(path) {
         reader.set_format(ImageFormat::Tga);
     }
     let mut sides = Limits::default();
@@ -72,29 +117,48 @@ pub(crate) fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded, BadFile> {
     let decoder = reader.into_decoder().map_err(failed)?;
     let (width, height) = decoder.dimensions();
     let is_grey = !decoder.color_type().has_color();
-    let has_alpha = decoder.color_type().has_alpha();
     let kept_bytes = u64::from(width) * u64::from(height) * if is_grey { 1 } else { 4 };
     if kept_bytes.max(decoder.total_bytes()) > limits::DECODED_TEXTURE_BYTES {
         let most = limits::DECODED_TEXTURE_BYTES >> 20;
-        let cause = format!(
+        return Err(format!(
             "has {width} x {height} px, which take more than {most} MiB: make the picture smaller"
-        );
-        return Err(bad(path, None, cause));
+        ));
     }
+    if *taken_bytes + kept_bytes > limits::ALL_TEXTURES_BYTES {
+        let [own, before, most] =
+            [kept_bytes, *taken_bytes, limits::ALL_TEXTURES_BYTES].map(|bytes| bytes >> 20);
+        return Err(format!(
+            "has {width} x {height} px, which take {own} MiB; with the {before} MiB of the pictures before it that is more \
+             than the {most} MiB of all textures of a model: make the pictures smaller"
+        ));
+    }
+    *taken_bytes += kept_bytes;
     let picture = DynamicImage::from_decoder(decoder).map_err(failed)?;
-    let alpha: Vec<u8> = match has_alpha {
-        true => picture.to_luma_alpha8().pixels().map(|pixel| pixel.0[1]).collect(),
-        false => Vec::new(),
-    };
-    let is_opaque = alpha.iter().all(|alpha| *alpha == u8::MAX);
-    let alpha = if is_opaque { None } else { Texture::grey(width, height, alpha) };
+    let alpha = alpha(&picture).and_then(|alpha| Texture::grey(width, height, alpha));
     let texture = if is_grey {
         Texture::grey(width, height, picture.into_luma8().into_raw())
     } else {
         Texture::new(width, height, picture.into_rgb8().as_chunks::<3>().0)
     };
-    let texture = texture.ok_or_else(|| bad(path, None, "is a picture without pixels"))?;
-    Ok(Decoded { texture: Arc::new(texture), alpha: alpha.map(Arc::new) })
+    let texture = texture.ok_or("is a picture without pixels")?;
+    Ok(Decoded { texture, alpha: alpha.map(OpacityMap::new), of_colours: OnceCell::new() })
+}
+
+/// The opacities of a picture; nothing where all of it is opaque.
+fn alpha(picture: &DynamicImage) -> Option<Vec<u8>> {
+    let of = |all: &mut dyn Iterator<Item = u8>| {
+        let alpha: Vec<u8> = all.collect();
+        alpha.iter().any(|alpha| *alpha != u8::MAX).then_some(alpha)
+    };
+    match picture {
+        // These are not copied first.
+        DynamicImage::ImageRgba8(pixels) => of(&mut pixels.pixels().map(|pixel| pixel.0[3])),
+        DynamicImage::ImageLumaA8(pixels) => of(&mut pixels.pixels().map(|pixel| pixel.0[1])),
+        other if other.color().has_alpha() => {
+            of(&mut other.to_luma_alpha8().pixels().map(|pixel| pixel.0[1]))
+        }
+        _ => None,
+    }
 }
 
 /// The file that a model means by a name that it contains: as it is written, with slashes for backslashes, with
@@ -232,9 +296,10 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
     (end > 0).then(|| text.split_at(end))
 }
 
-/// The textures that materials name, each decoded once.
+/// The textures that materials name as files.
 pub(crate) struct Textures {
     folder: PathBuf,
+    pictures: Pictures,
     read: HashMap<PathBuf, Result<Decoded, BadFile>>,
     missing: u32,
 }
@@ -244,28 +309,49 @@ const MOST_MISSING: u32 = 1 << 10;
 
 impl Textures {
     pub(crate) fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), read: HashMap::new(), missing: 0 }
+        Self {
+            folder: folder.to_owned(),
+            pictures: Pictures::default(),
+            read: HashMap::new(),
+            missing: 0,
+        }
     }
 
+    /// The picture of this name, read with a filter.
     pub(crate) fn get(&mut self, name: &str, clamp: bool) -> Result<Decoded, BadFile> {
+        let mut decoded = self.find(name)?.clone();
+        let wrap = if clamp { Wrap::Clamp } else { Wrap::Repeat };
+        decoded.texture = decoded.texture.with(Filter::Bilinear, wrap);
+        Ok(decoded)
+    }
+
+    /// The opacities of the picture of this name: its own, or those that its colours stand for.
+    pub(crate) fn opacity_map(
+        &mut self,
+        name: &str,
+        clamp: bool,
+    ) -> Result<Arc<OpacityMap>, BadFile> {
+        let decoded = self.find(name)?;
+        let of_colours = || OpacityMap::new(decoded.texture.clone());
+        let map =
+            decoded.alpha.as_ref().unwrap_or_else(|| decoded.of_colours.get_or_init(of_colours));
+        let wrap = if clamp { Wrap::Clamp } else { Wrap::Repeat };
+        Ok(Arc::new(map.clone().with(Filter::Bilinear, wrap)))
+    }
+
+    fn find(&mut self, name: &str) -> Result<&Decoded, BadFile> {
         // Where options are written in another way, the last word is the name.
         let last = name.split_whitespace().next_back().unwrap_or_default();
         let search = || find(&self.folder, name).or_else(|| find(&self.folder, last));
         let found = if self.missing < MOST_MISSING { search() } else { None };
         self.missing += u32::from(found.is_none() && self.missing < MOST_MISSING);
         let path = found.unwrap_or_else(|| self.folder.join(name.replace('\\', "/")));
-        let read = self.read.entry(path).or_insert_with_key(|path| {
-            let mut decoded = decode(path, read_bytes(path, limits::TEXTURE_BYTES)?)?;
-            let texture = Arc::unwrap_or_clone(decoded.texture);
-            decoded.texture = Arc::new(texture.with(Filter::Bilinear, Wrap::Repeat));
-            Ok(decoded)
+        let Self { read, pictures, .. } = self;
+        let read = read.entry(path).or_insert_with_key(|path| {
+            let bytes = |limit| read_bytes(path, limit).map_err(|error| error.cause);
+            pictures.get(path, bytes).cloned().map_err(|cause| bad(path, None, cause))
         });
-        let mut decoded = read.clone()?;
-        if clamp {
-            let texture = Arc::unwrap_or_clone(decoded.texture);
-            decoded.texture = Arc::new(texture.with(Filter::Bilinear, Wrap::Clamp));
-        }
-        Ok(decoded)
+        read.as_ref().map_err(BadFile::clone)
     }
 }
 

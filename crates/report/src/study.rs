@@ -137,6 +137,11 @@ pub fn costs(subject: &Subject<'_>, groups: &[Group]) -> String {
         for line in advice(subject, group) {
             let _ = writeln!(out, "  {line}");
         }
+        if group.not_judged > 0 {
+            let count = thousands(group.not_judged);
+            let why = "single precision does not hold a value or 1/w of a corner";
+            let _ = writeln!(out, "  not judged: {count} pieces, since {why}");
+        }
         out.push('\n');
     }
     out
@@ -245,6 +250,7 @@ pub fn costs_json(subject: &Subject<'_>, groups: &[Group]) -> Value {
         json!({
             "title": group.title,
             "measures": measures,
+            "not_judged": group.not_judged,
             "timed": { "triangles": group.timed[0], "pixels": group.timed[1] },
             "choices": group.choices.iter().map(choice).collect::<Vec<_>>(),
             "cheapest_exact": best.collect::<Vec<_>>(),

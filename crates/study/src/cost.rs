@@ -10,7 +10,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
 use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_core::triangle::Span;
+use rasterproof_core::triangle::{Span, check_value};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
     Board, Finish, Ladder, Options, Pass, Race, Spread, Variant, measure_on, race, time, variants,
@@ -81,6 +81,8 @@ pub struct Group {
     pub best: Vec<Option<Best>>,
     /// In how many of how many pixels of hard cases it was looked for what is wrong; none where in all.
     pub looked_at: Option<[u64; 2]>,
+    /// Pieces that were left out, since single precision does not hold a value or 1/w of a corner.
+    pub not_judged: u64,
 }
 
 /// The cheapest of the choices that a measure calls exact, as far as that could be told.
@@ -114,7 +116,8 @@ impl Best {
 impl Group {
     fn new(title: &'static str, measures: &[Measure], timed: [u64; 2]) -> Self {
         let (measures, choices) = (measures.to_vec(), Vec::new());
-        Self { title, measures, choices, timed, best: Vec::new(), looked_at: None }
+        let (best, looked_at, not_judged) = (Vec::new(), None, 0);
+        Self { title, measures, choices, timed, best, looked_at, not_judged }
     }
 
     /// Whether an error of a choice is one that a measure calls exact.
@@ -140,19 +143,35 @@ impl Group {
 }
 
 /// How thoroughly times are taken.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    pub quick: bool,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// In seconds for what is timed, so that a difference of a few percent can be told.
+    Usual,
+    Quick,
+    /// Everything a single time: for who looks at all but times.
+    Once,
 }
 
 impl Effort {
     fn rounds(self) -> usize {
-        if self.quick { 5 } else { 21 }
+        match self {
+            Self::Usual => 21,
+            Self::Quick => 5,
+            Self::Once => 1,
+        }
+    }
+
+    fn of(self, [usual_ms, quick_ms]: [u64; 2]) -> Duration {
+        Duration::from_millis(match self {
+            Self::Usual => usual_ms,
+            Self::Quick => quick_ms,
+            Self::Once => 0,
+        })
     }
 
     /// How long exact choices are compared with each other.
     fn race(self) -> Duration {
-        Duration::from_millis(if self.quick { 500 } else { 4000 })
+        self.of([4000, 500])
     }
 
     /// The same for formats of depth, which differ by a few percent, so that more rounds are needed.
@@ -162,7 +181,13 @@ impl Effort {
 
     /// How long whole frames are timed, and then compared with each other.
     fn frames(self) -> Duration {
-        Duration::from_millis(if self.quick { 600 } else { 8000 })
+        self.of([8000, 600])
+    }
+
+    /// How long frames without an effect are timed ([`crate::effects::survey`]).
+    #[must_use]
+    pub fn survey(self) -> Duration {
+        self.of([5000, 700])
     }
 }
 
@@ -177,7 +202,7 @@ pub fn measure(
     effort: Effort,
     progress: &dyn Fn(f64, &str),
 ) -> Result<Vec<Group>, BadScene> {
-    let sample = Sample::of(&sampled.planes[0], sampled.window, TIMED_PX);
+    let sample = Sample::new(&sampled.planes[0], sampled.window, TIMED_PX);
     let mut groups = Vec::new();
     for (done, ladder) in [Ladder::Scanline, Ladder::EdgeFunction].into_iter().enumerate() {
         progress(0.2 * done as f64, ladder.title());
@@ -185,7 +210,7 @@ pub fn measure(
     }
     progress(0.4, Ladder::Interpolation.title());
     let shaded = sampled.shaded();
-    let part = Sample::of(shaded.0, shaded.1, TIMED_PX / 4);
+    let part = Sample::new(shaded.0, shaded.1, TIMED_PX / 4);
     groups.extend(ladder(Ladder::Interpolation, shaded, &part, effort));
     if let Some(group) = groups.last_mut() {
         wrong_values_of(shaded, hard, group);
@@ -194,7 +219,7 @@ pub fn measure(
     groups.push(depth(sampled, &sample, effort));
     progress(0.6, Ladder::Antialiasing.title());
     let centres = (sampled.at_centres(), sampled.size);
-    let part = Sample::of(centres.0, centres.1, TIMED_PX / 4);
+    let part = Sample::new(centres.0, centres.1, TIMED_PX / 4);
     groups.extend(ladder(Ladder::Antialiasing, centres, &part, effort));
     progress(0.7, "planners");
     groups.push(planners(scene, target, effort)?);
@@ -203,7 +228,8 @@ pub fn measure(
 
 /// Adds to the rungs of interpolation what each gets wrong of the triangles that are hard cases.
 fn wrong_values_of((pieces, window): (&[Piece], PixelRect), hard: &HardCases, group: &mut Group) {
-    let is_hard = |piece: &&Piece| hard.is_hard(piece.face) && piece.free().is_some();
+    let is_hard =
+        |piece: &&Piece| hard.is_hard(piece.face) && piece.free().is_some() && has_values(piece);
     let of: Vec<&Piece> = pieces.iter().filter(is_hard).collect();
     if of.is_empty() {
         return;
@@ -234,7 +260,7 @@ struct Sample {
 }
 
 impl Sample {
-    fn of(pieces: &[Piece], window: PixelRect, most_px: u64) -> Self {
+    fn new(pieces: &[Piece], window: PixelRect, most_px: u64) -> Self {
         let covered = |piece: &Piece| {
             let mut pixels = 0;
             Scanline.cover(piece.corners(), window, |span| pixels += span.pixels() as u64);
@@ -249,9 +275,19 @@ impl Sample {
         Self { stride, pieces: timed().count() as u64, pixels: timed().sum() }
     }
 
-    fn class(&self, pieces: &[Piece], window: PixelRect) -> Class {
-        class(pieces.iter().step_by(self.stride), window)
+    fn of<'a>(&self, pieces: &'a [Piece]) -> impl Iterator<Item = &'a Piece> {
+        pieces.iter().step_by(self.stride)
     }
+}
+
+/// Whether the rungs of interpolation, some of which are in single precision, take the values of a piece.
+fn has_values(piece: &Piece) -> bool {
+    let values = piece.triangle.vertices.iter().map(|vertex| vertex.varying.x);
+    let is_held = |w: &f64| {
+        let inv_w = (1.0 / w) as f32;
+        inv_w.is_finite() && inv_w > 0.0
+    };
+    values.map(check_value).all(|checked| checked.is_ok()) && piece.w.iter().all(is_held)
 }
 
 fn class<'a>(pieces: impl Iterator<Item = &'a Piece>, window: PixelRect) -> Class {
@@ -324,7 +360,7 @@ fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) 
         };
         choice.margin = Some(margin(sampled, unit));
     }
-    let class = sample.class(pieces, window);
+    let class = class(sample.of(pieces), window);
     let frame = RefCell::new(Frame::new(window, 0));
     let mut passes = Vec::new();
     let mut timed = Vec::new();
@@ -509,7 +545,7 @@ fn set_best(
                 let of = passes.iter_mut().enumerate();
                 let mut of: Vec<_> =
                     of.filter(|(place, _)| several.contains(place)).map(|(_, pass)| pass).collect();
-                let race = race(&mut of, budget, !effort.quick);
+                let race = race(&mut of, budget, effort == Effort::Usual);
                 let numbers: Vec<usize> = several.iter().map(|&place| timed[place]).collect();
                 for (&number, time) in numbers.iter().zip(&race.times) {
                     group.choices[number].time = Some(*time);
@@ -529,8 +565,9 @@ fn ladder(
     sample: &Sample,
     effort: Effort,
 ) -> Option<Group> {
-    let class = sample.class(pieces, window);
-    let options = Options { seed: 0, quick: effort.quick, timed: true };
+    let is_judged = |piece: &&Piece| ladder != Ladder::Interpolation || has_values(piece);
+    let class = class(sample.of(pieces).filter(is_judged), window);
+    let options = Options { seed: 0, quick: effort != Effort::Usual, timed: true };
     let measures: &[Measure] = match ladder {
         Ladder::Interpolation => &[Measure {
             title: "worst error over the largest value; up to half a step of 8 bits is good",
@@ -546,6 +583,7 @@ fn ladder(
         }],
     };
     let mut group = Group::new(ladder.title(), measures, [0; 2]);
+    group.not_judged = pieces.iter().filter(|piece| !is_judged(piece)).count() as u64;
     measure_on(ladder, &[class], &options, &mut |board: &Board, passes| {
         let Some(column) = board.columns.first() else { return };
         group.timed = [column.items, column.pixels];
@@ -737,7 +775,7 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
         passes.push(Pass { column: 0, run });
     }
     let rounds = effort.frames().as_secs_f64() / once.as_secs_f64().max(1e-6);
-    let rounds = (rounds as usize).clamp(3, 101);
+    let rounds = if effort == Effort::Once { 1 } else { (rounds as usize).clamp(3, 101) };
     let timed: Vec<usize> = (0..choices.len()).collect();
     let measure = Measure {
         title: "pixels that differ from the frame of scanline with everything switched on",

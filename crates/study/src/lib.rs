@@ -8,6 +8,7 @@ pub mod memory;
 mod shape;
 pub mod ties;
 pub mod view;
+pub mod work;
 
 use rasterproof_models::Origin;
 use rasterproof_render::scene::Scene;
@@ -31,4 +32,16 @@ pub fn face_of(scene: &Scene, origins: &[Origin], triangle: u32) -> u32 {
     let of_file =
         triangle_of(scene, triangle).and_then(|(item, number)| origins.get(item)?.face(number));
     of_file.unwrap_or(triangle + 1)
+}
+
+/// The numbers that [`face_of`] gives to all triangles, in drawing order.
+pub fn faces<'a>(scene: &'a Scene, origins: &'a [Origin]) -> impl Iterator<Item = u32> + 'a {
+    let mut before = 0;
+    scene.items.iter().enumerate().flat_map(move |(item, of)| {
+        let first = before;
+        before += of.mesh.triangles.len();
+        let of_file = move |number| origins.get(item).and_then(|origin| origin.face(number));
+        let face = move |number| of_file(number).unwrap_or((first + number) as u32 + 1);
+        (0..of.mesh.triangles.len()).map(face)
+    })
 }

@@ -19,6 +19,12 @@ pub const SLIVER: f64 = 100.0;
 /// Comparisons of boxes after which the search for overlaps and T-junctions stops.
 const MOST_COMPARISONS: u64 = 400_000_000;
 
+/// A pair of boxes that meet takes about as long as so many that do not.
+const COMPARISONS_OF_PAIR: u64 = 32;
+
+/// Overlaps, and T-junctions, after which the search for them stops: half of all pairs of faces may be some.
+const MOST_FOUND: usize = 1 << 20;
+
 /// An edge, or a vertex on an edge, with the faces concerned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
@@ -136,7 +142,7 @@ impl Shape {
         let is_whole = pairs(&boxes, &mut |i, j| {
             let (edge, vertex) = (i.min(j), i.max(j));
             if edge >= border.len() || vertex < border.len() {
-                return;
+                return true;
             }
             let (point, [a, b]) = (points[vertices[vertex - border.len()] as usize], ends(edge));
             let (along, length) = (b - a, a.distance(b));
@@ -145,6 +151,7 @@ impl Shape {
             if away <= grain && place > grain && place < length - grain {
                 self.t_junctions.push(Edge { ends: [point, point], face: border[edge].1 });
             }
+            self.t_junctions.len() < MOST_FOUND
         });
         self.is_cut_short |= !is_whole;
         self.t_junctions.sort_by_key(|edge| edge.face);
@@ -161,6 +168,7 @@ impl Shape {
                 let (first, second) = (faces[i].number, faces[j].number);
                 self.overlaps.push([first.max(second), first.min(second)]);
             }
+            self.overlaps.len() < MOST_FOUND
         });
         self.is_cut_short |= !is_whole;
         self.overlaps.sort_unstable();
@@ -286,9 +294,9 @@ impl Box {
     }
 }
 
-/// Calls `visit` with all pairs of boxes that meet, the smaller number first; a sweep along the axis on which the
-/// boxes are shortest. Whether it came to the end.
-fn pairs(boxes: &[Box], visit: &mut dyn FnMut(usize, usize)) -> bool {
+/// Calls `visit` with all pairs of boxes that meet, the smaller number first, until it says that it has enough or the
+/// search takes too long; a sweep along the axis on which the boxes are shortest. Whether it came to the end.
+fn pairs(boxes: &[Box], visit: &mut dyn FnMut(usize, usize) -> bool) -> bool {
     let mut sums = DVec3::ZERO;
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for bounds in boxes {
@@ -311,13 +319,49 @@ fn pairs(boxes: &[Box], visit: &mut dyn FnMut(usize, usize)) -> bool {
             }
             comparisons += 1;
             if near.meets(bounds) {
+                comparisons += COMPARISONS_OF_PAIR;
                 let (i, j) = (order[place], order[other]);
-                visit(i.min(j), i.max(j));
+                if !visit(i.min(j), i.max(j)) {
+                    return false;
+                }
             }
-        }
-        if comparisons > MOST_COMPARISONS {
-            return false;
+            if comparisons > MOST_COMPARISONS {
+                return false;
+            }
         }
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangles around the corners of a polygon that crosses itself: nearly all of them overlap.
+    #[test]
+    fn overlaps_without_number_are_not_all_kept() {
+        let count = 4 * (MOST_FOUND as f64).sqrt() as u32;
+        let corners = |number: u32| {
+            let at = f64::from(number) / f64::from(count);
+            let (x, y) = (0.1 * at, 0.1 * at * at);
+            [[0.0, 0.0], [4.0 + x, y], [x, 3.0 - y]].map(|[x, y]| DVec3::new(x, y, 0.0))
+        };
+        let corners: Vec<_> = (0..count).map(corners).collect();
+        let faces: Vec<_> = (0..count).map(|number| Face { vertices: [0; 3], number }).collect();
+        let mut shape = Shape::default();
+        shape.find_overlaps(&faces, &corners, 1e-6);
+        assert_eq!((shape.overlaps.len(), shape.is_cut_short), (MOST_FOUND, true));
+    }
+
+    /// All pairs of a hundred thousand boxes are far more than the search may take.
+    #[test]
+    fn a_search_among_boxes_that_all_meet_ends() {
+        let boxes = vec![Box::around(&[DVec3::ZERO, DVec3::ONE], 0.0); 100_000];
+        let mut visits = 0;
+        let is_whole = pairs(&boxes, &mut |_, _| {
+            visits += 1;
+            true
+        });
+        assert!(!is_whole && visits <= MOST_COMPARISONS / COMPARISONS_OF_PAIR, "{visits}");
+    }
 }

@@ -1,6 +1,7 @@
 //! Buffers and accessors: numbers out of bytes. Whatever the file says, nothing outside its bytes is read.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
@@ -64,7 +65,10 @@ fn width_of(form: &str) -> Option<usize> {
 /// A document with the bytes that it names.
 pub(super) struct Data<'a> {
     pub root: Root,
+    /// Those of different names.
     buffers: Vec<Cow<'a, [u8]>>,
+    /// For each buffer of the document its number among them.
+    numbers: Vec<usize>,
 }
 
 /// The elements of an accessor, one after the other.
@@ -81,20 +85,40 @@ struct Column<'a> {
 impl<'a> Data<'a> {
     /// Reads the buffers of a document; `bin` is the second chunk of a GLB.
     pub(super) fn new(root: Root, folder: &Path, bin: Option<&'a [u8]>) -> Result<Self, String> {
-        let mut buffers = Vec::new();
+        let mut buffers: Vec<Cow<'_, [u8]>> = Vec::new();
+        // By its name the number of a buffer among those that were read.
+        let mut read: HashMap<&str, usize> = HashMap::new();
+        let mut numbers = Vec::new();
+        let mut left_bytes = limits::MODEL_BYTES;
         for (number, buffer) in root.buffers.iter().enumerate() {
+            let known = buffer.uri.as_deref().and_then(|uri| read.get(uri)).copied();
+            numbers.push(known.unwrap_or(buffers.len()));
             let bytes = match (&buffer.uri, bin) {
-                (Some(uri), _) => Cow::Owned(
-                    resource(folder, uri, limits::MODEL_BYTES)
-                        .map_err(|cause| format!("buffers[{number}]: {cause}"))?,
-                ),
+                (Some(_), _) if known.is_some() => continue,
+                (Some(uri), _) => {
+                    let failed = |cause| format!("buffers[{number}]: {cause}");
+                    let bytes = resource(folder, uri, left_bytes).map_err(failed)?;
+                    left_bytes = left_bytes.saturating_sub(bytes.len() as u64);
+                    read.insert(uri, buffers.len());
+                    Cow::Owned(bytes)
+                }
                 (None, Some(bin)) => Cow::Borrowed(bin),
                 // A buffer of a compression may be a place to decode to.
                 (None, None) => Cow::Borrowed(&[][..]),
             };
             buffers.push(bytes);
         }
-        Ok(Self { root, buffers })
+        Ok(Self { root, buffers, numbers })
+    }
+
+    /// The bytes of all buffers.
+    pub(super) fn len(&self) -> u64 {
+        self.buffers.iter().map(|bytes| bytes.len() as u64).sum()
+    }
+
+    /// How many elements an accessor has; none where it cannot be read, which is said when it is.
+    pub(super) fn count(&self, number: usize) -> u64 {
+        self.column(number).map_or(0, |column| column.count as u64)
     }
 
     /// Whether some of the bytes are those of a file outside the folder of the model.
@@ -108,7 +132,7 @@ impl<'a> Data<'a> {
         let missing = || format!("bufferViews[{number}] is not there");
         let view = self.root.buffer_views.get(number).ok_or_else(missing)?;
         let buffer = view.buffer;
-        let all = self.buffers.get(buffer);
+        let all = self.numbers.get(buffer).map(|&number| &self.buffers[number]);
         let all = all.ok_or_else(|| format!("buffers[{buffer}] is not there"))?;
         let start = view.byte_offset;
         let bytes = start

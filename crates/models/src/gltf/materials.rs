@@ -5,11 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2, DVec3};
-use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
-use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
+use rasterproof_render::pipeline::texture::{Filter, Wrap};
 
 use super::data::{Data, is_outside, resource};
 use super::document::{
@@ -19,7 +18,7 @@ use super::document::{
 use crate::Warnings;
 use crate::contents::Surface;
 use crate::outside;
-use crate::textures::{Decoded, decode};
+use crate::textures::{Decoded, Pictures};
 
 /// A surface, and where its texture finds its coordinates.
 pub(super) struct Described {
@@ -39,34 +38,32 @@ pub(super) fn encoded(linear: f64) -> f64 {
     if linear >= 1.0 { 1.0 } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
-/// The pictures of a document, each decoded once.
-pub(super) struct Pictures<'a> {
+/// The pictures of a document, by their numbers.
+pub(super) struct Images<'a> {
     path: &'a Path,
+    pictures: Pictures,
     read: HashMap<usize, Result<Decoded, String>>,
 }
 
-impl<'a> Pictures<'a> {
+impl<'a> Images<'a> {
     pub(super) fn new(path: &'a Path) -> Self {
-        Self { path, read: HashMap::new() }
+        Self { path, pictures: Pictures::default(), read: HashMap::new() }
     }
 
     fn get(&mut self, data: &Data<'_>, number: usize) -> Result<Decoded, String> {
-        let path = self.path;
-        let read = || {
+        let Self { path, pictures, read } = self;
+        let new = || {
             let image = data.root.images.get(number).ok_or("is not there")?;
-            let bytes = match (&image.uri, image.buffer_view) {
-                (Some(uri), _) => {
-                    let folder = path.parent().unwrap_or(Path::new(""));
-                    resource(folder, uri, limits::TEXTURE_BYTES)?
-                }
-                (None, Some(view)) => data.view(view)?.0.to_vec(),
-                (None, None) => return Err("names no picture".to_owned()),
-            };
             // A TGA has no mark, so its ending is needed.
             let name = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
-            decode(Path::new(name.unwrap_or("")), bytes).map_err(|error| error.cause)
+            let bytes = |limit| match (&image.uri, image.buffer_view) {
+                (Some(uri), _) => resource(path.parent().unwrap_or(Path::new("")), uri, limit),
+                (None, Some(view)) => Ok(data.view(view)?.0.to_vec()),
+                (None, None) => Err("names no picture".to_owned()),
+            };
+            pictures.get(Path::new(name.unwrap_or("")), bytes).cloned()
         };
-        let read = self.read.entry(number).or_insert_with(read);
+        let read = read.entry(number).or_insert_with(new);
         read.clone().map_err(|cause| {
             let folder = path.parent().unwrap_or(Path::new(""));
             let image = data.root.images.get(number);
@@ -83,7 +80,7 @@ impl<'a> Pictures<'a> {
 pub(super) fn describe(
     data: &Data<'_>,
     number: usize,
-    pictures: &mut Pictures<'_>,
+    images: &mut Images<'_>,
     not_drawn: &mut BTreeMap<String, u64>,
     warnings: &mut Warnings,
 ) -> Option<Described> {
@@ -133,13 +130,13 @@ pub(super) fn describe(
     };
     let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
     let decoded = info.and_then(|info| {
-        let read = texture(data, info, pictures, &mut count);
+        let read = texture(data, info, images, &mut count);
         match read {
             Ok(decoded) => Some(decoded),
             Err(cause) => {
                 let name = printable_short(&name, 40);
                 let text = format!("{cause}; the material '{name}' is drawn in its colour");
-                warnings.add(pictures.path, None, "textures", &text);
+                warnings.add(images.path, None, "textures", &text);
                 None
             }
         }
@@ -149,7 +146,7 @@ pub(super) fn describe(
     // A file may let blend what is opaque everywhere.
     let is_opaque = map.is_none() && factor == 1.0;
     let opacity = mode.filter(|_| !is_opaque).map(|mode| Opacity { factor, map, mode });
-    let texture = decoded.map(|decoded| decoded.texture);
+    let texture = decoded.map(|decoded| Arc::new(decoded.texture));
     let transform = info.and_then(transform);
     Some(Described {
         uv_set: uv_set(data, number).filter(|_| texture.is_some()),
@@ -196,7 +193,7 @@ fn glossy([r, g, b]: [f32; 3], gloss: f32) -> Specular {
 fn texture(
     data: &Data<'_>,
     info: &Info,
-    pictures: &mut Pictures<'_>,
+    images: &mut Images<'_>,
     count: &mut impl FnMut(&str),
 ) -> Result<Decoded, String> {
     let number = info.index;
@@ -205,7 +202,7 @@ fn texture(
     let webp = texture.extensions.webp.as_ref().and_then(|webp| webp.source);
     let source = texture.source.or(webp).filter(|&source| source < data.root.images.len());
     let missing = || format!("textures[{number}] has no picture that is read");
-    let decoded = pictures.get(data, source.ok_or_else(missing)?)?;
+    let mut decoded = images.get(data, source.ok_or_else(missing)?)?;
     let sampler = texture.sampler.and_then(|sampler| data.root.samplers.get(sampler));
     // Everything else repeats.
     let other =
@@ -219,17 +216,19 @@ fn texture(
     let wrap = if wraps == [Some(CLAMP_TO_EDGE); 2] { Wrap::Clamp } else { Wrap::Repeat };
     let nearest = sampler.and_then(|sampler| sampler.mag_filter) == Some(NEAREST);
     let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
-    let mut picture = Texture::clone(&decoded.texture).with(filter, wrap);
+    decoded.texture = decoded.texture.with(filter, wrap);
     match sampler.and_then(|sampler| sampler.min_filter) {
-        Some(NEAREST_MIPMAP_LINEAR | LINEAR_MIPMAP_LINEAR) => picture = picture.with_mip_map(),
+        Some(NEAREST_MIPMAP_LINEAR | LINEAR_MIPMAP_LINEAR) => {
+            decoded.texture = decoded.texture.with_mip_map()
+        }
         Some(NEAREST_MIPMAP_NEAREST | LINEAR_MIPMAP_NEAREST) => {
             // Read between two levels, where the file asks for the nearer one.
             count("nearest level of mip map of texture");
-            picture = picture.with_mip_map();
+            decoded.texture = decoded.texture.with_mip_map();
         }
         _ => {}
     }
-    Ok(Decoded { texture: Arc::new(picture), ..decoded })
+    Ok(decoded)
 }
 
 /// The map of texture coordinates, by a rotation that is counter-clockwise with v down.

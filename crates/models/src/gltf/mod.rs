@@ -15,20 +15,28 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
+use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
+use rasterproof_render::pipeline::assemble::ClipPoint;
 
 use crate::contents::{Contents, FilePart, Numbers, Polygons};
 use crate::text::without_mark;
 use crate::{BadFile, Warnings, bad};
 use data::Data;
 use document::{
-    LINE_LOOP, LINE_STRIP, LINES, Node, POINTS, Primitive, Root, TRIANGLE_FAN, TRIANGLE_STRIP,
-    TRIANGLES,
+    LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, Root, TRIANGLE_FAN,
+    TRIANGLE_STRIP, TRIANGLES,
 };
-use materials::{Described, Pictures, encoded};
+use materials::{Described, Images, encoded};
 
-/// Corners of all parts together: a document may show one mesh many times.
-const MOST_CORNERS: usize = 1 << 27;
+/// Corners of all parts together, where Draco has more of them than the document says.
+const MOST_CORNERS: usize = 1 << 25;
+
+/// What a corner of a triangle takes, as a number of a position and as a third of a piece that is drawn.
+const CORNER_BYTES: u64 = 32;
+
+/// What a part takes, however small it is, until it is merged with others.
+const PART_BYTES: u64 = 256;
 
 /// Nodes that are visited: a document may show one node many times.
 const MOST_VISITS: usize = 1 << 20;
@@ -97,8 +105,9 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         data: &data,
         contents,
         warnings: Warnings::default(),
-        pictures: Pictures::new(path),
+        images: Images::new(path),
         described: HashMap::new(),
+        json_bytes: json.len() as u64,
         corners: 0,
     };
     if let Some(odd) = odd {
@@ -108,6 +117,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     reader.count_the_rest();
     let Reader { mut contents, warnings, .. } = reader;
     contents.warnings = warnings.finish();
+    contents.other_bytes = data.len();
     Ok(contents)
 }
 
@@ -175,9 +185,10 @@ struct Reader<'a> {
     data: &'a Data<'a>,
     contents: Contents,
     warnings: Warnings,
-    pictures: Pictures<'a>,
+    images: Images<'a>,
     /// For each material that is used its number in the contents, and where its texture finds its coordinates.
     described: HashMap<usize, Option<(usize, Option<u32>, glam::DAffine2)>>,
+    json_bytes: u64,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
 }
@@ -225,6 +236,7 @@ impl Reader<'_> {
             visits.push((number, world));
             open.extend(node.children.iter().rev().map(|&child| (child, world, depth + 1)));
         }
+        self.refuse_too_many_copies(visits.iter().map(|(number, _)| *number))?;
         for (number, world) in visits {
             let node = &root.nodes[number];
             let Some(mesh) = node.mesh else { continue };
@@ -237,6 +249,54 @@ impl Reader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Refuses what the nodes show before it is built, where it takes far more than the file.
+    fn refuse_too_many_copies(&self, visits: impl Iterator<Item = usize>) -> Result<(), String> {
+        let root = &self.data.root;
+        let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|one| self.bytes(one)).sum::<u64>();
+        let of_meshes: Vec<u64> = root.meshes.iter().map(of_mesh).collect();
+        let of_skins: Vec<u64> =
+            root.skins.iter().map(|skin| (skin.joints.len() * size_of::<DMat4>()) as u64).collect();
+        let (mut bytes, mut copies) = (0u64, 0u64);
+        for number in visits {
+            let node = &root.nodes[number];
+            let Some(mesh) = node.mesh else { continue };
+            let of = |all: &[u64], number: usize| all.get(number).copied().unwrap_or(0);
+            let skin = node.skin.map_or(0, |skin| of(&of_skins, skin));
+            bytes = bytes.saturating_add(of(&of_meshes, mesh)).saturating_add(skin);
+            copies += 1;
+        }
+        let length = self.data.len() + self.json_bytes;
+        let per_byte = limits::MODEL_CONTENTS_BYTES_PER_BYTE.saturating_mul(length);
+        let most = limits::MODEL_CONTENTS_BYTES.max(per_byte);
+        if bytes <= most {
+            return Ok(());
+        }
+        let [bytes, most] = [bytes, most].map(|bytes| bytes >> 20);
+        Err(format!(
+            "shows {copies} copies of its meshes, which take {bytes} MiB, and a file of {length} bytes may have {most} MiB: \
+             export it with fewer copies"
+        ))
+    }
+
+    /// About what a primitive takes each time that it is shown, until it is drawn.
+    fn bytes(&self, primitive: &Primitive) -> u64 {
+        let count = |accessor: Option<usize>| accessor.map_or(0, |number| self.data.count(number));
+        let vertices = count(primitive.attributes.get("POSITION").copied());
+        // Positions in the file and as they are drawn; an attribute is at most three doubles.
+        let vector = size_of::<DVec3>() as u64;
+        let of_vertex = size_of::<ClipPoint>() as u64 + vector * primitive.attributes.len() as u64;
+        let moved = primitive.targets.iter().map(|target| {
+            vector.saturating_mul(count(target.position)).saturating_add(count(target.normal))
+        });
+        let corners = primitive.indices.map_or(vertices, |number| self.data.count(number));
+        let of_corner = match primitive.mode {
+            None | Some(TRIANGLES) => CORNER_BYTES,
+            _ => 3 * CORNER_BYTES,
+        };
+        let all = [vertices.saturating_mul(of_vertex), corners.saturating_mul(of_corner)];
+        all.into_iter().chain(moved).fold(PART_BYTES, u64::saturating_add)
     }
 
     /// The nodes without a parent, which are shown where no scene is described.
@@ -381,8 +441,7 @@ impl Reader<'_> {
             uvs,
             colours,
         };
-        self.contents.parts.push(part);
-        Ok(())
+        self.contents.add(part)
     }
 
     fn count_attributes(&mut self, primitive: &Primitive, vertices: &Vertices<'_>) {
@@ -485,7 +544,7 @@ impl Reader<'_> {
         let described = materials::describe(
             self.data,
             number,
-            &mut self.pictures,
+            &mut self.images,
             &mut self.contents.not_drawn,
             &mut self.warnings,
         );

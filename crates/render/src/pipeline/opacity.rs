@@ -17,7 +17,7 @@ use glam::DVec2;
 
 use super::depth::OFF_FRACTION;
 use super::sample::Colour;
-use super::texture::{FourTexels, Texture, Wrap};
+use super::texture::{Filter, FourTexels, Texture, Wrap};
 
 /// How opaque a material is, and what that decides.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,11 +127,12 @@ impl AlphaMode {
     }
 }
 
-/// A picture of opacities, with the least and the largest of each block of its texels.
+/// A picture of opacities, with the least and the largest of each block of its texels. Copies that are read differently
+/// share both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpacityMap {
     texture: Texture,
-    blocks: Vec<[u8; 2]>,
+    blocks: Arc<[[u8; 2]]>,
     /// The least and the largest opacity of all texels.
     whole: [u8; 2],
 }
@@ -159,7 +160,13 @@ impl OpacityMap {
             }
         }
         let whole = blocks.iter().fold(none, |whole, block| join(whole, *block));
-        Self { texture, blocks, whole }
+        Self { texture, blocks: blocks.into(), whole }
+    }
+
+    /// The same, read differently.
+    #[must_use]
+    pub fn with(self, filter: Filter, wrap: Wrap) -> Self {
+        Self { texture: self.texture.with(filter, wrap), ..self }
     }
 
     /// The least and the largest of each block, row by row.
@@ -223,7 +230,6 @@ fn blocks(wrap: Wrap, [first, last]: [i64; 2], side: i64) -> [Range<usize>; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::texture::Filter;
     use rasterproof_core::arrays::MapArray as _;
     use rasterproof_verify::cases::Rng;
 

@@ -14,21 +14,14 @@ const BLOCK: usize = 8;
 const MOST_BLOCKS: usize = 256;
 
 /// The colour of each block that has one, found when it is first asked for.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct PlainBlocks(OnceLock<Blocks>);
 
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Blocks {
     colours: Vec<Option<u32>>,
     /// How many of the blocks have one colour, divided by their number.
     plain: f64,
-}
-
-/// What is computed from the texels makes no difference.
-impl PartialEq for PlainBlocks {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
 }
 
 impl PlainBlocks {

@@ -6,6 +6,8 @@
 //!
 //! It refuses to be empty or larger than [`MAX_SIDE_PX`] a side.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::{DVec2, DVec3};
 
 use super::depth::OFF_FRACTION;
@@ -25,7 +27,8 @@ pub enum Filter {
     Bilinear,
 }
 
-/// An opaque picture that is looked up by (u, v): u right, v **up**, [0, 1] each over the picture.
+/// An opaque picture that is looked up by (u, v): u right, v **up**, [0, 1] each over the picture. Copies that are read
+/// differently share the texels and what is computed from them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     width: u32,
@@ -41,7 +44,22 @@ pub struct Texture {
     pub anisotropy: u8,
     /// Its mip map: smaller and smaller pictures, down to one texel; empty without one.
     levels: Vec<Texture>,
+    derived: Arc<Derived>,
+}
+
+/// What is computed from the texels when it is first asked for, once for all copies of a texture.
+#[derive(Debug, Default)]
+struct Derived {
     plain: PlainBlocks,
+    /// The levels of the mip map, read as a texture is where nothing else is said.
+    levels: OnceLock<Vec<Texture>>,
+}
+
+/// What is computed from the texels makes no difference.
+impl PartialEq for Derived {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Texels row by row from the top, as bytes. A table turns them into channels in [0, 1]: doubles would take
@@ -49,9 +67,9 @@ pub struct Texture {
 #[derive(Clone, Debug, PartialEq)]
 enum Texels {
     /// Red the lowest byte.
-    Colour(Vec<u32>),
+    Colour(Arc<[u32]>),
     /// One byte for all three channels.
-    Grey(Vec<u8>),
+    Grey(Arc<[u8]>),
 }
 
 /// Four texels of one texture between which a filter has read.
@@ -115,19 +133,19 @@ impl Texture {
         let sides = 1..=MAX_SIDE_PX;
         let fits = sides.contains(&width) && sides.contains(&height);
         (fits && grey.len() == width as usize * height as usize)
-            .then(|| Self::of(width, height, Texels::Grey(grey)))
+            .then(|| Self::of(width, height, Texels::Grey(grey.into())))
     }
 
     #[must_use]
     pub fn white() -> Self {
-        Self::of(1, 1, Texels::Colour(vec![0xff_ffff]))
+        Self::of(1, 1, Texels::Colour([0xff_ffff].into()))
     }
 
     fn of(width: u32, height: u32, texels: Texels) -> Self {
         let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
         let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        let (anisotropy, levels, plain) = (1, Vec::new(), PlainBlocks::default());
-        Self { width, height, subtexels, texels, wrap, filter, anisotropy, levels, plain }
+        let (anisotropy, levels, derived) = (1, Vec::new(), Arc::default());
+        Self { width, height, subtexels, texels, wrap, filter, anisotropy, levels, derived }
     }
 
     /// The same, read differently.
@@ -147,15 +165,13 @@ impl Texture {
     /// replaces, in whole steps, halves upwards. Of a side that is odd the last texel replaces three.
     #[must_use]
     pub fn with_mip_map(mut self) -> Self {
-        self.levels.clear();
-        loop {
-            let last = self.levels.last().unwrap_or(&self);
-            if last.size() == (1, 1) {
-                return self;
-            }
-            let half = last.half();
-            self.levels.push(half);
-        }
+        let levels = self.derived.levels.get_or_init(|| {
+            let next = |last: &Self| (last.size() != (1, 1)).then(|| last.half());
+            std::iter::successors(next(&self), next).collect()
+        });
+        let level = |level: &Self| level.clone().with(self.filter, self.wrap);
+        self.levels = levels.iter().map(level).collect();
+        self
     }
 
     #[must_use]
@@ -191,7 +207,7 @@ impl Texture {
             ),
             Texels::Grey(_) => Texels::Grey(all.map(|(x, y)| mean(x, y, 0) as u8).collect()),
         };
-        Self::of(width, height, texels).with(self.filter, self.wrap)
+        Self::of(width, height, texels)
     }
 
     /// The colour at (u, v) at a level of detail: between the two levels of the mip map, or the texture itself
@@ -395,10 +411,10 @@ impl Texture {
         let rows = within(self.wrap, rows, self.height.into());
         match &self.texels {
             Texels::Colour(bytes) => {
-                self.plain.colour(self.sides(), &columns, &rows, |at| bytes[at])
+                self.derived.plain.colour(self.sides(), &columns, &rows, |at| bytes[at])
             }
             Texels::Grey(bytes) => {
-                self.plain.colour(self.sides(), &columns, &rows, |at| bytes[at].into())
+                self.derived.plain.colour(self.sides(), &columns, &rows, |at| bytes[at].into())
             }
         }
     }
@@ -407,8 +423,8 @@ impl Texture {
     #[must_use]
     pub fn plain_part(&self) -> f64 {
         match &self.texels {
-            Texels::Colour(bytes) => self.plain.part(self.sides(), |at| bytes[at]),
-            Texels::Grey(bytes) => self.plain.part(self.sides(), |at| bytes[at].into()),
+            Texels::Colour(bytes) => self.derived.plain.part(self.sides(), |at| bytes[at]),
+            Texels::Grey(bytes) => self.derived.plain.part(self.sides(), |at| bytes[at].into()),
         }
     }
 

@@ -228,10 +228,7 @@ pub struct ExactTriangle<const N: usize> {
 
 impl<const N: usize> ExactTriangle<N> {
     /// Prepares the planes; `attributes[i]` belongs to `corners[i]`. Nothing for a triangle of zero
-    /// area, which has no values.
-    ///
-    /// # Panics
-    /// If a number is not finite.
+    /// area, which has no values, and where a number is not finite, which has no exact value.
     #[must_use]
     pub fn new(
         corners: &Corners,
@@ -245,7 +242,8 @@ impl<const N: usize> ExactTriangle<N> {
         };
         let ((x1, y1), (x2, y2)) = (d(0, 1), d(0, 2));
         let area = x1 * y2 - x2 * y1;
-        if area == 0 {
+        let mut numbers = depth.iter().chain(&inv_w).chain(attributes.as_flattened());
+        if area == 0 || !numbers.all(|number| number.is_finite()) {
             return None;
         }
         let inv_w = inv_w.map_array(Dyadic::new);

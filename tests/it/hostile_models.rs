@@ -1,0 +1,697 @@
+//! Models that are small as files and large in memory or time: each is drawn or refused with a message, by every command
+//! that takes a model, within 2 GiB and 20 seconds of processor time.
+//!
+//! `RASTERPROOF_FUZZ=FROM,TO cargo test --test it fuzz_of_models -- --ignored --nocapture` runs the models of these
+//! numbers; a number gives the same model everywhere.
+
+use std::fmt::Write as _;
+use std::io::Cursor;
+use std::path::Path;
+use std::process::Command;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use image::{GrayImage, ImageFormat, Luma, Rgba, RgbaImage};
+use serde_json::{Value, json};
+
+use rasterproof_core::angle::{cos, sin};
+use rasterproof_verify::cases::Rng;
+
+use crate::model_files::below;
+use crate::program::{Folder, PROGRAM, Run};
+
+/// Runs the program with at most so many MiB of memory and 20 seconds of processor time.
+fn within(mib: u32, folder: &Path, words: &[&str]) -> Run {
+    let mut command = Command::new("sh");
+    let limits =
+        format!("ulimit -v {} && ulimit -t 20 && ulimit -c 0 && exec \"$0\" \"$@\"", mib << 10);
+    command.args(["-c", &limits, PROGRAM]).args(words).current_dir(folder);
+    command.stdin(std::process::Stdio::null()).env_remove("COLUMNS");
+    Run::of(&mut command)
+}
+
+fn bounded(folder: &Path, words: &[&str]) -> Run {
+    within(2048, folder, words)
+}
+
+/// The commands that take a model; `inspect` is given its first face.
+fn commands<'a>(model: &'a str, face: &'a str) -> [Vec<&'a str>; 6] {
+    let size = ["--size", "64x48"];
+    [
+        vec!["render", model, "-o", "drawn.png"],
+        vec!["plan", model, "--rounds", "1", "--whole"],
+        vec!["verify", model],
+        vec!["inspect", face],
+        vec!["study", model, "--once"],
+        vec!["cost", model, "--once"],
+    ]
+    .map(|words| words.into_iter().chain(size).collect())
+}
+
+/// Whether a run ended in one of the ways in which commands end: a panic has another status, and a limit ends by a signal.
+fn is_well(run: &Run) -> bool {
+    matches!(run.status, Some(0..=2)) && !run.errors.contains("panicked")
+}
+
+fn png<P: image::PixelWithColorType + image::Pixel<Subpixel = u8>>(
+    picture: &image::ImageBuffer<P, Vec<u8>>,
+) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, ImageFormat::Png).unwrap();
+    bytes.into_inner()
+}
+
+/// Pictures for materials: of all sizes, with opacities and without, and broken ones.
+fn pictures() -> Vec<(&'static str, Vec<u8>)> {
+    let speckled = |x: u32, y: u32| {
+        let byte = (x.wrapping_mul(97) ^ y.wrapping_mul(57)) as u8;
+        Rgba([byte, byte.rotate_left(3), 90, if byte > 99 { 255 } else { byte }])
+    };
+    let good = png(&RgbaImage::from_fn(13, 7, speckled));
+    let mut cut = good.clone();
+    cut.truncate(good.len() / 2);
+    vec![
+        ("a.png", good),
+        ("wide.png", png(&GrayImage::from_pixel(4096, 1, Luma([77])))),
+        ("large.png", png(&GrayImage::from_pixel(2048, 1024, Luma([200])))),
+        ("cut.png", cut),
+        ("one.png", png(&RgbaImage::from_pixel(1, 1, Rgba([255, 0, 0, 128])))),
+        ("text.png", b"no picture".to_vec()),
+    ]
+}
+
+/// The most bytes of a model.
+const MOST_BYTES: usize = 1 << 16;
+
+/// Positions and polygons, as all formats have them.
+struct Shape {
+    positions: Vec<[f64; 3]>,
+    polygons: Vec<Vec<usize>>,
+}
+
+fn pick<T: Copy>(rng: &mut Rng, all: &[T]) -> T {
+    all[below(rng, all.len())]
+}
+
+/// A number whose size is anything that a double can be, mostly a usual one.
+fn size(rng: &mut Rng) -> f64 {
+    match below(rng, 8) {
+        0 => (1.0 + rng.unit()) * 10f64.powi(rng.int(-320, 300) as i32),
+        1 => (1.0 + rng.unit()) * 10f64.powi(rng.int(-45, 39) as i32),
+        2 => pick(rng, &[1e38, 1e-40, 1e-75, 5e-324, 1e19, 1e-20]),
+        _ => (1.0 + rng.unit()) * 10f64.powi(rng.int(-3, 2) as i32),
+    }
+}
+
+fn shape(rng: &mut Rng) -> Shape {
+    let most = pick(rng, &[4, 40, 700]);
+    let count = 1 + below(rng, most);
+    let kind = below(rng, 8);
+    let point = |rng: &mut Rng| [rng.signed(), rng.signed(), rng.signed()];
+    let (mut positions, mut polygons) = (Vec::new(), Vec::new());
+    match kind {
+        // A soup of triangles.
+        0 | 1 => {
+            positions.extend((0..3 * count).map(|_| point(rng)));
+            polygons.extend((0..count).map(|i| vec![3 * i, 3 * i + 1, 3 * i + 2]));
+        }
+        // Squares one behind the other, in one plane or nearly so.
+        2 => {
+            let step = pick(rng, &[0.0, 1e-12, 1e-3]);
+            for i in 0..count {
+                let z = step * i as f64;
+                let square = [[-1.0, -1.0, z], [1.0, -1.0, z], [1.0, 1.0, z], [-1.0, 1.0, z]];
+                positions.extend(square);
+                polygons.push((4 * i..4 * i + 4).collect());
+            }
+        }
+        // One polygon that crosses itself.
+        3 => {
+            let flat = rng.chance(2);
+            let corners = 3 + 3 * count;
+            positions.extend((0..corners).map(|_| {
+                let [x, y, z] = point(rng);
+                [x, y, if flat { 0.0 } else { z * 1e-3 }]
+            }));
+            polygons.push((0..corners).collect());
+        }
+        // A star or a circle, several times.
+        4 => {
+            let inner = pick(rng, &[1.0, 0.999, 0.3]);
+            let corners = 3 + count;
+            positions.extend((0..corners).map(|i| {
+                let angle = std::f64::consts::TAU * i as f64 / corners as f64;
+                let radius = if i % 2 == 0 { 1.0 } else { inner };
+                [radius * cos(angle), radius * sin(angle), 0.0]
+            }));
+            let copies = 1 + below(rng, 8);
+            polygons.extend((0..copies).map(|_| (0..corners).collect()));
+        }
+        // Triangles between few positions: most of them are there twice, or have no area.
+        5 => {
+            let few = 1 + below(rng, 9);
+            positions.extend((0..few).map(|_| point(rng)));
+            let triangle = |rng: &mut Rng| (0..3).map(|_| below(rng, few)).collect();
+            polygons.extend((0..3 * count).map(|_| triangle(rng)));
+        }
+        // Needles.
+        6 => {
+            for i in 0..count {
+                let [a, b] = [point(rng), point(rng)];
+                let beside = [b[0] + 1e-7, b[1], b[2] - 1e-7];
+                positions.extend([a, b, beside]);
+                polygons.push(vec![3 * i, 3 * i + 1, 3 * i + 2]);
+            }
+        }
+        // A grid.
+        _ => {
+            let side = 2 + below(rng, 24);
+            for i in 0..side * side {
+                let (x, y) = ((i % side) as f64, (i / side) as f64);
+                positions.push([x, y, sin(x * y * 0.1)]);
+                if i % side > 0 && i >= side {
+                    polygons.push(vec![i, i - 1, i - side - 1, i - side]);
+                }
+            }
+        }
+    }
+    let scale = [size(rng); 3].map(|all| if below(rng, 9) == 0 { size(rng) } else { all });
+    let offset = [0; 3].map(|_| if below(rng, 6) == 0 { size(rng) } else { 0.0 });
+    for position in &mut positions {
+        for axis in 0..3 {
+            position[axis] = position[axis] * scale[axis] + offset[axis];
+        }
+    }
+    Shape { positions, polygons }
+}
+
+/// Texture coordinates near and far.
+fn uv(rng: &mut Rng, scale: f64) -> [f64; 2] {
+    [rng.signed() * scale, rng.signed() * scale]
+}
+
+fn obj(rng: &mut Rng) -> Vec<(&'static str, Vec<u8>)> {
+    let Shape { positions, polygons } = shape(rng);
+    let mut mtl = String::new();
+    let names = ["red", "map", "glass", "cut"];
+    for name in names {
+        let _ = writeln!(mtl, "newmtl {name}\nKd {} 0.5 1", rng.unit());
+        let map = pick(rng, &["a.png", "wide.png", "large.png", "cut.png", "one.png", "text.png"]);
+        let option = pick(rng, &["", "-clamp on ", "-s 3 9 ", "-o 0.1 1e9 ", "-mm 0 1 "]);
+        if rng.chance(2) {
+            let _ = writeln!(mtl, "map_Kd {option}{map}");
+        }
+        match below(rng, 6) {
+            0 => mtl += &format!("d {}\n", rng.unit()),
+            1 => mtl += &format!("map_d {map}\n"),
+            2 => mtl += &format!("Ks 1 1 1\nNs {}\n", size(rng)),
+            3 => mtl += "d 0\nillum 4\n",
+            _ => {}
+        }
+    }
+    let mut text = "mtllib m.mtl\n".to_owned();
+    for [x, y, z] in &positions {
+        let colour = if rng.chance(9) { " 1 0 .5" } else { "" };
+        let _ = writeln!(text, "v {x:?} {y:?} {z:?}{colour}");
+    }
+    let far = pick(rng, &[1.0, 4.0, 1e7, 1e30, 1e300]);
+    for _ in 0..4 {
+        let [u, v] = uv(rng, far);
+        let _ = writeln!(text, "vt {u:?} {v:?}\nvn {} {} 1", rng.signed(), rng.signed());
+    }
+    let groups = rng.chance(3);
+    for polygon in &polygons {
+        if groups || rng.chance(30) {
+            let name = pick(rng, &names);
+            let _ = writeln!(text, "g {name}\nusemtl {name}\ns {}", below(rng, 3));
+        }
+        text.push('f');
+        for corner in polygon {
+            let _ = match below(rng, 12) {
+                0 => write!(text, " {}//{}", corner + 1, 1 + below(rng, 4)),
+                _ => write!(text, " {}/{}", corner + 1, 1 + below(rng, 4)),
+            };
+        }
+        text.push('\n');
+    }
+    vec![("m.obj", text.into_bytes()), ("m.mtl", mtl.into_bytes())]
+}
+
+fn ply(rng: &mut Rng) -> Vec<(&'static str, Vec<u8>)> {
+    let Shape { positions, polygons } = shape(rng);
+    let is_text = rng.chance(2);
+    let form = if is_text { "ascii" } else { "binary_little_endian" };
+    let huge = pick(rng, &[4_294_967_295_u64, 1 << 40, u64::MAX, 1 << 31]);
+    let count = |rng: &mut Rng, right: usize| if rng.chance(25) { huge } else { right as u64 };
+    let [vertices, faces] = [positions.len(), polygons.len()].map(|all| count(rng, all));
+    let odd = if rng.chance(25) { format!("element odd {huge}\n") } else { String::new() };
+    let mut bytes = format!(
+        "ply\nformat {form} 1.0\nelement vertex {vertices}\nproperty double x\nproperty double y\nproperty double z\n\
+         {odd}element face {faces}\nproperty list uint uint vertex_indices\nend_header\n"
+    )
+    .into_bytes();
+    for position in &positions {
+        if is_text {
+            bytes.extend(position.map(|x| format!("{x:?} ")).concat().bytes());
+            bytes.push(b'\n');
+        } else {
+            bytes.extend(position.iter().flat_map(|x| x.to_le_bytes()));
+        }
+    }
+    for polygon in &polygons {
+        let corners = [polygon.len()].into_iter().chain(polygon.iter().copied());
+        if is_text {
+            bytes.extend(corners.map(|x| format!("{x} ")).collect::<String>().bytes());
+            bytes.push(b'\n');
+        } else {
+            bytes.extend(corners.flat_map(|x| (x as u32).to_le_bytes()));
+        }
+    }
+    vec![("m.ply", bytes)]
+}
+
+fn triangles(shape: &Shape) -> Vec<[[f64; 3]; 3]> {
+    let fan = |polygon: &Vec<usize>| {
+        let at = |corner: usize| shape.positions[polygon[corner]];
+        (1..polygon.len().saturating_sub(1)).map(|i| [at(0), at(i), at(i + 1)]).collect::<Vec<_>>()
+    };
+    shape.polygons.iter().flat_map(fan).collect()
+}
+
+fn stl(rng: &mut Rng) -> Vec<(&'static str, Vec<u8>)> {
+    let triangles = triangles(&shape(rng));
+    if rng.chance(2) {
+        let mut text = String::new();
+        for triangle in &triangles {
+            if text.is_empty() || rng.chance(6) {
+                text += "solid x\n";
+            }
+            text += "facet normal 0 0 1\nouter loop\n";
+            for [x, y, z] in triangle {
+                let _ = writeln!(text, "vertex {x:e} {y:e} {z:e}");
+            }
+            text += "endloop\nendfacet\n";
+        }
+        return vec![("m.stl", (text + "endsolid x\n").into_bytes())];
+    }
+    let mut bytes = vec![0; 80];
+    let count = if rng.chance(12) { u32::MAX } else { triangles.len() as u32 };
+    bytes.extend(count.to_le_bytes());
+    for triangle in &triangles {
+        bytes.extend([0; 12]);
+        bytes.extend(triangle.as_flattened().iter().flat_map(|x| (*x as f32).to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    vec![("m.stl", bytes)]
+}
+
+fn gltf(rng: &mut Rng) -> Vec<(&'static str, Vec<u8>)> {
+    let shape = shape(rng);
+    let corners = triangles(&shape);
+    let mut bin: Vec<u8> = Vec::new();
+    for position in &shape.positions {
+        bin.extend(position.iter().flat_map(|x| (*x as f32).to_le_bytes()));
+    }
+    let of_uvs = bin.len();
+    let far = pick(rng, &[1.0, 1e9, 1e38]);
+    for _ in &shape.positions {
+        bin.extend(uv(rng, far).iter().flat_map(|x| (*x as f32).to_le_bytes()));
+    }
+    let of_indices = bin.len();
+    let fans = shape.polygons.iter().flat_map(|polygon| {
+        (1..polygon.len().saturating_sub(1)).flat_map(|i| [polygon[0], polygon[i], polygon[i + 1]])
+    });
+    bin.extend(fans.flat_map(|index| (index as u16).to_le_bytes()));
+    let huge = pick(rng, &[1u64 << 24, (1 << 24) + 1, u64::MAX, 1 << 32]);
+    let positions = json!({"bufferView": 0, "componentType": 5126, "count": shape.positions.len(), "type": "VEC3"});
+    let positions = match rng.chance(20) {
+        // Zeros without bytes.
+        true => json!({"componentType": 5126, "count": huge, "type": "VEC3"}),
+        false => positions,
+    };
+    let mut primitive = json!({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0});
+    primitive["mode"] = pick(rng, &[4, 4, 4, 5, 6, 0]).into();
+    if !rng.chance(5) {
+        primitive["indices"] = 2.into();
+    }
+    let meshes = json!([{"primitives": vec![primitive; pick(rng, &[1, 1, 1, 3, 60])]}]);
+    // Nodes that show the nodes before them several times.
+    let mut nodes = vec![json!({"mesh": 0})];
+    for level in 0..below(rng, 5) {
+        let copies = pick(rng, &[1, 2, 10, 100, 1000]);
+        let mut node = json!({"children": vec![level; copies]});
+        match below(rng, 5) {
+            0 => node["scale"] = json!([size(rng) as f32, 1.0, -1.0]),
+            1 => node["translation"] = json!([size(rng) as f32, 0.0, 0.5]),
+            2 => node["rotation"] = json!([rng.unit(), rng.unit(), 0.0, 0.1]),
+            _ => {}
+        }
+        nodes.push(node);
+    }
+    let image = |rng: &mut Rng| match rng.chance(2) {
+        true => {
+            json!({"uri": pick(rng, &["a.png", "large.png", "wide.png", "cut.png", "none.png"])})
+        }
+        false => json!({"bufferView": below(rng, 3), "mimeType": "image/png"}),
+    };
+    let images: Vec<Value> = (0..1 + below(rng, 6)).map(|_| image(rng)).collect();
+    let sampler =
+        json!({"minFilter": pick(rng, &[9728, 9984, 9987]), "wrapS": pick(rng, &[10497, 33071])});
+    let root = json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [nodes.len() - 1]}], "nodes": nodes, "meshes": meshes,
+        "materials": [{"alphaMode": pick(rng, &["OPAQUE", "MASK", "BLEND"]), "pbrMetallicRoughness": {
+            "baseColorTexture": {"index": 0}, "baseColorFactor": [1, rng.unit(), 1, rng.unit()]}}],
+        "textures": [{"source": below(rng, images.len()), "sampler": 0}], "samplers": [sampler], "images": images,
+        "accessors": [positions,
+            {"bufferView": 1, "componentType": 5126, "count": shape.positions.len(), "type": "VEC2"},
+            {"bufferView": 2, "componentType": 5123, "count": 3 * corners.len(), "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": of_uvs},
+            {"buffer": 0, "byteOffset": of_uvs, "byteLength": of_indices - of_uvs},
+            {"buffer": 0, "byteOffset": of_indices, "byteLength": bin.len() - of_indices}],
+        "buffers": [{"byteLength": bin.len()}],
+    });
+    if rng.chance(2) {
+        let mut root = root;
+        let data = STANDARD.encode(&bin);
+        root["buffers"][0]["uri"] = format!("data:application/octet-stream;base64,{data}").into();
+        return vec![("m.gltf", root.to_string().into_bytes())];
+    }
+    let mut json = root.to_string().into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    bin.resize(bin.len().next_multiple_of(4), 0);
+    let mut bytes = b"glTF".to_vec();
+    let words =
+        |words: &[usize]| words.iter().flat_map(|w| (*w as u32).to_le_bytes()).collect::<Vec<_>>();
+    bytes.extend(words(&[2, 12 + 8 + json.len() + 8 + bin.len(), json.len()]));
+    bytes.extend(b"JSON".iter().chain(&json));
+    bytes.extend(words(&[bin.len()]));
+    bytes.extend(b"BIN\0".iter().chain(&bin));
+    vec![("m.glb", bytes)]
+}
+
+/// Changes bytes of a file, or cuts it off; digits mostly become other digits, so that numbers change and not words.
+fn mutate(bytes: &mut Vec<u8>, rng: &mut Rng) {
+    for _ in 0..=below(rng, 6) {
+        if bytes.is_empty() {
+            return;
+        }
+        let at = below(rng, bytes.len());
+        match below(rng, 6) {
+            0 => bytes[at] = below(rng, 256) as u8,
+            1 => drop(bytes.remove(at)),
+            2 => bytes.insert(at, pick(rng, b"0123456789e-./ \n,[]")),
+            3 => bytes.truncate(at.max(bytes.len() / 2)),
+            _ => {
+                let digits = bytes[at..].iter().position(u8::is_ascii_digit).map(|from| at + from);
+                bytes[digits.unwrap_or(at)] = pick(rng, b"0123456789");
+            }
+        }
+    }
+}
+
+/// The files of a model; it is the first.
+fn model(number: u64) -> Vec<(&'static str, Vec<u8>)> {
+    let rng = &mut Rng::new("hostile models", 0, number);
+    let mut files = match below(rng, 6) {
+        0 | 1 => obj(rng),
+        2 => ply(rng),
+        3 => stl(rng),
+        _ => gltf(rng),
+    };
+    for (_, bytes) in &mut files {
+        bytes.truncate(MOST_BYTES);
+        if rng.chance(3) {
+            mutate(bytes, rng);
+        }
+    }
+    files
+}
+
+/// Runs all commands on each model; how many models were read.
+fn fuzz(numbers: std::ops::Range<u64>, name: &str) {
+    let folder = Folder::new(name);
+    for (name, bytes) in pictures() {
+        folder.put(name, bytes);
+    }
+    let (mut read, mut count) = (0, 0);
+    let mut wrong = Vec::new();
+    for number in numbers {
+        let files = model(number);
+        for (name, bytes) in &files {
+            folder.put(name, bytes);
+        }
+        let (name, face) = (files[0].0, format!("{}#1", files[0].0));
+        for words in commands(name, &face) {
+            let run = bounded(&folder, &words);
+            read += u64::from(words[0] == "render" && run.status == Some(0));
+            if !is_well(&run) {
+                let says = run.errors.lines().last().unwrap_or_default();
+                let line = format!(
+                    "model {number}: {} ends with {:?}: {says:.200}",
+                    words.join(" "),
+                    run.status
+                );
+                println!("{line}");
+                wrong.push(line);
+            }
+        }
+        count += 1;
+        if count % 1000 == 0 {
+            println!("{count} models, the last is {number}: {read} read");
+        }
+    }
+    println!("{count} models, each by six commands: {read} read, {} wrong", wrong.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(read > count / 4, "{read} of {count}");
+}
+
+#[test]
+fn a_few_hostile_models_are_drawn_or_refused() {
+    fuzz(0..12, "hostile-models-few");
+}
+
+/// The share that the project's own check runs; `RASTERPROOF_FUZZ=FROM,TO` runs another one.
+#[test]
+#[ignore = "takes half a minute; .ci/run runs it"]
+fn fuzz_of_models() {
+    let range = std::env::var("RASTERPROOF_FUZZ").unwrap_or_else(|_| "12,112".to_owned());
+    let ends = range.split_once(',').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+    let (from, to): (u64, u64) = ends.expect("RASTERPROOF_FUZZ is FROM,TO");
+    fuzz(from..to, &format!("hostile-models-{from}"));
+}
+
+/// A tetrahedron and a concave face, with the positions multiplied by a number.
+fn sized(size: f64) -> String {
+    let positions = [[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3], [1, 1, 0], [3, 3, 1]];
+    let mut text = String::new();
+    for position in positions {
+        let [x, y, z] = position.map(|number| f64::from(number) * size);
+        let _ = writeln!(text, "v {x:?} {y:?} {z:?}");
+    }
+    text + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\ns 1\nf 1 2 6 3\nf 2 5 3 6\n"
+}
+
+/// Multiplied by a power of two, a model has the same picture to the bit.
+#[test]
+fn the_size_of_a_model_changes_no_pixel() {
+    let folder = Folder::new("hostile-models-size");
+    let draw = |power: i32| {
+        // 2^-1060 is a quotient of doubles, and not a power that `powi` gives.
+        let size = 2f64.powi(power / 2) * 2f64.powi(power - power / 2);
+        folder.put("m.obj", sized(size));
+        let run = folder.check("render m.obj --size 64x48 -o drawn.png", 0);
+        let is_said = run.errors.contains("multiplied by 2^");
+        assert_eq!(is_said, power.abs() > 33, "2^{power}: {run}");
+        std::fs::read(folder.join("drawn.png")).unwrap()
+    };
+    let usual = draw(0);
+    for power in [-1060, -300, -133, -20, 20, 100, 123] {
+        assert!(draw(power) == usual, "the picture differs at 2^{power}");
+    }
+}
+
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn models_of_all_sizes_go_through_all_commands() {
+    let folder = Folder::new("hostile-models-sizes");
+    for size in [1e-320, 1e-200, 1e-154, 1e-75, 1e-45, 1e-40, 1e-38, 1e-10, 1e10, 1e20, 1e30, 3e37]
+    {
+        folder.put("m.obj", sized(size));
+        for words in commands("m.obj", "m.obj#1") {
+            let run = bounded(&folder, &words);
+            assert!(run.status == Some(0), "{size:e}: {run}");
+        }
+    }
+}
+
+/// Coordinates of a texture that single precision does not hold are counted, and nothing is said of them.
+#[test]
+fn values_that_no_rung_takes_are_counted() {
+    let folder = Folder::new("hostile-models-values");
+    let text = "vt 0 0\nvt 1e300 1\nvt 0 1\n";
+    folder.put("m.obj", format!("{}{text}f 1/1 2/2 3/3\n", sized(1.0)));
+    for command in ["study", "cost"] {
+        let run = folder.check(format!("{command} m.obj --once --size 64x48"), 0);
+        run.prints("not judged: 1 pieces, since single precision does not hold");
+    }
+}
+
+/// A glTF with so many materials, each with an image and a triangle of its own; the images have these names in turn.
+fn textured(count: usize, names: &[&str]) -> Vec<u8> {
+    let numbers = [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0];
+    let bin: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let all = |of: &dyn Fn(usize) -> Value| (0..count).map(of).collect::<Vec<_>>();
+    let root = json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": (0..count).collect::<Vec<_>>()}],
+        "nodes": all(&|i| json!({"mesh": i, "translation": [i % 8, i / 8, 0]})),
+        "meshes": all(&|i| json!({"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": i}]})),
+        "materials": all(&|i| json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}})),
+        "textures": all(&|i| json!({"source": i, "sampler": 0})), "samplers": [{"minFilter": 9987}],
+        "images": all(&|i| json!({"uri": names[i % names.len()]})),
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+        "buffers": [{"byteLength": 60, "uri": format!("data:;base64,{}", STANDARD.encode(bin))}],
+    });
+    root.to_string().into_bytes()
+}
+
+/// 64 images of 2048 x 2048 px take 1 GiB, and with their mip maps more; one of them takes 22 MB.
+#[test]
+fn a_picture_is_decoded_once_however_often_it_is_named() {
+    let folder = Folder::new("hostile-models-textures");
+    let picture = png(&image::RgbImage::from_pixel(2048, 2048, image::Rgb([9, 99, 200])));
+    for name in ["a.png", "b.png"] {
+        folder.put(name, &picture);
+    }
+    folder.put("m.gltf", textured(64, &["a.png", "b.png"]));
+    let mut obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n".to_owned();
+    let mut mtl = String::new();
+    for number in 0..64 {
+        let _ = writeln!(obj, "usemtl m{number}\nf 1/1 2/2 3/3");
+        let options = if number % 2 == 0 { "-clamp on" } else { "-o 0.1 0" };
+        let _ =
+            writeln!(mtl, "newmtl m{number}\nmap_Kd {options} -s {number} 1 a.png\nmap_d b.png");
+    }
+    folder.put("m.obj", obj);
+    folder.put("m.mtl", mtl);
+    for model in ["m.gltf", "m.obj"] {
+        let words = ["render", model, "--size", "64x48", "--mip-maps", "-o", "drawn.png"];
+        let run = within(800, &folder, &words).has(0);
+        assert!(!run.errors.contains("warning"), "{run}");
+    }
+}
+
+/// Five pictures that promise 8192 x 8192 px: four of them fit into the limit.
+#[test]
+fn all_textures_of_a_model_have_a_limit_together() {
+    let folder = Folder::new("hostile-models-all-textures");
+    let names = ["0.bmp", "1.bmp", "2.bmp", "3.bmp", "4.bmp"];
+    for (number, name) in names.into_iter().enumerate() {
+        let words = [54, 0, 54, 40, 8192, 8192, 24 << 16 | 1, 0, 0, number as u32, 0, 0, 0];
+        let words = words.iter().flat_map(|word: &u32| word.to_le_bytes());
+        folder.put(name, b"BM".iter().copied().chain(words).collect::<Vec<_>>());
+    }
+    folder.put("m.gltf", textured(5, &names));
+    let words = ["render", "m.gltf", "--size", "64x48", "-o", "drawn.png"];
+    let run = bounded(&folder, &words).has(0).says("images[4] has 8192 x 8192 px");
+    run.says("the 1024 MiB of all textures of a model: make the pictures smaller");
+}
+
+/// A glTF that shows one triangle so many times as the numbers multiplied.
+fn instances(counts: &[usize]) -> Vec<u8> {
+    let numbers = [-1.0f32, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0];
+    let bin: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let mut nodes = vec![json!({"mesh": 0, "scale": [2, 1, -1]})];
+    nodes.extend(counts.iter().enumerate().map(|(level, &n)| json!({"children": vec![level; n]})));
+    let root = json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [nodes.len() - 1]}], "nodes": nodes,
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": format!("data:;base64,{}", STANDARD.encode(bin))}],
+    });
+    root.to_string().into_bytes()
+}
+
+#[test]
+fn instances_are_merged_or_refused_before_they_are_built() {
+    let folder = Folder::new("hostile-models-instances");
+    let draw = |counts: &[usize]| {
+        folder.put("m.gltf", instances(counts));
+        within(600, &folder, &["render", "m.gltf", "--size", "64x48", "-o", "drawn.png"])
+    };
+    let picture = || std::fs::read(folder.join("drawn.png")).unwrap();
+    draw(&[]).has(0);
+    let one = picture();
+    draw(&[50, 100]).has(0);
+    assert!(picture() == one, "5,000 copies of a triangle look otherwise than one");
+    let run = within(2048, &folder, &["inspect", "m.gltf#5000", "--size", "64x48"]);
+    run.has(0).prints("parts from number 4097 on");
+    draw(&[1000, 1000]).has(2).says("shows 1000000 copies of its meshes");
+    draw(&[10, 1000, 1000]).has(2).says("shows more than 1048576 nodes");
+    // Few bytes again, and far too many samples.
+    draw(&[1000, 400]).has(2).says("give a smaller --size, or a part of the model");
+}
+
+/// Parts in an OBJ, each of a face: an item of a scene for each of them would take gigabytes.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn many_parts_of_an_obj_are_merged() {
+    let folder = Folder::new("hostile-models-parts");
+    let parts = "g a\nf 1 2 3\n".repeat(400_000);
+    folder.put("m.obj", format!("v 0 0 0\nv 1 0 0\nv 0 1e-3 0\n{parts}"));
+    bounded(&folder, &["render", "m.obj", "--size", "64x48", "-o", "drawn.png"]).has(0);
+}
+
+/// Options that multiply: a message says so before anything is held.
+#[test]
+fn sizes_and_layers_have_a_limit_together() {
+    let folder = Folder::new("hostile-models-options");
+    folder.put("m.obj", sized(1.0));
+    let run = |words: &str| {
+        let words: Vec<_> = words.split_whitespace().collect();
+        within(900, &folder, &words).has(2)
+    };
+    run("render m.obj --size 8192x8192").says("take about 2560 MiB here, and the most are 2048");
+    let layers = "--opacity 0.5 --layers 4294967295";
+    run(&format!("render m.obj --size 8192x8192 --engine scanline {layers}"))
+        .says("give a smaller --size, or leave out --layers");
+    run("verify m.obj --size 4096x4096 --aa ssaa2 --shadows 8192").says("give a smaller --size");
+}
+
+/// Faces of very many corners, convex, concave and crossing themselves, and one that is listed again and again.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn faces_of_many_corners_are_drawn_or_refused() {
+    let folder = Folder::new("hostile-models-corners");
+    let mut rng = Rng::new("corners", 0, 0);
+    for (corners, copies, kind) in [
+        (60_000, 1, 0),
+        (60_000, 1, 1),
+        (60_000, 1, 2),
+        (1000, 2000, 1),
+        (1000, 2000, 2),
+        (4000, 8, 2),
+    ] {
+        let mut text = String::new();
+        for i in 0..corners {
+            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(corners);
+            let radius = if kind == 1 && i % 2 == 0 { 0.8 } else { 1.0 };
+            let [x, y] = match kind {
+                2 => [rng.signed(), rng.signed()],
+                _ => [radius * cos(angle), radius * sin(angle)],
+            };
+            let _ = writeln!(text, "v {x:.5} {y:.5} 0");
+        }
+        let face = (1..=corners).map(|corner| format!(" {corner}")).collect::<String>();
+        text += &format!("f{face}\n").repeat(copies);
+        folder.put("m.obj", text);
+        for command in ["render", "verify", "plan --whole --rounds 1", "inspect"] {
+            let model = if command == "inspect" { "m.obj#1" } else { "m.obj" };
+            let words: Vec<_> = command.split(' ').chain([model]).collect();
+            let run = bounded(&folder, &words);
+            assert!(matches!(run.status, Some(0 | 2)), "{corners} x {copies}, {kind}: {run}");
+        }
+    }
+}
