@@ -59,7 +59,7 @@ fn every_option_is_on_the_page() {
         ("cost", "lines --quick --seed 3".into()),
         ("judge", format!("{judge} -- {PROGRAM} engine scanline")),
     ] {
-        let typed = words_of(&format!("{name} --report --out pages {options}"));
+        let typed = words_of(&format!("{name} --report --out pages --force {options}"));
         tried.extend(typed.iter().map(|word| (name, word.split('=').next().unwrap().to_owned())));
         let again = words_of(&shown(&folder, &typed)).split_off(1);
         let sorted = |words: &[String]| {
