@@ -560,7 +560,7 @@ fn textured(count: usize, names: &[&str]) -> Vec<u8> {
 #[test]
 fn a_picture_is_decoded_once_however_often_it_is_named() {
     let folder = Folder::new("hostile-models-textures");
-    let picture = png(&image::RgbImage::from_pixel(2048, 2048, image::Rgb([9, 99, 200])));
+    let picture = png(&image::RgbImage::from_pixel(2048, 2048, image::Rgb([209, 199, 200])));
     for name in ["a.png", "b.png"] {
         folder.put(name, &picture);
     }
