@@ -91,8 +91,8 @@ fn fold(line: &str, columns: usize) -> String {
     let hang = if cell > 0 && below <= columns * 2 / 3 { below } else { indent + 2 };
     let (head, words) = text.split_at(indent + cell);
     let (mut out, mut used) = (head.to_owned(), below);
-    // Whether a word comes first in its line, and so begins no other one; but a cell may begin in the next line.
-    let (mut is_first, mut may_break) = (true, cell > 0);
+    // Whether a word comes first in its line, and so begins no other one; but a cell of several words may begin in the next line.
+    let (mut is_first, mut may_break) = (true, cell > 0 && words.contains(' '));
     for word in words.split(' ') {
         let gap = usize::from(!is_first);
         if (!is_first || may_break) && used + gap + width(word) > columns {
