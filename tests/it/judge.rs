@@ -4,8 +4,8 @@
 use std::process::Command;
 use std::time::Duration;
 
-use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::PixelPoint;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
@@ -641,4 +641,160 @@ fn judge_leaves_nothing_running() {
     kill_process(Pid::from_child(&child), Signal::INT).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(is_gone(&judged), "{judged} lives on");
+}
+
+/// A rasterizer that draws every pixel that a triangle touches: the area that it shares with the pixel is not 0.
+fn conservative(corners: Corners, window: PixelRect) -> Vec<Span> {
+    let mut runs = Vec::new();
+    let touches = |x: i32, y: i32| {
+        // The triangle cut by the four sides of the pixel.
+        let mut polygon: Vec<[f64; 2]> =
+            corners.iter().map(|p| [p.x, p.y].map(f64::from)).collect();
+        for (axis, border, sign) in [(0, x, 1.0), (0, x + 1, -1.0), (1, y, 1.0), (1, y + 1, -1.0)] {
+            let inside = |p: &[f64; 2]| sign * (p[axis] - f64::from(border) * 256.0);
+            let mut kept = Vec::new();
+            for (i, from) in polygon.iter().enumerate() {
+                let to = &polygon[(i + 1) % polygon.len()];
+                let (a, b) = (inside(from), inside(to));
+                if a >= 0.0 {
+                    kept.push(*from);
+                }
+                if (a >= 0.0) != (b >= 0.0) {
+                    let t = a / (a - b);
+                    kept.push([0, 1].map(|k| from[k] + t * (to[k] - from[k])));
+                }
+            }
+            polygon = kept;
+        }
+        let area: f64 = (0..polygon.len())
+            .map(|i| {
+                let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+                p[0] * q[1] - p[1] * q[0]
+            })
+            .sum();
+        area.abs() > 1e-9
+    };
+    for y_px in window.y0..window.y1 {
+        for x_px in (window.x0..window.x1).filter(|x| touches(*x, y_px)) {
+            runs.push(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+        }
+    }
+    runs
+}
+
+/// Conservative rasterization is a shape that is declared: right where it is, wrong where it is not, and a name of its own.
+#[test]
+fn judge_takes_a_declared_shape() {
+    let declared = |words: &str| Declared::parse(&format!("HELLO 2 x coverage {words}")).unwrap();
+    let judged_as = |words: &str| {
+        let answer = |questions: &[Question], _| {
+            let draw = |question: &Question| match question.of {
+                Asked::Coverage(corners) => Answer::Coverage(conservative(
+                    corners,
+                    PixelRect::window(question.width, question.height),
+                )),
+                _ => Answer::Refused(String::new()),
+            };
+            questions.iter().map(draw).collect()
+        };
+        judged(Box::new(Answering(declared(words), answer)), &options(40, &["uniform", "fan"]))
+    };
+    let verdict = judged_as("shape=touched range=1024");
+    assert!(verdict.agrees(), "{:?}", verdict.failures);
+    for wrong in ["shape=covered range=1024", "range=1024"] {
+        assert!(judged_as(wrong).as_declared().wrong > 100, "{wrong}");
+    }
+}
+
+/// The near plane of Direct3D and Vulkan is declared.
+#[test]
+fn judge_takes_a_declared_near_plane() {
+    let judged_as = |words: &str| {
+        let declared = Declared::parse(&format!("HELLO 2 x clip {words}")).unwrap();
+        let answer = |questions: &[Question], _| {
+            let clip = |question: &Question| {
+                let Asked::Near(triangle) = &question.of else {
+                    return Answer::Polygon(Vec::new());
+                };
+                let corners = rasterproof_verify::cases::near_plane::clip_corners(triangle);
+                let mut left = Vec::new();
+                for i in 0..3 {
+                    let (a, b) = (corners[i], corners[(i + 1) % 3]);
+                    if a[2] >= 0.0 {
+                        left.push(a);
+                    }
+                    if (a[2] >= 0.0) != (b[2] >= 0.0) {
+                        let t = a[2] / (a[2] - b[2]);
+                        left.push([0, 1, 2, 3].map(|k| a[k] + t * (b[k] - a[k])));
+                    }
+                }
+                Answer::Polygon(left)
+            };
+            questions.iter().map(clip).collect()
+        };
+        judged(Box::new(Answering(declared, answer)), &options(100, &["near-plane"]))
+    };
+    assert!(judged_as("near=zero").agrees());
+    let verdict = judged_as("");
+    assert!(!verdict.agrees());
+    assert!(verdict.causes[0].why.to_string().contains("clips at z = 0"), "{:?}", verdict.causes);
+}
+
+/// Meshes across the border of the window show what clipping does to shared edges.
+#[test]
+fn judge_asks_for_meshes_across_the_border() {
+    let mut engine = Inside::new(engines::find("scanline").unwrap());
+    let answer = move |questions: &[Question], most: u64| {
+        // Corners outside are moved to the border.
+        let moved = |question: &Question| {
+            let sides = [question.width, question.height].map(|side| side as i32 * 256);
+            let of =
+                match question.of.clone() {
+                    Asked::Coverage(corners) => Asked::Coverage(corners.map(|p| {
+                        SubpixelPoint::new(p.x.clamp(0, sides[0]), p.y.clamp(0, sides[1]))
+                    })),
+                    other => other,
+                };
+            Question { of, ..*question }
+        };
+        engine.ask(&questions.iter().map(moved).collect::<Vec<_>>(), most)
+    };
+    let declared = Declared::parse("HELLO 2 x coverage").unwrap();
+    let verdict = judged(Box::new(Answering(declared, answer)), &options(100, &["mesh-border"]));
+    assert_eq!(property(&verdict, "watertight"), Outcome::Fail);
+    let verdict = judged(inside("scanline"), &options(200, &["mesh-border"]));
+    assert!(verdict.agrees());
+    let row = verdict.found.rows.iter().find(|row| row.name == "watertight").unwrap();
+    assert!(row.cases > 100, "{row:?}");
+}
+
+/// A program that walks along each pixel of a line is asked for lines that it draws in time, and the verdict says so.
+#[test]
+fn judge_measures_how_far_lines_are_walked() {
+    let mut engine = Inside::new(engines::find("bresenham").unwrap());
+    let answer = move |questions: &[Question], most: u64| {
+        for question in questions {
+            if let Asked::Line { ends: [a, b], .. } = question.of {
+                let steps = a.x.abs_diff(b.x).max(a.y.abs_diff(b.y));
+                std::thread::sleep(Duration::from_micros(u64::from(steps)));
+            }
+        }
+        engine.ask(questions, most)
+    };
+    let declared = Declared::parse("HELLO 2 x line").unwrap();
+    let verdict = judged(Box::new(Answering(declared, answer)), &options(3, &["line-far"]));
+    let reach = verdict.reach.unwrap();
+    assert!((1 << 10..=1 << 16).contains(&reach), "{reach}");
+    assert!(verdict.agrees());
+    assert_eq!(judged(inside("bresenham"), &options(3, &["line-octants"])).reach, None);
+}
+
+/// What a program wrote before it ended without HELLO is shown.
+#[cfg(unix)]
+#[test]
+fn judge_shows_the_last_words_of_a_program() {
+    let folder = shared();
+    let mut command = folder.command("judge --");
+    command.args(["sh", "-c", "echo one >&2; echo 'No module named numpy' >&2; exit 1"]);
+    Run::of(&mut command).has(2).says("the last line of its standard error: No module named numpy");
 }

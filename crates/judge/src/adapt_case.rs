@@ -58,7 +58,9 @@ pub fn put(mut case: Case, declared: &Declared) -> Case {
             *disjoint = list.len() > 1 && super::mesh::is_disjoint(&corners);
         }
         Shape::Lines(lines) => {
-            let most = declared.range.unwrap_or(i32::MAX);
+            // Two ends are at most twice as far from each other.
+            let reach = declared.reach.map_or(i32::MAX, |reach| (reach / 2).max(1));
+            let most = declared.range.unwrap_or(i32::MAX).min(reach);
             // The centre of a pixel lies half a pixel further.
             let keep =
                 |px: i32| px.clamp(if most == i32::MAX { i32::MIN } else { -most }, most - 1);

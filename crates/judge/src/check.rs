@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use super::ask::{Answer, Asked, Question};
-use super::declared::Declared;
+use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values};
 use super::finding::{Finding, hits, mix};
@@ -60,7 +60,7 @@ impl Truth {
     #[must_use]
     pub fn of(declared: &Declared) -> Self {
         Self {
-            expect: Box::new(declared.convention()),
+            expect: Box::new(declared.clone()),
             recognised: None,
             drawn: declared.convention().seen_winding(),
             declared: declared.clone(),
@@ -143,11 +143,13 @@ impl Check {
                     if index.is_multiple_of(4) && list.len() == 1 {
                         checks.push(Self::Order);
                     }
-                    if *disjoint {
+                    // Neighbours share the pixels that an edge touches.
+                    if *disjoint && declared.shape == declared::Shape::Sample {
                         checks.push(Self::Watertight);
                     }
                 }
                 if declared.samples4
+                    && declared.shape == declared::Shape::Sample
                     && declared.convention().is_standard()
                     && index % 8 == 1
                     && !is_perspective
@@ -240,12 +242,7 @@ impl Check {
             (Shape::Triangles { list, .. }, Self::Near) => {
                 for (triangle, answer) in list.iter().zip(answers) {
                     if let Answer::Polygon(corners) = answer {
-                        near_plane::compare(
-                            &mut finding,
-                            triangle,
-                            corners,
-                            truth.declared.tolerance,
-                        );
+                        near_plane::compare(&mut finding, triangle, corners, &truth.declared);
                     }
                 }
             }
@@ -540,7 +537,7 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             Some(Answer::Seen(pile.runs()))
         }
         Asked::Near(triangle) => {
-            let corners = near_plane::polygon(triangle);
+            let corners = near_plane::polygon(triangle, truth.declared.near_is_zero);
             let floats = corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64));
             Some(Answer::Polygon(floats.collect()))
         }

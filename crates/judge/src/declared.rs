@@ -34,6 +34,8 @@ pub struct Declared {
     /// Where in a pixel its sample lies, in subpixels from the upper left corner.
     pub origin: [i32; 2],
     pub rule: Rule,
+    /// Which pixels belong to a triangle, its edges apart.
+    pub shape: Shape,
     pub winding: Winding,
     /// Its own y axis points up: top and bottom, cw and ccw change places.
     pub yup: bool,
@@ -49,8 +51,25 @@ pub struct Declared {
     pub line_set: bool,
     /// How far a value may be off, in units of the largest magnitude at the vertices.
     pub tolerance: f64,
+    /// Its near plane is z = 0, as Direct3D, Vulkan, Metal and WebGPU have it, and not z = -w, as OpenGL has it.
+    pub near_is_zero: bool,
+    /// How long its lines may be, in steps; measured and not declared. None means any length.
+    pub reach: Option<i32>,
     /// Words that are not known or cannot be used, printable.
     pub unknown: Vec<String>,
+}
+
+rasterproof_core::named! {
+    /// Which pixels belong to a triangle, its edges apart.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Shape {
+        /// Those whose sample lies in it.
+        Sample = "sample",
+        /// Those of which any part lies in it: outer conservative rasterization.
+        Touched = "touched",
+        /// Those that lie in it as a whole: inner conservative rasterization.
+        Covered = "covered",
+    }
 }
 
 /// A tolerance for programs that compute in f32 and declare none.
@@ -74,6 +93,7 @@ impl Default for Declared {
             grid: SUBPIXELS,
             origin: [HALF_PIXEL; 2],
             rule: Rule::TopLeft,
+            shape: Shape::Sample,
             winding: Winding::Both,
             yup: false,
             range: None,
@@ -82,6 +102,8 @@ impl Default for Declared {
             mask: false,
             line_set: false,
             tolerance: DEFAULT_TOLERANCE,
+            near_is_zero: false,
+            reach: None,
             unknown: Vec::new(),
         }
     }
@@ -133,6 +155,11 @@ impl Declared {
             ("rule", Some(v)) => {
                 self.rule = Rule::ALL.iter().find(|(word, _)| *word == v).map(|(_, r)| *r)?;
             }
+            ("shape", Some(v)) => {
+                self.shape = Shape::ALL.into_iter().find(|shape| shape.name() == v)?;
+            }
+            ("near", Some("zero")) => self.near_is_zero = true,
+            ("near", Some("minus-w")) => self.near_is_zero = false,
             ("winding", Some("cw")) => self.winding = Winding::Clockwise,
             ("winding", Some("ccw")) => self.winding = Winding::CounterClockwise,
             ("winding", Some("both")) => self.winding = Winding::Both,
@@ -188,6 +215,12 @@ impl fmt::Display for Declared {
         for (word, _) in flags.iter().filter(|(_, is_set)| *is_set) {
             write!(f, " {word}")?;
         }
+        if self.shape != Shape::Sample {
+            write!(f, " shape={}", self.shape.name())?;
+        }
+        if self.near_is_zero {
+            f.write_str(" near=zero")?;
+        }
         if let Some(range) = self.range {
             write!(f, " range={range}")?;
         }
@@ -209,7 +242,7 @@ mod tests {
     #[test]
     fn declarations_are_read_and_said_again() {
         let line = "HELLO 2 mine coverage attributes depth clip grid=16 origin=0,0.25 rule=strict winding=ccw \
-                    yup mask range=4096 window=64x32 batch=8 tolerance=1e-5";
+                    yup mask shape=touched near=zero range=4096 window=64x32 batch=8 tolerance=1e-5";
         let declared = Declared::parse(line).unwrap();
         assert_eq!((declared.grid, declared.origin), (16, [0, 64]));
         assert_eq!(

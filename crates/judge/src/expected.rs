@@ -1,11 +1,12 @@
 //! What is expected of a program: by default the picture of the convention that it declares.
 
-use super::declared::Declared;
-use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Corners, PixelPoint};
+use super::declared::{Declared, Shape};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
+use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::comparison::{Convention, Picture, Rule, area2};
+use rasterproof_verify::convention::{self, Known, Ties};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
@@ -40,6 +41,34 @@ impl Expect for Convention {
         let mut pixels = Vec::new();
         Oracle.line_pixels(&line, window, |pixel, _| pixels.push((pixel.x, pixel.y)));
         Some(pixels)
+    }
+}
+
+/// What a program declares: the picture of its convention, or of its shape.
+impl Expect for Declared {
+    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
+        // Half a pixel further out, or further in, along both axes.
+        let reach = match self.shape {
+            Shape::Sample => return self.convention().picture(corners, window),
+            Shape::Touched => HALF_PIXEL,
+            Shape::Covered => -HALF_PIXEL,
+        };
+        let known = Known::from(&self.convention());
+        let shape = convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach, square: true };
+        let runs = |rule: &str| {
+            let ties = Ties::named(rule)?;
+            let picture =
+                convention::Convention { shape, ties, ..known.declared }.cover(corners, window)?;
+            let run = |(y_px, x0_px, x1_px)| Span { y_px, x0_px, x1_px };
+            Some(picture.runs().map(run).collect())
+        };
+        // What has no area is nothing but its border, of which nothing is promised.
+        (area2(corners) != 0)
+            .then(|| Some(Picture { must: runs("strict")?, may: runs("inclusive") }))?
+    }
+
+    fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {
+        self.convention().line(ends, window)
     }
 }
 

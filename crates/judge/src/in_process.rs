@@ -5,7 +5,7 @@ use super::declared::{Declared, MOST_IN_FLIGHT};
 use super::server;
 use super::text::Words;
 use rasterproof_registry::engines::{Entry, Specimen};
-use rasterproof_verify::comparison::caught;
+use rasterproof_verify::comparison::{Watch, caught};
 
 /// The values of both engines lie within u (15 D + 2 M) of the exact ones (`verify::tolerance`),
 /// where D is at most 2 M: 32 u M.
@@ -38,13 +38,15 @@ impl From<&Entry> for Declared {
 pub struct Inside {
     entry: Entry,
     declared: Declared,
+    /// Of its panics the first one is shown.
+    watch: Watch,
 }
 
 impl Inside {
     /// The engine, line drawer or specimen of this entry.
     #[must_use]
     pub fn new(entry: &Entry) -> Self {
-        Self { entry: *entry, declared: entry.into() }
+        Self { entry: *entry, declared: entry.into(), watch: Watch::begin() }
     }
 
     /// The name of the entry.
@@ -74,7 +76,7 @@ impl Ask for Inside {
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let (mut answers, mut deaths) = (Vec::with_capacity(questions.len()), 0);
         for question in questions {
-            let answer = caught(|| self.answer(question));
+            let answer = self.watch.during(|| caught(|| self.answer(question)));
             answers.push(answer.unwrap_or_else(|panic| {
                 deaths += 1;
                 Answer::Died(Breach::Crashes.by(panic.0))

@@ -26,6 +26,7 @@ mod near_plane;
 pub mod pictured;
 pub mod process;
 pub mod process_group;
+mod reach;
 pub mod recognise;
 pub mod run;
 pub mod server;
@@ -118,6 +119,7 @@ pub fn judge(
     let mut first = Watched { asked, incidents: Vec::new() };
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
+    truth.declared.reach = reach::reach(&mut first);
     let mut found_before = recognise(&mut first);
     let mut recognised = found_before.as_mut().map(|found| {
         truth.recognised = found.expect.take();
@@ -154,6 +156,7 @@ pub fn judge(
     let mut verdict =
         Verdict::new(declared, options, windings, recognised, found, failures, first.complaints());
     verdict.causes = causes;
+    verdict.reach = truth.declared.reach;
     verdict
 }
 

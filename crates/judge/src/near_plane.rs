@@ -1,10 +1,11 @@
 //! What the near plane leaves of a triangle of clip space, exactly, and whether an answer is that.
 //!
-//! Kept is what has z >= -w. The side of a corner is the sign of z + w, which rounding keeps; a new
+//! Kept is what has z >= -w, or z >= 0 where that is declared. The side of a corner is the sign of z + w, which rounding keeps; a new
 //! corner divides an edge as the exact distances of its ends do, in big integers, where programs
 //! interpolate. A polygon may begin at any corner and may name a corner several times: where an edge
 //! begins in the plane, the textbook names it twice.
 
+use super::declared::Declared;
 use super::finding::Finding;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::clip_corners;
@@ -12,14 +13,15 @@ use rasterproof_verify::oracle::values::{Exact, at_crossing};
 
 type Corner = [Exact; 4];
 
-/// The corners that are left, in the order of the triangle's.
-pub(super) fn polygon(triangle: &Triangle) -> Vec<Corner> {
+/// The corners that are left, in the order of the triangle's; the plane is z = -w, or z = 0.
+pub(super) fn polygon(triangle: &Triangle, is_zero: bool) -> Vec<Corner> {
     let corners = clip_corners(triangle);
-    let is_kept = |[_, _, z, w]: [f64; 4]| z + w >= 0.0;
+    let asked = |w: f64| if is_zero { 0.0 } else { w };
+    let is_kept = |[_, _, z, w]: [f64; 4]| z + asked(w) >= 0.0;
     let mut left = Vec::new();
     for (i, &from) in corners.iter().enumerate() {
         let to = corners[(i + 1) % 3];
-        let distances = [from, to].map(|[_, _, z, w]| [z, w]);
+        let distances = [from, to].map(|[_, _, z, w]| [z, asked(w)]);
         let at = |k: usize| at_crossing([from[k], to[k]], distances);
         if is_kept(from) {
             left.push(from.map(Exact::from));
@@ -31,14 +33,15 @@ pub(super) fn polygon(triangle: &Triangle) -> Vec<Corner> {
     left
 }
 
-/// Compares a polygon with the exact one: corners within `tolerance` times the largest number asked.
+/// Compares a polygon with the exact one: corners within the tolerance times the largest number asked.
 pub(super) fn compare(
     finding: &mut Finding,
     triangle: &Triangle,
     answer: &[[f64; 4]],
-    tolerance: f64,
+    declared: &Declared,
 ) {
-    let mut exact = polygon(triangle);
+    let tolerance = declared.tolerance;
+    let mut exact = polygon(triangle, declared.near_is_zero);
     exact.dedup();
     if exact.len() > 1 && exact.first() == exact.last() {
         exact.pop();
@@ -103,7 +106,8 @@ mod tests {
                 return true;
             };
             let mut finding = Finding::default();
-            compare(&mut finding, &list[0], &clip(clip_corners(&list[0])), 1e-9);
+            let declared = Declared { tolerance: 1e-9, ..Declared::default() };
+            compare(&mut finding, &list[0], &clip(clip_corners(&list[0])), &declared);
             finding.is_wrong()
         };
         (0..400).filter(is_wrong).count()

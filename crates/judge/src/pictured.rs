@@ -90,7 +90,7 @@ fn picture(
             plain(other.clone(), first.clone())
         }
         Check::Samples => Some(samples(questions, answers, case.window, truth)),
-        Check::Near => near(questions, answers),
+        Check::Near => near(questions, answers, truth.declared.near_is_zero),
         Check::Watertight => {
             let Shape::Triangles { list, .. } = &case.shape else { return None };
             let drawn = mesh_of(answers, case.window)?;
@@ -178,7 +178,7 @@ fn samples(
 const FEW_CELLS: f64 = 12.0;
 
 /// What a polygon covers in x and y: an affine image of it, whatever w is.
-fn near(questions: &[Question], answers: &[Answer]) -> Option<Pictured> {
+fn near(questions: &[Question], answers: &[Answer], near_is_zero: bool) -> Option<Pictured> {
     let (question, answer) = (questions.first()?, answers.first()?);
     let Asked::Near(triangle) = &question.of else { return None };
     let corners = triangle.corners().map(|p| p.to_px());
@@ -196,7 +196,7 @@ fn near(questions: &[Question], answers: &[Answer]) -> Option<Pictured> {
     let cells = |v: f64| (v / cell).floor() as i32;
     let window =
         PixelRect { x0: cells(x0) - 1, y0: cells(y0) - 1, x1: cells(x1) + 2, y1: cells(y1) + 2 };
-    let exact: Vec<[f64; 2]> = near_plane::polygon(triangle)
+    let exact: Vec<[f64; 2]> = near_plane::polygon(triangle, near_is_zero)
         .iter()
         .map(|[x, y, ..]| [Exact::to_f64(x), Exact::to_f64(y)])
         .collect();

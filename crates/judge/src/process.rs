@@ -113,8 +113,21 @@ impl Program {
             complaints: Arc::default(),
             strays: Vec::new(),
         };
-        program.declared = program.restart()?;
+        program.declared = program.restart().map_err(|what| program.with_last_words(what))?;
         Ok(program)
+    }
+
+    /// What a program did instead of answering, with the end of what it wrote on standard error.
+    fn with_last_words(&self, mut what: Misbehaviour) -> Misbehaviour {
+        // It has ended, but its last words may still be in the pipe.
+        let end = Instant::now() + 10 * LOOK;
+        while self.complaints().is_empty() && Instant::now() < end {
+            std::thread::sleep(LOOK);
+        }
+        if let Some(last) = self.complaints().pop() {
+            what.how = format!("{}; the last line of its standard error: {last}", what.how);
+        }
+        what
     }
 
     fn restart(&mut self) -> Result<Declared, Misbehaviour> {

@@ -182,7 +182,7 @@ fn known(declared: &Declared) -> Known {
     let known = Known::from(&declared.convention());
     Known {
         grid: declared.grid,
-        range_px: declared.range.unwrap_or(known.range_px),
+        range_px: declared.range.unwrap_or(known.range_px).min(declared.reach.unwrap_or(i32::MAX)),
         window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
         ..known
@@ -240,9 +240,12 @@ pub struct Why {
 
 /// The planted faults and the published algorithms, each with what is wrong with it.
 fn entries() -> impl Iterator<Item = (Entry, String)> {
-    let planted = TriangleMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
+    // Its panic says what it is, and would be shown.
+    let answers = |mutant: &TriangleMutant| *mutant != TriangleMutant::PanicsOnFlatBottom;
+    let planted = TriangleMutant::ALL.into_iter().filter(answers);
+    let planted = planted.map(|mutant| (mutant.name(), mutant.about()));
     let planted_lines = LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
-    let planted = planted.into_iter().chain(planted_lines).filter_map(|(name, about)| {
+    let planted = planted.chain(planted_lines).filter_map(|(name, about)| {
         Some((engines::find_planted(name)?, format!("draws as the planted fault {name}: {about}")))
     });
     let published = engines::SPECIMENS.iter().map(|entry| {

@@ -789,6 +789,12 @@ const NEAR: &[NearMistake] = &[
         clip: |c| clip(c, |[_, _, z, _]| z, between),
     },
     NearMistake {
+        does: "clips at z = -w, as OpenGL has it",
+        repair: "clip at z = 0, as Direct3D and Vulkan have it",
+        refuted: "a corner between both planes that is cut off",
+        clip: |c| clip(c, near_plane, between),
+    },
+    NearMistake {
         does: "clips at z = w, the far plane",
         repair: "clip at z = -w",
         refuted: "a corner beyond the far plane that is kept",

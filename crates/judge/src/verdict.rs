@@ -48,6 +48,8 @@ pub struct Verdict {
     pub failures: Vec<Failure>,
     /// Why it is wrong, where no convention explains it.
     pub causes: Vec<Why>,
+    /// How long its lines may be, in steps, where it walks along them so slowly that longer ones were not asked for.
+    pub reach: Option<i32>,
     /// Failing cases that the baseline knows.
     pub known: u64,
     /// The end of what it wrote on standard error.
@@ -105,6 +107,7 @@ impl Verdict {
             found,
             failures,
             causes: Vec::new(),
+            reach: None,
             known: 0,
             complaints,
             properties: Vec::new(),

@@ -119,7 +119,7 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
         "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures,
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "causes": verdict.causes, "stderr": verdict.complaints, "repeat": repeat_all,
+        "causes": verdict.causes, "line_reach": verdict.reach, "stderr": verdict.complaints, "repeat": repeat_all,
     })
 }
 

@@ -34,6 +34,13 @@ pub fn text(
         d.name
     );
     let _ = writeln!(out, "{} speaks version {}: {d}", d.name, d.version);
+    if let Some(reach) = verdict.reach {
+        let _ = writeln!(
+            out,
+            "it walks along its lines, so lines of at most {} steps are asked for",
+            summary::thousands(reach.unsigned_abs().into())
+        );
+    }
     if !d.unknown.is_empty() {
         let _ = writeln!(out, "not understood, left aside: {}", d.unknown.join(" "));
     }

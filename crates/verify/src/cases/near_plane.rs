@@ -1,5 +1,5 @@
-//! Families for stages beside the rasterizer: which of several triangles is seen, and what the near
-//! plane leaves of one. They are asked of programs that say they do these, and of no engine here.
+//! Families for stages beside the rasterizer: which of several triangles is seen, what the near plane leaves of one, and
+//! meshes across the border of the window, where programs clip. They are asked of programs, and of no engine here.
 //!
 //! Numbers are few bits long, so that a request reads easily and f32 holds it exactly.
 
@@ -13,6 +13,7 @@ use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 pub const FAMILIES: &[Family] = &[
     family("depth-order", "triangles before and through each other", piles),
     family("near-plane", "corners before, behind and in the near plane", near),
+    family("mesh-border", "meshes across the border of the window", across),
 ];
 
 /// Side of the window of a pile, in pixels.
@@ -63,6 +64,41 @@ fn near(rng: &mut Rng) -> Case {
         window: PixelRect::window(SIDE_PX, SIDE_PX),
         shape: Shape::Triangles { list, disjoint: true },
     }
+}
+
+/// A fan around a point near the border; some of them reach far beyond a guard band.
+fn across(rng: &mut Rng) -> Case {
+    let side = i64::from(SIDE_PX) * 256;
+    let reach = if rng.chance(4) { 1 << rng.int(12, 20) } else { side };
+    let border = |rng: &mut Rng| if rng.chance(2) { 0 } else { side } + rng.int(-512, 512);
+    let along = rng.int(0, side);
+    let middle = if rng.chance(2) { [border(rng), along] } else { [along, border(rng)] };
+    let count = rng.int(3, 6);
+    // Turned by an angle, each ray less than half a turn from the next.
+    let start = rng.int(0, 359);
+    let ring: Vec<[i64; 2]> = (0..count)
+        .map(|i| {
+            let angle = (start as f64 + (i * 360 / count) as f64).to_radians();
+            let length = rng.int(reach / 8, reach) as f64;
+            [middle[0] + (angle.cos() * length) as i64, middle[1] + (angle.sin() * length) as i64]
+        })
+        .collect();
+    let vertex = |[x, y]: [i64; 2]| ScreenVertex {
+        position: sub(x, y),
+        depth: 0.0,
+        inv_w: 1.0,
+        varying: DVec2::ZERO,
+    };
+    let list: Vec<Triangle> = (0..ring.len())
+        .map(|i| [middle, ring[i], ring[(i + 1) % ring.len()]].map(vertex))
+        .map(|vertices| ScreenTriangle { vertices })
+        .collect();
+    let turns = |t: &Triangle| {
+        let [a, b, c] = t.corners().map(|p| [i64::from(p.x), i64::from(p.y)]);
+        (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])
+    };
+    let disjoint = list.iter().all(turns);
+    Case { window: PixelRect::window(SIDE_PX, SIDE_PX), shape: Shape::Triangles { list, disjoint } }
 }
 
 /// x, y, z, w in clip space of a case of `near-plane`, whose vertices keep w as their first attribute:

@@ -33,7 +33,6 @@ use crate::cases::{Case, Family, FamilyName, Kind, Shape};
 use compare::{
     CompareCases, Cover, CoverageOnly, LineComparer, ORACLE, TriangleComparer, UnsnappedComparer,
 };
-use panics::Watch;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
@@ -50,7 +49,7 @@ pub use panics::EnginePanic;
 pub use {
     compare::{is_sliver, line_has_tie},
     convention::{Picture, area2},
-    panics::{caught, is_judging},
+    panics::{Watch, caught, is_judging},
     spans::{
         engine_coverage, exact_coverage, line_coverage, oracle_coverage, oracle_hits,
         oracle_pixels_each,

@@ -33,6 +33,7 @@ static INSTALLED: Mutex<Installed> = Mutex::new(Installed { judgements: 0, befor
 pub struct Watch(Arc<AtomicU64>);
 
 impl Watch {
+    /// Installs our hook until the last judgement ends.
     pub fn begin() -> Self {
         let mut installed = INSTALLED.lock().unwrap_or_else(PoisonError::into_inner);
         installed.judgements += 1;

@@ -63,6 +63,13 @@ impl Mask {
         self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
     }
 
+    /// The pixels that both have.
+    pub(crate) fn shared(&self, other: &Self) -> Self {
+        let mut mask = *self;
+        mask.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a &= b);
+        mask
+    }
+
     /// The pixels that one of both has.
     pub(crate) fn differs(&self, other: &Self) -> Self {
         let mut mask = *self;

@@ -137,21 +137,15 @@ pub(super) fn clipped(corners: &Corners, window: PixelRect, step: i64, how: i64)
                 kept.push(from);
             }
             if (u < 0) != (v < 0) {
+                // In doubles, as programs compute it.
+                let part = u as f64 / (u - v) as f64;
                 kept.push([0, 1].map_array(|axis| {
-                    // from + (to - from) u / (u - v), in exact numbers until it is cut.
-                    let part = i128::from(u) * i128::from(to[axis] - from[axis]);
-                    let (whole, step) = (i128::from(u - v), i128::from(step));
-                    let cut = |part: i128| {
-                        let (part, whole) = if whole < 0 { (-part, -whole) } else { (part, whole) };
-                        match how {
-                            0 => part / (whole * step) * step,
-                            1 => (2 * part + whole * step).div_euclid(2 * whole * step) * step,
-                            _ => part.div_euclid(whole * step) * step,
-                        }
-                    };
+                    let (from, way) = (from[axis] as f64, (to[axis] - from[axis]) as f64);
+                    let on_grid = |v: f64, cut: fn(f64) -> f64| cut(v / step as f64) * step as f64;
                     let new = match how {
-                        0 => i128::from(from[axis]) + cut(part),
-                        _ => cut(part + i128::from(from[axis]) * whole),
+                        0 => from + on_grid(part * way, f64::trunc),
+                        1 => on_grid(from + part * way, f64::round),
+                        _ => on_grid(from + part * way, f64::floor),
                     };
                     new as i64
                 }));

@@ -239,7 +239,9 @@ pub fn of_triangles(
                 let predicts = move |i: usize| {
                     let Question { corners, window } = &answered[i].question;
                     let mask = fill(mistake.draws, p, &base.convention, corners, *window);
-                    mask.is_none_or(|mask| answered[i].is(mask, Mask::default()))
+                    mask.is_none_or(|[drawn, twice]| {
+                        answered[i].is(drawn, twice) || answered[i].is(drawn, Mask::default())
+                    })
                 };
                 let mut says = says.clone();
                 says.does += &base.words(mistake.draws);
@@ -401,30 +403,34 @@ fn sample_of(convention: &Convention) -> [i32; 2] {
     }
 }
 
-/// The picture of a mistake; none where it says nothing.
+/// The picture of a mistake, and the pixels that it draws more than once; none where it says nothing.
 fn fill(
     draws: Fill,
     p: i64,
     base: &Convention,
     corners: &Corners,
     window: PixelRect,
-) -> Option<Mask> {
-    match draws {
+) -> Option<[Mask; 2]> {
+    let mut twice = Mask::default();
+    let drawn = match draws {
         Fill::Instead(others) => {
             let mut all = Mask::default();
             for other in others(corners, window, p) {
-                all.add(&base.mask(&other, window)?);
+                let part = base.mask(&other, window)?;
+                twice.add(&all.shared(&part));
+                all.add(&part);
             }
-            Some(all)
+            all
         }
         Fill::Changed(change) => {
             let mut mask = base.mask(corners, window)?;
             change(&mut mask, corners, window, p);
-            Some(mask)
+            mask
         }
-        Fill::Ruled(draw) | Fill::Sampled(draw) => Some(draw(corners, window, base, p)),
-        Fill::Own(draw) => Some(draw(corners, window, p)),
-    }
+        Fill::Ruled(draw) | Fill::Sampled(draw) => draw(corners, window, base, p),
+        Fill::Own(draw) => draw(corners, window, p),
+    };
+    Some([drawn, twice])
 }
 
 /// Where samples may lie in a pixel, in subpixels, and how that is said.

@@ -8,7 +8,7 @@ use super::shrink::shrink;
 use super::{
     Family, Fault, FaultKind, Finding, Options, Polygon, Tessellate, Triangle, judge_partition,
 };
-use crate::comparison::{NothingJudged, caught};
+use crate::comparison::{NothingJudged, Watch, caught};
 use rasterproof_core::parallel;
 
 /// Polygons that a thread judges in one go.
@@ -219,10 +219,12 @@ pub fn judge_partitions<T: Tessellate + Sync>(
     tessellator: &T,
     options: &Options,
 ) -> Result<Report, NothingJudged> {
+    let watch = Watch::begin();
     judge(
         &|polygon| {
             tessellator.accepts(polygon).then(|| {
-                caught(|| tessellator.triangles(polygon)).map_or_else(
+                let triangles = watch.during(|| caught(|| tessellator.triangles(polygon)));
+                triangles.map_or_else(
                     |message| Err(Fault::saying(FaultKind::Panicked, message.to_string())),
                     |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
                 )
