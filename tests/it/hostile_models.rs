@@ -36,7 +36,7 @@ fn bounded(folder: &Path, words: &[&str]) -> Run {
 
 /// The commands that take a model; `inspect` is given its first face.
 fn commands<'a>(model: &'a str, face: &'a str) -> [Vec<&'a str>; 6] {
-    let size = ["--size", "64x48"];
+    let size = ["--size", "24x18"];
     [
         vec!["render", model, "-o", "drawn.png"],
         vec!["plan", model, "--rounds", "1", "--whole"],
@@ -456,7 +456,7 @@ fn fuzz(numbers: std::ops::Range<u64>, name: &str) {
             }
         }
         count += 1;
-        if count % 1000 == 0 {
+        if count % 100 == 0 {
             println!("{count} models, the last is {number}: {read} read");
         }
     }
