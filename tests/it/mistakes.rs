@@ -20,7 +20,8 @@ use rasterproof_verify::mistakes::{self, Mistakes};
 use rasterproof_verify::oracle::values::ExactTriangle;
 
 type Fill = fn(Corners, PixelRect, &mut Coverage);
-type Stroke = fn([[i32; 2]; 2], &mut dyn FnMut(i32, i32));
+/// The ends, and the last pixel of the window.
+type Stroke = fn([[i32; 2]; 2], [i32; 2], &mut dyn FnMut(i32, i32));
 
 fn right(corners: Corners, window: PixelRect, picture: &mut Coverage) {
     Scanline.cover(corners, window, |s| picture.hit(s.y_px, s.x0_px, s.x1_px));
@@ -107,6 +108,10 @@ const FILLS: &[(&str, Fill)] = &[
     }),
     ("rule after the shift", |c, _, out| {
         tested(c, out, exactly, |_, e, _| e / 1024 >= 0);
+    }),
+    ("an epsilon in the test", |c, _, out| {
+        // In square pixels, inside.
+        tested(c, out, exactly, |_, e, _| e as f64 / 65536.0 > 0.01);
     }),
     ("an edge is not tested", |c, _, out| {
         tested(c, out, exactly, |i, e, along| i == 2 || e > 0 || (e == 0 && owns(along)));
@@ -346,15 +351,15 @@ fn bresenham([[mut x, mut y], [x1, y1]]: [[i32; 2]; 2], emit: &mut dyn FnMut(i32
 }
 
 const STROKES: &[(&str, Stroke)] = &[
-    ("ends are clamped to the window", |ends, emit| {
+    ("ends are clamped to the window", |ends, _, emit| {
         bresenham(ends.map(|end| end.map(|v| v.max(0))), emit);
     }),
-    ("lines are left out by kind", |ends, emit| {
+    ("lines are left out by kind", |ends, _, emit| {
         if (ends[0][1] - ends[1][1]).abs() <= (ends[0][0] - ends[1][0]).abs() {
             bresenham(ends, emit);
         }
     }),
-    ("every pixel that is touched", |[[x0, y0], [x1, y1]], emit| {
+    ("every pixel that is touched", |[[x0, y0], [x1, y1]], _, emit| {
         // From the left end, and diagonally through corners.
         let ([mut x, mut y], [x1, y1]) =
             if (x0, y0) <= (x1, y1) { ([x0, y0], [x1, y1]) } else { ([x1, y1], [x0, y0]) };
@@ -375,7 +380,7 @@ const STROKES: &[(&str, Stroke)] = &[
             emit(x, y);
         }
     }),
-    ("the slope is cut", |[[x0, y0], [x1, y1]], emit| {
+    ("the slope is cut", |[[x0, y0], [x1, y1]], _, emit| {
         // 24.8 numbers.
         let steps = (x1 - x0).abs().max((y1 - y0).abs());
         let (sx, sy) = match steps {
@@ -389,7 +394,7 @@ const STROKES: &[(&str, Stroke)] = &[
             y += sy;
         }
     }),
-    ("steps are added up in floats", |[[x0, y0], [x1, y1]], emit| {
+    ("steps are added up in floats", |[[x0, y0], [x1, y1]], _, emit| {
         let steps = (x1 - x0).abs().max((y1 - y0).abs());
         let by = |d: i32| if steps == 0 { 0.0 } else { d as f32 / steps as f32 };
         let (sx, sy) = (by(x1 - x0), by(y1 - y0));
@@ -400,7 +405,7 @@ const STROKES: &[(&str, Stroke)] = &[
             y += sy;
         }
     }),
-    ("steps along x alone", |[[x0, y0], [x1, y1]], emit| {
+    ("steps along x alone", |[[x0, y0], [x1, y1]], _, emit| {
         let n = (x1 - x0).abs();
         for i in 0..=n {
             let t = if n == 0 { 0.0 } else { f64::from(i) / f64::from(n) };
@@ -408,23 +413,63 @@ const STROKES: &[(&str, Stroke)] = &[
             emit(x0 + i * (x1 - x0).signum(), y as i32);
         }
     }),
-    ("ends overflow", |ends, emit| {
+    ("ends overflow", |ends, _, emit| {
         bresenham(ends.map(|end| end.map(|v| i32::from(v as i16))), emit);
     }),
-    ("pixels at the ends", |ends, emit| {
+    ("pixels at the ends", |ends, _, emit| {
         bresenham(ends, &mut |x, y| {
             if ends[1][0] >= ends[0][0] || [x, y] != ends[1] {
                 emit(x, y);
             }
         });
     }),
-    ("two pixels wide", |ends, emit| {
+    ("lines are cut in whole numbers", |[a, b], last, emit| {
+        // Cohen and Sutherland, with divisions that are cut.
+        let (mut a, mut b) = (a.map(i64::from), b.map(i64::from));
+        let last = last.map(i64::from);
+        for _ in 0..8 {
+            let outside = |p: [i64; 2], k: usize| p[k] < 0 || p[k] > last[k];
+            let beyond = |k: usize| (a[k] < 0 && b[k] < 0) || (a[k] > last[k] && b[k] > last[k]);
+            if beyond(0) || beyond(1) {
+                return;
+            }
+            let Some(k) = [1, 0].into_iter().find(|k| outside(a, *k) || outside(b, *k)) else {
+                return bresenham([a, b].map(|p| p.map(|v| v as i32)), emit);
+            };
+            let border = |v: i64| if v < 0 { 0 } else { last[k] };
+            if outside(a, k) {
+                let to = border(a[k]);
+                let other = a[1 - k] + (b[1 - k] - a[1 - k]) * (to - a[k]) / (b[k] - a[k]);
+                (a[k], a[1 - k]) = (to, other);
+            } else {
+                let to = border(b[k]);
+                let other = a[1 - k] + (b[1 - k] - a[1 - k]) * (to - a[k]) / (b[k] - a[k]);
+                (b[k], b[1 - k]) = (to, other);
+            }
+        }
+    }),
+    ("x and y are exchanged", |[a, b], _, emit| {
+        let steep = (b[1] - a[1]).abs() > (b[0] - a[0]).abs();
+        bresenham([a, b], &mut |x, y| if steep { emit(y, x) } else { emit(x, y) });
+    }),
+    ("steps are added up in floats", |[[x0, y0], [x1, y1]], _, emit| {
+        // The half is added once, at the start.
+        let steps = (x1 - x0).abs().max((y1 - y0).abs());
+        let by = |d: i32| if steps == 0 { 0.0 } else { d as f32 / steps as f32 };
+        let (mut x, mut y) = (x0 as f32 + 0.5, y0 as f32 + 0.5);
+        for _ in 0..=steps {
+            emit(x.floor() as i32, y.floor() as i32);
+            x += by(x1 - x0);
+            y += by(y1 - y0);
+        }
+    }),
+    ("two pixels wide", |ends, _, emit| {
         bresenham(ends, &mut |x, y| {
             emit(x, y);
             emit(x, y + 1);
         });
     }),
-    ("the sign of a step", |[[x0, y0], [x1, y1]], emit| {
+    ("the sign of a step", |[[x0, y0], [x1, y1]], _, emit| {
         bresenham([[x0, y0], [x1, y0 + (y1 - y0).abs()]], emit);
     }),
 ];
@@ -443,11 +488,13 @@ fn of_fill(fill: impl Fn(Corners, PixelRect, &mut Coverage)) -> Option<Mistakes>
     mistakes::of_triangles(&mut ask, &known, Some(&found), &[], &|| true)
 }
 
-fn of_stroke(stroke: impl Fn([[i32; 2]; 2], &mut dyn FnMut(i32, i32))) -> Option<Mistakes> {
+fn of_stroke(
+    stroke: impl Fn([[i32; 2]; 2], [i32; 2], &mut dyn FnMut(i32, i32)),
+) -> Option<Mistakes> {
     let mut ask = |questions: &[LineQuestion]| -> Vec<Option<Vec<[i32; 2]>>> {
         let draw = |q: &LineQuestion| {
             let mut pixels = Vec::new();
-            stroke(q.ends, &mut |x, y| {
+            stroke(q.ends, [q.window.x1 - 1, q.window.y1 - 1], &mut |x, y| {
                 if q.window.contains(x, y) && !pixels.contains(&[x, y]) {
                     pixels.push([x, y]);
                 }
@@ -545,7 +592,7 @@ fn mistakes_are_not_named_for_conventions() {
     }
     let strokes = [LineConvention::default(), LineConvention::BEHIND, LineConvention::AHEAD];
     for convention in strokes {
-        let stroke = |ends: [[i32; 2]; 2], emit: &mut dyn FnMut(i32, i32)| {
+        let stroke = |ends: [[i32; 2]; 2], _: [i32; 2], emit: &mut dyn FnMut(i32, i32)| {
             let window = PixelRect::window(32, 32);
             let pixels = convention.pixels(&LineQuestion { ends, window }).unwrap_or_default();
             pixels.into_iter().for_each(|[x, y]| emit(x, y));

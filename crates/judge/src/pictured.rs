@@ -258,7 +258,7 @@ mod tests {
             let case = FAMILIES[1].case(1, index);
             let Shape::Triangles { list, .. } = &case.shape else { panic!("triangles") };
             let corners = rasterproof_verify::cases::near_plane::clip_corners(&list[0]);
-            let exact: Vec<[f64; 4]> = near_plane::polygon(&list[0])
+            let exact: Vec<[f64; 4]> = near_plane::polygon(&list[0], false)
                 .iter()
                 .map(|c| c.each_ref().map(Exact::to_f64))
                 .collect();

@@ -179,11 +179,8 @@ impl Found {
         };
         let mut checks = Vec::new();
         for row in &self.rows {
-            if let Some(check) = check(row).filter(|check| is_wrong(row, *check)) {
-                if !checks.contains(&check) {
-                    checks.push(check);
-                }
-            }
+            let check = check(row).filter(|check| is_wrong(row, *check));
+            checks.extend(check.filter(|check| !checks.contains(check)));
         }
         checks
     }

@@ -380,8 +380,9 @@ fn weights(corners: &Corners, at: [f64; 2]) -> [f64; 3] {
     [cross(b, c, at), cross(c, a, at), cross(a, b, at)].map(|part| part / area)
 }
 
+type Moved = fn(i32) -> i32;
 /// What becomes of corners before the weights are computed, and how that is said.
-const CORNERS: [(fn(i32) -> i32, &str); 3] = [
+const CORNERS: [(Moved, &str); 3] = [
     (|v| v, ""),
     (|v| v.div_euclid(SUBPIXELS) * SUBPIXELS, ", from corners that are cut to whole pixels"),
     (

@@ -339,6 +339,10 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
     });
     let d = &verdict.declared;
     let mut notes = vec![format!("{} speaks version {}: {d}", d.name, d.version)];
+    for Why { of, why } in &verdict.causes {
+        let known = if why.is_known() { "Probable cause" } else { "No cause recognised" };
+        notes.push(format!("{known}, of the wrong {of}: {why}"));
+    }
     if let Some(said) = &verdict.recognised {
         notes.extend(said.sentences.iter().chain(&said.compass).cloned());
     }

@@ -74,13 +74,16 @@ fn across(rng: &mut Rng) -> Case {
     let along = rng.int(0, side);
     let middle = if rng.chance(2) { [border(rng), along] } else { [along, border(rng)] };
     let count = rng.int(3, 6);
-    // Turned by an angle, each ray less than half a turn from the next.
-    let start = rng.int(0, 359);
+    // Rays through points of a square that stands on a corner, each less than half a turn from the next.
+    let start = rng.int(0, 4095);
     let ring: Vec<[i64; 2]> = (0..count)
         .map(|i| {
-            let angle = (start as f64 + (i * 360 / count) as f64).to_radians();
-            let length = rng.int(reach / 8, reach) as f64;
-            [middle[0] + (angle.cos() * length) as i64, middle[1] + (angle.sin() * length) as i64]
+            let at = (start + i * 4096 / count) % 4096;
+            let (quarter, along) = (at / 1024, at % 1024);
+            let [x, y] = [1024 - along, along];
+            let ray = [[x, y], [-y, x], [-x, -y], [y, -x]][quarter as usize];
+            let length = rng.int(reach / 8, reach);
+            [0, 1].map(|k| middle[k] + ray[k] * length / 1024)
         })
         .collect();
     let vertex = |[x, y]: [i64; 2]| ScreenVertex {

@@ -48,7 +48,7 @@ impl Mask {
     }
 
     /// Removes the pixels of the window of which `kept` is false.
-    pub(crate) fn retain(&mut self, window: PixelRect, kept: impl Fn(i32, i32) -> bool) {
+    pub(crate) fn retain(&mut self, window: PixelRect, kept: &dyn Fn(i32, i32) -> bool) {
         for y in window.y0..window.y1 {
             for x in window.x0..window.x1 {
                 if self.has(x, y) && !kept(x, y) {

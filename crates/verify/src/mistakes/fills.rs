@@ -18,7 +18,7 @@ pub(super) fn turn(corners: &Corners) -> i128 {
 }
 
 /// Every pixel of the window of whose sample it is true.
-fn each_sample(window: PixelRect, sample: [i32; 2], is_in: impl Fn(Point) -> bool) -> Mask {
+fn each_sample(window: PixelRect, sample: [i32; 2], is_in: &dyn Fn(Point) -> bool) -> Mask {
     let [sx, sy] = sample.map_array(i64::from);
     let mut mask = Mask::default();
     for y in window.y0..window.y1 {
@@ -37,7 +37,7 @@ pub(super) fn by_edges(
     corners: &Corners,
     window: PixelRect,
     base: &Convention,
-    test: impl Fn(usize, i128, bool) -> bool,
+    test: &dyn Fn(usize, i128, bool) -> bool,
 ) -> Mask {
     let points = points(corners);
     let sign = turn(corners).signum() as i64;
@@ -49,7 +49,7 @@ pub(super) fn by_edges(
         let (a, b) = (sign * (p[1] - q[1]), sign * (q[0] - p[0]));
         (p, a, b, base.ties.edges[facing(a, b)])
     });
-    each_sample(window, super::sample_of(base), |at| {
+    each_sample(window, super::sample_of(base), &|at| {
         edges.iter().enumerate().all(|(i, &(p, a, b, owns))| {
             let value =
                 i128::from(a) * i128::from(at[0] - p[0]) + i128::from(b) * i128::from(at[1] - p[1]);
@@ -85,7 +85,7 @@ pub(super) fn wrapping(
     }
     let sign = area.signum();
     let small = |v: i128| v.signum() as i64;
-    each_sample(window, super::sample_of(base), |at| {
+    each_sample(window, super::sample_of(base), &|at| {
         let at = at.map_array(cut);
         [[a, b], [b, c], [c, a]].iter().all(|&[p, q]| {
             let value = word(sign * cross(p, q, at));
@@ -247,12 +247,12 @@ pub(super) fn ends(mask: &mut Mask, _: &Corners, window: PixelRect, which: i64) 
         return;
     };
     match which {
-        0 => mask.retain(window, |_, y| y != top),
-        1 => mask.retain(window, |_, y| y != bottom),
-        2 => mask.retain(window, |x, y| has(x - 1, y)),
-        3 => mask.retain(window, |x, y| has(x + 1, y)),
-        4 => mask.retain(window, |x, _| x != left),
-        5 => mask.retain(window, |x, _| x != right),
+        0 => mask.retain(window, &|_, y| y != top),
+        1 => mask.retain(window, &|_, y| y != bottom),
+        2 => mask.retain(window, &|x, y| has(x - 1, y)),
+        3 => mask.retain(window, &|x, y| has(x + 1, y)),
+        4 => mask.retain(window, &|x, _| x != left),
+        5 => mask.retain(window, &|x, _| x != right),
         _ => {
             for y in window.y0..window.y1 {
                 for x in window.x0..window.x1 {
@@ -275,7 +275,7 @@ pub(super) fn ends(mask: &mut Mask, _: &Corners, window: PixelRect, which: i64) 
 pub(super) fn tiles(mask: &mut Mask, _: &Corners, window: PixelRect, p: i64) {
     let (side, full) = ((p % 100) as i32, *mask);
     let has = |x: i32, y: i32| full.has(x.min(window.x1 - 1), y.min(window.y1 - 1));
-    mask.retain(window, |x, y| {
+    mask.retain(window, &|x, y| {
         let [x, y] = [x / side * side, y / side * side];
         let last = side - 1;
         match p / 100 {
@@ -359,7 +359,7 @@ pub(super) fn float(
         return mask;
     }
     let reciprocal = r(1.0 / area);
-    each_sample(window, at_sample, |at| {
+    each_sample(window, at_sample, &|at| {
         let at = px(at);
         let values = match formula {
             0 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
@@ -401,11 +401,23 @@ pub(super) enum Slope {
     Coarse,
     /// Not added: computed for each row in single precision.
     Computed,
+    /// Not added: interpolated between the corners for each row, in single precision.
+    Between,
+    /// The same in double precision.
+    BetweenDouble,
 }
 
 impl Slope {
-    pub(super) const ALL: [Self; 6] =
-        [Self::Single, Self::Double, Self::Fixed, Self::FixedDown, Self::Coarse, Self::Computed];
+    pub(super) const ALL: [Self; 8] = [
+        Self::Single,
+        Self::Double,
+        Self::Fixed,
+        Self::FixedDown,
+        Self::Coarse,
+        Self::Computed,
+        Self::Between,
+        Self::BetweenDouble,
+    ];
 
     pub(super) fn about(self) -> &'static str {
         match self {
@@ -415,6 +427,12 @@ impl Slope {
             Self::FixedDown => "in 1/65536 px, cut down",
             Self::Coarse => "in 1/256 px, cut toward zero",
             Self::Computed => "(or computes it for each row) in floats of 32 bits",
+            Self::Between => {
+                "(or interpolates between its corners for each row) in floats of 32 bits"
+            }
+            Self::BetweenDouble => {
+                "(or interpolates between its corners for each row) in floats of 64 bits"
+            }
         }
     }
 }
@@ -444,6 +462,7 @@ struct Walk {
     x: f64,
     slope: f64,
     from: [f64; 2],
+    to: [f64; 2],
     of: Slope,
 }
 
@@ -459,7 +478,7 @@ impl Walk {
                 let slope = single(single(px(dx)) / single(px(dy)));
                 (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
             }
-            Slope::Double => {
+            Slope::Double | Slope::Between | Slope::BetweenDouble => {
                 let slope = px(dx) / px(dy);
                 (px(from[0]) + slope * px(ahead), slope)
             }
@@ -475,7 +494,7 @@ impl Walk {
                 (x as f64 / unit as f64, slope as f64 / unit as f64)
             }
         };
-        Self { x, slope, from: [px(from[0]), px(from[1])], of }
+        Self { x, slope, from: from.map_array(px), to: to.map_array(px), of }
     }
 
     /// The crossing with the row, in pixels.
@@ -485,6 +504,13 @@ impl Walk {
                 let single = |v: f64| f64::from(v as f32);
                 let ahead = single(row as f64 + 0.5 - self.from[1]);
                 single(self.from[0] + single(self.slope * ahead))
+            }
+            Slope::Between | Slope::BetweenDouble => {
+                let is_double = matches!(self.of, Slope::BetweenDouble);
+                let r = |v: f64| if is_double { v } else { f64::from(v as f32) };
+                let [from, to] = [self.from, self.to].map_array(|p| p.map_array(r));
+                let part = r(r(row as f64 + 0.5 - from[1]) / r(to[1] - from[1]));
+                r(from[0] + r(r(to[0] - from[0]) * part))
             }
             _ => self.x,
         }

@@ -46,6 +46,37 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         }),
     },
     Mistake {
+        name: "lines are cut in whole numbers",
+        sentence: |p| {
+            let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
+            format!(
+                "cuts lines at the window and draws the rest as a line of its own, whose new ends are {how}: the rest takes other pixels"
+            )
+        },
+        repair: "clip the line, and keep the error term of the unclipped one",
+        page: "ch07",
+        refuted: "a line across the border with the pixels of the whole line",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]),
+        draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
+    },
+    Mistake {
+        name: "x and y are exchanged",
+        sentence: |p| {
+            format!(
+                "exchanges x and y of {} lines, as where steep lines are turned and not turned back",
+                ["steep", "flat"][p as usize]
+            )
+        },
+        repair: "turn the pixels back where the line was turned",
+        page: "ch03",
+        refuted: "such a line with its own pixels",
+        parameters: Parameters::Fixed(&[0, 1]),
+        draws: Stroke::Instead(|ends, _, p| {
+            let is_turned = is_steep(ends) == (p == 0);
+            vec![if is_turned { ends.map_array(|[x, y]| [y, x]) } else { ends }]
+        }),
+    },
+    Mistake {
         name: "lines are left out by kind",
         sentence: |p| format!("does not draw lines {}", KINDS[p as usize].0),
         repair: "treat this kind as any other",
@@ -96,9 +127,12 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         name: "steps are added up in floats",
         sentence: |p| {
             let (how, bits) = (p / 2, ["32", "64"][(p % 2) as usize]);
-            let rounded =
-                ["rounded to the nearest", "cut toward zero", "cut down after 1/2 was added"]
-                    [how as usize];
+            let rounded = [
+                "rounded to the nearest",
+                "cut toward zero",
+                "cut down after 1/2 was added",
+                "beginning half a pixel ahead, and cut down",
+            ][how as usize];
             format!(
                 "adds up steps in floats of {bits} bits, {rounded}: the height drifts along the line"
             )
@@ -106,7 +140,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "compute each step from the end, or count in integers",
         page: "ch03",
         refuted: "a long line whose height is right at the far end",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5]),
+        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7]),
         draws: Stroke::Own(floats),
     },
     Mistake {
@@ -157,7 +191,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     },
     Mistake {
         name: "pixels at the ends",
-        sentence: |p| format!("{}", ENDS[p as usize].0),
+        sentence: |p| ENDS[p as usize].0.to_owned(),
         repair: "compare the bounds of the loop with the rule for ends: one of them is one off in this direction",
         page: "ch03",
         refuted: "a line of that direction with both ends right",
@@ -166,7 +200,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
             let (_, last, is_one) = ENDS[p as usize];
             let [x, y] = ends[usize::from(last)];
             if is_one(ends) {
-                mask.retain(window, |px, py| [i64::from(px), i64::from(py)] != [x, y]);
+                mask.retain(window, &|px, py| [i64::from(px), i64::from(py)] != [x, y]);
             }
         }),
     },
@@ -211,7 +245,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         refuted: "a pixel of it that is drawn",
         parameters: Parameters::Fixed(&[0, 1, 2, 3]),
         draws: Stroke::Changed(|mask, _, window, p| {
-            mask.retain(window, |x, y| match p {
+            mask.retain(window, &|x, y| match p {
                 0 => y > 0,
                 1 => y < window.y1 - 1,
                 2 => x > 0,
@@ -265,8 +299,9 @@ const KINDS: [(&str, IsKind); 10] = [
     ("between a pixel and itself", |[a, b], _| a == b),
 ];
 
+type OfEnds = fn(Ends) -> bool;
 /// What is lost, whether that is the second end, and of which lines.
-const ENDS: [(&str, bool, fn(Ends) -> bool); 8] = [
+const ENDS: [(&str, bool, OfEnds); 8] = [
     ("loses the last pixel of steep lines", true, is_steep),
     ("loses the last pixel of flat lines", true, |e| !is_steep(e)),
     ("loses the last pixel of lines to the left", true, |[a, b]| b[0] < a[0]),
@@ -283,6 +318,42 @@ const MOST_STEPS: i64 = 1 << 16;
 /// The ends, seen from the left one if that is asked; for upright ones from the upper.
 fn from_left(ends: Ends, left: bool) -> Ends {
     if left && ends[0] > ends[1] { [ends[1], ends[0]] } else { ends }
+}
+
+/// The part within the window by Cohen and Sutherland, in whole numbers: p mod 3 is the rounding, p / 3 mod 2 is whether x
+/// is cut before y, and from 6 on the first end is cut before the second.
+fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
+    let last = [i64::from(window.x1) - 1, i64::from(window.y1) - 1];
+    let order = if p / 3 % 2 == 0 { [1, 0] } else { [0, 1] };
+    // Each end is cut at most twice.
+    for _ in 0..5 {
+        let outside = |p: [i64; 2], k: usize| p[k] < 0 || p[k] > last[k];
+        let beyond = |k: usize| a[k].max(b[k]) < 0 || a[k].min(b[k]) > last[k];
+        if beyond(0) || beyond(1) {
+            return None;
+        }
+        let is_out = |k: usize, first: bool| outside(if first { a } else { b }, k);
+        let all = match p < 6 {
+            true => order.map(|k| [(k, true), (k, false)]),
+            false => [true, false].map(|first| order.map(|k| (k, first))),
+        };
+        let next = all.into_iter().flatten().find(|&(k, first)| is_out(k, first));
+        let Some((k, first)) = next else { return Some([a, b]) };
+        let moved = if first { a } else { b };
+        let to = if moved[k] < 0 { 0 } else { last[k] };
+        let part = (b[1 - k] - a[1 - k]) * (to - a[k]);
+        let whole = b[k] - a[k];
+        let (part, whole) = if whole < 0 { (-part, -whole) } else { (part, whole) };
+        let along = match p % 3 {
+            0 => part / whole,
+            1 => part.div_euclid(whole),
+            _ => (2 * part + whole).div_euclid(2 * whole),
+        };
+        let other = a[1 - k] + along;
+        let end = if first { &mut a } else { &mut b };
+        (end[k], end[1 - k]) = (to, other);
+    }
+    None
 }
 
 fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
@@ -348,10 +419,12 @@ fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
     }
     let slope = |d: i64| if steps == 0 { 0.0 } else { r(d as f64 / steps as f64) };
     let (sx, sy) = (slope(x1 - x0), slope(y1 - y0));
-    let (mut x, mut y) = (x0 as f64, y0 as f64);
+    let ahead = if how == 3 { 0.5 } else { 0.0 };
+    let (mut x, mut y) = (r(x0 as f64 + ahead), r(y0 as f64 + ahead));
     let pixel = |v: f64| match how {
         0 => v.round() as i64,
         1 => v as i64,
+        3 => v.floor() as i64,
         _ => (v + 0.5).floor() as i64,
     };
     let mut pixels = Vec::with_capacity(steps as usize + 1);

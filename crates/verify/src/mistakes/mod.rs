@@ -59,8 +59,11 @@ pub struct Program<'a, Question, Picture> {
     /// What is wrong with it, after 'it'.
     pub about: String,
     /// What it draws; none where it has no answer.
-    pub draw: Box<dyn Fn(&Question) -> Option<Picture> + 'a>,
+    pub draw: Draw<'a, Question, Picture>,
 }
+
+/// What a program draws for a question.
+pub type Draw<'a, Question, Picture> = Box<dyn Fn(&Question) -> Option<Picture> + 'a>;
 
 /// A mistake that explains what is wrong, or the nearest one.
 #[derive(Clone, Debug, PartialEq)]

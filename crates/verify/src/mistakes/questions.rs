@@ -69,14 +69,16 @@ impl Room {
 
     /// A length of 2^6 px to the end of the range, each power of two as often as another.
     fn far(&mut self) -> i64 {
-        let most = (self.range_px / 2).max(64).min(1 << 20).ilog2();
+        let most = (self.range_px / 2).clamp(64, 1 << 20).ilog2();
         let power = self.rng.int(6, i64::from(most));
         self.within(1 << (power - 1), 1 << power)
     }
 
+    /// A vector of length 1.
     fn direction(&mut self) -> [f64; 2] {
-        let angle = self.rng.int(0, 3599) as f64 * std::f64::consts::TAU / 3600.0;
-        [angle.cos(), angle.sin()]
+        let [x, y] = [0, 0].map_array(|_| self.rng.int(-1000, 1000) as f64);
+        let length = (x * x + y * y).sqrt();
+        if length == 0.0 { [1.0, 0.0] } else { [x / length, y / length] }
     }
 
     fn away(&mut self, [x, y]: [i64; 2], [dx, dy]: [f64; 2], length: i64) -> [i64; 2] {
@@ -148,8 +150,7 @@ fn triangle(room: &mut Room, window: PixelRect, sample: [i32; 2], kind: usize) -
             let [[x0, y0], [x1, y1]] = [0; 2].map_array(|_| aligned(room.inside(window), to));
             let all = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
             let left_out = room.rng.int(0, 3) as usize;
-            let kept = [1, 2, 3].map(|i| all[(left_out + i) % 4]);
-            kept
+            [1, 2, 3].map(|i| all[(left_out + i) % 4])
         }
         _ => [0; 3].map_array(|_| room.inside(window)),
     };

@@ -2,7 +2,7 @@
 
 use super::fills::{self, Row, Slope};
 use super::{Mistake, Parameters};
-use crate::convention::{Convention, Mask, Ties};
+use crate::convention::{Convention, Mask, Quantum, Rounding, Ties};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -59,7 +59,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a triangle whose corners are rotated and that draws the same samples",
         parameters: Parameters::Fixed(&[1, 2, 3, 4, 5, 6]),
         draws: Fill::Sampled(|corners, window, base, p| {
-            fills::by_edges(corners, window, base, |edge, value, _| {
+            fills::by_edges(corners, window, base, &|edge, value, _| {
                 value > 0 || (value == 0 && p >> edge & 1 == 1)
             })
         }),
@@ -90,13 +90,44 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         ]),
         draws: Fill::Ruled(|corners, window, base, p| {
             let (how, bits) = (p / 100, p % 100);
-            fills::by_edges(corners, window, base, |_, value, owns| {
+            fills::by_edges(corners, window, base, &|_, value, owns| {
                 let cut = if how % 2 == 0 { value >> bits } else { value / (1 << bits) };
                 match how {
                     0 | 1 => cut - i128::from(!owns) >= 0,
                     2 => cut > 0,
                     _ => cut >= 0,
                 }
+            })
+        }),
+    },
+    Mistake {
+        name: "an epsilon in the test",
+        sentence: |p| {
+            let what = ["weights of the corners are", "edge function in square pixels is"]
+                [(p / 10 % 2) as usize];
+            let size = EPSILONS[(p % 10) as usize];
+            match p / 20 {
+                0 => format!(
+                    "draws where the {what} above -{size:e}, so that a strip outside every edge is drawn"
+                ),
+                _ => format!(
+                    "draws where the {what} above {size:e}, so that a strip inside every edge is lost"
+                ),
+            }
+        },
+        repair: "snap the corners to a grid, where an edge function is exactly 0 or not, and follow a fill rule",
+        page: "ch02-edge-functions",
+        refuted: "a sample in that strip that is drawn rightly",
+        parameters: Parameters::Fixed(&[
+            0, 1, 2, 3, 4, 5, 6, 10, 11, 12, 13, 14, 15, 16, 20, 21, 22, 23, 24, 25, 26, 30, 31,
+            32, 33, 34, 35, 36,
+        ]),
+        draws: Fill::Sampled(|corners, window, base, p| {
+            let whole = if p / 10 % 2 == 0 { fills::turn(corners).abs() as f64 } else { 65536.0 };
+            let size = EPSILONS[(p % 10) as usize];
+            fills::by_edges(corners, window, base, &|_, value, _| match p / 20 {
+                0 => value as f64 / whole >= -size,
+                _ => value as f64 / whole > size,
             })
         }),
     },
@@ -117,7 +148,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a sample beyond that edge alone that is not drawn",
         parameters: Parameters::Fixed(&[0, 1, 2]),
         draws: Fill::Ruled(|corners, window, base, p| {
-            fills::by_edges(corners, window, base, |edge, value, owns| {
+            fills::by_edges(corners, window, base, &|edge, value, owns| {
                 edge as i64 == p || value > 0 || (value == 0 && owns)
             })
         }),
@@ -169,7 +200,8 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 format!("1/{} px", 256 / step)
             };
             let [moved, kept] = if axis == 0 { ["x", "y"] } else { ["y", "x"] };
-            let how = ["down", "to the nearest", "toward zero"][rounding as usize];
+            let how = ["down", "to the nearest", "toward zero", "to the nearest, halves to even"]
+                [rounding as usize];
             format!(
                 "moves {moved} of the corners to {grid} ({how}) and keeps the fraction of {kept}, so that slopes change"
             )
@@ -179,13 +211,16 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a corner with such a fraction whose edges pass where they should",
         parameters: Parameters::Fixed(&[
             0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
+            24, 25, 26, 27, 28, 29, 30, 31,
         ]),
         draws: Fill::Instead(|corners, _, p| {
             let (step, rounding) = (STEPS[(p / 2 % 4) as usize], p / 8);
             let cut = |v: i32| match rounding {
                 0 => v.div_euclid(step) * step,
                 1 => v.saturating_add(step / 2).div_euclid(step) * step,
-                _ => v / step * step,
+                2 => v / step * step,
+                // As `round` of Python and C# does.
+                _ => Quantum { step, rounding: Rounding::HalfEven }.apply(v) as i32,
             };
             let to = |c: SubpixelPoint| {
                 if p % 2 == 0 {
@@ -326,12 +361,12 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             let mut ys = corners.map_array(|c| c.y);
             ys.sort_unstable();
             let middle = i64::from(ys[1]);
-            mask.retain(window, |_, y| (i64::from(y) * 256 + 128 < middle) == (p == 0));
+            mask.retain(window, &|_, y| (i64::from(y) * 256 + 128 < middle) == (p == 0));
         }),
     },
     Mistake {
         name: "ends of rows or columns",
-        sentence: |p| format!("{}", ENDS[p as usize]),
+        sentence: |p| ENDS[p as usize].to_owned(),
         repair: "compare the bounds of the loop with the fill rule: one of them is one off",
         page: "ch02-scanline",
         refuted: "a row or column with both of its ends right",
@@ -351,7 +386,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a pixel of it that is drawn",
         parameters: Parameters::Fixed(&[0, 1, 2, 3]),
         draws: Fill::Changed(|mask, _, window, p| {
-            mask.retain(window, |x, y| match p {
+            mask.retain(window, &|x, y| match p {
                 0 => y > 0,
                 1 => y < window.y1 - 1,
                 2 => x > 0,
@@ -382,7 +417,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             };
             let ([x0, x1], [y0, y1]) = (bounds(0), bounds(1));
             let axis = p % 3;
-            mask.retain(window, |x, y| {
+            mask.retain(window, &|x, y| {
                 let (x, y) = (i64::from(x), i64::from(y));
                 (axis == 2 || (x0..x1).contains(&x)) && (axis == 1 || (y0..y1).contains(&y))
             });
@@ -421,7 +456,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         parameters: Parameters::Fixed(&GROUPS),
         draws: Fill::Changed(|mask, _, window, p| {
             let (axis, every, rest) = (p / 10_000, p / 100 % 100, p % 100);
-            mask.retain(window, |x, y| i64::from(if axis == 0 { y } else { x }) % every != rest);
+            mask.retain(window, &|x, y| i64::from(if axis == 0 { y } else { x }) % every != rest);
         }),
     },
     Mistake {
@@ -510,7 +545,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                         !window.contains(x + dx, y + dy) || full.has(x + dx, y + dy)
                     })
                 };
-                mask.retain(window, |x, y| !inner(x, y));
+                mask.retain(window, &|x, y| !inner(x, y));
                 return;
             }
             let ends =
@@ -532,6 +567,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
 /// The rules that mistakes are looked for with.
 pub(super) const RULES: [&str; 6] =
     ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
+const EPSILONS: [f64; 7] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 const PAIRS: [i64; 30] = {
     let mut pairs = [0; 30];
     let (mut i, mut n) = (0, 0);
@@ -635,12 +671,14 @@ const FLOATS: [i64; 28] = {
     all
 };
 
-const STEPPED: [i64; 24] =
-    [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23];
+const STEPPED: [i64; 32] = [
+    0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25,
+    26, 27, 28, 29, 30, 31,
+];
 
 fn stepped(p: i64) -> (Slope, bool, Row) {
-    let slope = Slope::ALL[(p % 6) as usize];
-    (slope, p / 6 % 2 == 1, Row::ALL[(p / 12) as usize])
+    let slope = Slope::ALL[(p % 8) as usize];
+    (slope, p / 8 % 2 == 1, Row::ALL[(p / 16) as usize])
 }
 
 impl Convention {
