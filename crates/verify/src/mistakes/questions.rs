@@ -221,7 +221,7 @@ fn line(room: &mut Room, window: PixelRect, number: usize) -> [[i32; 2]; 2] {
         3 => [0; 2].map_array(|_| [room.rng.int(-wide, 2 * wide), room.rng.int(-high, 2 * high)]),
         // Long ones; few, as some programs walk along each pixel.
         4 => {
-            let most = if number % 40 == 4 { LONGEST_PX } else { 2000 };
+            let most = if number % 16 == 4 { LONGEST_PX } else { 2000 };
             let along = room.direction();
             let length =
                 |room: &mut Room| room.far().div_euclid(256).min(most.min(room.range_px / 2));

@@ -530,13 +530,14 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             [
                 "fills the box of the corners".to_owned(),
                 "draws the border alone and fills nothing".to_owned(),
+                "fills the box of the corners, also where these have no area".to_owned(),
             ][p as usize]
                 .clone()
         },
         repair: "test every sample against the three edges",
         page: "ch02-edge-functions",
         refuted: "a corner of the box that is not drawn",
-        parameters: Parameters::Fixed(&[0, 1]),
+        parameters: Parameters::Fixed(&[0, 1, 2]),
         draws: Fill::Changed(|mask, corners, window, p| {
             if p == 1 {
                 let full = *mask;
@@ -546,6 +547,9 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                     })
                 };
                 mask.retain(window, &|x, y| !inner(x, y));
+                return;
+            }
+            if p == 0 && fills::turn(corners) == 0 {
                 return;
             }
             let ends =
