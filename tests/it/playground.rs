@@ -348,7 +348,8 @@ fn playground_says_its_command() {
                     for (const [x, y] of pixels.flat()) hits[(y - y0) * (x1 - x0) + x - x0] += 1;
                     return hits.join('');
                 };
-                const exact = (name) => (name === 'inclusive-edges' ? 'exact-inclusive-ties' : `${name}-exact`);
+                const names = { oracle: 'oracle', 'inclusive-edges': 'exact-inclusive-ties' };
+                const exact = (name) => names[name] ?? `${name}-exact`;
                 return [['oracle', truth], ...panels.map(p => [p.name, p.hits ?? p.pixels])]
                     .map(([name, hits]) => [state.snap ? name : exact(name), state.lines ? digits(hits) : hits])
                     .filter(([, hits]) => typeof hits === 'string');

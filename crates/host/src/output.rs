@@ -25,7 +25,7 @@ use crate::{mark, read_files};
 pub enum Over {
     /// Any that the command has not read: the user has typed its name.
     Any,
-    /// Of these only one that this program made, by its [mark](crate::mark): the program has chosen the name.
+    /// Of these only one that this program made, by its mark: the program has chosen the name.
     Marked,
     /// Also one that the command has read, in order to write it anew.
     Updated,
