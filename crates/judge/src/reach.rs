@@ -13,7 +13,7 @@ const GROWTH: i32 = 8;
 const MOST: i32 = 1 << 24;
 /// What is too short to be told from the time of any answer.
 const SHORT: Duration = Duration::from_millis(50);
-/// How long the longest line that is asked for may take: hundreds of such lines are.
+/// How long the longest line of a run may take to draw: a run has hundreds of them.
 const ALLOWED: Duration = Duration::from_millis(30);
 
 /// The longest line that a program draws in 30 ms, in steps; nothing where it draws any.

@@ -28,7 +28,7 @@ struct Answered {
     is_wrong: bool,
 }
 
-/// Cases of each family that are asked for.
+/// Cases that are drawn for a check, over all of its families.
 const CASES: u64 = 400;
 /// The questions are the same in every run.
 const SEED: u64 = 7;

@@ -271,6 +271,16 @@ pub(super) fn ends(mask: &mut Mask, _: &Corners, window: PixelRect, which: i64) 
     }
 }
 
+/// Removes the first or last row, or the first or last column, of the window.
+pub(super) fn without_border(mask: &mut Mask, window: PixelRect, which: i64) {
+    mask.retain(window, &|x, y| match which {
+        0 => y > 0,
+        1 => y < window.y1 - 1,
+        2 => x > 0,
+        _ => x < window.x1 - 1,
+    });
+}
+
 /// Tiles of p mod 100 pixels, tested at their corners, in their middle, or at their first pixel.
 pub(super) fn tiles(mask: &mut Mask, _: &Corners, window: PixelRect, p: i64) {
     let (side, full) = ((p % 100) as i32, *mask);

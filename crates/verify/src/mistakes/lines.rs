@@ -1,5 +1,6 @@
 //! The table of mistakes in drawing lines. To add one, add an entry: everything else follows from it.
 
+use super::fills::without_border;
 use super::{Mistake, Parameters};
 use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;
@@ -244,14 +245,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         page: "ch11",
         refuted: "a pixel of it that is drawn",
         parameters: Parameters::Fixed(&[0, 1, 2, 3]),
-        draws: Stroke::Changed(|mask, _, window, p| {
-            mask.retain(window, &|x, y| match p {
-                0 => y > 0,
-                1 => y < window.y1 - 1,
-                2 => x > 0,
-                _ => x < window.x1 - 1,
-            });
-        }),
+        draws: Stroke::Changed(|mask, _, window, p| without_border(mask, window, p)),
     },
     Mistake {
         name: "the sign of a step",

@@ -385,14 +385,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch11",
         refuted: "a pixel of it that is drawn",
         parameters: Parameters::Fixed(&[0, 1, 2, 3]),
-        draws: Fill::Changed(|mask, _, window, p| {
-            mask.retain(window, &|x, y| match p {
-                0 => y > 0,
-                1 => y < window.y1 - 1,
-                2 => x > 0,
-                _ => x < window.x1 - 1,
-            });
-        }),
+        draws: Fill::Changed(|mask, _, window, p| fills::without_border(mask, window, p)),
     },
     Mistake {
         name: "the box is too small",
