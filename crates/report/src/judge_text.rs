@@ -346,9 +346,13 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
     if let Some(said) = &verdict.recognised {
         notes.extend(said.sentences.iter().chain(&said.compass).cloned());
     }
+    // The mistake says more than the properties that fail.
+    let cause = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
+    let cause = cause.map_or_else(String::new, |cause| format!("it {}; ", cause.does));
+    let headline = cause + &closing(verdict);
     Report {
         title: format!("Verdict on {}", d.name),
-        outcome: Some(Outcome::of(verdict.agrees(), closing(verdict))),
+        outcome: Some(Outcome::of(verdict.agrees(), headline)),
         command: command.to_owned(),
         seed: Some(verdict.seed),
         notes,
