@@ -611,7 +611,10 @@ fn judge_tells_what_leaves_the_window() {
     assert!(text.contains("by at most a pixel"), "{text}");
     let score = verdict.by_convention().unwrap();
     assert!(verdict.as_declared().wrong > 50 && score.wrong == 0, "{score:?}");
-    assert!(score.unscored > 0, "{score:?}");
+    assert!(
+        score.unscored > 0 && verdict.left_out_wrong() == verdict.as_declared().wrong,
+        "{score:?}"
+    );
     let (verdict, text) = judged(clamped);
     assert!(text.contains("they count as wrong"), "{text}");
     let score = verdict.by_convention().unwrap();

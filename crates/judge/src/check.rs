@@ -288,14 +288,16 @@ fn one_triangle(
     finding.shapes += 1;
     finding.pixels += length(&picture.must);
     let compare_both = |runs: &[Span], finding: &mut Finding| {
+        let before = finding.tally.total();
         compare(&mut finding.tally, &mut finding.mark, runs, &picture, window);
+        let wrong = finding.tally.total() - before;
         let Some(recognised) = &truth.recognised else { return };
         match recognised.picture(&corners, window) {
             Some(picture) => {
                 finding.other_pixels += length(&picture.must);
                 compare(&mut finding.other, &mut 0, runs, &picture, window);
             }
-            None => finding.unscored += 1,
+            None => leave_out(finding, wrong),
         }
     };
     match answer {
@@ -479,7 +481,9 @@ fn one_line(finding: &mut Finding, line: &Line, answer: &Answer, window: PixelRe
     finding.shapes += 1;
     finding.pixels += expected.len() as u64;
     let in_order = !truth.declared.line_set;
+    let before = finding.tally.total();
     sequence(&mut finding.tally, &mut finding.mark, pixels, &expected, window, in_order);
+    let wrong = finding.tally.total() - before;
     let Some(recognised) = &truth.recognised else { return };
     match recognised.line(&ends, window) {
         Some(expected) => {
@@ -487,8 +491,14 @@ fn one_line(finding: &mut Finding, line: &Line, answer: &Answer, window: PixelRe
             let in_order = in_order && recognised.keeps_order();
             sequence(&mut finding.other, &mut 0, pixels, &expected, window, in_order);
         }
-        None => finding.unscored += 1,
+        None => leave_out(finding, wrong),
     }
+}
+
+/// Counts a shape of which the recognised convention says nothing, and its pixels that are wrong as declared.
+fn leave_out(finding: &mut Finding, wrong: u64) {
+    finding.unscored += 1;
+    finding.unscored_wrong += wrong;
 }
 
 /// Compares the pixels of a line, and where they are the same ones their order.

@@ -19,6 +19,8 @@ pub struct Finding {
     pub other_pixels: u64,
     /// Triangles or lines of which the recognised convention says nothing.
     pub unscored: u64,
+    /// Their pixels that are wrong as declared.
+    pub unscored_wrong: u64,
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
     pub reason: String,

@@ -45,6 +45,8 @@ pub struct Row {
     pub recognised_pixels: u64,
     /// Triangles or lines of which it says nothing.
     pub unscored: u64,
+    /// Their pixels that are wrong as declared.
+    pub unscored_wrong: u64,
     pub refused: u64,
     pub values: u64,
     /// The largest error of a value as a fraction of the tolerance.
@@ -73,6 +75,7 @@ impl Row {
         self.recognised += finding.other;
         self.recognised_pixels += finding.other_pixels;
         self.unscored += finding.unscored;
+        self.unscored_wrong += finding.unscored_wrong;
         self.refused += finding.refused;
         self.values += finding.values;
         self.worst = self.worst.max(finding.worst);
@@ -90,6 +93,7 @@ impl AddAssign<&Row> for Row {
         self.recognised += other.recognised;
         self.recognised_pixels += other.recognised_pixels;
         self.unscored += other.unscored;
+        self.unscored_wrong += other.unscored_wrong;
         self.refused += other.refused;
         self.values += other.values;
         self.worst = self.worst.max(other.worst);

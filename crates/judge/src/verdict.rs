@@ -199,6 +199,12 @@ impl Verdict {
         self.recognised.as_ref().filter(|said| said.is_explained).map(|_| score())
     }
 
+    /// Pixels that are wrong as declared, of the shapes of which the recognised convention says nothing.
+    #[must_use]
+    pub fn left_out_wrong(&self) -> u64 {
+        self.pictures().map(|row| row.unscored_wrong).sum()
+    }
+
     /// Sums over the rows, those of lines or of triangles alone where that is asked.
     #[must_use]
     pub fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {

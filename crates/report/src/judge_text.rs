@@ -133,17 +133,20 @@ pub fn hanging(words: &str, first: &str, rest: &str) -> String {
     lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
 }
 
-fn score(of: Score) -> String {
+/// The score, with the wrong pixels of the shapes that it leaves out.
+fn score(of: Score, left_out_wrong: u64) -> String {
     let share = per_million(of.wrong, of.pixels);
     let unscored = match of.unscored {
         0 => String::new(),
-        n => format!("; {n} triangles or lines of which it says nothing are left out"),
+        n => format!(
+            "; {n} triangles or lines of which it says nothing are left out, with {left_out_wrong} wrong pixels as declared"
+        ),
     };
     format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
 }
 
 fn scores(out: &mut String, verdict: &Verdict) {
-    let said = score(verdict.as_declared());
+    let said = score(verdict.as_declared(), 0);
     let _ = writeln!(out, "as declared:         {said}");
     let line = |out: &mut String, first: &str, text: &str| {
         let _ = writeln!(out, "{first:<21}{text}");
@@ -152,7 +155,7 @@ fn scores(out: &mut String, verdict: &Verdict) {
         return line(out, "by its convention:", "the same: no other one was recognised");
     };
     match verdict.by_convention() {
-        Some(found) => line(out, "by its convention:", &score(found)),
+        Some(found) => line(out, "by its convention:", &score(found, verdict.left_out_wrong())),
         None => line(out, "by its convention:", "unexplained, so there is no score"),
     }
     recognised.sentences.iter().chain(&recognised.compass).for_each(|text| line(out, "", text));
