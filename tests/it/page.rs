@@ -710,7 +710,8 @@ pub fn every_section() -> Report {
             narrow: None,
         }],
         plan: Some(Table {
-            caption: hostile(),
+            // Regions of a page have names of their own.
+            caption: format!("plan {}", hostile()),
             columns: ["effect", "reason"].map(Column::words).to_vec(),
             rows: vec![vec![hostile(), hostile()].into()],
         }),
