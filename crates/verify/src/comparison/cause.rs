@@ -205,7 +205,7 @@ mod tests {
         }
     }
 
-    /// A fault that small triangles do not show has no convention for its cause.
+    /// A fault that small triangles do not show has no convention for its cause, and is named as a mistake.
     #[test]
     fn what_is_no_convention_is_not_called_one() {
         struct ForgetsLargeOnes;
@@ -218,10 +218,8 @@ mod tests {
         }
         let verdict = judge_coverage(&ForgetsLargeOnes, &families(Options::default())).unwrap();
         let cause = verdict.cause.unwrap();
-        assert!(!cause.is_known && cause.declare.is_none(), "{cause}");
-        assert_eq!(
-            cause.to_string(),
-            "no cause was recognised: The pixels of small triangles within the window are as declared."
-        );
+        assert!(cause.declare.is_none(), "{cause}");
+        let said = "probable cause: It does not draw triangles whose ";
+        assert!(cause.to_string().starts_with(said), "{cause}");
     }
 }
