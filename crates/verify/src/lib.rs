@@ -69,7 +69,7 @@
 //!   .-..    .#..
 //!   ....    ....
 //!   ....    ....
-//!   # drawn once, - missing, + extra, 2 drawn twice
+//!   # drawn once, - missing, + extra, 2 to 9 drawn so often, 9 also more often, . neither
 //!
 //! probable cause: It samples at the pixel's centre and draws nothing on an edge: neighbours leave holes.
 //! if that is meant, declare it: Options::default().convention(Convention::default().rule(Rule::Strict))
