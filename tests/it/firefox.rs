@@ -102,7 +102,7 @@ impl Firefox {
 
 impl Tab for Firefox {
     /// The page's own scripts see its constants; those of Marionette do not, and leave one behind to answer.
-    fn eval(&mut self, expression: &str) -> Value {
+    fn try_eval(&mut self, expression: &str) -> Option<Value> {
         let text = format!("document.body.dataset.answer = JSON.stringify({expression}) ?? 'null'");
         let script = "const script = document.createElement('script');
             script.textContent = arguments[0];
@@ -114,7 +114,7 @@ impl Tab for Firefox {
         let answer =
             self.call("WebDriver:ExecuteScript", json!({ "script": script, "args": [text] }));
         let answer = answer.as_str().unwrap_or_else(|| panic!("no answer: {expression}"));
-        serde_json::from_str(answer).unwrap()
+        Some(serde_json::from_str(answer).unwrap())
     }
 }
 

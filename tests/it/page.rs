@@ -99,6 +99,10 @@ impl Browser {
     }
 
     pub fn call(&mut self, method: &str, parameters: Value) -> Value {
+        self.try_call(method, parameters).unwrap_or_else(|error| panic!("{method}: {error}"))
+    }
+
+    fn try_call(&mut self, method: &str, parameters: Value) -> Result<Value, Value> {
         self.last += 1;
         let mut request = json!({ "id": self.last, "method": method, "params": parameters });
         if !self.session.is_null() {
@@ -108,8 +112,12 @@ impl Browser {
         loop {
             let message = self.answers.recv_timeout(PATIENCE).expect("the browser answers");
             if message["id"] == self.last {
-                assert!(message["error"].is_null(), "{method}: {}", message["error"]);
-                return message["result"].clone();
+                let error = &message["error"];
+                return if error.is_null() {
+                    Ok(message["result"].clone())
+                } else {
+                    Err(error.clone())
+                };
             }
             self.note(&message);
         }
@@ -202,25 +210,39 @@ impl Browser {
 
 /// What a test asks of an open page, in whatever browser.
 pub trait Tab {
-    fn eval(&mut self, expression: &str) -> Value;
+    /// `None` where the tab went to another page before it answered.
+    fn try_eval(&mut self, expression: &str) -> Option<Value>;
+
+    fn eval(&mut self, expression: &str) -> Value {
+        self.try_eval(expression).expect("the tab stays on its page")
+    }
 
     fn wait_for(&mut self, expression: &str) {
         let start = Instant::now();
-        while self.eval(expression) != json!(true) {
+        while self.try_eval(expression) != Some(json!(true)) {
             assert!(start.elapsed() < PATIENCE, "never true: {expression}");
             std::thread::sleep(Duration::from_millis(30));
         }
     }
 }
 
+fn is_lost_to_navigation(error: &Value) -> bool {
+    let message = error["message"].as_str().unwrap_or_default();
+    ["navigated", "context"].iter().any(|word| message.contains(word))
+}
+
 impl Tab for Browser {
     /// A promise is waited for.
-    fn eval(&mut self, expression: &str) -> Value {
+    fn try_eval(&mut self, expression: &str) -> Option<Value> {
         let parameters =
             json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
-        let answer = self.call("Runtime.evaluate", parameters);
+        let answer = match self.try_call("Runtime.evaluate", parameters) {
+            Ok(answer) => answer,
+            Err(error) if is_lost_to_navigation(&error) => return None,
+            Err(error) => panic!("{expression}: {error}"),
+        };
         assert!(answer["exceptionDetails"].is_null(), "{expression}: {answer}");
-        answer["result"]["value"].clone()
+        Some(answer["result"]["value"].clone())
     }
 }
 
