@@ -334,37 +334,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         threads::prepare(errors);
     }
     let input = &mut *streams.input;
-    // A conversation ends where nobody listens any more.
-    if matches!(command, Command::Engine { .. }) {
-        let output = &mut Guarded::new(streams.output, escape);
-        let streams = &mut Streams {
-            input,
-            output,
-            errors,
-            progress,
-            colour,
-            columns,
-            error_columns,
-            delivery,
-        };
-        let result = dispatch(&command, &typed, streams);
-        let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
-        return match result {
-            Err(Failure::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
-            result => status_of(result, streams.errors),
-        };
-    }
-    let mut delivered = Delivered::of_output(streams.output, &delivery);
-    let result = {
-        let mut guarded = Guarded::new(&mut delivered, escape);
-        let mut folded;
-        let output: &mut dyn Write = if for_machines {
-            &mut guarded
-        } else {
-            folded = wrap::Folded::new(&mut guarded, columns, program());
-            &mut folded
-        };
-        let delivery = delivery.clone();
+    let mut run = |output: &mut dyn Write, errors: &mut dyn Write, delivery: Delivery| {
         let streams = &mut Streams {
             input,
             output,
@@ -377,6 +347,26 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         };
         let result = dispatch(&command, &typed, streams);
         result.and_then(|status| Ok(streams.output.flush().map(|()| status)?))
+    };
+    // A conversation ends where nobody listens any more.
+    if matches!(command, Command::Engine { .. }) {
+        let output = &mut Guarded::new(streams.output, escape);
+        return match run(output, errors, delivery) {
+            Err(Failure::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
+            result => status_of(result, errors),
+        };
+    }
+    let mut delivered = Delivered::of_output(streams.output, &delivery);
+    let result = {
+        let mut guarded = Guarded::new(&mut delivered, escape);
+        let mut folded;
+        let output: &mut dyn Write = if for_machines {
+            &mut guarded
+        } else {
+            folded = wrap::Folded::new(&mut guarded, columns, program());
+            &mut folded
+        };
+        run(output, errors, delivery.clone())
     };
     let status = status_of(result, errors);
     report_loss(&delivered, errors);

@@ -386,7 +386,6 @@ impl ViewArguments {
         let of_planes = |count: u64| count.saturating_mul(planes);
         let (rows, samples) = (of_planes(work.rows), of_planes(work.samples));
         let blended = of_planes(work.blended);
-        let shown = |count: u64| thousands(count);
         let file_bytes = maker.framed().map_or(0, |framed| framed.file_bytes);
         let Costs { ns_of_row, ns_of_sample, ns_of_byte, .. } = purpose.costs();
         let ns =
@@ -394,21 +393,21 @@ impl ViewArguments {
         let of_picture = (all * MOST_LAYERS).saturating_mul(ns_of_sample);
         let most = MOST_NS.max(file_bytes.saturating_mul(ns_of_byte)).max(of_picture);
         if ns > most {
-            let [seconds, most] = [ns, most].map(|ns| shown(ns / 1_000_000_000));
+            let [seconds, most] = [ns, most].map(|ns| thousands(ns / 1_000_000_000));
             return Err(usage(format!(
                 "{name}: its {} triangles in the window have about {} samples in {} rows, hidden ones counted, which would take \
                  about {seconds} s here, and the most are {most} s: give a smaller --size, or a part of the model",
-                shown(work.triangles),
-                shown(samples),
-                shown(rows)
+                thousands(work.triangles),
+                thousands(samples),
+                thousands(rows)
             )));
         }
         if scene.layers.is_some() && blended > MOST_LAYER_SAMPLES {
             return Err(usage(format!(
                 "{name}: --layers keeps all samples of what is not opaque until the frame is drawn, here about {}, and the most \
                  are {}: give a smaller --size, or leave out --layers",
-                shown(blended),
-                shown(MOST_LAYER_SAMPLES)
+                thousands(blended),
+                thousands(MOST_LAYER_SAMPLES)
             )));
         }
         let most = purpose.most_triangles(file_bytes);
@@ -417,9 +416,9 @@ impl ViewArguments {
             return Err(usage(format!(
                 "{name}: each triangle is judged, which takes memory: it has {}, and the most are {} of a file of {} bytes: \
                  export a part of the model",
-                shown(triangles),
-                shown(most),
-                shown(file_bytes)
+                thousands(triangles),
+                thousands(most),
+                thousands(file_bytes)
             )));
         }
         Ok(())

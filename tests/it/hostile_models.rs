@@ -465,16 +465,11 @@ fn fuzz(numbers: std::ops::Range<u64>, name: &str) {
     assert!(read > count / 4, "{read} of {count}");
 }
 
-#[test]
-fn a_few_hostile_models_are_drawn_or_refused() {
-    fuzz(0..12, "hostile-models-few");
-}
-
 /// The share that the project's own check runs; `RASTERPROOF_FUZZ=FROM,TO` runs another one.
 #[test]
-#[ignore = "takes half a minute; .ci/run runs it"]
+#[ignore = "takes most of a minute; .ci/run runs it"]
 fn fuzz_of_models() {
-    let range = std::env::var("RASTERPROOF_FUZZ").unwrap_or_else(|_| "12,52".to_owned());
+    let range = std::env::var("RASTERPROOF_FUZZ").unwrap_or_else(|_| "0,52".to_owned());
     let ends = range.split_once(',').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
     let (from, to): (u64, u64) = ends.expect("RASTERPROOF_FUZZ is FROM,TO");
     fuzz(from..to, &format!("hostile-models-{from}"));

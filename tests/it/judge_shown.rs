@@ -236,6 +236,7 @@ fn wrong_ones() -> Vec<&'static str> {
 /// Cases whose fault is seen come first; of the others it is said what differs, and each character of a picture
 /// has its meaning beside it.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn judge_shows_what_differs() {
     let (mut unseen, mut pictures) = (0, 0);
     let mut characters = BTreeSet::new();

@@ -1,7 +1,7 @@
 //! How this program recognises a file that it wrote before: by a mark at one exact place of the file.
 //!
 //! A name that the program chooses may be that of somebody else's file, which must not be lost. The
-//! mark is what pictures and pages have room for without showing it:
+//! mark stands where the format allows text that is not shown:
 //!
 //! | file | mark |
 //! |---|---|

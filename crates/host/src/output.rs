@@ -20,7 +20,7 @@ use crate::limits::STALLED_WRITE_SECONDS;
 use crate::text::printable_path;
 use crate::{mark, read_files};
 
-/// Which file a write may replace.
+/// Which existing files a write may replace; any other is kept, and the write ends with an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
     /// Any that the command has not read: the user has typed its name.
@@ -205,8 +205,8 @@ fn keep_owner(file: &File, old: &std::fs::Metadata) {
     let _ = (file, old);
 }
 
-/// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has its name already, links
-/// included, so that nothing of other people is written over.
+/// A new file in the folder of `target`, locked where the file system has locks. `create_new` refuses whatever has
+/// its name already, links included, so that nothing of other people is written over.
 #[allow(clippy::disallowed_methods, reason = "this is the one function that creates a file")]
 fn create_beside(target: &Path) -> io::Result<(File, PathBuf)> {
     loop {

@@ -150,8 +150,8 @@ pub trait Ask: Send {
     /// is over. Never fails: what goes wrong is an answer too.
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer>;
 
-    /// Nothing is asked after this, and an answer is waited for only a short while longer. Nothing sets no end.
-    /// Who answers at once need not know.
+    /// No question is sent after `end`, and answers are awaited only a short while longer; `None` is no end. An
+    /// entry that answers at once can ignore it.
     fn end_at(&mut self, _end: Option<Instant>) {}
 
     /// How many cases of a family it is asked at once; the same for every copy.

@@ -407,7 +407,15 @@ fn watertight(finding: &mut Finding, list: &[Triangle], answers: &[Answer], wind
     finding.tally += Tally { missing: holes, twice: doubles, ..Tally::default() };
 }
 
-/// Compares values at the first, the last and two fragments between, where they belong.
+/// The fragments whose values are compared: the first, the last and two between.
+pub(super) fn picks(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
+    let n = fragments.len();
+    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
+    picks.dedup();
+    picks.into_iter().filter_map(|i| fragments.get(i))
+}
+
+/// Compares the values of some fragments, where these belong.
 fn values(
     finding: &mut Finding,
     triangle: &Triangle,
@@ -421,10 +429,7 @@ fn values(
     // Where all are zero the result must be; the smallest number keeps the quotient defined.
     let scale = |values| (truth.declared.tolerance * largest(values)).max(f64::MIN_POSITIVE);
     let bounds = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)].map(scale);
-    let n = fragments.len();
-    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
-    picks.dedup();
-    for f in picks.into_iter().filter_map(|i| fragments.get(i)) {
+    for f in picks(fragments) {
         if expected.get(f.x_px, f.y_px).is_none_or(|hits| hits == 0) {
             continue;
         }
@@ -442,6 +447,18 @@ fn values(
     }
 }
 
+/// The bits of all runs at each pixel of the window.
+pub(super) fn masks_of(runs: &[(Span, u8)], window: PixelRect) -> Frame<u8> {
+    let mut masks = Frame::new(window, 0u8);
+    for (run, mask) in runs {
+        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
+        if (window.y0..window.y1).contains(&run.y_px) && x0 < x1 {
+            masks.span_mut(run.y_px, x0, x1).iter_mut().for_each(|m| *m |= mask);
+        }
+    }
+    masks
+}
+
 /// Compares masks bit by bit; the samples have fixed places, so the declared one does not matter.
 fn samples(
     finding: &mut Finding,
@@ -454,16 +471,10 @@ fn samples(
     let Some(expected) = multisample::masks(&Oracle, *corners, window).filter(|_| drawn) else {
         return;
     };
-    let mut actual = Frame::new(window, 0u8);
+    let actual = masks_of(runs, window);
     let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
     let (hit, outside) = hits(&all, window);
     finding.tally.extra += outside;
-    for (run, mask) in runs {
-        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
-        if (window.y0..window.y1).contains(&run.y_px) && x0 < x1 {
-            actual.span_mut(run.y_px, x0, x1).iter_mut().for_each(|m| *m |= mask);
-        }
-    }
     for (y, row) in actual.rows() {
         for ((&a, &e), &n) in row.iter().zip(expected.row(y)).zip(hit.row(y)) {
             finding.tally.missing += u64::from((e & !a).count_ones());

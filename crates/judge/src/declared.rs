@@ -63,11 +63,11 @@ rasterproof_core::named! {
     /// Which pixels belong to a triangle, its edges apart.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Shape {
-        /// Those whose sample lies in it.
+        /// The pixels whose sample lies in the triangle.
         Sample = "sample",
-        /// Those of which any part lies in it: outer conservative rasterization.
+        /// The pixels of which any part lies in the triangle: outer conservative rasterization.
         Touched = "touched",
-        /// Those that lie in it as a whole: inner conservative rasterization.
+        /// The pixels that lie in the triangle as a whole: inner conservative rasterization.
         Covered = "covered",
     }
 }

@@ -1,6 +1,7 @@
 //! What is expected of a program: by default the picture of the convention that it declares.
 
 use super::declared::{Declared, Shape};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
@@ -44,6 +45,11 @@ impl Expect for Convention {
     }
 }
 
+/// The covered pixels as runs, row by row.
+pub(super) fn runs(coverage: &Coverage) -> Vec<Span> {
+    coverage.runs().map(|(y_px, x0_px, x1_px)| Span { y_px, x0_px, x1_px }).collect()
+}
+
 /// What a program declares: the picture of its convention, or of its shape.
 impl Expect for Declared {
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
@@ -53,18 +59,18 @@ impl Expect for Declared {
             Shape::Touched => HALF_PIXEL,
             Shape::Covered => -HALF_PIXEL,
         };
+        // What has no area is nothing but its border, of which nothing is promised.
+        if area2(corners) == 0 {
+            return None;
+        }
         let known = Known::from(&self.convention());
         let shape = convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach, square: true };
-        let runs = |rule: &str| {
+        let of = |rule: &str| {
             let ties = Ties::named(rule)?;
-            let picture =
-                convention::Convention { shape, ties, ..known.declared }.cover(corners, window)?;
-            let run = |(y_px, x0_px, x1_px)| Span { y_px, x0_px, x1_px };
-            Some(picture.runs().map(run).collect())
+            let convention = convention::Convention { shape, ties, ..known.declared };
+            convention.cover(corners, window).as_ref().map(runs)
         };
-        // What has no area is nothing but its border, of which nothing is promised.
-        (area2(corners) != 0)
-            .then(|| Some(Picture { must: runs("strict")?, may: runs("inclusive") }))?
+        Some(Picture { must: of("strict")?, may: of("inclusive") })
     }
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {

@@ -49,7 +49,7 @@ impl Inside {
         Self { entry: *entry, declared: entry.into(), watch: Watch::begin() }
     }
 
-    /// The name of the entry.
+    /// The name by which the registry knows the engine, line drawer or specimen.
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.entry.name

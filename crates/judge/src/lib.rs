@@ -52,7 +52,7 @@ use verdict::Verdict;
 pub struct Options {
     pub seed: u64,
     pub cases: u64,
-    /// The time for all that is asked. An answer that is waited for at its end is waited for a short while more.
+    /// The time for all questions. An answer that is still missing at its end is awaited a short while longer.
     pub time_limit: Option<Duration>,
     /// Names of families; empty means all.
     pub families: Vec<String>,
@@ -114,7 +114,7 @@ pub fn judge(
     let first = askers.first_mut().expect("somebody to be asked");
     let declared = first.declared().clone();
     let mut truth = Truth::of(&declared);
-    // A third of a limited time is for what is asked before the families, a tenth for what is asked after them.
+    // Of a limited time, a third is for the questions before the families and a tenth for those after them.
     let asked = Timed::new(&mut **first, options.time_limit.map(|limit| start + limit / 3));
     let mut first = Watched { asked, incidents: Vec::new() };
     let windings = windings::windings(&mut first, options.seed);

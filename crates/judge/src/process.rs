@@ -42,15 +42,14 @@ const LOOK: Duration = Duration::from_millis(20);
 /// What comes without such a pause is one flood.
 const SILENCE: Duration = Duration::from_millis(100);
 
-/// How long an answer is waited for when the time of the judge is over; not longer than the program is allowed
-/// for an answer.
+/// How long an answer is awaited after the time of the judge is over, if the limit of an answer is not shorter.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// A program under judgement; it is running from the first question on.
 pub struct Program {
     command: Vec<OsString>,
     limits: Limits,
-    /// Nothing is asked after this.
+    /// The time of the judge is over here: no question is sent later.
     end: Option<Instant>,
     declared: Declared,
     /// Words of `--declare`, which are heard after those of the program.
@@ -76,11 +75,11 @@ struct Live {
     heard: usize,
 }
 
-/// Why not everything was answered.
+/// Why some questions have no answer.
 enum Broken {
     /// What it did, with so many requests in flight.
     Misbehaves(Misbehaviour, usize),
-    /// The time of the judge is over.
+    /// The time of the judge ended before the program had answered.
     Over,
 }
 
@@ -143,12 +142,12 @@ impl Program {
         self.end.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// When nothing is waited for any more.
+    /// When waiting ends: [`Self::end`] and the short while after it.
     fn last(&self) -> Option<Instant> {
         self.end.map(|end| end + GRACE.min(self.limits.answer))
     }
 
-    /// The limits of what begins now.
+    /// The limits of a wait that begins now: no wait goes beyond [`Self::last`].
     fn limits_left(&self) -> Limits {
         let Some(last) = self.last() else { return self.limits };
         let left = last.saturating_duration_since(Instant::now());

@@ -22,7 +22,7 @@ const TIME_TO_END: Duration = Duration::from_secs(2);
 #[derive(Clone, Copy)]
 struct Live {
     leader: u32,
-    /// Whether it is a judge, which ends its own groups when it is asked to terminate.
+    /// Whether it is a judge, which ends its own groups when it receives SIGTERM.
     is_judge: bool,
 }
 
@@ -53,7 +53,7 @@ impl Group {
     /// Starts a process that calls [`end_all_on_ctrl_c`] and [`end_with_parent`] before it starts others.
     ///
     /// # Errors
-    /// As [`Group::start`].
+    /// If the system cannot start it, as [`Group::start`].
     pub fn start_judge(command: &mut Command) -> io::Result<Self> {
         Self::begin(command, true)
     }
@@ -202,7 +202,7 @@ pub fn end_marked(variable: &str) {
     }
 }
 
-/// Elsewhere they live on.
+/// Processes are found in `/proc`, which only Linux has: elsewhere they live on.
 #[cfg(not(target_os = "linux"))]
 pub fn end_marked(_: &str) {}
 
@@ -246,11 +246,11 @@ fn end_children(is_stray: impl Fn(rustix::process::Pid) -> bool) {
     }
 }
 
-/// Elsewhere they live on.
+/// Processes are found in `/proc`, which only Linux has: elsewhere they live on.
 #[cfg(not(target_os = "linux"))]
 pub fn end_strays() {}
 
-/// Elsewhere they live on.
+/// Processes are found in `/proc`, which only Linux has: elsewhere they live on.
 #[cfg(not(target_os = "linux"))]
 pub fn end_strays_of_ended_groups() {}
 

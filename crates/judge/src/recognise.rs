@@ -11,7 +11,7 @@ use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
 use super::check::{Check, Truth, picture_of};
 use super::declared::Declared;
-use super::expected::Expect;
+use super::expected::{Expect, runs};
 use super::in_process::Inside;
 use super::leaving;
 use super::run::MOST_DEATHS;
@@ -19,7 +19,7 @@ use super::stages;
 use super::text::px;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Corners, PixelPoint, Span};
+use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_registry::engines::{self, Entry};
 use rasterproof_verify::comparison::{Convention as Promised, Picture, Rule};
@@ -172,10 +172,6 @@ impl Expect for Found {
     fn keeps_order(&self) -> bool {
         self.lines.as_ref().is_none_or(|found| found.in_order.drawn == found.in_order.of)
     }
-}
-
-fn runs(coverage: &Coverage) -> Vec<Span> {
-    coverage.runs().map(|(y_px, x0_px, x1_px)| Span { y_px, x0_px, x1_px }).collect()
 }
 
 fn known(declared: &Declared) -> Known {

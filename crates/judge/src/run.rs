@@ -238,10 +238,10 @@ impl Shared<'_> {
     }
 }
 
-/// How many cases there are of which a program that declares this is asked anything.
+/// How many cases put at least one question to a program that declares this.
 #[must_use]
 pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
-    // What is asked depends on the family, and on the remainder of the number by 8.
+    // The questions of a case depend on its family and on its number modulo 8.
     const PERIOD: u64 = 8;
     let of_family = |family: &&Family| {
         let is_asked = |index: &u64| {
@@ -317,8 +317,8 @@ pub fn run(
     whole
 }
 
-/// What one copy of the program is asked: every block whose number is its own. `progress` hears how many cases
-/// were judged.
+/// Judges with one copy of the program: it takes the blocks whose number, modulo the copies, is `part`. `progress`
+/// hears how many cases were judged.
 fn copy(
     asker: &mut dyn Ask,
     part: u64,

@@ -7,17 +7,19 @@ use std::cell::RefCell;
 
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
-use super::check::{Check, Truth};
+use super::check::{Check, Truth, masks_of, picks};
 use super::in_process::Inside;
 use super::near_plane::is_round;
 use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_core::triangle::{Corners, Fragment, Span};
-use rasterproof_render::pipeline::multisample::SAMPLES;
+use rasterproof_core::triangle::{Corners, Fragment};
+use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::clip_corners;
 use rasterproof_verify::cases::{Case, Triangle};
+use rasterproof_verify::comparison::area2;
 use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, of_answers};
 use rasterproof_verify::oracle::Oracle;
 
@@ -100,19 +102,28 @@ pub fn mistakes(
         _ => Vec::new(),
     };
     for known in programs {
-        let (all, name) = (&all, known.borrow().name());
-        let predicts = move |i: usize| {
-            let Answered { questions, answers, .. } = &all[i];
-            questions.iter().zip(answers).all(|(question, answer)| {
-                let predicted = known.borrow_mut().ask(std::slice::from_ref(question), 1);
-                predicted.first().is_some_and(|p| agree(question, answer, p, tolerance))
-            })
-        };
-        let about = format!("draws as the planted fault or published algorithm {}", name);
-        let says = Explanation::new(name, about, "", "planted", "");
-        hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+        let name = known.borrow().name();
+        let about = format!("draws as the planted fault or published algorithm {name}");
+        let says = Explanation::of_program(name, about);
+        hypotheses.push(hypothesis(&all, says, move |question, answer| {
+            let predicted = known.borrow_mut().ask(std::slice::from_ref(question), 1);
+            predicted.first().is_some_and(|p| agree(question, answer, p, tolerance))
+        }));
     }
     of_answers(hypotheses, &is_wrong)
+}
+
+/// That every answer is the one that a mistake predicts, by `predicts` of a question and its answer.
+fn hypothesis<'a>(
+    all: &'a [Answered],
+    says: Explanation,
+    predicts: impl Fn(&Question, &Answer) -> bool + 'a,
+) -> Hypothesis<'a> {
+    let predicts = move |i: usize| {
+        let Answered { questions, answers, .. } = &all[i];
+        questions.iter().zip(answers).all(|(question, answer)| predicts(question, answer))
+    };
+    Hypothesis { predicts: Box::new(predicts), says }
 }
 
 /// Whether two answers are the same within a tolerance.
@@ -129,14 +140,6 @@ fn agree(question: &Question, answer: &Answer, predicted: &Answer, tolerance: f6
         }
         _ => answer == predicted,
     }
-}
-
-/// The fragments whose values are compared.
-fn picks(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
-    let n = fragments.len();
-    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
-    picks.dedup();
-    picks.into_iter().filter_map(|i| fragments.get(i))
 }
 
 /// Whether values are the predicted ones: within ten times the tolerance, as predictions are rounded too.
@@ -338,7 +341,7 @@ const VALUES: &[ValueMistake] = &[
         page: "ch05",
         refuted: "a counterclockwise triangle with right values",
         values: |t, [a, b, c]| {
-            right_values(t, if turn(&t.corners()) < 0.0 { [a, c, b] } else { [a, b, c] })
+            right_values(t, if area2(&t.corners()) < 0 { [a, c, b] } else { [a, b, c] })
         },
     },
     ValueMistake {
@@ -368,11 +371,6 @@ fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-fn turn(corners: &Corners) -> f64 {
-    let [a, b, c] = corners.map(px);
-    cross(a, b, c)
-}
-
 /// The weights of the corners at a place, in pixels.
 fn weights(corners: &Corners, at: [f64; 2]) -> [f64; 3] {
     let [a, b, c] = corners.map(px);
@@ -396,27 +394,22 @@ fn of_values(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
     for (moved, from) in CORNERS {
         for (place, at) in PLACES {
             for mistake in VALUES {
-                let predicts = move |i: usize| {
-                    let Answered { questions, answers, .. } = &all[i];
-                    questions.iter().zip(answers).all(|(question, answer)| {
-                        let (Asked::Values(triangle), Answer::Values(fragments)) =
-                            (&question.of, answer)
-                        else {
-                            return true;
-                        };
-                        let corners =
-                            triangle.corners().map(|p| SubpixelPoint::new(moved(p.x), moved(p.y)));
-                        picks(fragments).all(|f| {
-                            let at = [f64::from(f.x_px) + place[0], f64::from(f.y_px) + place[1]];
-                            let values = (mistake.values)(triangle, weights(&corners, at));
-                            is_near(triangle, f, values, tolerance)
-                        })
-                    })
-                };
-                let ValueMistake { name, does, repair, page, refuted, .. } = mistake;
+                let ValueMistake { name, does, repair, page, refuted, values } = *mistake;
                 let says =
                     Explanation::new(name, format!("{does}{at}{from}"), repair, page, refuted);
-                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+                hypotheses.push(hypothesis(all, says, move |question, answer| {
+                    let (Asked::Values(triangle), Answer::Values(fragments)) =
+                        (&question.of, answer)
+                    else {
+                        return true;
+                    };
+                    let corners =
+                        triangle.corners().map(|p| SubpixelPoint::new(moved(p.x), moved(p.y)));
+                    picks(fragments).all(|f| {
+                        let at = [f64::from(f.x_px) + place[0], f64::from(f.y_px) + place[1]];
+                        is_near(triangle, f, values(triangle, weights(&corners, at)), tolerance)
+                    })
+                }));
             }
         }
     }
@@ -444,92 +437,38 @@ fn patterns() -> Vec<(Pattern, String)> {
         ),
         (SAMPLES, "tests the right places"),
     ];
+    let mut orders = Vec::new();
+    for code in 0..256 {
+        let order = [code >> 6, code >> 4, code >> 2, code].map(|digits| digits % 4);
+        // Each number once.
+        if order.iter().fold(0, |seen, number| seen | 1 << number) == 15 {
+            orders.push(order);
+        }
+    }
     let mut all = Vec::new();
     for (pattern, said) in plain {
-        for a in 0..4 {
-            for b in (0..4).filter(|b| *b != a) {
-                for c in (0..4).filter(|c| ![a, b].contains(c)) {
-                    let d = 6 - a - b - c;
-                    let order = [a, b, c, d];
-                    let in_order = order == [0, 1, 2, 3];
-                    let is_right = in_order && pattern == SAMPLES;
-                    // A pattern of one place has one order.
-                    if is_right || (!in_order && pattern[0] == pattern[1]) {
-                        continue;
-                    }
-                    let how = if in_order {
-                        String::new()
-                    } else {
-                        format!(", and numbers them {a}, {b}, {c}, {d}")
-                    };
-                    all.push((order.map(|i| pattern[i]), format!("{said}{how}")));
-                }
+        for &order in &orders {
+            let ordered = order.map(|i: usize| pattern[i]);
+            let [a, b, c, d] = order;
+            let how = match order {
+                [0, 1, 2, 3] => String::new(),
+                _ => format!(", and numbers them {a}, {b}, {c}, {d}"),
+            };
+            // A pattern of one place has one order.
+            if ordered != SAMPLES && all.iter().all(|(other, _)| *other != ordered) {
+                all.push((ordered, format!("{said}{how}")));
             }
         }
     }
     all
 }
 
-/// Every pixel whose centre the triangle covers, by the exact rule.
-fn each_pixel(corners: Corners, window: PixelRect, pixel: &mut dyn FnMut(i32, i32)) {
-    Oracle.cover(corners, window, |span| {
-        (span.x0_px..span.x1_px).for_each(|x| pixel(x, span.y_px));
-    });
-}
-
-/// The masks of a pattern, row by row, by the exact rule; `gated` keeps those of pixels whose centre is covered.
-fn masks(corners: &Corners, window: PixelRect, pattern: &Pattern, gated: bool) -> Vec<u8> {
-    let width = window.width() as usize;
-    let mut masks = vec![0u8; width * window.height() as usize];
-    let mut add = |(x, y): (i32, i32), change: &dyn Fn(&mut u8)| {
-        let by = |v: i32, at: i32| v.saturating_add(HALF_PIXEL - at * (SUBPIXELS / 16));
-        let moved = corners.map(|p| SubpixelPoint::new(by(p.x, x), by(p.y, y)));
-        each_pixel(moved, window, &mut |px, py| {
-            change(&mut masks[(py - window.y0) as usize * width + (px - window.x0) as usize]);
-        });
-    };
-    for (bit, place) in pattern.iter().enumerate() {
-        add(*place, &|mask| *mask |= 1 << bit);
-    }
-    if gated {
-        // Bit 4 marks what the centre covers.
-        add((8, 8), &|mask| *mask |= 16);
-        masks.iter_mut().for_each(|mask| *mask = if *mask & 16 > 0 { *mask & 15 } else { 0 });
-    }
-    masks
-}
-
-fn drawn_masks(runs: &[(Span, u8)], window: PixelRect) -> Vec<u8> {
-    let width = window.width() as usize;
-    let mut masks = vec![0u8; width * window.height() as usize];
-    for (run, mask) in runs {
-        for x in run.x0_px.max(window.x0)..run.x1_px.min(window.x1) {
-            if (window.y0..window.y1).contains(&run.y_px) {
-                masks[(run.y_px - window.y0) as usize * width + (x - window.x0) as usize] |= mask;
-            }
-        }
-    }
-    masks
-}
-
 fn of_samples(all: &[Answered]) -> Vec<Hypothesis<'_>> {
-    let gated = (
-        SAMPLES,
-        "tests the samples of pixels whose centre is covered, and of no others".to_owned(),
-    );
-    let patterns = patterns().into_iter().map(|pattern| (pattern, false)).chain([(gated, true)]);
+    let gated = "tests the samples of pixels whose centre is covered, and of no others".to_owned();
+    let patterns = patterns().into_iter().map(|(pattern, does)| (pattern, does, false));
     patterns
-        .map(|((pattern, does), gated)| {
-            let predicts = move |i: usize| {
-                let Answered { questions, answers, .. } = &all[i];
-                questions.iter().zip(answers).all(|(question, answer)| {
-                    let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
-                        return true;
-                    };
-                    let window = PixelRect::window(question.width, question.height);
-                    masks(corners, window, &pattern, gated) == drawn_masks(runs, window)
-                })
-            };
+        .chain([(SAMPLES, gated, true)])
+        .map(|([a, b, c, d], does, gated)| {
             let says = Explanation::new(
                 "places of the samples",
                 does,
@@ -537,9 +476,26 @@ fn of_samples(all: &[Answered]) -> Vec<Hypothesis<'_>> {
                 "games101",
                 "a pixel on an edge with the right mask",
             );
-            Hypothesis { predicts: Box::new(predicts), says }
+            // Bit 4 is the centre.
+            let places = [a, b, c, d, (8, 8)];
+            hypothesis(all, says, move |question, answer| {
+                let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
+                    return true;
+                };
+                let window = window_of(question);
+                let Some(masks) = masks_at(&Oracle, *corners, window, &places) else { return true };
+                let drawn = masks_of(runs, window);
+                let expected = |mask: u8| if gated && mask < 16 { 0 } else { mask & 15 };
+                masks.rows().zip(drawn.rows()).all(|((_, masks), (_, drawn))| {
+                    masks.iter().zip(drawn).all(|(mask, drawn)| expected(*mask) == *drawn)
+                })
+            })
         })
         .collect()
+}
+
+fn window_of(question: &Question) -> PixelRect {
+    PixelRect::window(question.width, question.height)
 }
 
 /// A triangle at a pixel of a pile: its number, its depth there, and the triangle.
@@ -673,50 +629,45 @@ const DEPTHS: &[DepthMistake] = &[
 ];
 
 fn of_depth(all: &[Answered]) -> Vec<Hypothesis<'_>> {
-    DEPTHS
-        .iter()
-        .map(|mistake| {
-            let predicts = move |i: usize| {
-                let Answered { questions, answers, .. } = &all[i];
-                questions.iter().zip(answers).all(|(question, answer)| {
-                    let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else {
-                        return true;
-                    };
-                    let window = PixelRect::window(question.width, question.height);
-                    let shown: Vec<_> =
-                        runs.iter().map(|(run, number)| (*run, number + 1)).collect();
-                    seen(list, window, mistake) == drawn_masks(&shown, window)
-                })
+    let of = |mistake: &'static DepthMistake| {
+        let DepthMistake { does, repair, refuted, .. } = mistake;
+        let says = Explanation::new("order of depths", (*does).to_owned(), repair, "ch06", refuted);
+        hypothesis(all, says, move |question, answer| {
+            let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else {
+                return true;
             };
-            let says = Explanation::new(
-                "order of depths",
-                mistake.does.to_owned(),
-                mistake.repair,
-                "ch06",
-                mistake.refuted,
-            );
-            Hypothesis { predicts: Box::new(predicts), says }
+            let window = window_of(question);
+            let shown: Vec<_> = runs.iter().map(|(run, number)| (*run, number + 1)).collect();
+            seen(list, window, mistake) == masks_of(&shown, window)
         })
-        .collect()
+    };
+    DEPTHS.iter().map(of).collect()
 }
 
 /// One more than the number of the triangle that is seen at each pixel, 0 for none.
-fn seen(list: &[Triangle], window: PixelRect, mistake: &DepthMistake) -> Vec<u8> {
-    let width = window.width() as usize;
-    let mut held: Vec<Option<Layer<'_>>> = vec![None; width * window.height() as usize];
+fn seen(list: &[Triangle], window: PixelRect, mistake: &DepthMistake) -> Frame<u8> {
+    let mut held: Frame<Option<Layer<'_>>> = Frame::new(window, None);
     for (number, triangle) in list.iter().enumerate() {
         let corners = triangle.corners();
-        each_pixel(corners, window, &mut |x, y| {
-            let at = [f64::from(x) + mistake.place[0], f64::from(y) + mistake.place[1]];
-            let depth = sum(weights(&corners, at), depths(triangle));
-            let new = Layer { number, depth, triangle };
-            let held = &mut held[(y - window.y0) as usize * width + (x - window.x0) as usize];
-            if held.as_ref().is_none_or(|held| (mistake.replaces)(held, &new)) {
-                *held = Some(new);
+        Oracle.cover(corners, window, |span| {
+            let row = held.span_mut(span.y_px, span.x0_px, span.x1_px);
+            for (x, held) in (span.x0_px..).zip(row) {
+                let at = [f64::from(x) + mistake.place[0], f64::from(span.y_px) + mistake.place[1]];
+                let depth = sum(weights(&corners, at), depths(triangle));
+                let new = Layer { number, depth, triangle };
+                if held.as_ref().is_none_or(|held| (mistake.replaces)(held, &new)) {
+                    *held = Some(new);
+                }
             }
         });
     }
-    held.iter().map(|held| held.map_or(0, |held| held.number as u8 + 1)).collect()
+    let mut seen = Frame::new(window, 0);
+    for (y, row) in held.rows() {
+        for (seen, held) in seen.row_mut(y).iter_mut().zip(row) {
+            *seen = held.map_or(0, |held| held.number as u8 + 1);
+        }
+    }
+    seen
 }
 
 type ClipCorner = [f64; 4];
@@ -860,29 +811,18 @@ const NEAR: &[NearMistake] = &[
 ];
 
 fn of_near(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
-    NEAR.iter()
-        .map(|mistake| {
-            let predicts = move |i: usize| {
-                let Answered { questions, answers, .. } = &all[i];
-                questions.iter().zip(answers).all(|(question, answer)| {
-                    let (Asked::Near(triangle), Answer::Polygon(polygon)) = (&question.of, answer)
-                    else {
-                        return true;
-                    };
-                    let corners = clip_corners(triangle);
-                    same_polygon(&(mistake.clip)(corners), polygon, &corners, tolerance)
-                })
+    let of = |mistake: &'static NearMistake| {
+        let NearMistake { does, repair, refuted, clip } = mistake;
+        let says = Explanation::new("the near plane", (*does).to_owned(), repair, "ch07", refuted);
+        hypothesis(all, says, move |question, answer| {
+            let (Asked::Near(triangle), Answer::Polygon(polygon)) = (&question.of, answer) else {
+                return true;
             };
-            let says = Explanation::new(
-                "the near plane",
-                mistake.does.to_owned(),
-                mistake.repair,
-                "ch07",
-                mistake.refuted,
-            );
-            Hypothesis { predicts: Box::new(predicts), says }
+            let corners = clip_corners(triangle);
+            same_polygon(&clip(corners), polygon, &corners, tolerance)
         })
-        .collect()
+    };
+    NEAR.iter().map(of).collect()
 }
 
 /// Whether both are the same corners one way round; what has fewer than three may be left out.

@@ -41,8 +41,19 @@ pub fn moved<V: Varying>(
 /// a corner lies within half a pixel of the domain's end.
 #[must_use]
 pub fn masks<E: Rasterize>(engine: &E, corners: Corners, bounds: PixelRect) -> Option<Frame<u8>> {
+    masks_at(engine, corners, bounds, &SAMPLES)
+}
+
+/// The same for at most eight samples at other places, in 1/16 px.
+#[must_use]
+pub fn masks_at<E: Rasterize>(
+    engine: &E,
+    corners: Corners,
+    bounds: PixelRect,
+    samples: &[(i32, i32)],
+) -> Option<Frame<u8>> {
     let mut masks = Frame::new(bounds, 0u8);
-    for (bit, sample) in SAMPLES.into_iter().enumerate() {
+    for (bit, &sample) in samples.iter().enumerate() {
         let [a, b, c] = corners.map(|corner| onto_centre(corner, sample));
         engine.cover([a?, b?, c?], bounds, |span| {
             for mask in masks.span_mut(span.y_px, span.x0_px, span.x1_px) {

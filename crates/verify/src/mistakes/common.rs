@@ -2,9 +2,9 @@
 
 use super::Answered;
 use super::fills;
+use crate::comparison::area2;
 use crate::convention::{LineQuestion, Mask, Question};
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::Corners;
 
 /// What can be said of a question and its answer.
 pub(super) struct Seen {
@@ -12,7 +12,7 @@ pub(super) struct Seen {
     missing: u32,
     extra: u32,
     twice: u32,
-    /// Whether the kinds in [`KINDS`] hold, in their order.
+    /// Whether it is of each kind in [`TRIANGLE_KINDS`] or [`LINE_KINDS`].
     kinds: Vec<bool>,
     /// Width or height of the shape in subpixels, whichever is larger.
     extent: i64,
@@ -21,23 +21,23 @@ pub(super) struct Seen {
 }
 
 const TRIANGLE_KINDS: [&str; 7] = [
-    "clockwise",
-    "counterclockwise",
-    "with a corner outside the window",
-    "without a corner outside the window",
-    "with a level or an upright edge",
-    "with their middle corner on the right",
-    "with their middle corner on the left",
+    "are clockwise",
+    "are counterclockwise",
+    "have a corner outside the window",
+    "lie within the window",
+    "have a level or an upright edge",
+    "have their middle corner on the right",
+    "have their middle corner on the left",
 ];
 const LINE_KINDS: [&str; 8] = [
-    "with an end outside the window",
-    "within the window",
-    "steep",
-    "flat",
-    "running to the left",
-    "running to the right",
-    "running up",
-    "running down",
+    "have an end outside the window",
+    "lie within the window",
+    "are steep",
+    "are flat",
+    "run to the left",
+    "run to the right",
+    "run up",
+    "run down",
 ];
 const PLACES: [&str; 6] = [
     "in the first row of the shape",
@@ -98,12 +98,10 @@ impl Seen {
         }
     }
 
-    pub(super) fn triangle(
-        corners: &Corners,
-        window: PixelRect,
-        answered: &Answered<Question>,
-    ) -> Self {
-        let clockwise = fills::turn(corners) > 0;
+    pub(super) fn triangle(answered: &Answered<Question>) -> Self {
+        let Question { corners, window } = answered.question;
+        let corners = &corners;
+        let clockwise = area2(corners) > 0;
         let leaves = corners.iter().any(|c| !fills::holds(window, *c));
         let [a, b, c] = corners;
         let straight = fills::flat(corners).is_some() || a.x == b.x || b.x == c.x || c.x == a.x;
@@ -113,8 +111,8 @@ impl Seen {
         Self::new(false, window, answered, kinds, extent)
     }
 
-    pub(super) fn line(question: &LineQuestion, answered: &Answered<LineQuestion>) -> Self {
-        let LineQuestion { ends: [[x0, y0], [x1, y1]], window } = *question;
+    pub(super) fn line(answered: &Answered<LineQuestion>) -> Self {
+        let LineQuestion { ends: [[x0, y0], [x1, y1]], window } = answered.question;
         let leaves = !window.contains(x0, y0) || !window.contains(x1, y1);
         let (dx, dy) = (i64::from(x1) - i64::from(x0), i64::from(y1) - i64::from(y0));
         let steep = dy.abs() > dx.abs();
@@ -139,7 +137,7 @@ pub(super) fn sentences(seen: &[Seen]) -> Vec<String> {
         (missing + u64::from(s.missing), extra + u64::from(s.extra))
     });
     let twice: u64 = wrong.iter().map(|s| u64::from(s.twice)).sum();
-    said.extend((twice > 0).then(|| format!("{twice} pixels are drawn more than once.")));
+    said.extend((twice > 0).then(|| format!("Pixels that are drawn more than once: {twice}.")));
     said.push(match (missing, extra) {
         (0, 0) => "None is missing and none is extra.".to_owned(),
         (_, 0) => format!("All {missing} wrong pixels are missing, none is extra."),
@@ -151,7 +149,7 @@ pub(super) fn sentences(seen: &[Seen]) -> Vec<String> {
         // What nearly all have says nothing.
         if wrong.iter().all(|s| s.kinds[i]) && 10 * of_right < 8 * right.len() {
             said.push(format!(
-                "All wrong {shapes} are {name}, and {of_right} of {} right ones.",
+                "All wrong {shapes} {name}; this holds for {of_right} of {} right ones, too.",
                 right.len()
             ));
         }

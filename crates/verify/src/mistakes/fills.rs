@@ -1,5 +1,6 @@
 //! The wrong fills that the table names, as functions of the corners in subpixels (1/256 px).
 
+use crate::comparison::area2;
 use crate::convention::{Convention, Mask, facing};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -9,12 +10,6 @@ type Point = [i64; 2];
 
 fn points(corners: &Corners) -> [Point; 3] {
     corners.map_array(|c| [i64::from(c.x), i64::from(c.y)])
-}
-
-/// Twice the area, positive where the corners turn clockwise on the screen.
-pub(super) fn turn(corners: &Corners) -> i128 {
-    let [a, b, c] = points(corners).map_array(|p| p.map_array(i128::from));
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Every pixel of the window of whose sample it is true.
@@ -40,7 +35,7 @@ pub(super) fn by_edges(
     test: &dyn Fn(usize, i128, bool) -> bool,
 ) -> Mask {
     let points = points(corners);
-    let sign = turn(corners).signum() as i64;
+    let sign = area2(corners).signum() as i64;
     if sign == 0 {
         return Mask::default();
     }
@@ -189,7 +184,7 @@ pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
         i64::from(high) - i64::from(low)
     };
     match which {
-        0 => i64::try_from(turn(corners).abs()).unwrap_or(i64::MAX / 8),
+        0 => i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 8),
         1 => extent(corners.map_array(|c| c.x)),
         _ => extent(corners.map_array(|c| c.y)),
     }
@@ -318,7 +313,7 @@ pub(super) fn float(
     single: bool,
 ) -> Mask {
     let r = |v: f64| if single { f64::from(v as f32) } else { v };
-    let turns = turn(corners).signum() as i64;
+    let turns = area2(corners).signum() as i64;
     if turns == 0 {
         return Mask::default();
     }
@@ -554,7 +549,7 @@ pub(super) fn stepped(
     let [top, middle, bottom] = sorted(corners);
     let mut mask = Mask::default();
     let all = rows(top[1], bottom[1]);
-    if all.is_empty() || turn(corners) == 0 || all.start < -MOST_ROWS {
+    if all.is_empty() || area2(corners) == 0 || all.start < -MOST_ROWS {
         return mask;
     }
     let mut long = Walk::new(slope, top, bottom, all.start, late);

@@ -1,7 +1,7 @@
 //! The table of mistakes in drawing lines. To add one, add an entry: everything else follows from it.
 
 use super::fills::without_border;
-use super::{Mistake, Parameters};
+use super::{Mistake, Parameters, border};
 use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
@@ -233,20 +233,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
             vec![ends, ends.map_array(|[x, y]| [x + dx, y + dy])]
         }),
     },
-    Mistake {
-        name: "the border of the window",
-        sentence: |p| {
-            format!(
-                "never draws the {} of the window",
-                ["first row", "last row", "first column", "last column"][p as usize]
-            )
-        },
-        repair: "the window ends after its last pixel: compare with the width and the height, not with one less",
-        page: "ch11",
-        refuted: "a pixel of it that is drawn",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3]),
-        draws: Stroke::Changed(|mask, _, window, p| without_border(mask, window, p)),
-    },
+    border(Stroke::Changed(|mask, _, window, p| without_border(mask, window, p))),
     Mistake {
         name: "the sign of a step",
         sentence: |p| {

@@ -52,6 +52,24 @@ enum Parameters {
     Sizes,
 }
 
+/// The entry that lines and triangles share: a row or a column at the border of the window is never drawn.
+const fn border<D: Copy>(draws: D) -> Mistake<D> {
+    Mistake {
+        name: "the border of the window",
+        sentence: |p| {
+            format!(
+                "never draws the {} of the window",
+                ["first row", "last row", "first column", "last column"][p as usize]
+            )
+        },
+        repair: "the window ends after its last pixel: compare with the width and the height, not with one less",
+        page: "ch11",
+        refuted: "a pixel of it that is drawn",
+        parameters: Parameters::Fixed(&[0, 1, 2, 3]),
+        draws,
+    }
+}
+
 /// A program whose answers are known, such as a published algorithm.
 pub struct Program<'a, Question, Picture> {
     /// Its name.
@@ -74,12 +92,12 @@ pub struct Explanation {
     pub name: &'static str,
     /// What the program does, after 'it'.
     pub does: String,
-    /// What repairs it.
-    pub repair: String,
+    /// What repairs it; empty of programs.
+    pub repair: &'static str,
     /// The page of the book that explains it, such as `ch02-scanline`.
     pub page: &'static str,
-    /// An observation that would refute it.
-    pub refuted: String,
+    /// An observation that would refute it; empty of programs.
+    pub refuted: &'static str,
     /// Wrong answers that it predicts, of those that it was not chosen by.
     pub wrong: Count,
     /// Right answers that it predicts, of those that it was not chosen by.
@@ -92,13 +110,18 @@ impl Explanation {
     pub fn new(
         name: &'static str,
         does: String,
-        repair: &str,
+        repair: &'static str,
         page: &'static str,
-        refuted: &str,
+        refuted: &'static str,
     ) -> Self {
-        let (repair, refuted) = (repair.to_owned(), refuted.to_owned());
         let none = Count::default();
         Self { name, does, repair, page, refuted, wrong: none, right: none }
+    }
+
+    /// A program that is known, with what is wrong with it.
+    #[must_use]
+    pub fn of_program(name: &'static str, about: String) -> Self {
+        Self::new(name, about, "", "planted", "")
     }
 }
 
@@ -195,9 +218,9 @@ impl<Question> Answered<Question> {
     }
 }
 
-/// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems
-/// to be: where that is certain, answers are judged by it. Nothing where its answers are right, or too few are wrong. It asks for 1,200 triangles,
-/// as long as `goes_on` is true.
+/// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems to be:
+/// where that is certain, answers are judged by it. Nothing where all answers are right. It asks for 1,200 triangles, as
+/// long as `goes_on` is true.
 pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Known,
@@ -252,18 +275,10 @@ pub fn of_triangles(
             }
         }
     }
-    for program in programs {
-        let answered = &answered;
-        let predicts = move |i: usize| {
-            (program.draw)(&answered[i].question)
-                .is_some_and(|picture| answered[i].is(Mask::of(&picture, 1), Mask::of(&picture, 2)))
-        };
-        hypotheses.push(program.hypothesis(Box::new(predicts)));
-    }
-    let seen: Vec<_> = answered
-        .iter()
-        .map(|a| common::Seen::triangle(&a.question.corners, a.question.window, a))
-        .collect();
+    hypotheses.extend(programs.iter().map(|program| {
+        program.hypothesis(&answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
+    }));
+    let seen = || answered.iter().map(common::Seen::triangle).collect();
     conclude(hypotheses, &is_wrong, &seen)
 }
 
@@ -281,6 +296,11 @@ pub fn of_lines(
     let found = found.map(|f| &f.convention);
     let expected = found.filter(|_| is_certain).unwrap_or(&default);
     let wide = |ends: [[i32; 2]; 2]| ends.map_array(|end| end.map_array(i64::from));
+    // Of lines, pixels that come twice are not told from others.
+    let drawn = |question: &LineQuestion, pixels: &[[i32; 2]]| {
+        let pixels: Vec<_> = pixels.iter().map(|p| p.map_array(i64::from)).collect();
+        [lines::mask(&pixels, question.window), Mask::default()]
+    };
     for questions in questions::lines(known, SEED).chunks(AT_ONCE) {
         if !goes_on() {
             break;
@@ -289,9 +309,7 @@ pub fn of_lines(
         for (question, answer) in questions.iter().zip(answers) {
             let right = lines::of_convention(expected, wide(question.ends), question.window);
             let Some(right) = right else { continue };
-            let pixels = answer.unwrap_or_default();
-            let pixels: Vec<_> = pixels.into_iter().map(|p| p.map_array(i64::from)).collect();
-            let (drawn, twice) = (lines::mask(&pixels, question.window), Mask::default());
+            let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
             answered.push(Answered { question: *question, drawn, twice, right });
         }
     }
@@ -341,25 +359,30 @@ pub fn of_lines(
             hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
         }
     }
-    for program in programs {
-        let answered = &answered;
-        let predicts = move |i: usize| {
-            let question = &answered[i].question;
-            (program.draw)(question).is_some_and(|pixels| {
-                let pixels: Vec<_> = pixels.into_iter().map(|p| p.map_array(i64::from)).collect();
-                lines::mask(&pixels, question.window) == answered[i].drawn
-            })
-        };
-        hypotheses.push(program.hypothesis(Box::new(predicts)));
-    }
-    let seen: Vec<_> = answered.iter().map(|a| common::Seen::line(&a.question, a)).collect();
+    hypotheses.extend(
+        programs.iter().map(|program| program.hypothesis(&answered, |q, pixels| drawn(q, pixels))),
+    );
+    let seen = || answered.iter().map(common::Seen::line).collect();
     conclude(hypotheses, &is_wrong, &seen)
 }
 
 impl<Question, Picture> Program<'_, Question, Picture> {
-    fn hypothesis<'a>(&self, predicts: Box<dyn Fn(usize) -> bool + 'a>) -> Hypothesis<'a> {
-        let says = Explanation::new(self.name, self.about.clone(), "", "planted", "");
-        Hypothesis { predicts, says }
+    /// That the answers are those of this program. `masks` are the pixels of its picture, and those that it hits more than
+    /// once.
+    fn hypothesis<'a>(
+        &'a self,
+        answered: &'a [Answered<Question>],
+        masks: impl Fn(&Question, &Picture) -> [Mask; 2] + 'a,
+    ) -> Hypothesis<'a> {
+        let predicts = move |i: usize| {
+            let Answered { question, .. } = &answered[i];
+            (self.draw)(question).is_some_and(|picture| {
+                let [drawn, twice] = masks(question, &picture);
+                answered[i].is(drawn, twice)
+            })
+        };
+        let says = Explanation::of_program(self.name, self.about.clone());
+        Hypothesis { predicts: Box::new(predicts), says }
     }
 }
 
@@ -371,20 +394,20 @@ fn says<D>(mistake: &Mistake<D>, p: i64) -> Explanation {
 /// Weighs hypotheses about answers of any kind. `is_wrong` says of each answer whether it is; nothing where none is.
 #[must_use]
 pub fn of_answers(hypotheses: Vec<Hypothesis<'_>>, is_wrong: &[bool]) -> Option<Mistakes> {
-    conclude(hypotheses, is_wrong, &[])
+    conclude(hypotheses, is_wrong, &Vec::new)
 }
 
 fn conclude(
     hypotheses: Vec<Hypothesis<'_>>,
     is_wrong: &[bool],
-    seen: &[common::Seen],
+    seen: &dyn Fn() -> Vec<common::Seen>,
 ) -> Option<Mistakes> {
     let wrong = is_wrong.iter().filter(|wrong| **wrong).count();
     if wrong == 0 {
         return None;
     }
     let (causes, lead) = weigh(hypotheses, is_wrong);
-    let common = if causes.is_empty() { common::sentences(seen) } else { Vec::new() };
+    let common = if causes.is_empty() { common::sentences(&seen()) } else { Vec::new() };
     // A lead that explains little leads nowhere.
     let leads = |weight: &Explanation| {
         2 * weight.wrong.drawn >= weight.wrong.of && 10 * weight.right.drawn >= 9 * weight.right.of
@@ -505,34 +528,26 @@ fn limits(answered: &[Answered<Question>]) -> Vec<i64> {
                 .filter(move |a| a.drawn.is_empty() == lost && !a.right.is_empty())
                 .map(move |a| fills::metric(&a.question.corners, metric))
         };
-        // Below: all that is lost is smaller than all that is drawn. Above: the other way.
-        if let (Some(lost), Some(drawn)) =
-            (sizes(true).max(), sizes(false).filter(|size| Some(*size) > sizes(true).max()).min())
-        {
+        let (least, most) = (sizes(true).min(), sizes(true).max());
+        // Below: all that is lost is smaller than what is drawn. Above: the other way.
+        let next = sizes(false).filter(|size| Some(*size) > most).min();
+        if let (Some(lost), Some(drawn)) = (most, next) {
             limits.push(triangles::packed_size(metric, true, lost + (drawn - lost).max(1) / 2 + 1));
         }
-        if let Some(lost) = sizes(true).min() {
-            limits.push(triangles::packed_size(metric, false, lost));
-        }
+        limits.extend(least.map(|lost| triangles::packed_size(metric, false, lost)));
     }
     limits
 }
 
-/// The names, sentences and repairs of all mistakes, with an example of the parameter: triangles first.
+/// All mistakes, with an example of the parameter: triangles first.
 #[must_use]
-pub fn table() -> Vec<[String; 5]> {
-    fn row<D>(mistake: &Mistake<D>) -> [String; 5] {
+pub fn table() -> Vec<Explanation> {
+    fn example<D>(mistake: &Mistake<D>) -> Explanation {
         let p = match mistake.parameters {
             Parameters::Fixed(parameters) => parameters[0],
             Parameters::Sizes => triangles::packed_size(0, true, 131_072),
         };
-        [
-            mistake.name.to_owned(),
-            (mistake.sentence)(p),
-            mistake.repair.to_owned(),
-            mistake.page.to_owned(),
-            mistake.refuted.to_owned(),
-        ]
+        says(mistake, p)
     }
-    triangles::TABLE.iter().map(row).chain(lines::TABLE.iter().map(row)).collect()
+    triangles::TABLE.iter().map(example).chain(lines::TABLE.iter().map(example)).collect()
 }

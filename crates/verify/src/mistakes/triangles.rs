@@ -1,7 +1,8 @@
 //! The table of mistakes in filling triangles. To add one, add an entry: everything else follows from it.
 
 use super::fills::{self, Row, Slope};
-use super::{Mistake, Parameters};
+use super::{Mistake, Parameters, border};
+use crate::comparison::area2;
 use crate::convention::{Convention, Mask, Quantum, Rounding, Ties};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -39,7 +40,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         parameters: Parameters::Fixed(&PAIRS),
         draws: Fill::Sampled(|corners, window, base, p| {
             let (clockwise, other) = pair(p);
-            let rule = if fills::turn(corners) > 0 { clockwise } else { other };
+            let rule = if area2(corners) > 0 { clockwise } else { other };
             base.with_rule(RULES[rule]).mask(corners, window).unwrap_or_default()
         }),
     },
@@ -123,7 +124,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             32, 33, 34, 35, 36,
         ]),
         draws: Fill::Sampled(|corners, window, base, p| {
-            let whole = if p / 10 % 2 == 0 { fills::turn(corners).abs() as f64 } else { 65536.0 };
+            let whole = if p / 10 % 2 == 0 { area2(corners).abs() as f64 } else { 65536.0 };
             let size = EPSILONS[(p % 10) as usize];
             fills::by_edges(corners, window, base, &|_, value, _| match p / 20 {
                 0 => value as f64 / whole >= -size,
@@ -373,20 +374,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
         draws: Fill::Changed(fills::ends),
     },
-    Mistake {
-        name: "the border of the window",
-        sentence: |p| {
-            format!(
-                "never draws the {} of the window",
-                ["first row", "last row", "first column", "last column"][p as usize]
-            )
-        },
-        repair: "the window ends after its last pixel: compare with the width and the height, not with one less",
-        page: "ch11",
-        refuted: "a pixel of it that is drawn",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3]),
-        draws: Fill::Changed(|mask, _, window, p| fills::without_border(mask, window, p)),
-    },
+    border(Fill::Changed(|mask, _, window, p| fills::without_border(mask, window, p))),
     Mistake {
         name: "the box is too small",
         sentence: |p| {
@@ -542,7 +530,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 mask.retain(window, &|x, y| !inner(x, y));
                 return;
             }
-            if p == 0 && fills::turn(corners) == 0 {
+            if p == 0 && area2(corners) == 0 {
                 return;
             }
             let ends =
