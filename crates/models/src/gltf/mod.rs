@@ -14,10 +14,11 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
-use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
+use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::ClipPoint;
+use rasterproof_render::pipeline::physical::Map;
 
 use crate::contents::{Contents, FilePart, Numbers, Polygons};
 use crate::text::without_mark;
@@ -27,7 +28,8 @@ use document::{
     LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, Root, TRIANGLE_FAN,
     TRIANGLE_STRIP, TRIANGLES,
 };
-use materials::{Described, Images, encoded};
+pub(crate) use materials::encoded;
+use materials::{Described, Images};
 
 /// Corners of all parts together, where Draco has more of them than the document says.
 const MOST_CORNERS: usize = 1 << 25;
@@ -42,11 +44,12 @@ const PART_BYTES: u64 = 256;
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 13] = [
+const READ: [&str; 14] = [
     draco::EXTENSION,
     LIGHTS,
     "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_emissive_strength",
     "KHR_texture_transform",
     "EXT_texture_webp",
     "KHR_mesh_quantization",
@@ -406,9 +409,22 @@ impl Reader<'_> {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
         };
-        let colours = colours.into_iter().map(|colour| colour.map(encoded)).collect();
         let mut uvs = Vec::new();
         let material = primitive.material.and_then(|material| self.material(material, place));
+        let surface = material.map(|(material, ..)| &self.contents.materials[material]);
+        let physical = surface.and_then(|surface| surface.physical.clone());
+        let colours = match physical {
+            Some(_) => colours,
+            None => colours.into_iter().map(|colour| colour.map(encoded)).collect(),
+        };
+        let is_bumpy = physical.is_some_and(|(_, of)| of.map(Map::Normal).is_some());
+        // Those of a file without normals are not to be used, and those that a skin moves are computed.
+        let is_read = is_bumpy && !normals.is_empty() && node.skin.is_none();
+        let tangents = match vertices.read::<4>("TANGENT").filter(|_| is_read) {
+            Some(read) => self.optional(read, count, "tangents", place),
+            None => Vec::new(),
+        };
+        let tangents = tangents.into_iter().map(DVec4::from_array).collect();
         if let Some((_, Some(set), transform)) = material {
             match vertices.read(&format!("TEXCOORD_{set}")) {
                 Some(read) => {
@@ -440,6 +456,7 @@ impl Reader<'_> {
             normals,
             uvs,
             colours,
+            tangents,
         };
         self.contents.add(part)
     }
