@@ -8,15 +8,15 @@ use glam::{DAffine2, DVec2, DVec3};
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
-use rasterproof_render::pipeline::texture::{Filter, Wrap};
+use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 use super::data::{Data, is_outside, resource};
 use super::document::{
-    CLAMP_TO_EDGE, Info, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT, Material,
-    NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Transform,
+    CLAMP_TO_EDGE, Info, LINEAR, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT,
+    Material, NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Sampler, Transform,
 };
 use crate::Warnings;
-use crate::contents::Surface;
+use crate::contents::{Sides, Surface};
 use crate::outside;
 use crate::textures::{Decoded, Pictures};
 
@@ -77,14 +77,19 @@ impl<'a> Images<'a> {
     }
 }
 
+/// Describes a material, or what the format says of a primitive that names none.
 pub(super) fn describe(
     data: &Data<'_>,
-    number: usize,
+    number: Option<usize>,
     images: &mut Images<'_>,
     not_drawn: &mut BTreeMap<String, u64>,
     warnings: &mut Warnings,
 ) -> Option<Described> {
-    let material = data.root.materials.get(number)?;
+    let missing = Material::default();
+    let material = match number {
+        Some(number) => data.root.materials.get(number)?,
+        None => &missing,
+    };
     let mut count = |key: &str| *not_drawn.entry(key.to_owned()).or_default() += 1;
     let pbr = &material.pbr_metallic_roughness;
     let other = material.extensions.glossiness.as_ref();
@@ -113,10 +118,10 @@ pub(super) fn describe(
         ("metal of material", is_physical && pbr.metallic_factor > 0.0),
         ("reflection of material", is_physical && pbr.roughness_factor < 1.0),
         ("metal and roughness map", is_physical && pbr.metallic_roughness_texture.is_some()),
-        ("normal map", material.normal_texture.is_some()),
-        ("occlusion map", material.occlusion_texture.is_some()),
-        ("emission map", material.emissive_texture.is_some()),
-        ("emission of material", material.emissive_texture.is_none() && emits),
+        ("normal map", !unlit && material.normal_texture.is_some()),
+        ("occlusion map", !unlit && material.occlusion_texture.is_some()),
+        ("emission map", !unlit && material.emissive_texture.is_some()),
+        ("emission of material", !unlit && material.emissive_texture.is_none() && emits),
     ] {
         if is_there {
             count(key);
@@ -128,9 +133,10 @@ pub(super) fn describe(
         "BLEND" => Some(OpacityMode::Blend),
         _ => None,
     };
-    let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
+    let numbered = || number.map_or(String::new(), |number| format!("materials[{number}]"));
+    let name = material.name.clone().unwrap_or_else(numbered);
     let decoded = info.and_then(|info| {
-        let read = texture(data, info, images, &mut count);
+        let read = texture(data, info, images);
         match read {
             Ok(decoded) => Some(decoded),
             Err(cause) => {
@@ -149,7 +155,7 @@ pub(super) fn describe(
     let texture = decoded.map(|decoded| Arc::new(decoded.texture));
     let transform = info.and_then(transform);
     Some(Described {
-        uv_set: uv_set(data, number).filter(|_| texture.is_some()),
+        uv_set: info.map(uv_set).filter(|_| texture.is_some()),
         uv_transform: transform.map_or(DAffine2::IDENTITY, affine),
         surface: Surface {
             name,
@@ -158,7 +164,7 @@ pub(super) fn describe(
             specular,
             opacity,
             unlit,
-            both_sides: material.double_sided,
+            sides: if material.double_sided { Sides::Both } else { Sides::Front },
         },
     })
 }
@@ -174,10 +180,9 @@ fn transform(info: &Info) -> Option<&Transform> {
     info.extensions.transform.as_ref()
 }
 
-/// The number of the texture coordinates that the texture of a material's colour is read at.
-pub(super) fn uv_set(data: &Data<'_>, number: usize) -> Option<u32> {
-    let info = colour_texture(data.root.materials.get(number)?)?;
-    Some(transform(info).and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord))
+/// The number of the texture coordinates that a texture is read at.
+fn uv_set(info: &Info) -> u32 {
+    transform(info).and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord)
 }
 
 /// The highlight that is about as wide as that of a physically based surface: of roughness a = (1 - gloss)^2, the
@@ -190,12 +195,7 @@ fn glossy([r, g, b]: [f32; 3], gloss: f32) -> Specular {
 }
 
 /// The picture of a texture with its sampler.
-fn texture(
-    data: &Data<'_>,
-    info: &Info,
-    images: &mut Images<'_>,
-    count: &mut impl FnMut(&str),
-) -> Result<Decoded, String> {
+fn texture(data: &Data<'_>, info: &Info, images: &mut Images<'_>) -> Result<Decoded, String> {
     let number = info.index;
     let missing = || format!("textures[{number}] is not there");
     let texture = data.root.textures.get(number).ok_or_else(missing)?;
@@ -204,31 +204,33 @@ fn texture(
     let missing = || format!("textures[{number}] has no picture that is read");
     let mut decoded = images.get(data, source.ok_or_else(missing)?)?;
     let sampler = texture.sampler.and_then(|sampler| data.root.samplers.get(sampler));
-    // Everything else repeats.
-    let other =
-        |wrap: Option<u64>| wrap.filter(|wrap| [CLAMP_TO_EDGE, MIRRORED_REPEAT].contains(wrap));
-    let wraps = sampler.map_or([None; 2], |sampler| [sampler.wrap_s, sampler.wrap_t].map(other));
-    if wraps.contains(&Some(MIRRORED_REPEAT)) {
-        count("mirrored repetition of texture");
-    } else if wraps[0] != wraps[1] {
-        count("difference of repetition in u and v of texture");
-    }
-    let wrap = if wraps == [Some(CLAMP_TO_EDGE); 2] { Wrap::Clamp } else { Wrap::Repeat };
-    let nearest = sampler.and_then(|sampler| sampler.mag_filter) == Some(NEAREST);
-    let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
-    decoded.texture = decoded.texture.with(filter, wrap);
-    match sampler.and_then(|sampler| sampler.min_filter) {
-        Some(NEAREST_MIPMAP_LINEAR | LINEAR_MIPMAP_LINEAR) => {
-            decoded.texture = decoded.texture.with_mip_map()
-        }
-        Some(NEAREST_MIPMAP_NEAREST | LINEAR_MIPMAP_NEAREST) => {
-            // Read between two levels, where the file asks for the nearer one.
-            count("nearest level of mip map of texture");
-            decoded.texture = decoded.texture.with_mip_map();
-        }
-        _ => {}
-    }
+    decoded.texture = sampled(decoded.texture, sampler.copied().unwrap_or_default());
     Ok(decoded)
+}
+
+/// A texture that is read as a sampler says. Where it does not say it, filters are linear and there is no mip map.
+fn sampled(texture: Texture, sampler: Sampler) -> Texture {
+    let wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
+        Some(CLAMP_TO_EDGE) => Wrap::Clamp,
+        Some(MIRRORED_REPEAT) => Wrap::Mirror,
+        _ => Wrap::Repeat,
+    });
+    let nearest = sampler.mag_filter == Some(NEAREST);
+    let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
+    let texture = texture.with(filter, wrap);
+    match sampler.min_filter {
+        Some(NEAREST) => texture.with_minified(Filter::Nearest),
+        Some(LINEAR) => texture.with_minified(Filter::Bilinear),
+        Some(NEAREST_MIPMAP_NEAREST) => {
+            texture.with_mip_map().with_minified(Filter::Nearest).with_single_levels()
+        }
+        Some(LINEAR_MIPMAP_NEAREST) => {
+            texture.with_mip_map().with_minified(Filter::Bilinear).with_single_levels()
+        }
+        Some(NEAREST_MIPMAP_LINEAR) => texture.with_mip_map().with_minified(Filter::Nearest),
+        Some(LINEAR_MIPMAP_LINEAR) => texture.with_mip_map().with_minified(Filter::Bilinear),
+        _ => texture,
+    }
 }
 
 /// The map of texture coordinates, by a rotation that is counter-clockwise with v down.
