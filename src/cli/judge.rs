@@ -19,7 +19,7 @@ use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::{Options, adapt_case, process_group};
 use rasterproof_report::formats::{self, Format};
-use rasterproof_report::judge_text;
+use rasterproof_report::{against_text, judge_text};
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
@@ -223,10 +223,15 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let repeat_all = again.clone().first("cases", arguments.cases).line();
     let format = if arguments.json { Format::Json } else { arguments.format };
     let text = match format {
-        Format::Text => {
-            let shown = (arguments.table, streams.colour);
-            judge_text::text(&verdict, &repeat_all, &repeat_case, shown)
-        }
+        Format::Text => match &verdict.against {
+            Some(second) => {
+                against_text::text(&verdict, second, &repeat_all, &repeat_case, streams.colour)
+            }
+            None => {
+                let shown = (arguments.table, streams.colour);
+                judge_text::text(&verdict, &repeat_all, &repeat_case, shown)
+            }
+        },
         other => formats::write(&verdict, other, &repeat_all, &repeat_case),
     };
     streams.output.write_all(text.as_bytes())?;

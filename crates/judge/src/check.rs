@@ -11,14 +11,15 @@ use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values};
 use super::finding::{Finding, hits, mix};
-use super::{against, mesh, near_plane, outline};
-use rasterproof_core::frame::{Coverage, Frame};
+use super::pixels::{compare, length, masks_of, mesh_of, picks, picture_of, pixel_of, sequence};
+use super::{difference, mesh, near_plane, outline};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
-use rasterproof_verify::comparison::{Picture, Winding, area2};
+use rasterproof_verify::comparison::{Winding, area2};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
@@ -278,7 +279,7 @@ impl Check {
     #[must_use]
     pub fn judge(self, case: &Case, answers: &[Answer], truth: &Truth) -> Finding {
         if let Some(of_two) = &truth.of_two {
-            return against::judge(self, case, answers, of_two);
+            return self::of_two(self, case, answers, of_two);
         }
         let mut finding = Self::judge_deaths(answers);
         match (&case.shape, self) {
@@ -329,6 +330,35 @@ impl Check {
     }
 }
 
+/// How the answers of two programs differ, and whether each is right.
+fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) -> Finding {
+    let sides = difference::sides(answers);
+    let [first, second] = [0, 1].map(|at| check.judge(case, &sides[at], &of_two[at]));
+    // What died is the same on both sides.
+    let died = first.died.clone();
+    let mut finding = Finding {
+        shapes: first.shapes,
+        pixels: first.pixels,
+        answered: first.answered,
+        right: died.is_empty().then(|| [!first.is_wrong(), !second.is_wrong()]),
+        died,
+        mark: first.mark ^ second.mark.rotate_left(1),
+        ..Finding::default()
+    };
+    let declared = &of_two[0].declared;
+    for (at, (first, second)) in sides[0].iter().zip(&sides[1]).enumerate() {
+        if first == second {
+            continue;
+        }
+        let triangle = match &case.shape {
+            Shape::Triangles { list, .. } => list.get(at),
+            _ => None,
+        };
+        difference::difference(&mut finding, [first, second], triangle, case.window, declared);
+    }
+    finding
+}
+
 /// The triangle turned over where this winding alone is drawn and it has the other.
 fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
     let is_other = match drawn {
@@ -376,39 +406,6 @@ fn one_triangle(
     }
 }
 
-fn pixel_of(f: &Fragment<DVec2>) -> Span {
-    Span { y_px: f.y_px, x0_px: f.x_px, x1_px: f.x_px.saturating_add(1) }
-}
-
-fn length(runs: &[Span]) -> u64 {
-    runs.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px))).sum()
-}
-
-/// Compares runs with a picture, pixel by pixel unless they are the same runs.
-fn compare(tally: &mut Tally, mark: &mut u64, runs: &[Span], picture: &Picture, window: PixelRect) {
-    if picture.may.is_none() && runs == picture.must {
-        return;
-    }
-    let (actual, outside) = hits(runs, window);
-    let must = hits(&picture.must, window).0;
-    let may = picture.may.as_ref().map(|may| hits(may, window).0);
-    tally.extra += outside;
-    mix(mark, outside);
-    for (y, row) in actual.rows() {
-        let (must, may) = (must.row(y), may.as_ref().unwrap_or(&must).row(y));
-        for (x, &n) in row.iter().enumerate() {
-            let is_right = n == must[x] || (n == 1 && may[x] == 1);
-            if is_right {
-                continue;
-            }
-            tally.missing += u64::from(n < must[x]);
-            tally.extra += u64::from(n > 0 && may[x] == 0);
-            tally.twice += u64::from(n.saturating_sub(1));
-            [y as u64, x as u64, u64::from(n)].iter().for_each(|word| mix(mark, *word));
-        }
-    }
-}
-
 /// Counts the pixels in which answers differ from the first one.
 fn alike(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, window)).collect();
@@ -424,47 +421,6 @@ fn alike(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
     }
 }
 
-/// The pixels of an answer by hits, those outside the window left out.
-pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
-    hits_of(answer, window).map(|(hits, _)| hits)
-}
-
-/// The pixels of an answer by hits, and how many lie outside the window.
-pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
-    let runs: Vec<Span> = match answer {
-        Answer::Coverage(runs) => return Some(hits(runs, window)),
-        Answer::Samples(runs) | Answer::Seen(runs) => runs.iter().map(|(run, _)| *run).collect(),
-        Answer::Values(fragments) => fragments.iter().map(pixel_of).collect(),
-        Answer::Line(pixels) => as_runs(pixels),
-        Answer::Polygon(_)
-        | Answer::Carried(_)
-        | Answer::Refused(_)
-        | Answer::Two(_)
-        | Answer::Died(_) => return None,
-    };
-    Some(hits(&runs, window))
-}
-
-fn as_runs(pixels: &[(i32, i32)]) -> Vec<Span> {
-    let run = |&(x, y): &(i32, i32)| Span { y_px: y, x0_px: x, x1_px: x.saturating_add(1) };
-    pixels.iter().map(run).collect()
-}
-
-/// How many triangles of a mesh cover each pixel. A mesh with a triangle that was refused has a hole for another
-/// reason, and no picture.
-pub fn mesh_of(answers: &[Answer], window: PixelRect) -> Option<Coverage> {
-    let mut sum = Coverage::new(window, 0);
-    for answer in answers {
-        let drawn = picture_of(answer, window)?;
-        for (y, row) in drawn.rows() {
-            for (sum, hits) in sum.row_mut(y).iter_mut().zip(row) {
-                *sum = sum.saturating_add((*hits).min(1));
-            }
-        }
-    }
-    Some(sum)
-}
-
 fn watertight(finding: &mut Finding, list: &[Triangle], answers: &[Answer], window: PixelRect) {
     finding.shapes = list.len() as u64;
     let Some(sum) = mesh_of(answers, window) else { return };
@@ -472,14 +428,6 @@ fn watertight(finding: &mut Finding, list: &[Triangle], answers: &[Answer], wind
     let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
     let (holes, doubles) = mesh::holes_and_doubles(&corners, &sum);
     finding.tally += Tally { missing: holes, twice: doubles, ..Tally::default() };
-}
-
-/// The fragments whose values are compared: the first, the last and two between.
-pub(super) fn picks(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
-    let n = fragments.len();
-    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
-    picks.dedup();
-    picks.into_iter().filter_map(|i| fragments.get(i))
 }
 
 /// Compares the values of some fragments, where these belong.
@@ -512,18 +460,6 @@ fn values(
             }
         }
     }
-}
-
-/// The bits of all runs at each pixel of the window.
-pub(super) fn masks_of(runs: &[(Span, u8)], window: PixelRect) -> Frame<u8> {
-    let mut masks = Frame::new(window, 0u8);
-    for (run, mask) in runs {
-        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
-        if (window.y0..window.y1).contains(&run.y_px) && x0 < x1 {
-            masks.span_mut(run.y_px, x0, x1).iter_mut().for_each(|m| *m |= mask);
-        }
-    }
-    masks
 }
 
 /// Compares masks bit by bit; the samples have fixed places, so the declared one does not matter.
@@ -577,26 +513,6 @@ fn one_line(finding: &mut Finding, line: &Line, answer: &Answer, window: PixelRe
 fn leave_out(finding: &mut Finding, wrong: u64) {
     finding.unscored += 1;
     finding.unscored_wrong += wrong;
-}
-
-/// Compares the pixels of a line, and where they are the same ones their order.
-pub(super) fn sequence(
-    tally: &mut Tally,
-    mark: &mut u64,
-    pixels: &[(i32, i32)],
-    expected: &[(i32, i32)],
-    window: PixelRect,
-    in_order: bool,
-) {
-    if pixels == expected {
-        return;
-    }
-    let picture = Picture { must: as_runs(expected), may: None };
-    let before = tally.total();
-    compare(tally, mark, &as_runs(pixels), &picture, window);
-    if tally.total() == before && in_order {
-        tally.order += pixels.iter().zip(expected).filter(|(a, b)| a != b).count() as u64;
-    }
 }
 
 /// The answer that was expected to each question of a check, where there is one.

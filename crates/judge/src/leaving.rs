@@ -6,10 +6,11 @@
 
 use super::adapt_case;
 use super::ask::{Answer, Asked, Question};
-use super::check::{Check, Truth, picture_of};
+use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::expected::Expect;
 use super::finding::hits;
+use super::pixels::picture_of;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};

@@ -5,8 +5,8 @@
 //! outline itself, nothing else is open.
 
 use super::ask::Answer;
-use super::check::picture_of;
 use super::finding::{Finding, mix};
+use super::pixels::picture_of;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint};

@@ -5,10 +5,11 @@
 //! polygon of clip space what it covers in x and y, before the division.
 
 use super::ask::{Answer, Asked, Question};
-use super::check::{Check, Truth, expected_answer, hits_of, mesh_of, picture_of};
+use super::check::{Check, Truth, expected_answer};
 use super::depth::Pile;
 use super::finding::Finding;
-use super::{against, mesh, near_plane, outline};
+use super::pixels::{hits_of, mesh_of, picture_of};
+use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -38,7 +39,7 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
     check.questions(case, truth, &mut questions);
     let mut picture = match &truth.of_two {
         Some(of_two) => {
-            let [first, second] = against::sides(answers);
+            let [first, second] = difference::sides(answers);
             let of = |answers: &[Answer], truth| picture(check, case, (&questions, answers), truth);
             let second = of(&second, &of_two[1])?;
             let first = of(&first, &of_two[0])?;

@@ -9,11 +9,12 @@ use std::fmt::Write as _;
 
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
-use super::check::{Check, Truth, picture_of};
+use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::expected::{Expect, runs};
 use super::in_process::Inside;
 use super::leaving;
+use super::pixels::picture_of;
 use super::run::MOST_DEATHS;
 use super::stages;
 use super::text::px;

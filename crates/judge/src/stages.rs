@@ -8,9 +8,10 @@ use std::rc::Rc;
 
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
-use super::check::{Check, Truth, masks_of, picks};
+use super::check::{Check, Truth};
 use super::in_process::Inside;
 use super::near_plane::{asked, bounds, is_round};
+use super::pixels::{masks_of, picks};
 use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::contract::Rasterize as _;

@@ -2,9 +2,9 @@
 
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
-use super::check::picture_of;
 use super::declared::Declared;
 use super::expected::Expect as _;
+use super::pixels::picture_of;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Shape;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::judge_text::{causes, complaints, failures, hanging, incidents};
+use super::judge_text::{causes, complaints, difference, failures, hanging, incidents};
 use super::summary;
 use super::table::{Column, Table};
 use rasterproof_judge::against::names;
@@ -27,7 +27,7 @@ pub fn text(
         summary::mark(agrees, colour),
         env!("CARGO_PKG_VERSION"),
         verdict.seed,
-        headline(verdict, &names)
+        difference(verdict, &names)
     );
     who_is_right(&mut out, &verdict.sides(), &names);
     for (name, declared) in names.iter().zip([&verdict.declared, second]) {
@@ -45,24 +45,8 @@ pub fn text(
     complaints(&mut out, verdict);
     let _ = writeln!(out, "\nrepeat with: {repeat_all}");
     let word = if agrees { "SAME" } else { "DIFFERENT" };
-    let _ = writeln!(out, "{word}: {}", headline(verdict, &names));
+    let _ = writeln!(out, "{word}: {}", difference(verdict, &names));
     out
-}
-
-/// Whether both answer the same.
-#[must_use]
-pub fn headline(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
-    let rows = &verdict.found.rows;
-    let sum = |of: fn(&Row) -> u64| rows.iter().map(of).sum::<u64>();
-    let cases = summary::thousands(sum(|row| row.cases));
-    let until = if verdict.found.out_of_time { " until the time was up" } else { "" };
-    match sum(|row| row.wrong_cases) {
-        0 => format!("{first} and {second} answer the same in {cases} cases{until}"),
-        n => format!(
-            "{first} and {second} differ in {} of {cases} cases{until}",
-            summary::thousands(n)
-        ),
-    }
 }
 
 fn who_is_right(out: &mut String, sides: &Sides, [first, second]: &[String; 2]) {

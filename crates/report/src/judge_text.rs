@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::html::{Chapter, Outcome, Report};
 use super::table::{Column, Mark, Row, Table};
-use super::{against_text, ascii, page_cases, summary};
+use super::{ascii, page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::check::Check;
 use rasterproof_judge::failures::Failure;
@@ -25,9 +25,6 @@ pub fn text(
     repeat: &dyn Fn(&str, u64) -> String,
     (with_table, colour): (bool, bool),
 ) -> String {
-    if let Some(second) = &verdict.against {
-        return against_text::text(verdict, second, repeat_all, repeat, colour);
-    }
     let (d, agrees) = (&verdict.declared, verdict.agrees());
     let answer = if agrees { "is right" } else { "is not right" };
     let mut out = format!(
@@ -303,6 +300,21 @@ pub fn picture(out: &mut String, drawn_by: &[&str], picture: &Pictured) {
     }
 }
 
+/// Whether both of two compared programs answer the same.
+pub(super) fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
+    let rows = &verdict.found.rows;
+    let sum = |of: fn(&FamilyRow) -> u64| rows.iter().map(of).sum::<u64>();
+    let cases = summary::thousands(sum(|row| row.cases));
+    let until = if verdict.found.out_of_time { " until the time was up" } else { "" };
+    match sum(|row| row.wrong_cases) {
+        0 => format!("{first} and {second} answer the same in {cases} cases{until}"),
+        n => format!(
+            "{first} and {second} differ in {} of {cases} cases{until}",
+            summary::thousands(n)
+        ),
+    }
+}
+
 fn closing(verdict: &Verdict) -> String {
     let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
@@ -374,7 +386,7 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
     let (title, headline) = match &both {
         Some(names) => {
             let title = format!("{} against {}", names[0], names[1]);
-            (title, against_text::headline(verdict, names))
+            (title, difference(verdict, names))
         }
         None => (format!("Verdict on {}", d.name), cause + &closing(verdict)),
     };

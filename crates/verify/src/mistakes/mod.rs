@@ -26,7 +26,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
-use triangles::Fill;
+use triangles::{BY_WINDING, Fill};
 use weigh::{LEAST_WRONG, weigh};
 
 pub use weigh::Hypothesis;
@@ -261,7 +261,12 @@ pub fn of_triangles(
         };
         for &p in parameters {
             let says = says(mistake, p);
-            for base in bases.iter().filter(|base| base.serves(mistake.draws)) {
+            // Of a program that draws one winding, a rule for each of both is a rule.
+            let is_told = |base: &&Base| {
+                mistake.name != BY_WINDING || base.convention.draws == Windings::Both
+            };
+            let served = bases.iter().filter(|base| base.serves(mistake.draws));
+            for base in served.filter(is_told) {
                 let answered = &answered;
                 let predicts = move |i: usize| {
                     let Question { corners, window } = &answered[i].question;

@@ -23,10 +23,13 @@ pub(super) enum Fill {
     Own(fn(&Corners, PixelRect, i64) -> Mask),
 }
 
+/// The mistake that cannot be told of a program that draws one winding.
+pub(super) const BY_WINDING: &str = "rule by winding";
+
 /// Everything known, the simplest first.
 pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
-        name: "rule by winding",
+        name: BY_WINDING,
         sentence: |p| {
             let (clockwise, other) = pair(p);
             format!(
