@@ -32,7 +32,7 @@ def _judge(of: "_Of", fn: Callable[[Any, Window], Any], judged: Dict[str, Any], 
         raise TypeError(f"{of.call} takes a function; got {type(fn).__name__}")
     if isinstance(cases, bool) or not isinstance(cases, int) or cases < 1:
         raise ValueError(f"no case would be judged: cases is {cases!r}; expected at least 1")
-    kind, name = _shapes.Kind(), _shapes.name_of(fn)
+    kind, name = _shapes.Kind(), str(getattr(fn, "__name__", type(fn).__name__))
 
     def answer(numbers: List[List[float]], window: Window) -> List[str]:
         written: List[str] = of.write(fn(of.read(numbers), window), len(numbers), window, name, kind)

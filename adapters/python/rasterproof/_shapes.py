@@ -28,7 +28,7 @@ def array_of(value: Any, what: str) -> Array:
     return array
 
 
-def masks_of(value: Any, count: int, window: Tuple[int, int], call: str) -> Array:
+def masks_of(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> Array:
     """How often each pixel was drawn, of shape (count, height, width)."""
     masks = array_of(value, f"masks of {call}")
     width, height = window
@@ -38,11 +38,12 @@ def masks_of(value: Any, count: int, window: Tuple[int, int], call: str) -> Arra
         raise ValueError(f"{call} returned masks of shape {masks.shape}; expected {(count, height, width)}: (n, height, width)")
     if masks.dtype != bool and masks.size and masks.min() < 0:
         raise ValueError(f"{call} returned masks with {masks.min()}; a pixel is drawn at least 0 times")
+    kind.keep("masks of bool" if masks.dtype == bool else "masks of integers", call)
     return masks
 
 
-def rows_of(value: Any, count: int, columns: str, call: str) -> List[Array]:
-    """An array for each case, with these columns."""
+def rows_of(value: Any, count: int, columns: str, call: str) -> List[str]:
+    """The rows of each case as text, from an array with these columns for each."""
     if len(value) != count:
         raise ValueError(f"{call} returned a list of {len(value)}; expected {count}, one for each case")
     wide = len(columns.split())
@@ -55,7 +56,7 @@ def rows_of(value: Any, count: int, columns: str, call: str) -> List[Array]:
             raise ValueError(f"{call} returned shape {array.shape} for case {case}; expected (k, {wide}) with the columns {columns}")
         if not numpy.issubdtype(array.dtype, numpy.integer):
             raise TypeError(f"{call} returned type {array.dtype} for case {case}; expected integers with the columns {columns}")
-        rows.append(array)
+        rows.append(" ".join(map(str, [len(array), *array.ravel().tolist()])))
     return rows
 
 
@@ -110,20 +111,15 @@ def spans(masks: Array) -> List[str]:
 def coverage(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> List[str]:
     if isinstance(value, (list, tuple)):
         kind.keep("a list of spans", call)
-        rows = rows_of(value, count, "y x0 x1", call)
-        return [" ".join(map(str, [len(each), *each.ravel().tolist()])) for each in rows]
-    masks = masks_of(value, count, window, call)
-    kind.keep("masks of bool" if masks.dtype == bool else "masks of integers", call)
-    return spans(masks)
+        return rows_of(value, count, "y x0 x1", call)
+    return spans(masks_of(value, count, window, call, kind))
 
 
 def pixels(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> List[str]:
     if isinstance(value, (list, tuple)):
         kind.keep("a list of pixels", call)
-        rows = rows_of(value, count, "x y", call)
-        return [" ".join(map(str, [len(each), *each.ravel().tolist()])) for each in rows]
-    masks = masks_of(value, count, window, call)
-    kind.keep("masks of bool" if masks.dtype == bool else "masks of integers", call)
+        return rows_of(value, count, "x y", call)
+    masks = masks_of(value, count, window, call, kind)
     case, y, x = numpy.nonzero(masks)
     case, y, x = (numpy.repeat(part, masks[case, y, x].astype(numpy.int64)) for part in (case, y, x))
     return joined([x, y], case, count)
@@ -132,17 +128,12 @@ def pixels(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kin
 def fragments(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> List[str]:
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise TypeError(f"{call} returned {type(value).__name__}; expected two arrays, masks and values")
-    masks = masks_of(value[0], count, window, call)
+    masks = masks_of(value[0], count, window, call, kind)
     values = array_of(value[1], f"values of {call}")
     if not numpy.issubdtype(values.dtype, numpy.number) or numpy.issubdtype(values.dtype, numpy.complexfloating):
         raise TypeError(f"{call} returned values of type {values.dtype}; expected floats")
     if values.shape != (*masks.shape, 3):
         raise ValueError(f"{call} returned values of shape {values.shape}; expected {(*masks.shape, 3)}: (n, height, width, 3), each z a b")
-    kind.keep("masks and values", call)
     case, y, x = numpy.nonzero(masks)
     drawn = values[case, y, x].astype(numpy.float64)
     return joined([x, y, *drawn.T], case, count)
-
-
-def name_of(fn: Any) -> str:
-    return str(getattr(fn, "__name__", type(fn).__name__))
