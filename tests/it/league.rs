@@ -42,6 +42,8 @@ fn league_needs_adapters() {
         {"name": "gone", "library": "x", "call": "y", "command": ["./there-is-no-such-program"]},
         {"name": "own", "library": "rasterproof", "call": "Rasterize::cover",
          "command": [PROGRAM, "engine", "games101-strict"]},
+        {"name": "wrong", "library": "rasterproof", "call": "DrawLine::draw",
+         "command": [PROGRAM, "engine", "sysu-bresenham"]},
     ]);
     fs::write(&path, list.to_string()).unwrap();
     folder
@@ -58,6 +60,10 @@ fn league_needs_adapters() {
         "{row:?}"
     );
     assert!(row.meshes[1] > 0 && triangles.as_declared.wrong > 0, "{row:?}");
+    let mistake = |row: usize| Some(league.rows[row].lines.as_ref()?.mistake.as_ref()?.as_str());
+    assert_eq!(mistake(0), None);
+    assert!(mistake(1).unwrap().contains("the published algorithm sysu-bresenham"));
+    assert!(tables(&league, false).contains("Its mistake: it draws as the published algorithm"));
     folder.run("judge --league gone").has(2).says("no adapter is installed");
     folder.run("judge --league nobody").has(2).says("is no adapter");
 }

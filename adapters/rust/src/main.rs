@@ -3,6 +3,7 @@
 mod ab_glyph_rasterizer;
 mod embedded_graphics;
 mod euc;
+mod imageproc;
 mod protocol;
 mod raqote;
 mod retrofire;
@@ -20,6 +21,7 @@ fn main() -> std::io::Result<()> {
         &zeno::LIBRARY,
         &ab_glyph_rasterizer::LIBRARY,
         &retrofire::LIBRARY,
+        &imageproc::LIBRARY,
     ];
     let asked = std::env::args().nth(1).unwrap_or_default();
     // The name without its version: "tiny-skia" of "tiny-skia-0.12.0".

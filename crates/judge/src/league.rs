@@ -21,6 +21,9 @@ pub struct Kind {
     pub as_declared: Score,
     /// By the convention that was found; nothing where it is unexplained.
     pub by_convention: Option<Score>,
+    /// The mistake that explains what no convention does, after 'it'.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mistake: Option<String>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,7 +70,11 @@ impl Standing {
             let sentence = sentence.unwrap_or_default().to_owned();
             let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
             let by_convention = is_explained.then_some(found);
-            (as_declared.pixels > 0).then_some(Kind { sentence, as_declared, by_convention })
+            let of = if lines { "lines" } else { "triangles" };
+            let why = verdict.causes.iter().find(|why| why.of == of);
+            let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
+            let kind = Kind { sentence, as_declared, by_convention, mistake };
+            (as_declared.pixels > 0).then_some(kind)
         };
         let changed = |name| row(name).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
         let sum = |of: fn(&super::run::Row) -> u64| verdict.found.rows.iter().map(of).sum();

@@ -11,6 +11,7 @@ struct Words {
     header: &'static str,
     as_declared: &'static str,
     unexplained: &'static str,
+    mistake: &'static str,
     unscored: &'static str,
     unanswered: &'static str,
     kinds: [&'static str; 2],
@@ -26,6 +27,7 @@ const ENGLISH: Words = Words {
              theirs | from either end |",
     as_declared: "the same",
     unexplained: "unexplained",
+    mistake: "Its mistake: it ",
     unscored: "Left out, since the convention says nothing of them",
     unanswered: "Requests refused, and not answered",
     kinds: ["Triangles", "Lines"],
@@ -43,6 +45,7 @@ const CHINESE: Words = Words {
     header: "| 库 | 版本 | 日期 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 |",
     as_declared: "相同",
     unexplained: "未能解释",
+    mistake: "它的错误：",
     unscored: "约定对之无所断言、未计入的图形",
     unanswered: "被拒绝的请求与没有回答的请求",
     kinds: ["三角形", "直线"],
@@ -95,8 +98,12 @@ fn one(out: &mut String, row: &Standing, words: &Words) {
             }
             _ => String::new(),
         };
+        let mistake = kind.mistake.as_ref().map_or_else(String::new, |does| {
+            format!("{gap}{}{}{stop}", words.mistake, (words.say)(does))
+        });
         if !kind.sentence.is_empty() {
-            let _ = writeln!(out, "  - {about}{colon}{}{left_out}", (words.say)(&kind.sentence));
+            let said = (words.say)(&kind.sentence);
+            let _ = writeln!(out, "  - {about}{colon}{said}{left_out}{mistake}");
         }
     }
     if refused + died > 0 {
