@@ -18,6 +18,7 @@ use super::document::{
 use crate::Warnings;
 use crate::contents::Surface;
 use crate::outside;
+use crate::text;
 use crate::textures::{Decoded, Pictures};
 
 /// A surface, and where its texture finds its coordinates.
@@ -128,7 +129,8 @@ pub(super) fn describe(
         "BLEND" => Some(OpacityMode::Blend),
         _ => None,
     };
-    let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
+    let name = material.name.as_deref().map(|name| text::name(name).to_owned());
+    let name = name.unwrap_or_else(|| format!("materials[{number}]"));
     let decoded = info.and_then(|info| {
         let read = texture(data, info, images, &mut count);
         match read {
