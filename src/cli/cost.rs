@@ -13,7 +13,7 @@ use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
-    Board, ExternalVariant, Ladder, Options, Recorded, measure_with,
+    Board, ExternalVariant, Ladder, Options, Recorded, Timing, measure_with,
 };
 use rasterproof_report::canvas::{self, Drawing};
 use rasterproof_report::html::{Figure, Report};
@@ -263,7 +263,9 @@ fn measure_all(
 ) -> Result<Vec<Board>, Failure> {
     let mut external = arguments.external()?;
     let progress = Progress::new(on_terminal, "percent", Some(100));
-    let options = Options { seed: arguments.seed, quick: arguments.quick, timed: true };
+    let CostArguments { seed, quick, .. } = *arguments;
+    let timing = Some(if quick { Timing::QUICK } else { Timing::USUAL });
+    let options = Options { seed, quick, timing };
     let boards = ladders
         .iter()
         .enumerate()

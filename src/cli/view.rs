@@ -253,6 +253,9 @@ const MOST_LAYERS: u64 = 16;
 /// Samples that wait to be mixed in the order of their depths, each of which takes 48 bytes while they are sorted.
 const MOST_LAYER_SAMPLES: u64 = 1 << 24;
 
+/// By how much less a row and a texel of a shadow map take than those of the frame.
+const OF_MAP: u64 = 10;
+
 /// The time that a small file may take.
 const MOST_NS: u64 = 16_000_000_000;
 
@@ -409,15 +412,25 @@ impl ViewArguments {
         let blended = of_planes(work.blended);
         let file_bytes = maker.framed().map_or(0, |framed| framed.file_bytes);
         let Costs { ns_of_row, ns_of_sample, ns_of_byte, .. } = purpose.costs();
-        let ns =
-            rows.saturating_mul(ns_of_row).saturating_add(samples.saturating_mul(ns_of_sample));
+        // The map is drawn as often as the frame.
+        let map = Work::of_map(&scene);
+        let ns = [(rows, ns_of_row), (samples, ns_of_sample)]
+            .into_iter()
+            .chain([(map.rows, ns_of_row / OF_MAP), (map.samples, ns_of_sample / OF_MAP)])
+            .fold(0u64, |sum, (count, ns)| sum.saturating_add(count.saturating_mul(ns)));
         let of_picture = (all * MOST_LAYERS).saturating_mul(ns_of_sample);
         let most = MOST_NS.max(file_bytes.saturating_mul(ns_of_byte)).max(of_picture);
         if ns > most {
             let [seconds, most] = [ns, most].map(|ns| thousands(ns / 1_000_000_000));
+            let of_map = match self.shadows {
+                None => String::new(),
+                Some(_) => format!(" and {} texels in the shadow map", thousands(map.samples)),
+            };
+            let smaller =
+                if self.shadows.is_some() { "smaller --shadows" } else { "a smaller --size" };
             return Err(usage(format!(
-                "{name}: its {} triangles in the window have about {} samples in {} rows, hidden ones counted, which would take \
-                 about {seconds} s here, and the most are {most} s: give a smaller --size, or a part of the model",
+                "{name}: its {} triangles in the window have about {} samples in {} rows{of_map}, hidden ones counted, which would \
+                 take about {seconds} s here, and the most are {most} s: give {smaller}, or a part of the model",
                 thousands(work.triangles),
                 thousands(samples),
                 thousands(rows)

@@ -842,7 +842,7 @@ fn what_a_gltf_names_and_is_not_there_is_said() {
     let (model, [item]) = items("j.glb", &glb(file));
     assert_eq!(item.mesh.triangles.len(), 3);
     assert!(warning(&model).contains("1 triangles name a vertex that is not there, as 9 of 4"));
-    let text = document(|_| ()).0.replace("\"2.0\"", "2.0");
+    let text = document(|_| ()).0.replace("\"scenes\":[", "\"scenes\":[0,");
     let error = load("k.gltf", text.as_bytes()).unwrap_err();
     assert_eq!(error.line, Some(1), "{error}");
 }
@@ -1027,6 +1027,41 @@ fn faces_without_finite_numbers_are_left_out_of_every_format() {
     );
 }
 
+/// The faces of an OBJ with this after each number.
+fn with_slashes(obj: &str, after: &str) -> String {
+    let line = |line: &str| match line.strip_prefix("f ") {
+        Some(face) => format!("f {}{after}\n", face.replace(' ', &format!("{after} "))),
+        None => format!("{line}\n"),
+    };
+    obj.lines().map(line).collect()
+}
+
+/// The tetrahedron as a PLY whose faces come first and have numbers of eight bytes.
+fn wide_ply(form: &str, kind: &str) -> Vec<u8> {
+    let head = format!(
+        "ply\nformat {form} 1.0\nelement face 4\nproperty list uint8 {kind} vertex_index\nelement vertex 4\n\
+         property float32 x\nproperty float32 y\nproperty float32 z\nend_header\n"
+    );
+    let mut bytes = head.into_bytes();
+    if form == "ascii" {
+        let face = |face: [usize; 3]| format!("3 {} {} {}\n", face[0], face[1], face[2]);
+        let vertex = |[x, y, z]: [f32; 3]| format!("{x} {y} {z}\n");
+        bytes.extend(FACES.map(face).concat().bytes());
+        bytes.extend(POSITIONS.map(vertex).concat().bytes());
+        return bytes;
+    }
+    let is_big = form.contains("big");
+    for face in FACES {
+        bytes.push(3);
+        let word =
+            |at: usize| if is_big { (at as u64).to_be_bytes() } else { (at as u64).to_le_bytes() };
+        bytes.extend(face.map(word).concat());
+    }
+    let word = |x: f32| if is_big { x.to_be_bytes() } else { x.to_le_bytes() };
+    bytes.extend(POSITIONS.into_iter().flatten().flat_map(word));
+    bytes
+}
+
 /// Variants of files that many programs write, each with the warnings that it has.
 #[test]
 fn files_that_other_programs_read_are_read() {
@@ -1047,6 +1082,11 @@ fn files_that_other_programs_read_are_read() {
         text.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
     };
     let marked = format!("\u{feff}{stl}");
+    // Each end of a line that there is.
+    let mixed = |text: &str| {
+        let ends = ["\n", "\r\n", "\r", "\n\r\n"].into_iter().cycle();
+        text.lines().zip(ends).map(|(line, end)| [line, end].concat()).collect::<String>()
+    };
     for (name, text) in [
         ("upper.stl", stl.to_uppercase()),
         ("title.stl", title(&stl)),
@@ -1055,6 +1095,13 @@ fn files_that_other_programs_read_are_read() {
         ("end-all.stl", stl.replace("end", "END ")),
         ("spaces.stl", format!("\n  \t{}", stl.replace('\n', " \r\n\t"))),
         ("old.stl", stl.replace('\n', "\r")),
+        ("one-line.stl", stl.replace('\n', " ")),
+        ("one-line-upper.stl", stl.to_uppercase().replace('\n', "  ")),
+        ("one-line-two-words.stl", stl.replace('\n', " ").replace("end", "end ")),
+        ("line-for-each-facet.stl", stl.replace('\n', " ").replace("facet n", "\nfacet n")),
+        ("named.stl", stl.replace("solid a b", "solid solid facet of a solid")),
+        ("fortran.stl", stl.replace("vertex 1", "vertex 1.0D+00")),
+        ("mixed.stl", mixed(&stl)),
         ("no-name.stl", stl.replace(" a b", "")),
         ("no-solid.stl", stl.replacen("solid a b\n", "", 1)),
         (
@@ -1068,6 +1115,20 @@ fn files_that_other_programs_read_are_read() {
         "colour.stl",
         stl.replacen("facet", "color 1 0 0\nfacet", 1).as_bytes(),
         &[":2: 'color 1 0 0' is no line of an STL; the line is left out"],
+    );
+    // One solid after the other in one line, of which one is empty.
+    let two = format!("{stl}solid empty\nendsolid\n{stl}").replace('\n', " ");
+    let two = load("two.stl", two.as_bytes()).unwrap();
+    let names: Vec<&str> = two.origins.iter().map(|origin| &*origin.part).collect();
+    assert_eq!((corners(&two).len(), &names[..]), (24, &["a b", "a b"][..]));
+    let cut = stl.replace('\n', " ");
+    let error = load("cut-line.stl", &cut.as_bytes()[..cut.len() - 40]).unwrap_err().to_string();
+    assert!(error.contains("it is truncated, with 3 whole triangles"), "{error}");
+    let comma = "vertex 1,0 0,000 0";
+    check(
+        "comma.stl",
+        stl.replacen("vertex 1 0 0", comma, 1).as_bytes(),
+        &[":6: the comma of '1,0' is taken as a decimal point"],
     );
     let zeros = [stl.as_bytes(), &[0; 3]].concat();
     check(
@@ -1116,15 +1177,88 @@ fn files_that_other_programs_read_are_read() {
         let error = load("cut.stl", &stl.as_bytes()[..end]).unwrap_err().to_string();
         assert!(error.contains("it is truncated, with 3 whole triangles"), "{end}: {error}");
     }
+    // Ways of writing an OBJ.
+    let obj = obj();
+    for (name, text) in [
+        ("mixed.obj", mixed(&obj)),
+        ("return.obj", obj.replace('\n', "\r")),
+        ("no-end.obj", obj.trim_end().to_owned()),
+        ("upper.obj", obj.to_uppercase()),
+        ("tabs.obj", format!("\t{}", obj.replace(' ', "\t").replace('\n', " \n  \t"))),
+        ("comments.obj", format!("# folder C:\\models\\\n{}", obj.replace('\n', " # end \\#\n"))),
+        ("continued.obj", obj.replace("f ", "f \\\n")),
+        ("slashes.obj", with_slashes(&obj, "//")),
+        ("slash.obj", with_slashes(&obj, "/")),
+        ("fractions.obj", with_slashes(&obj, ".000000")),
+        ("weights.obj", obj.replacen("v 1 0 0", "v 1.0d0 0e0 +0 1", 1)),
+        ("rest.obj", format!("o a b c\nvt 0.5\nvt .5 .5 .5\n{obj}s off\ng\nusemtl\n")),
+    ] {
+        check(name, text.as_bytes(), &[]);
+    }
+    let points = format!("{obj}l 1 2 3\np 1 2\n");
+    assert_eq!(load("points.obj", points.as_bytes()).unwrap().not_drawn, "1 line, 1 point");
+    let comma = obj.replacen("v 1 0 0", "v 1,0 0,0 0", 1);
+    check("comma.obj", comma.as_bytes(), &[":2: the comma of '1,0' is taken as a decimal point"]);
+    // Ways of writing a PLY.
+    let head_of = |bytes: &[u8], change: &dyn Fn(&str) -> String| {
+        let end = bytes.windows(11).position(|bytes| bytes == b"end_header\n").unwrap() + 11;
+        [change(std::str::from_utf8(&bytes[..end]).unwrap()).as_bytes(), &bytes[end..]].concat()
+    };
+    for form in ["ascii", "binary_little_endian", "binary_big_endian"] {
+        let ply = ply(form);
+        let upper = head_of(&ply, &str::to_uppercase);
+        let quality = "value 'QUALITY' of 4 positions";
+        let model = load("upper.ply", &upper).unwrap();
+        assert_eq!(
+            (corners(&model), &*model.not_drawn),
+            (expected.clone(), &*format!("1 edge, {quality}"))
+        );
+        let comments = |head: &str| head.replace("\nelement", "\ncomment a\nobj_info b\n\nelement");
+        check("comments.ply", &head_of(&ply, &comments), &[]);
+        for end in ["\r\n", "\r", " \r\n", "\t\n"] {
+            check("ends.ply", &head_of(&ply, &|head| head.replace('\n', end)), &[]);
+        }
+    }
+    let text = String::from_utf8(ply("ascii")).unwrap();
+    check("mixed.ply", mixed(&text).as_bytes(), &[]);
+    check("no-end.ply", text.trim_end().as_bytes(), &[]);
+    let comma = text.replacen("1 0 0 255", "1,0 0 0 255", 1);
+    check("comma.ply", comma.as_bytes(), &[":16: from this line on, a comma in a number is"]);
+    // Indices of 64 bits, and faces before what they name.
+    for form in ["ascii", "binary_little_endian", "binary_big_endian"] {
+        for kind in ["int64", "uint64", "long", "ulong"] {
+            check("wide.ply", &wide_ply(form, kind), &[]);
+        }
+    }
     // A byte order mark before everything, and chunks that are filled with zeros.
     let mark = |bytes: &[u8]| [b"\xef\xbb\xbf", bytes].concat();
-    check("mark.obj", &mark(obj().as_bytes()), &[]);
+    check("mark.obj", &mark(obj.as_bytes()), &[]);
     for form in ["ascii", "binary_little_endian", "binary_big_endian"] {
         check("mark.ply", &mark(&ply(form)), &[]);
     }
     let (json, bytes) = document(|_| ());
-    let uri = format!("data:;base64,{}", STANDARD.encode(&bytes));
+    let data = STANDARD.encode(&bytes);
+    let uri = format!("data:;base64,{data}");
     let (json_alone, _) = document(|d| d["buffers"][0]["uri"] = json!(uri));
+    let escaped = data.replace('+', "%2B").replace('/', "%2f").replace('=', "%3D");
+    for uri in [
+        format!("data:application/octet-stream;charset=utf-8;base64,{data}"),
+        format!("data:APPLICATION/GLTF-BUFFER;BASE64;charset=utf-8,{data}"),
+        format!("data:;base64,{escaped}"),
+        format!("data:;base64,{}", data.replace('+', "-").replace('/', "_")),
+    ] {
+        let (json, _) = document(|d| d["buffers"][0]["uri"] = json!(uri));
+        check("uri.gltf", json.as_bytes(), &[]);
+    }
+    // Whole numbers with a fraction, and a version that is a number.
+    let (json_fractions, _) = document(|d| {
+        d["buffers"][0]["uri"] = json!(uri);
+        d["asset"]["version"] = json!(2.0);
+        d["accessors"][0]["count"] = json!(4.0);
+        d["bufferViews"][1]["byteOffset"] = json!(48.0);
+        d["meshes"][0]["primitives"][0]["indices"] = json!(1.0);
+    });
+    check("fractions.gltf", json_fractions.as_bytes(), &[]);
     check("mark.gltf", &mark(json_alone.as_bytes()), &[]);
     check("mark.glb", &glb((format!("\u{feff}{json}"), bytes.clone())), &[]);
     check("zeros.glb", &glb((json + "\0\0\0\0\0", bytes)), &[]);
@@ -1132,12 +1266,12 @@ fn files_that_other_programs_read_are_read() {
     folder.put("m.mtl", mark(b"newmtl a\nKd 1 0 0\n"));
     folder.put("old.mtl", b"newmtl a\rKd 1 0 0\r");
     for name in ["m", "old"] {
-        let text = format!("mtllib {name}.mtl\nusemtl a\n{}", obj());
+        let text = format!("mtllib {name}.mtl\nusemtl a\n{obj}");
         let model = load_in(&folder, "m.obj", text.as_bytes()).unwrap();
         assert_eq!(model.items[0].material.colour, DVec3::X, "{name}");
     }
     // Colours of ZBrush in comments, of two positions a line at most here.
-    let text = format!("{}#MRGB ffff0000ff00ff00\n#MRGB ff0000ff\n# a comment\n", obj());
+    let text = format!("{obj}#MRGB ffff0000ff00ff00\n#MRGB ff0000ff\n# a comment\n");
     assert_eq!(
         load("z.obj", text.as_bytes()).unwrap().not_drawn,
         "ZBrush colour (#MRGB) of 3 positions"
@@ -1161,9 +1295,17 @@ fn names_of_a_gltf_are_found_and_said() {
         });
         load_in(&folder, "m.glb", &file).unwrap()
     };
-    for uri in
-        [" before.png", "%20before.png", "after.png ", "after.png%20", " plain.png ", "plain.png"]
-    {
+    for uri in [
+        "plain.png?v=3",
+        "Plain.PNG#a",
+        "./plain%2Epng",
+        " before.png",
+        "%20before.png",
+        "after.png ",
+        "after.png%20",
+        " plain.png ",
+        "plain.png",
+    ] {
         let model = model(uri);
         assert!(model.items[0].material.texture.is_some(), "{uri:?}: {:?}", model.warnings);
     }

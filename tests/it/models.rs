@@ -803,9 +803,27 @@ fn what_a_face_cannot_use_does_not_end_the_file() {
     let model = check(mixed, 4, 10, "1 of 4 faces are left out", position);
     assert_eq!(model.origins[0].lines, [6, 11, 11, 12]);
     assert_eq!(model.items[0].mesh.triangles.at(3)[1].colour, DVec3::X);
-    // What only the position lacks cannot be drawn.
-    let error = load(&folder.put("m.obj", format!("{whole}f 1 2 9\n")), Shading::Phong).err();
-    assert_eq!(error.unwrap().line, Some(7));
+    // Without a position a face is left out.
+    let missing = "position that is missing of 1 face";
+    check("f 1 2 9\n", 1, 7, "position 9 is not there; the file has 3; the face is left", missing);
+    check("f 1 2 0\n", 1, 7, "a position that the face names is not there; the face is", missing);
+    check("f -4 2 3\n", 1, 7, "a position that the face names is not there; the face is", missing);
+    check(
+        "v 1 x 0\nf 1 2 4\n",
+        1,
+        7,
+        "'x' is not a number; the faces that use it are left",
+        missing,
+    );
+    check("v 1 x 0\nf 1 2 4\n", 1, 8, "the position of the face cannot be read; the face", missing);
+    check("v 1e39 0 0\nf 1 2 4\n", 1, 7, "the coordinate 1e39 is larger than 1e38", missing);
+    let mixed = "v 1 1 0\ns 1\nf 1/9 2 9\nf 1 2 4 3\nf 9//1 1//1 2//1\nf 2//1 4//1 3//1\n";
+    let model = check(mixed, 4, 9, "position 9", "position that is missing of 2 faces");
+    assert_eq!(model.origins[0].lines, [6, 10, 10, 12]);
+    let more = "faces without their positions: 92 more of this kind";
+    let model =
+        check(&"f 1 2 9\n".repeat(100), 1, 14, "9 is", "position that is missing of 100 faces");
+    assert!(model.warnings.iter().any(|said| said.contains(more)), "{:?}", model.warnings);
 }
 
 #[test]

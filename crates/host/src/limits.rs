@@ -17,6 +17,9 @@ pub const TEXTURE_BYTES: u64 = 1 << 28;
 /// All material files of a model together: a million materials are some 50 MB.
 pub const MATERIAL_BYTES: u64 = 1 << 26;
 
+/// What is kept of the name of a part or a material of a model: thousands of parts may have one name.
+pub const NAME_BYTES: usize = 1 << 10;
+
 /// All texture files of a model together, before they are decoded: a hash of each of them is taken.
 pub const ALL_TEXTURE_FILES_BYTES: u64 = 1 << 30;
 

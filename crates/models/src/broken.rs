@@ -7,7 +7,7 @@ use rasterproof_core::parallel;
 use rasterproof_host::text::printable_short;
 
 use crate::Warnings;
-use crate::contents::{Contents, FilePart, Numbers, Polygons};
+use crate::contents::{Contents, FilePart, retain};
 
 /// What is counted of faces that are left out.
 const POSITION: &str = "position that is not finite of face";
@@ -95,27 +95,18 @@ fn faces(part: &FilePart) -> Option<(usize, [u64; 2])> {
 
 /// Removes the faces that [`faces`] counts.
 fn remove(part: &mut FilePart) {
+    let FilePart { positions, colours, corners, normal_numbers, uv_numbers, polygons, .. } = part;
+    let face_colours = &part.face_colours;
     let is_broken = |&corner: &u32| {
-        let vectors = [part.positions.get(corner as usize), part.colours.get(corner as usize)];
+        let vectors = [positions.get(corner as usize), colours.get(corner as usize)];
         vectors.into_iter().flatten().any(|vector| !vector.is_finite())
     };
-    let (mut kept, mut places, mut colours) = (Polygons::default(), Vec::new(), Vec::new());
-    for number in 0..part.polygons.len() {
-        let corners = part.polygons.corners(number);
-        let colour = part.face_colours.get(number).copied();
-        let has_colour = colour.is_none_or(DVec3::is_finite);
-        if has_colour && !part.corners[corners.clone()].iter().any(is_broken) {
-            colours.extend(colour);
-            kept.push(corners.len(), part.polygons.line(number), part.polygons.smoothing(number));
-            places.extend(corners);
-        }
-    }
-    let of_places = |list: &[u32]| places.iter().map(|&at| list[at]).collect();
-    for numbers in [&mut part.normal_numbers, &mut part.uv_numbers] {
-        if let Numbers::OfCorners(list) = numbers {
-            *list = of_places(list);
-        }
-    }
-    part.corners = of_places(&part.corners);
-    (part.polygons, part.face_colours) = (kept, colours);
+    let is_kept = |number: usize, corners: &[u32]| {
+        let has_colour = face_colours.get(number).is_none_or(|colour| colour.is_finite());
+        has_colour && !corners.iter().any(is_broken)
+    };
+    let kept = (0..polygons.len()).filter(|&at| is_kept(at, &corners[polygons.corners(at)]));
+    let colours = kept.filter_map(|at| face_colours.get(at).copied()).collect();
+    retain(polygons, corners, [normal_numbers, uv_numbers], is_kept);
+    part.face_colours = colours;
 }

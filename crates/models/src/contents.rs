@@ -387,6 +387,31 @@ impl Polygons {
     }
 }
 
+/// Removes polygons that are not kept, by their numbers and corners, with what is listed for each of their corners.
+pub(crate) fn retain(
+    polygons: &mut Polygons,
+    corners: &mut Vec<u32>,
+    numbers: [&mut Numbers; 2],
+    is_kept: impl Fn(usize, &[u32]) -> bool,
+) {
+    let (mut kept, mut places) = (Polygons::default(), Vec::new());
+    for number in 0..polygons.len() {
+        let of_polygon = polygons.corners(number);
+        if is_kept(number, &corners[of_polygon.clone()]) {
+            kept.push(of_polygon.len(), polygons.line(number), polygons.smoothing(number));
+            places.extend(of_polygon);
+        }
+    }
+    let of_places = |list: &[u32]| places.iter().map(|&at| list[at]).collect();
+    for numbers in numbers {
+        if let Numbers::OfCorners(list) = numbers {
+            *list = of_places(list);
+        }
+    }
+    *corners = of_places(corners);
+    *polygons = kept;
+}
+
 /// What a file says about a surface, as far as it is drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Surface {

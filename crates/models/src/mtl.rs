@@ -9,7 +9,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::Warnings;
 use crate::outside::NOT_QUOTED;
-use crate::textures;
+use crate::{text, textures};
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Described {
@@ -52,8 +52,8 @@ pub(crate) fn read(
 ) -> Vec<Described> {
     let mut materials = Vec::new();
     // Files of old systems end their lines with a carriage return alone.
-    let end = if text.contains('\n') { '\n' } else { '\r' };
-    for (index, line) in text.split(end).enumerate() {
+    let text = text.replace("\r\n", "\n");
+    for (index, line) in text.split(['\n', '\r']).enumerate() {
         let line = without_comment(line).trim();
         let (kind, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         if let Err(cause) = read_line(kind, rest.trim(), &mut materials) {
@@ -86,7 +86,7 @@ pub(crate) fn without_comment(line: &str) -> &str {
 fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(), String> {
     let lower = kind.to_ascii_lowercase();
     if lower == "newmtl" {
-        materials.push(Described { name: rest.to_owned(), ..Described::default() });
+        materials.push(Described { name: text::name(rest).to_owned(), ..Described::default() });
         return Ok(());
     }
     if WITHOUT_EFFECT.contains(&lower.as_str()) {

@@ -14,7 +14,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 use std::sync::Arc;
 
 use crate::contents::{
-    Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Sides, Surface,
+    Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Sides, Surface, retain,
 };
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
@@ -26,7 +26,7 @@ use crate::{BadFile, Warnings, bad, read_bytes};
 /// Lines of material files that are read: each is looked for in the folder.
 const MOST_LIBRARIES: usize = 1 << 10;
 
-/// What a face names where nothing is: it may do so for texture coordinates and normals.
+/// What a face names where nothing is.
 const ABSENT: u32 = NONE - 1;
 
 /// Positions, texture coordinates and normals of a corner, as indices from 0 or [`NONE`] or [`ABSENT`].
@@ -34,14 +34,17 @@ type FaceCorner = [u32; 3];
 
 const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
 
+/// What is counted of faces that are left out, since a position of theirs is not in the file or cannot be read.
+const WITHOUT_POSITION: &str = "position that is missing of face";
+
 /// What is counted of the colours that ZBrush writes into comments, eight digits for each position.
 const ZBRUSH_COLOUR: &str = "ZBrush colour (#MRGB) of position";
 
 /// Faces of one group and material, one after the other in the file.
 struct Run {
-    name: String,
+    name: Arc<str>,
     /// The name of the material, and the first line that names it.
-    material: Option<(String, usize)>,
+    material: Option<(Arc<str>, usize)>,
     corners: Vec<u32>,
     uvs: Numbers,
     normals: Numbers,
@@ -113,9 +116,9 @@ impl Lines {
 /// Where the next face belongs.
 #[derive(Default)]
 struct State {
-    object: String,
-    group: String,
-    material: Option<(String, usize)>,
+    object: Arc<str>,
+    group: Arc<str>,
+    material: Option<(Arc<str>, usize)>,
     smoothing: u32,
     /// Whether a face begins a new run.
     is_new: bool,
@@ -144,7 +147,7 @@ pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
             // Without a name the material stays, unless a file describes one without a name.
             Some((name, _)) if name.is_empty() => numbers.get("").copied().or(before),
             Some((name, line)) => {
-                let number = numbers.get(name.as_str()).copied();
+                let number = numbers.get(&**name).copied();
                 if number.is_none() && all_read && unknown.insert(name.clone()) {
                     let name = printable_short(name, 40);
                     let text =
@@ -204,7 +207,7 @@ impl Cutter {
         let coloured = p.iter().any(|&index| (index as usize) < colours.len());
         let colour = |&index: &u32| colours.get(index as usize).copied().unwrap_or(DVec3::ONE);
         FilePart {
-            name: run.name,
+            name: (*run.name).to_owned(),
             material: None,
             to_file: DMat4::IDENTITY,
             positions: p.iter().map(|&index| positions[index as usize]).collect(),
@@ -357,6 +360,9 @@ fn library_names(folder: &Path, names: &str) -> Vec<String> {
     found
 }
 
+/// Words that begin a line which [`read_line`] reads.
+const READ: [&str; 10] = ["v", "vt", "vn", "f", "fo", "o", "g", "s", "usemtl", "mtllib"];
+
 /// Words that begin a line and are left out without a loss: what they say has an effect on curves and free-form
 /// surfaces alone, or on how a program shows the model.
 const WITHOUT_EFFECT: [&str; 25] = [
@@ -394,7 +400,8 @@ fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, 
         number += 1;
         let first = number;
         let mut line = line.trim_ascii();
-        if line.ends_with(b"\\") {
+        // A comment may end with the name of a folder.
+        if line.ends_with(b"\\") && !line.starts_with(b"#") {
             joined.clear();
             while let Some(begun) = line.strip_suffix(b"\\") {
                 joined.extend_from_slice(begun);
@@ -447,9 +454,10 @@ fn read_line(
     }
     let mut words = words(line);
     let Some(kind) = words.next() else { return Ok(None) };
+    let mut with_comma = words.clone().filter(|word| memchr::memchr(b',', word).is_some());
     match kind {
         b"v" => match position(words, read) {
-            Ok(None) => {}
+            Ok(None) => return Ok(with_comma.next().map(comma)),
             Ok(Some(word)) => {
                 let (what, why) = ("the faces that use it are left out", not_finite(&word));
                 return Ok(Some(format!("{why}; {what}")));
@@ -467,6 +475,7 @@ fn read_line(
             if let (false, Some(word)) = (uv.is_finite(), values.not_finite) {
                 return Ok(Some(format!("{}; it is taken as 0 0", not_finite(&word))));
             }
+            return Ok(with_comma.next().map(comma));
         }
         b"vn" => {
             let values = numbers::<3>(words, 3)
@@ -476,15 +485,16 @@ fn read_line(
                 let what = "the normal of the face takes its place";
                 return Ok(Some(format!("{}; {what}", not_finite(&word))));
             }
+            return Ok(with_comma.next().map(comma));
         }
         b"f" | b"fo" => return face(words, number, read, state),
         b"o" => {
-            state.object = rest(line, kind);
-            state.group.clear();
+            state.object = text::name(&rest(line, kind)).into();
+            state.group = Arc::default();
             state.is_new = true;
         }
         b"g" => {
-            state.group = rest(line, kind);
+            state.group = text::name(&rest(line, kind)).into();
             state.is_new = true;
         }
         b"s" => {
@@ -494,7 +504,7 @@ fn read_line(
             state.smoothing = if is_off { 0 } else { index(word).map_or(1, |group| group as u32) };
         }
         b"usemtl" => {
-            let name = rest(line, kind);
+            let name: Arc<str> = text::name(&rest(line, kind)).into();
             if state.material.as_ref().map(|(name, _)| name) != Some(&name) {
                 state.material = Some((name, number));
                 state.is_new = true;
@@ -507,7 +517,12 @@ fn read_line(
             }
         }
         _ => {
-            let word = String::from_utf8_lossy(kind);
+            let word = String::from_utf8_lossy(kind).to_ascii_lowercase();
+            // Some programs write capitals.
+            if READ.contains(&&*word) {
+                let line = [word.as_bytes(), &line[kind.len()..]].concat();
+                return read_line(&line, number, read, state);
+            }
             if let Some((_, key)) = NOT_DRAWN.iter().find(|(name, _)| *name == word) {
                 *read.not_drawn.entry((*key).to_owned()).or_default() += 1;
             } else if !WITHOUT_EFFECT.contains(&&*word) {
@@ -568,6 +583,11 @@ struct Values<const N: usize> {
 
 fn not_finite(word: &str) -> String {
     format!("'{word}' is not a finite number")
+}
+
+/// What is said of a number with a comma, which [`text::number`] reads.
+fn comma(word: &[u8]) -> String {
+    format!("the comma of '{}' is taken as a decimal point", short(word))
 }
 
 /// At least `least` numbers.
@@ -648,18 +668,16 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
         if part.is_empty() && kind > 0 {
             continue;
         }
-        let missing = || {
-            format!(
-                "'{}' names what is not there: indices begin at 1, or at -1 from the end",
-                short(word)
-            )
-        };
         let (digits, is_back) = match part.split_first() {
             Some((b'-', digits)) => (digits, true),
             Some((b'+', digits)) => (digits, false),
             _ => (part, false),
         };
-        let all_digits = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
+        // Some programs write all numbers with a fraction.
+        let point = digits.iter().position(|&byte| byte == b'.').unwrap_or(digits.len());
+        let (digits, fraction) = digits.split_at(point);
+        let is_whole = fraction.iter().skip(1).all(|&byte| byte == b'0');
+        let all_digits = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) && is_whole;
         if !all_digits {
             return Err(format!("'{}' is not a corner of a face", short(word)));
         }
@@ -670,21 +688,19 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
             let is_there = value < ABSENT as usize && (!is_back || value < counts[kind]);
             is_there.then_some(value as u32)
         });
-        corner[kind] = match value {
-            Some(value) => value,
-            None if kind == 0 => return Err(missing()),
-            None => ABSENT,
-        };
+        corner[kind] = value.unwrap_or(ABSENT);
     }
     Ok(corner)
 }
 
-/// Looks whether what faces name is there, and takes away texture coordinates and normals that are not. Faces may come before what they
-/// name, so this is done at the end.
+/// Looks whether what faces name is there. Takes away texture coordinates and normals that are not, and faces without all of their
+/// positions. Faces may come before what they name, so this is done at the end.
 fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Result<(), BadFile> {
     let counts = [lines.positions.len(), lines.uvs.len(), lines.normals.len()];
     // Vectors that faces are drawn without, by kind and index.
     let mut used: HashSet<(usize, u32)> = HashSet::new();
+    // Why the first face is left out, if one is.
+    let mut refusal = None;
     for run in &mut lines.runs {
         let largest = |numbers: &[u32]| {
             numbers.iter().map(|&number| number.wrapping_add(1)).max().unwrap_or(0) as usize
@@ -701,17 +717,18 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
         if are_there && lines.broken.is_empty() {
             continue;
         }
+        // Faces in ascending order.
+        let mut left_out = Vec::new();
         for number in 0..run.polygons.len() {
             let line = run.polygons.line(number) as usize;
             let corners = run.polygons.corners(number);
             for kind in 0..KINDS.len() {
-                let mut indices = corners.clone().map(|corner| run.corner(corner)[kind]);
-                let wrong = indices.find(|&index| {
-                    index != NONE
-                        && (index as usize >= counts[kind]
-                            || lines.broken.contains_key(&(kind, index)))
-                });
-                let Some(index) = wrong else { continue };
+                let is_wrong = |index: u32| {
+                    let is_broken = || lines.broken.contains_key(&(kind, index));
+                    index != NONE && (index as usize >= counts[kind] || is_broken())
+                };
+                let indices = corners.clone().map(|corner| run.corner(corner)[kind]);
+                let Some(index) = indices.clone().find(|&index| is_wrong(index)) else { continue };
                 let (name, count) = (KINDS[kind], counts[kind]);
                 let broken = lines.broken.get(&(kind, index));
                 let cause = match index {
@@ -722,16 +739,21 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
                     }
                 };
                 if kind == 0 {
-                    return Err(match broken {
-                        Some((line, cause)) => refused(path, *line, cause),
-                        None => refused(path, line, &cause),
-                    });
+                    let of_line = |(line, cause): &(usize, String)| (*line, cause.clone());
+                    refusal.get_or_insert_with(|| broken.map_or((line, cause.clone()), of_line));
                 }
                 let cause =
                     broken.map_or(cause, |_| format!("the {name} of the face cannot be read"));
-                let text = format!("{cause}; the face is drawn without {name}s of the file");
+                let text = match kind {
+                    0 => format!("{cause}; the face is left out"),
+                    _ => format!("{cause}; the face is drawn without {name}s of the file"),
+                };
                 warnings.add(path, Some(line), &format!("faces without their {name}s"), &text);
-                used.extend(corners.clone().map(|corner| (kind, run.corner(corner)[kind])));
+                used.extend(indices.map(|index| (kind, index)));
+                if kind == 0 {
+                    left_out.push(number);
+                    break;
+                }
                 let numbers = if kind == 1 { &mut run.uvs } else { &mut run.normals };
                 if *numbers == Numbers::OfPositions {
                     *numbers = Numbers::OfCorners(run.corners.clone());
@@ -741,11 +763,24 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
                 }
             }
         }
+        if left_out.is_empty() {
+            continue;
+        }
+        *lines.not_drawn.entry(WITHOUT_POSITION.to_owned()).or_default() += left_out.len() as u64;
+        let Run { corners, uvs, normals, polygons, .. } = run;
+        let is_kept = |number: usize, _: &[u32]| left_out.binary_search(&number).is_err();
+        retain(polygons, corners, [uvs, normals], is_kept);
     }
-    for (place, (line, cause)) in &lines.broken {
-        let what = match used.contains(place) {
-            true => "the faces that use it are drawn without it",
-            false => "no face uses it",
+    if let Some((line, cause)) = refusal
+        && lines.runs.iter().all(|run| run.polygons.len() == 0)
+    {
+        return Err(refused(path, line, &cause));
+    }
+    for (place @ (kind, _), (line, cause)) in &lines.broken {
+        let what = match (used.contains(place), kind) {
+            (true, 0) => "the faces that use it are left out",
+            (true, _) => "the faces that use it are drawn without it",
+            (false, _) => "no face uses it",
         };
         warnings.add(path, Some(*line), "lines", &format!("{cause}; {what}"));
     }

@@ -21,11 +21,15 @@ use crate::{BadFile, Warnings, bad, outside};
 
 /// Whether these bytes begin as a PLY.
 pub(crate) fn is_ply(bytes: &[u8]) -> bool {
-    without_mark(bytes).strip_prefix(b"ply").is_some_and(|rest| {
-        rest.trim_ascii_start().len() < rest.len() && rest.trim_ascii_start().starts_with(b"format")
-            || rest.starts_with(b"\n")
-            || rest.starts_with(b"\r")
-    })
+    let is = |bytes: &[u8], word: &[u8]| bytes.eq_ignore_ascii_case(word);
+    without_mark(bytes).split_at_checked(3).filter(|(ply, _)| is(ply, b"ply")).is_some_and(
+        |(_, rest)| {
+            let next = rest.trim_ascii_start();
+            next.len() < rest.len() && next.get(..6).is_some_and(|word| is(word, b"format"))
+                || rest.starts_with(b"\n")
+                || rest.starts_with(b"\r")
+        },
+    )
 }
 
 /// The type of a number, which decides how many bytes it has in a binary file.
@@ -37,6 +41,8 @@ enum Kind {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
 }
@@ -50,6 +56,9 @@ impl Kind {
             "ushort" | "uint16" => Self::U16,
             "int" | "int32" => Self::I32,
             "uint" | "uint32" => Self::U32,
+            // These are not in the format; Open3D and others write them.
+            "long" | "int64" => Self::I64,
+            "ulong" | "uint64" => Self::U64,
             "float" | "float32" => Self::F32,
             "double" | "float64" => Self::F64,
             _ => return None,
@@ -61,7 +70,7 @@ impl Kind {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
             Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
+            Self::I64 | Self::U64 | Self::F64 => 8,
         }
     }
 
@@ -71,6 +80,7 @@ impl Kind {
             Self::I8 | Self::U8 => 255.0,
             Self::I16 | Self::U16 => 65535.0,
             Self::I32 | Self::U32 => f64::from(u32::MAX),
+            Self::I64 | Self::U64 => u64::MAX as f64,
             Self::F32 | Self::F64 => 1.0,
         }
     }
@@ -92,6 +102,8 @@ impl Kind {
             Self::U16 => f64::from(u16::from_le_bytes(word(bytes, is_big))),
             Self::I32 => f64::from(i32::from_le_bytes(word(bytes, is_big))),
             Self::U32 => f64::from(u32::from_le_bytes(word(bytes, is_big))),
+            Self::I64 => i64::from_le_bytes(word(bytes, is_big)) as f64,
+            Self::U64 => u64::from_le_bytes(word(bytes, is_big)) as f64,
             Self::F32 => f64::from(f32::from_le_bytes(word(bytes, is_big))),
             Self::F64 => f64::from_le_bytes(word(bytes, is_big)),
         }
@@ -132,12 +144,15 @@ struct Header {
 struct Body {
     file: Ahead,
     form: Form,
-    newline: u8,
+    /// Whether lines of the header end with a carriage return alone: a line feed after one belongs to the data.
+    is_old: bool,
     /// The line of text, from 1, and where what is left of it is.
     line: usize,
     words: Range<usize>,
     /// Lines of text with more numbers than the header says.
     long: u64,
+    /// The first line with a decimal comma.
+    comma: Option<usize>,
 }
 
 impl Body {
@@ -145,8 +160,9 @@ impl Body {
     fn next_line(&mut self) -> Option<Range<usize>> {
         let start = self.file.at;
         let rest = Some(self.file.left()).filter(|rest| !rest.is_empty())?;
-        let end = memchr::memchr(self.newline, rest).unwrap_or(rest.len());
-        self.file.at += (end + 1).min(rest.len());
+        let end = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let is_two = !self.is_old && rest[end..].starts_with(b"\r\n");
+        self.file.at += (end + 1 + usize::from(is_two)).min(rest.len());
         self.line += 1;
         Some(start..start + end)
     }
@@ -190,6 +206,9 @@ impl Body {
             let number = word.iter().fold(0, |sum, byte| 10 * sum + u32::from(byte - b'0'));
             return Ok(f64::from(number));
         }
+        if word.contains(&b',') {
+            self.comma.get_or_insert(self.line);
+        }
         number(word).ok_or_else(|| {
             let word = printable_short(&String::from_utf8_lossy(word), 40);
             format!("'{word}' is not a number")
@@ -215,13 +234,16 @@ fn header(body: &mut Body) -> Result<Header, String> {
     loop {
         let line = body.next_line().ok_or("the file ends inside its header")?;
         let line = String::from_utf8_lossy(&body.file.bytes[line]).into_owned();
-        let words: Vec<&str> = line.split_whitespace().collect();
+        // Some programs write capitals.
+        let lower = line.to_ascii_lowercase();
+        let words: Vec<&str> = lower.split_whitespace().collect();
         let shown = printable_short(line.trim(), 60);
         let wrong = || format!("'{shown}' is no line of a header");
+        let as_written = |at| line.split_whitespace().nth(at).unwrap_or_default().to_owned();
         match words[..] {
             [] | ["ply" | "obj_info", ..] => {}
-            ["comment", "TextureFile", ..] => {
-                let name = line.split_once("TextureFile").map_or("", |(_, name)| name);
+            ["comment", "texturefile", ..] => {
+                let name = lower.find("texturefile").map_or("", |at| &line[at + 11..]);
                 header.textures.push(name.trim().to_owned());
             }
             ["comment", ..] => {}
@@ -234,21 +256,21 @@ fn header(body: &mut Body) -> Result<Header, String> {
                 };
                 is_known = true;
             }
-            ["element", name, count] => {
+            ["element", _, count] => {
                 let count = count.parse().map_err(|_| wrong())?;
-                let (name, properties) = (name.to_owned(), Vec::new());
+                let (name, properties) = (as_written(1), Vec::new());
                 header.elements.push(Element { name, count, properties });
             }
-            ["property", "list", length, kind, name] => {
+            ["property", "list", length, kind, _] => {
                 let element = header.elements.last_mut().ok_or_else(wrong)?;
                 let (length, kind) = Kind::of(length).zip(Kind::of(kind)).ok_or_else(wrong)?;
-                let (name, length) = (name.to_owned(), Some(length));
+                let (name, length) = (as_written(4), Some(length));
                 element.properties.push(Property { name, kind, length });
             }
-            ["property", kind, name] => {
+            ["property", kind, _] => {
                 let element = header.elements.last_mut().ok_or_else(wrong)?;
-                let kind = Kind::of(kind).ok_or_else(wrong)?;
-                element.properties.push(Property { name: name.to_owned(), kind, length: None });
+                let (kind, name) = (Kind::of(kind).ok_or_else(wrong)?, as_written(2));
+                element.properties.push(Property { name, kind, length: None });
             }
             ["end_header"] if is_known => return Ok(header),
             ["end_header"] => return Err("the header names no format".to_owned()),
@@ -287,17 +309,18 @@ type Wrong = (u64, String);
 /// Reads the text or the bytes of a PLY.
 pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
     let unread = |error: FileError| bad(path, None, error.cause);
-    let ends = |line_break| memchr::memmem::find(&file.bytes, line_break).is_some();
+    // With both bytes of a line break.
+    let is_whole = |at: usize| at + b"\nend_header\r\n".len() <= file.bytes.len();
+    let ends = |end| memchr::memmem::find(&file.bytes, end).is_some_and(is_whole);
     if !ends(b"\nend_header") && !ends(b"\rend_header") {
         file.read_all().map_err(unread)?;
     }
     file.at = file.bytes.len() - without_mark(&file.bytes).len();
-    let newline = match file.left().iter().find(|byte| matches!(byte, b'\n' | b'\r')) {
-        // Two bytes end a line of some systems.
-        Some(b'\r') if !file.left().starts_with(b"ply\r\n") => b'\r',
-        _ => b'\n',
-    };
-    let mut body = Body { file, form: Form::Text, newline, line: 0, words: 0..0, long: 0 };
+    let line_break = file.left().iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+    let line_break = &file.left()[line_break.unwrap_or(0)..];
+    let is_old = line_break.starts_with(b"\r") && !line_break.starts_with(b"\r\n");
+    let mut body =
+        Body { file, form: Form::Text, is_old, line: 0, words: 0..0, long: 0, comma: None };
     let failed = |body: &Body, cause: &str| {
         let (line, cause) = match body.form {
             Form::Text => (Some(body.line), cause.to_owned()),
@@ -314,14 +337,13 @@ pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
     let mut contents = Contents::default();
     let mut part = FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() };
     for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
-        let result = match element.name.as_str() {
+        let result = match element.name.to_ascii_lowercase().as_str() {
             "vertex" => vertices(&mut body, element, &mut part, &mut contents),
             "face" => faces(&mut body, element, &mut part, &mut contents),
             "tristrips" => strips(&mut body, element, &mut part),
-            name => {
-                let edge = name == "edge";
-                let key =
-                    if edge { name } else { &format!("element {}", printable_short(name, 40)) };
+            lower => {
+                let other = || format!("element {}", printable_short(&element.name, 40));
+                let key = if lower == "edge" { lower } else { &other() };
                 add(&mut contents, key, element.count);
                 (0..element.count).try_for_each(|number| {
                     body.next_element().map_err(|cause| (number, cause))?;
@@ -349,6 +371,10 @@ pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
     if body.long > 0 {
         let what = "lines have more numbers than the header says; the rest of them is left out";
         warnings.add(path, None, "lines", &format!("{} {what}", body.long));
+    }
+    if let Some(line) = body.comma {
+        let text = "from this line on, a comma in a number is taken as a decimal point";
+        warnings.add(path, Some(line), "commas", text);
     }
     check(path, &part)?;
     if part.normals.len() == part.positions.len() {
@@ -393,7 +419,8 @@ fn vertices(
     contents: &mut Contents,
 ) -> Result<(), Wrong> {
     let place = |property: &Property| {
-        let is_named = |names: &&[&str]| names.contains(&property.name.as_str());
+        let is = |name: &&str| property.name.eq_ignore_ascii_case(name);
+        let is_named = |names: &&[&str]| names.iter().any(is);
         VERTEX.iter().position(|names| property.length.is_none() && is_named(names))
     };
     let places: Vec<Option<usize>> = element.properties.iter().map(place).collect();
@@ -534,7 +561,7 @@ fn channels(element: &Element) -> Option<[&Property; 3]> {
 /// The list of a face that names its vertices.
 fn is_corners(property: &Property) -> bool {
     let names = ["vertex_indices", "vertex_index", "vertex_indexes"];
-    property.length.is_some() && names.contains(&property.name.as_str())
+    property.length.is_some() && names.iter().any(|name| property.name.eq_ignore_ascii_case(name))
 }
 
 fn faces(
@@ -547,7 +574,9 @@ fn faces(
         return Err((0, "the header gives faces no list 'vertex_indices'".to_owned()));
     }
     // Texture coordinates of the corners, as MeshLab writes them.
-    let is_uvs = |property: &Property| property.length.is_some() && property.name == "texcoord";
+    let is_uvs = |property: &Property| {
+        property.length.is_some() && property.name.eq_ignore_ascii_case("texcoord")
+    };
     let has_uvs = element.properties.iter().any(is_uvs);
     // The colours of vertices are finer.
     let channels = if part.colours.is_empty() { channels(element) } else { None };

@@ -4,6 +4,7 @@
 //! those of the triangles, or wrong.
 
 use std::hash::BuildHasher as _;
+use std::iter::Peekable;
 use std::path::Path;
 
 use foldhash::fast::RandomState;
@@ -266,69 +267,84 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
     let (mut open, mut is_open) = (None, false);
     while let Some(line) = text.next_line().map_err(unread)? {
         number += 1;
-        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        let Some(mut kind) = words.next() else { continue };
-        let is_two = kind.eq_ignore_ascii_case(b"end");
-        if is_two && let Some(next) = words.next() {
-            kind = next;
-        }
-        let is = |name: &str| match name.strip_prefix("end") {
-            Some(name) if is_two => kind.eq_ignore_ascii_case(name.as_bytes()),
-            _ => !is_two && kind.eq_ignore_ascii_case(name.as_bytes()),
-        };
         let mut wrong = None;
-        if is("vertex") {
-            let mut next = || crate::text::number(words.next()?);
-            match (next(), next(), next(), words.next()) {
-                (Some(_), Some(_), Some(_), None) if points.len() == 3 => {
-                    wrong = Some("a facet has more than three vertices: export the model as OBJ, which has polygons".to_owned());
+        let words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let mut words = words.peekable();
+        // Most lines have one statement, and some files one line.
+        while let (Some(mut kind), None) = (words.next(), &wrong) {
+            let is_two = kind.eq_ignore_ascii_case(b"end");
+            if is_two && let Some(next) = words.next() {
+                kind = next;
+            }
+            let is = |name: &str| match name.strip_prefix("end") {
+                Some(name) if is_two => kind.eq_ignore_ascii_case(name.as_bytes()),
+                _ => !is_two && kind.eq_ignore_ascii_case(name.as_bytes()),
+            };
+            if is("vertex") {
+                let numbers = [(); 3].map(|()| words.next().unwrap_or_default());
+                let is_last = words.peek().is_none_or(|word| begins(word));
+                match numbers.map(crate::text::number) {
+                    [Some(_), Some(_), Some(_)] if is_last && points.len() == 3 => {
+                        wrong = Some("a facet has more than three vertices: export the model as OBJ, which has polygons".to_owned());
+                    }
+                    [Some(x), Some(y), Some(z)] if is_last => points.push([x, y, z]),
+                    _ => {
+                        wrong = Some(format!(
+                            "'{}' is not 'vertex X Y Z' with three numbers: repair the line",
+                            shown(line)
+                        ));
+                    }
                 }
-                (Some(x), Some(y), Some(z), None) => points.push([x, y, z]),
-                _ => {
+                if let (None, Some(word)) =
+                    (&wrong, numbers.iter().find(|word| word.contains(&b',')))
+                {
+                    let text =
+                        format!("the comma of '{}' is taken as a decimal point", shown(word));
+                    warnings.add(path, Some(number), "lines", &text);
+                }
+            } else if is("facet") && points.is_empty() {
+                open = Some(number);
+            } else if is("facet") || is("endfacet") {
+                if points.len() != 3 {
                     wrong = Some(format!(
-                        "'{}' is not 'vertex X Y Z' with three numbers: repair the line",
-                        shown(line)
-                    ))
+                        "a facet ends with {} vertices instead of 3: export the model again",
+                        points.len()
+                    ));
                 }
-            }
-        } else if is("facet") && points.is_empty() {
-            open = Some(number);
-        } else if is("facet") || is("endfacet") {
-            if points.len() != 3 {
-                wrong = Some(format!(
-                    "a facet ends with {} vertices instead of 3: export the model again",
-                    points.len()
-                ));
-            }
-            if parts.is_empty() {
-                parts.push(FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() });
-            }
-            if let (None, Some(part)) = (&wrong, parts.last_mut()) {
-                if shares.last().is_none_or(|share| share.numbers.len() >= 3 * TEXT_SHARE) {
-                    shares.push(Corners::with_capacity(0));
+                if parts.is_empty() {
+                    parts.push(FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() });
                 }
-                if let Some(share) = shares.last_mut() {
-                    points.drain(..).for_each(|point| share.push(point));
+                if let (None, Some(part)) = (&wrong, parts.last_mut()) {
+                    if shares.last().is_none_or(|share| share.numbers.len() >= 3 * TEXT_SHARE) {
+                        shares.push(Corners::with_capacity(0));
+                    }
+                    if let Some(share) = shares.last_mut() {
+                        points.drain(..).for_each(|point| share.push(point));
+                    }
+                    part.polygons.push(3, open.unwrap_or(number) as u32, 0);
+                    triangles += 1;
+                    // Where no `endfacet` is before it.
+                    open = is("facet").then_some(number);
                 }
-                part.polygons.push(3, open.unwrap_or(number) as u32, 0);
-                triangles += 1;
-                // Where no `endfacet` is before it.
-                open = is("facet").then_some(number);
+            } else if is("solid") {
+                end(parts.last_mut(), &mut shares);
+                let name = name(&mut words, &["facet", "endsolid"]);
+                // A line is six bytes, and a part hundreds.
+                if parts.last().is_some_and(|part| part.polygons.len() == 0) {
+                    parts.pop();
+                }
+                parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
+                is_open = true;
+            } else if is("endsolid") {
+                is_open = false;
+                name(&mut words, &["solid"]);
+            } else if !(is("outer") || is("endloop")) {
+                let text = format!("'{}' is no line of an STL; the line is left out", shown(line));
+                warnings.add(path, Some(number), "lines", &text);
+                break;
             }
-        } else if is("solid") {
-            end(parts.last_mut(), &mut shares);
-            let name = words.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ");
-            // A line is six bytes, and a part hundreds.
-            if parts.last().is_some_and(|part| part.polygons.len() == 0) {
-                parts.pop();
-            }
-            parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
-            is_open = true;
-        } else if is("endsolid") {
-            is_open = false;
-        } else if !(is("outer") || is("endloop")) {
-            let text = format!("'{}' is no line of an STL; the line is left out", shown(line));
-            warnings.add(path, Some(number), "lines", &text);
+            // Normals, and what is no statement.
+            while words.next_if(|word| !begins(word)).is_some() {}
         }
         let Some(cause) = wrong else { continue };
         // The last line of a file that was cut off may be a part of one.
@@ -355,6 +371,29 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
         contents.add(part).map_err(|cause| bad(path, None, cause))?;
     }
     Ok(contents)
+}
+
+/// Words that begin a statement.
+const STATEMENTS: [&str; 8] =
+    ["vertex", "facet", "endfacet", "endloop", "outer", "solid", "endsolid", "end"];
+
+/// Whether a word begins a statement.
+fn begins(word: &[u8]) -> bool {
+    STATEMENTS.iter().any(|known| word.eq_ignore_ascii_case(known.as_bytes()))
+}
+
+/// The name of a solid: what is left of a line, up to a word that begins the next statement where a facet is in the same line.
+fn name<'a>(words: &mut Peekable<impl Iterator<Item = &'a [u8]> + Clone>, next: &[&str]) -> String {
+    let is = |word: &[u8], known: &str| word.eq_ignore_ascii_case(known.as_bytes());
+    let pairs = words.clone().zip(words.clone().skip(1));
+    let has_facet = { pairs }.any(|(word, after)| is(word, "facet") && is(after, "normal"));
+    let mut name = Vec::new();
+    while let Some(word) =
+        words.next_if(|word| !has_facet || !next.iter().any(|next| is(word, next)))
+    {
+        name.push(String::from_utf8_lossy(word));
+    }
+    crate::text::name(&name.join(" ")).to_owned()
 }
 
 fn shown(line: &[u8]) -> String {

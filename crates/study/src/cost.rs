@@ -13,8 +13,8 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Span, check_value};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Board, Finish, Ladder, Options, Pass, Race, Spread, Variant, measure_on, race, time, variants,
-    wrong_pixels, wrong_values,
+    Board, Finish, Ladder, Options, Pass, Race, Spread, Timing, Variant, measure_on, race, time,
+    variants, wrong_pixels, wrong_values,
 };
 use rasterproof_precision::ladder::snap;
 use rasterproof_registry::engines::Drawer;
@@ -508,7 +508,8 @@ fn set_times(
     effort: Effort,
     (rounds, race): (usize, Duration),
 ) {
-    let spreads = time(passes, rounds, true, &|_| ());
+    let slice = if effort == Effort::Once { Duration::ZERO } else { Timing::QUICK.slice };
+    let spreads = time(passes, Timing { rounds, slice }, &|_| ());
     for (&number, spread) in timed.iter().zip(spreads) {
         group.choices[number].time = Some(spread);
     }
@@ -567,7 +568,12 @@ fn ladder(
 ) -> Option<Group> {
     let is_judged = |piece: &&Piece| ladder != Ladder::Interpolation || has_values(piece);
     let class = class(sample.of(pieces).filter(is_judged), window);
-    let options = Options { seed: 0, quick: effort != Effort::Usual, timed: true };
+    let timing = match effort {
+        Effort::Usual => Timing::USUAL,
+        Effort::Quick => Timing::QUICK,
+        Effort::Once => Timing::ONCE,
+    };
+    let options = Options { seed: 0, quick: effort != Effort::Usual, timing: Some(timing) };
     let measures: &[Measure] = match ladder {
         Ladder::Interpolation => &[Measure {
             title: "worst error over the largest value; up to half a step of 8 bits is good",

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 use rasterproof_core::frame::Frame;
 use rasterproof_models::Origin;
-use rasterproof_precision::cost::{Pass, Spread, time};
+use rasterproof_precision::cost::{Pass, Spread, Timing, time};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -127,7 +127,8 @@ pub fn survey(
     drawer.render(scene, &Effects::PLANNED, target)?;
     let all = start.elapsed().as_secs_f64() * (needs.len() + 1) as f64;
     let rounds = ((budget.as_secs_f64() / all.max(1e-6)) as usize).clamp(2, 31);
-    let planned = set_times(scene, &mut needs, target, rounds);
+    let timing = if budget.is_zero() { Timing::ONCE } else { Timing { rounds, ..Timing::QUICK } };
+    let planned = set_times(scene, &mut needs, target, timing);
     let mut found = Needs { needs, planned, textures: Vec::new(), antialiasing: Vec::new() };
     found.textures = textures(scene, &names, pieces, seen);
     if found.textures.iter().any(|texture| texture.texels > FINE) {
@@ -172,7 +173,7 @@ pub(crate) fn differing<'a>(
 }
 
 /// Times the planned frame, and those in which one effect is switched over.
-fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, rounds: usize) -> Spread {
+fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, timing: Timing) -> Spread {
     let mut all = vec![Effects::PLANNED];
     for need in &*needs {
         let mode = if need.is_called_for { Mode::Never } else { Mode::Always };
@@ -188,7 +189,7 @@ fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, rounds: usi
         Pass { column: 0, run }
     });
     let mut passes: Vec<Pass<'_>> = passes.collect();
-    let spreads = time(&mut passes, rounds, true, &|_| ());
+    let spreads = time(&mut passes, timing, &|_| ());
     for (need, spread) in needs.iter_mut().zip(&spreads[1..]) {
         need.otherwise = *spread;
     }

@@ -7,6 +7,7 @@ use rasterproof_core::parallel;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::clip::{clip, outcode};
 use rasterproof_render::pipeline::opacity::AlphaMode;
+use rasterproof_render::pipeline::shadow::LightView;
 use rasterproof_render::scene::{Item, Scene};
 
 /// What all commands that draw a scene have to do, hidden or not.
@@ -35,6 +36,20 @@ impl Work {
             let opacity = item.material.opacity.as_ref();
             let blends = opacity.is_some_and(|opacity| opacity.mode == AlphaMode::Blend);
             all = all.with(Self { blended: if blends { of_item.samples } else { 0 }, ..of_item });
+        }
+        all
+    }
+
+    /// That of the shadow map of a scene, in its texels; nothing where there is none.
+    #[must_use]
+    pub fn of_map(scene: &Scene) -> Self {
+        let Some(view) = LightView::new(scene) else { return Self::default() };
+        let mut all = Self::default();
+        for (number, item) in scene.items.iter().enumerate() {
+            for triangle in item.mesh.triangles.positions() {
+                let places = triangle.map_array(|position| view.place(number, position));
+                all = all.with(of_corners(places.map_array(|place| [place.x, place.y])));
+            }
         }
         all
     }

@@ -329,15 +329,23 @@ pub(super) fn resource(folder: &Path, uri: &str, limit_bytes: u64) -> Result<Vec
         let Some((head, data)) = data.split_once(',') else {
             return Err("a 'data:' address without a comma".to_owned());
         };
-        if !head.to_ascii_lowercase().ends_with(";base64") {
-            return Ok(unescaped(data));
+        let data = unescaped(data);
+        // It is the last parameter, but not for all programs.
+        if !head.split(';').skip(1).any(|word| word.trim().eq_ignore_ascii_case("base64")) {
+            return Ok(data);
         }
         let config = GeneralPurposeConfig::new()
             .with_decode_padding_mode(DecodePaddingMode::Indifferent)
             .with_decode_allow_trailing_bits(true);
         let engine = GeneralPurpose::new(&base64::alphabet::STANDARD, config);
-        // Some programs break the lines.
-        let data: Vec<u8> = data.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
+        // Some programs break the lines, and some write the alphabet of addresses.
+        let usual = |byte| match byte {
+            b'-' => b'+',
+            b'_' => b'/',
+            _ => byte,
+        };
+        let data = data.into_iter().filter(|byte| !byte.is_ascii_whitespace()).map(usual);
+        let data: Vec<u8> = data.collect();
         return engine.decode(data).map_err(|error| format!("is not base64: {error}"));
     }
     let shown = printable_short(uri, 60);
@@ -359,7 +367,9 @@ fn data_of(uri: &str) -> Option<&str> {
 /// The file that a URI names.
 fn file_of(folder: &Path, uri: &str) -> Option<PathBuf> {
     let plain = String::from_utf8_lossy(&unescaped(uri)).into_owned();
-    find(folder, &plain).or_else(|| find(folder, uri))
+    // What follows these signs is for servers.
+    let name = plain.split(['?', '#']).next().unwrap_or_default();
+    find(folder, &plain).or_else(|| find(folder, uri)).or_else(|| find(folder, name))
 }
 
 /// Whether a URI names a file outside the folder of the model, so that no message may quote it.

@@ -14,6 +14,30 @@ fn or_default<'de, D: Deserializer<'de>, T: Deserialize<'de> + Default>(
     Ok(Option::deserialize(from)?.unwrap_or_default())
 }
 
+/// Reads a document. Some programs write whole numbers with a fraction, as `3.0`, which JavaScript does not tell from `3`.
+pub(super) fn read(json: &[u8]) -> Result<Root, serde_json::Error> {
+    serde_json::from_slice(json).or_else(|error| {
+        let document = serde_json::from_slice(json).map(whole_numbers);
+        document.and_then(serde_json::from_value).map_err(|_| error)
+    })
+}
+
+/// The same value with whole numbers where a fraction is 0.
+fn whole_numbers(value: Value) -> Value {
+    match value {
+        Value::Number(number) => {
+            let whole = number.as_f64().filter(|of| of.fract() == 0.0 && of.abs() < 1e15);
+            // Others are whole already.
+            whole.filter(|_| number.is_f64()).map_or(number.into(), |of| (of as i64).into())
+        }
+        Value::Array(values) => values.into_iter().map(whole_numbers).collect(),
+        Value::Object(members) => {
+            members.into_iter().map(|(name, value)| (name, whole_numbers(value))).collect()
+        }
+        other => other,
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Root {
@@ -56,7 +80,7 @@ pub(super) struct Root {
 #[derive(Deserialize)]
 struct Asset {
     #[serde(rename = "version")]
-    _version: String,
+    _version: IgnoredAny,
 }
 
 #[derive(Deserialize)]

@@ -19,6 +19,7 @@ use super::document::{
 use crate::Warnings;
 use crate::contents::{Sides, Surface};
 use crate::outside;
+use crate::text;
 use crate::textures::{Decoded, Pictures};
 
 /// A surface, and where its texture finds its coordinates.
@@ -134,7 +135,8 @@ pub(super) fn describe(
         _ => None,
     };
     let numbered = || number.map_or(String::new(), |number| format!("materials[{number}]"));
-    let name = material.name.clone().unwrap_or_else(numbered);
+    let name = material.name.as_deref().map(|name| text::name(name).to_owned());
+    let name = name.unwrap_or_else(numbered);
     let decoded = info.and_then(|info| {
         let read = texture(data, info, images);
         match read {

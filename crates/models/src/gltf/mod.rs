@@ -22,11 +22,11 @@ use rasterproof_render::pipeline::physical::Map;
 
 use crate::cameras::{Camera, Lens};
 use crate::contents::{Contents, FilePart, Numbers, Polygons};
-use crate::text::without_mark;
+use crate::text::{self, without_mark};
 use crate::{BadFile, Warnings, bad};
 use data::Data;
 use document::{
-    Instances, LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, Root, TRIANGLE_FAN,
+    Instances, LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
     TRIANGLE_STRIP, TRIANGLES,
 };
 pub(crate) use materials::encoded;
@@ -94,7 +94,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         Ok(None) => Cow::Borrowed(json),
         Err(cause) => return Err(failed(cause)),
     };
-    let root: Root = serde_json::from_slice(&json).map_err(|error| {
+    let root = document::read(&json).map_err(|error| {
         let line = (!is_glb(bytes)).then(|| error.line()).filter(|&line| line > 0);
         let cause = format!("is no glTF that can be read: {error}");
         bad(path, line, cause)
@@ -117,6 +117,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         described: HashMap::new(),
         json_bytes: json.len() as u64,
         corners: 0,
+        left_bytes: 0,
     };
     if let Some(odd) = odd {
         reader.warn("lengths", &odd);
@@ -202,6 +203,8 @@ struct Reader<'a> {
     json_bytes: u64,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
+    /// What the triangles that are compressed may take in all.
+    left_bytes: u64,
 }
 
 impl Reader<'_> {
@@ -247,7 +250,7 @@ impl Reader<'_> {
             visits.push((number, world));
             open.extend(node.children.iter().rev().map(|&child| (child, world, depth + 1)));
         }
-        self.refuse_too_many_copies(visits.iter().map(|(number, _)| *number))?;
+        self.left_bytes = self.refuse_too_many_copies(visits.iter().map(|(number, _)| *number))?;
         for (number, world) in visits {
             let node = &root.nodes[number];
             self.camera(number, node, world);
@@ -285,7 +288,8 @@ impl Reader<'_> {
             self.warn("cameras", &format!("nodes[{number}]: cameras[{at}] is none of glTF"));
             return;
         };
-        let name = node.name.as_ref().or(camera.name.as_ref()).cloned().unwrap_or_default();
+        let name = node.name.as_deref().or(camera.name.as_deref());
+        let name = text::name(name.unwrap_or_default()).to_owned();
         let (eye, ahead, up) = (DVec3::ZERO, DVec3::NEG_Z, DVec3::Y);
         let mut camera = Camera { name, eye, ahead, up, lens, near, far };
         camera.place(world);
@@ -323,8 +327,8 @@ impl Reader<'_> {
         of_copies.map(|(_, &accessor)| self.data.count(accessor)).min()
     }
 
-    /// Refuses what the nodes show before it is built, where it takes far more than the file.
-    fn refuse_too_many_copies(&self, visits: impl Iterator<Item = usize>) -> Result<(), String> {
+    /// Refuses what the nodes show before it is built, where it takes far more than the file; the bytes that are left.
+    fn refuse_too_many_copies(&self, visits: impl Iterator<Item = usize>) -> Result<u64, String> {
         let root = &self.data.root;
         let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|one| self.bytes(one)).sum::<u64>();
         let of_meshes: Vec<u64> = root.meshes.iter().map(of_mesh).collect();
@@ -345,7 +349,7 @@ impl Reader<'_> {
         let per_byte = limits::MODEL_CONTENTS_BYTES_PER_BYTE.saturating_mul(length);
         let most = limits::MODEL_CONTENTS_BYTES.max(per_byte);
         if bytes <= most {
-            return Ok(());
+            return Ok(most - bytes);
         }
         let [bytes, most] = [bytes, most].map(|bytes| bytes >> 20);
         Err(format!(
@@ -356,6 +360,10 @@ impl Reader<'_> {
 
     /// About what a primitive takes each time that it is shown, until it is drawn.
     fn bytes(&self, primitive: &Primitive) -> u64 {
+        // What is compressed says how much it is when it is decoded.
+        if primitive.extensions.draco.is_some() {
+            return PART_BYTES;
+        }
         let count = |accessor: Option<usize>| accessor.map_or(0, |number| self.data.count(number));
         let vertices = count(primitive.attributes.get("POSITION").copied());
         // Positions in the file and as they are drawn; an attribute is at most three doubles.
@@ -415,7 +423,8 @@ impl Reader<'_> {
         place: &str,
     ) -> Result<(), String> {
         let mode = primitive.mode.unwrap_or(TRIANGLES);
-        let compressed = draco::decode(self.data, primitive).map_err(|cause| {
+        let compressed = draco::decode(self.data, primitive, &mut self.left_bytes);
+        let compressed = compressed.map_err(|cause| {
             // What is behind the colon may be a number of the file.
             let before = cause.split_once(':').map(|(before, _)| before.to_owned());
             before.filter(|_| self.has_outside_buffer()).unwrap_or(cause)
@@ -512,7 +521,7 @@ impl Reader<'_> {
         let numbers = |is_empty: bool| {
             if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
         };
-        let name = node.name.as_deref().unwrap_or("");
+        let name = text::name(node.name.as_deref().unwrap_or(""));
         let part = FilePart {
             name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
             material: material.map(|(material, ..)| material),

@@ -77,8 +77,20 @@ impl Time {
     }
 }
 
-pub(super) fn rounds(quick: bool) -> usize {
-    if quick { 7 } else { 41 }
+/// How often passes are timed, and for how long each time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Timing {
+    pub rounds: usize,
+    /// Shorter than what a scheduler grants at once, so that a busy machine disturbs few slices much
+    /// and not all of them a little: the median then hardly moves.
+    pub slice: Duration,
+}
+
+impl Timing {
+    pub const USUAL: Self = Self { rounds: 41, slice: Duration::from_millis(1) };
+    pub const QUICK: Self = Self { rounds: 7, slice: Duration::from_micros(300) };
+    /// Each pass runs a single time.
+    pub const ONCE: Self = Self { rounds: 1, slice: Duration::ZERO };
 }
 
 /// Runs a pass once, which warms caches. Returns how many runs of it fit into a slice of time, and how long this one took.
@@ -89,16 +101,12 @@ pub(super) fn repeats(pass: &mut Pass<'_>, slice: Duration) -> (u32, Duration) {
     ((slice.as_nanos() / once.as_nanos()).clamp(1, 100_000) as u32, once)
 }
 
-/// Nanoseconds of each pass. A slice of time is shorter when `quick`.
+/// Nanoseconds of each pass.
 pub fn time(
     passes: &mut [Pass<'_>],
-    rounds: usize,
-    quick: bool,
+    Timing { rounds, slice }: Timing,
     progress: &dyn Fn(f64),
 ) -> Vec<Spread> {
-    // Shorter than what a scheduler grants at once, so that a busy machine disturbs few slices much
-    // and not all of them a little: the median then hardly moves.
-    let slice = Duration::from_micros(if quick { 300 } else { 1000 });
     // By column, so that the rungs of one scene follow each other.
     let mut order: Vec<usize> = (0..passes.len()).collect();
     order.sort_by_key(|&i| passes[i].column);
@@ -156,7 +164,7 @@ mod tests {
                 }),
             })
             .collect();
-        assert_eq!(time(&mut passes, 4, true, &|_| ()).len(), 3);
+        assert_eq!(time(&mut passes, Timing { rounds: 4, ..Timing::QUICK }, &|_| ()).len(), 3);
         drop(passes);
         assert!(counts.iter().all(|count| count.get() == 4), "{counts:?}");
     }

@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ladder::Work;
 pub use bounds::Bound;
-pub use clock::{Pass, Spread, Time, time};
+pub use clock::{Pass, Spread, Time, Timing, time};
 pub use coverage::{Variant, variants, wrong_pixels};
 pub use external::ExternalVariant;
 pub use interpolation::{WrongValues, wrong_values};
@@ -76,10 +76,10 @@ pub type Name = Cow<'static, str>;
 pub struct Options {
     /// Decides every scene, and with them every error.
     pub seed: u64,
-    /// Smaller scenes and fewer rounds.
+    /// Smaller scenes.
     pub quick: bool,
-    /// Whether to time at all; errors do not need it.
-    pub timed: bool,
+    /// How to time; errors do not need it.
+    pub timing: Option<Timing>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -302,9 +302,9 @@ impl<'a> Draft<'a> {
             }
             cells.push(out);
         }
-        let rounds = if options.timed { clock::rounds(options.quick) } else { 0 };
-        if options.timed {
-            let spreads = clock::time(&mut passes, rounds, options.quick, &|share| {
+        let rounds = options.timing.map_or(0, |timing| timing.rounds);
+        if let Some(timing) = options.timing {
+            let spreads = clock::time(&mut passes, timing, &|share| {
                 progress(0.3 + 0.7 * share, ladder.title());
             });
             for ((rung, column), spread) in places.into_iter().zip(spreads) {

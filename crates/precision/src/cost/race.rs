@@ -19,7 +19,7 @@ const ERROR: f64 = 0.05;
 /// compared once more.
 const LOOKS: [usize; 5] = [12, 24, 48, 96, 192];
 
-/// How long a pass is repeated within a round.
+/// How long a pass is repeated within a round, but for a race without a budget.
 const SLICE: Duration = Duration::from_millis(1);
 
 /// What became of a pass in a race, compared with the fastest.
@@ -75,7 +75,8 @@ fn compare(times: &[f64], fastest: &[f64], error: f64) -> Finish {
 /// take three times the budget. With `keeps_all` no pass leaves, and all rounds are run.
 pub fn race(passes: &mut [&mut Pass<'_>], budget: Duration, keeps_all: bool) -> Race {
     let start = Instant::now();
-    let repeats: Vec<u32> = passes.iter_mut().map(|pass| repeats(pass, SLICE).0).collect();
+    let repeats: Vec<u32> =
+        passes.iter_mut().map(|pass| repeats(pass, SLICE.min(budget)).0).collect();
     let run = |round: usize, alive: &[usize]| {
         let mut times = Vec::with_capacity(alive.len());
         for place in 0..alive.len() {
