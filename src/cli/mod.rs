@@ -1,5 +1,6 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
+mod cameras;
 mod case_view;
 mod cost;
 mod course;
@@ -9,6 +10,7 @@ mod digest;
 mod engine;
 mod exhaust;
 mod explain;
+mod facing;
 mod files;
 mod fixtures;
 mod guard;

@@ -11,10 +11,11 @@ use glam::{DMat4, DVec3};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Streams, did_you_mean, program, usage};
+use super::{cameras, facing};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_host::limits;
-use rasterproof_host::text::printable_path;
+use rasterproof_host::text::{printable, printable_path};
 use rasterproof_models::{Model, Normals, Options, Origin, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
@@ -102,9 +103,15 @@ pub struct ViewArguments {
     /// smooth; flat everywhere; or those of the file, and smooth where there are none [default: file]
     #[arg(long, value_name = "FROM", value_parser = super::one_of(NORMALS))]
     normals: Option<Normals>,
+    /// Light the backs of a model's faces by reversed normals, and draw them also where its file leaves them out
+    #[arg(long)]
+    two_sided: bool,
     /// How depths are stored
     #[arg(long, default_value = "unorm32", value_parser = super::one_of(DepthFormat::ALL.map(|depth| (depth.name(), depth))))]
     pub(super) depth: DepthFormat,
+    /// Look through a camera of the model's file, by its number, from 1, or its name
+    #[arg(long, value_name = "NUMBER|NAME", conflicts_with_all = ["yaw", "pitch", "zoom", "fov"])]
+    camera: Option<String>,
     /// Turn the model by this many degrees, to the right [default: 30]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     yaw: Option<f64>,
@@ -354,6 +361,15 @@ impl ViewArguments {
         let base = Base::Model(Box::new(self.frame_model(path, aspect, streams)?));
         let maker = Maker { base, aspect, cull: self.cull };
         self.refuse_too_much(&printable_path(path).to_string(), &maker, purpose)?;
+        let backs = facing::share_of_backs(&maker.scene(0.0)).filter(|share| *share > 0.5);
+        if let Some(share) = backs {
+            // 100% only of all.
+            let percent = (share * 100.0).floor();
+            writeln!(
+                streams.errors,
+                "{percent}% of what is seen are backs of faces, lit by the normals of their fronts; --two-sided reverses these"
+            )?;
+        }
         Ok(maker)
     }
 
@@ -458,6 +474,14 @@ impl ViewArguments {
         let loading = start.elapsed();
         drop(progress);
         report_model(&model, self.up.is_some(), streams.errors)?;
+        if self.camera.is_none() && !model.cameras.is_empty() {
+            let (count, cameras) = (model.cameras.len(), cameras::listed(&model.cameras));
+            let s = if count == 1 { "" } else { "s" };
+            writeln!(
+                streams.errors,
+                "the file has {count} camera{s}: {cameras}; --camera 1 looks through the first"
+            )?;
+        }
         let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
         let (min, max) = bounds
             .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
@@ -467,15 +491,21 @@ impl ViewArguments {
         let radius = ((max - min).length() / 2.0).max(f64::MIN_POSITIVE.sqrt());
         let half = fov.to_radians() / 2.0;
         let narrow = half.min(atan(tan(half) * aspect));
-        let distance = radius / sin(narrow) / zoom;
+        let mut distance = radius / sin(narrow) / zoom;
         let (pitch, yaw) = (pitch.to_radians(), yaw.to_radians());
-        let turn = turn_y(yaw);
+        let mut turn = turn_y(yaw);
         let away = DVec3::new(0.0, sin(pitch), -cos(pitch));
         let up = DVec3::new(0.0, cos(pitch), sin(pitch));
-        let view = look_at(centre + away * distance, centre, up).map_err(usage)?;
+        let mut view = look_at(centre + away * distance, centre, up).map_err(usage)?;
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
-        let projection =
+        let mut projection =
             perspective(fov.to_radians(), aspect, near, distance + radius * 1.01).map_err(usage)?;
+        if let Some(wanted) = &self.camera {
+            let camera = cameras::find(&model.cameras, wanted).map_err(usage)?;
+            [view, projection] = cameras::matrices(camera, aspect, [min, max])
+                .map_err(|error| usage(format!("--camera {}: {error}", printable(wanted))))?;
+            (turn, distance) = (DMat4::IDENTITY, view.transform_point3(centre).z);
+        }
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let mut scene = Scene::new(&name, "a model", projection);
         scene.view = view;
@@ -488,6 +518,9 @@ impl ViewArguments {
         };
         for item in &mut scene.items {
             item.model = about(centre, turn);
+            if self.two_sided {
+                (item.two_sided, item.cull) = (true, Cull::None);
+            }
             item.material.specular = self.specular.unwrap_or(item.material.specular);
             if let Some(factor) = self.opacity {
                 let map = item.material.opacity.take().and_then(|opacity| opacity.map);

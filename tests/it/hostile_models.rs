@@ -601,7 +601,8 @@ fn instances(counts: &[usize]) -> Vec<u8> {
     nodes.extend(counts.iter().enumerate().map(|(level, &n)| json!({"children": vec![level; n]})));
     let root = json!({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [nodes.len() - 1]}], "nodes": nodes,
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{"doubleSided": true}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
         "buffers": [{"byteLength": 36, "uri": format!("data:;base64,{}", STANDARD.encode(bin))}],

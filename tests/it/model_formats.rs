@@ -3,7 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DVec2, DVec3};
-use rasterproof_models::{BadFile, Format, Model, Options, Up};
+use rasterproof_models::{BadFile, Camera, Format, Lens, Model, Options, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::pipeline::physical::Map;
@@ -223,6 +223,46 @@ fn a_binary_file_is_read_in_pieces() {
     }
 }
 
+/// Each face has its colour, in a polygon that is cut too. The colours of vertices are finer.
+#[test]
+fn colours_of_the_faces_of_a_ply_are_drawn() {
+    let colours = |model: &Model| {
+        let corners = model.items[0].mesh.triangles.corners();
+        corners.map(|corner| (corner.colour * 255.0).round().to_array()).collect::<Vec<_>>()
+    };
+    let (red, blue) = ([255.0, 0.0, 0.0], [0.0, 0.0, 255.0]);
+    let text = include_str!("../data/models/face-colours.ply");
+    let model = load("faces.ply", text.as_bytes()).unwrap();
+    let Material { colour, vertex_colours, .. } = &model.items[0].material;
+    assert_eq!((model.not_drawn.as_str(), *colour, *vertex_colours), ("", DVec3::ONE, true));
+    assert_eq!(colours(&model), [red, red, red, blue, blue, blue]);
+    // Two corners, four, and a strip without a colour before them.
+    let strip = "element tristrips 1\nproperty list int int vertex_indices\nelement face 2";
+    let other = text
+        .replace("element face 2", &strip.replace("face 2", "face 3"))
+        .replace("\n3 0 1 2 255 0 0", "\n3 0 1 3\n2 0 1 9 9 9\n4 0 1 2 3 255 0 0");
+    let (white, other) = ([255.0; 3], load("other.ply", other.as_bytes()).unwrap());
+    let expected = [[white; 3], [red; 3], [red; 3], [blue; 3]].concat();
+    assert_eq!((colours(&other), other.not_drawn.as_str()), (expected, "1 incomplete face"));
+    let not_finite = text.replace("uchar red", "float red").replace("2 255 0 0", "2 nan 0 0");
+    let broken = load("broken.ply", not_finite.as_bytes()).unwrap();
+    assert_eq!(broken.not_drawn, "colour that is not finite of 1 face");
+    assert_eq!(colours(&broken), [blue; 3]);
+    let alpha =
+        text.replace("property uchar blue\n", "property uchar blue\nproperty uchar alpha\n");
+    let alpha = alpha.replace("255 0 0\n", "255 0 0 9\n").replace("0 0 255", "0 0 255 255");
+    let model = load("alpha.ply", alpha.as_bytes()).unwrap();
+    assert_eq!(model.not_drawn, "value 'alpha' of 2 faces");
+    let coloured = "property float z\nproperty uchar r\nproperty uchar g\nproperty uchar b\n";
+    let finer = text.replace("property float z\n", coloured);
+    let finer = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"].into_iter().fold(finer, |text, position| {
+        text.replacen(&format!("\n{position}\n"), &format!("\n{position} 0 255 0\n"), 1)
+    });
+    let model = load("finer.ply", finer.as_bytes()).unwrap();
+    assert!(model.not_drawn.starts_with("value 'blue' of 2 faces"), "{}", model.not_drawn);
+    assert_eq!(colours(&model), [[0.0, 255.0, 0.0]; 6]);
+}
+
 #[test]
 fn a_ply_has_polygons_strips_and_texture_coordinates() {
     let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
@@ -259,7 +299,8 @@ fn document(change: impl FnOnce(&mut Value)) -> (String, Vec<u8>) {
             { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" },
             { "bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR" },
         ],
-        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1, "material": 0 }] }],
+        "materials": [{ "pbrMetallicRoughness": { "metallicFactor": 0 } }],
         "nodes": [{ "mesh": 0, "name": "body" }],
         "scenes": [{ "nodes": [0] }],
     });
@@ -342,14 +383,18 @@ fn nodes_of_a_gltf_place_its_meshes() {
             { "children": [1, 2, 3], "translation": [10, 0, 0] },
             { "mesh": 0, "rotation": [0, 0, half, half], "scale": [2, 2, 2] },
             { "mesh": 0, "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 5, 0, 1] },
-            { "camera": 0 },
+            { "camera": 0, "translation": [0, 0, 7] },
         ]);
         d["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 1 } }]);
         d["scenes"] = json!([{ "nodes": [] }, { "nodes": [0] }, { "nodes": [1] }]);
         d["scene"] = json!(1);
     });
     let (model, [turned, mirrored]) = items("nodes.glb", &file);
-    assert_eq!(model.not_drawn, "1 camera, 2 other scenes");
+    assert_eq!(model.not_drawn, "2 other scenes");
+    let [camera] = &model.cameras[..] else { panic!("{:?}", model.cameras) };
+    let Camera { eye, ahead, up, lens, near, far, .. } = camera;
+    assert_eq!([*eye, *ahead, *up], [DVec3::new(10.0, 0.0, -7.0), DVec3::Z, DVec3::Y]);
+    assert_eq!((*lens, *near, *far), (Lens::Perspective { angle_rad: 1.0 }, 1.0, None));
     let close = |item: &Item, at: usize, expected: [f64; 3]| {
         let found = item.mesh.positions[at];
         assert!(found.distance(DVec3::from_array(expected)) < 1e-6, "{found} for {expected:?}");
@@ -451,7 +496,7 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
     let [r, g, b] = paint.material.colour.to_array();
     assert!((r * 255.0 - 187.516).abs() < 0.01 && g == 0.0 && b == 1.0, "{r}");
     assert_eq!((paint.material.shading, paint.cull), (Shading::Unlit, Cull::Clockwise));
-    assert_eq!(other.cull, Cull::None);
+    assert_eq!((other.cull, other.two_sided, paint.two_sided), (Cull::None, true, false));
     let texture = paint.material.texture.as_ref().unwrap();
     let corner = paint.mesh.triangles.at(0)[0];
     assert_eq!(corner.uv.to_array(), [0.75, 1.0], "moved by a half, v up");
@@ -469,11 +514,7 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
     assert_eq!(opacity.of(DVec2::ZERO), 255, "as opaque as the threshold");
     let missing = "textures[1] has no picture that is read; the material 'materials[1]'";
     assert!(warning(&model).contains(missing), "{:?}", model.warnings);
-    assert_eq!(
-        model.not_drawn,
-        "emission of 1 material, 1 extension KHR_materials_sheen, 1 normal map, \
-         other texture coordinates of 1 primitive, 4 transparent positions"
-    );
+    assert_eq!(model.not_drawn, "1 extension KHR_materials_sheen, 4 transparent positions");
 }
 
 /// Factors, maps and tangents of a surface in linear light; what is read at other coordinates is counted.
@@ -580,23 +621,43 @@ fn surfaces_of_a_gltf_are_in_linear_light() {
     assert!((item.mesh.triangles.at(3)[2].colour.z * 255.0 - 187.845).abs() < 0.01);
 }
 
+/// A primitive that names no material has that of the format: white, metal, seen from the front alone.
+#[test]
+fn a_missing_material_of_a_gltf_is_the_one_of_the_format() {
+    let file =
+        |material: Value| changed(|d| d["meshes"][0]["primitives"][0]["material"] = material);
+    let (model, [white]) = items("none.glb", &file(Value::Null));
+    assert_eq!((model.not_drawn.as_str(), model.warnings.len()), ("", 0));
+    let Material { colour, texture, opacity, .. } = &white.material;
+    assert!(texture.is_none() && opacity.is_none());
+    assert_eq!((*colour, white.cull, white.two_sided), (DVec3::ONE, Cull::Clockwise, false));
+    let (model, [grey]) = items("wrong.glb", &file(json!(3)));
+    assert!(warning(&model).contains("materials[3] is not there; it is drawn grey"));
+    assert_eq!((grey.material.colour, model.not_drawn.as_str()), (DVec3::splat(0.8), ""));
+}
+
 /// What vertices and nodes have beside what is drawn, and the two last bytes of each triangle of an STL.
 #[test]
 fn the_numbers_of_samplers_are_those_of_opengl() {
     let uri = format!("data:image/png;base64,{}", STANDARD.encode(picture()));
     let (smooth, nearest) = (Filter::Bilinear, Filter::Nearest);
-    let (usual, mip_map) = ((smooth, Wrap::Repeat, false), (smooth, Wrap::Repeat, true));
-    for (sampler, expected, counted) in [
-        (json!({}), usual, ""),
-        (json!({ "magFilter": 9728 }), (nearest, Wrap::Repeat, false), ""),
-        (json!({ "magFilter": 9729, "minFilter": 9729 }), usual, ""),
-        (json!({ "minFilter": 9984 }), mip_map, "nearest level of mip map of 1 texture"),
-        (json!({ "minFilter": 9985 }), mip_map, "nearest level of mip map of 1 texture"),
-        (json!({ "minFilter": 9986 }), mip_map, ""),
-        (json!({ "minFilter": 9987 }), mip_map, ""),
-        (json!({ "wrapS": 33648 }), usual, "mirrored repetition of 1 texture"),
-        (json!({ "wrapS": 33071 }), usual, "difference of repetition in u and v of 1 texture"),
-        (json!({ "wrapS": 33071, "wrapT": 33071 }), (smooth, Wrap::Clamp, false), ""),
+    let (repeat, clamp, mirror) = (Wrap::Repeat, Wrap::Clamp, Wrap::Mirror);
+    let picture = Texture::new(2, 1, &[[255, 0, 0], [0, 255, 0]]).unwrap();
+    let usual = picture.clone().with(smooth, repeat);
+    let mip_map = || usual.clone().with_mip_map();
+    for (sampler, expected) in [
+        (json!({}), usual.clone()),
+        (json!({ "magFilter": 9728 }), picture.clone().with(nearest, repeat)),
+        (json!({ "magFilter": 9729, "minFilter": 9729 }), usual.clone()),
+        (json!({ "minFilter": 9728 }), usual.clone().with_minified(nearest)),
+        (json!({ "minFilter": 9984 }), mip_map().with_minified(nearest).with_single_levels()),
+        (json!({ "minFilter": 9985 }), mip_map().with_single_levels()),
+        (json!({ "minFilter": 9986 }), mip_map().with_minified(nearest)),
+        (json!({ "minFilter": 9987 }), mip_map()),
+        (json!({ "wrapS": 33648 }), usual.clone().with(smooth, [mirror, repeat])),
+        (json!({ "wrapS": 33071 }), usual.clone().with(smooth, [clamp, repeat])),
+        (json!({ "wrapT": 33071 }), usual.clone().with(smooth, [repeat, clamp])),
+        (json!({ "wrapS": 33071, "wrapT": 33071 }), usual.clone().with(smooth, clamp)),
     ] {
         let document = document(|d| {
             d["images"] = json!([{ "uri": uri }]);
@@ -608,8 +669,7 @@ fn the_numbers_of_samplers_are_those_of_opengl() {
         });
         let (model, [item]) = items("samplers.glb", &glb(document));
         let texture = item.material.texture.as_ref().unwrap();
-        let of_file = (texture.filter, texture.wrap, texture.has_mip_map());
-        assert_eq!((of_file, &*model.not_drawn), (expected, counted), "{sampler}");
+        assert_eq!((&**texture, &*model.not_drawn), (&expected, ""), "{sampler}");
         assert_eq!(item.material.colour, DVec3::ONE, "no factor changes the texture");
     }
 }
@@ -637,7 +697,7 @@ fn what_is_not_drawn_of_vertices_and_nodes_is_counted() {
         glb((json, bytes))
     };
     let always = "1 animation, joints beyond the first four of 1 primitive, 1 light, \
-                  other colours of 1 primitive, other texture coordinates of 1 primitive";
+                  other colours of 1 primitive";
     for (mode, transparent) in [("OPAQUE", ""), ("BLEND", ", 2 transparent positions")] {
         let not_drawn = load("counted.glb", &file(mode)).unwrap().not_drawn;
         let undefined = "values that glTF does not define of 1 primitive";
@@ -655,6 +715,53 @@ fn what_is_not_drawn_of_vertices_and_nodes_is_counted() {
         load("alpha.ply", ply.as_bytes()).unwrap().not_drawn,
         "2 transparent positions, value 'lods' of 3 positions, value 'part' of 1 face"
     );
+}
+
+/// A mesh that an extension shows many times: moved, turned and scaled, below the node that has it.
+#[test]
+fn instances_of_a_mesh_are_drawn() {
+    let file = include_bytes!("../data/models/gpu-instancing.gltf");
+    let model = load("instances.gltf", file).unwrap();
+    assert_eq!(model.not_drawn, "");
+    let left = |item: &Item| item.mesh.bounds().unwrap().0.x;
+    assert_eq!(model.items.iter().map(left).collect::<Vec<_>>(), [0.0, 2.0, 4.0]);
+    let copies = |count: u64, skin: bool| {
+        let (json, mut bytes) = document(|d| {
+            let views = d["bufferViews"].as_array_mut().unwrap();
+            views.push(json!({ "buffer": 0, "byteOffset": 72, "byteLength": 100 }));
+            let accessors = d["accessors"].as_array_mut().unwrap();
+            accessors.push(
+                json!({ "bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3" }),
+            );
+            accessors.push(json!({ "bufferView": 2, "byteOffset": 24, "componentType": 5120, "normalized": true, "count": 2, "type": "VEC4" }));
+            accessors.push(json!({ "componentType": 5126, "count": count, "type": "VEC3" }));
+            let attributes = json!({ "SCALE": 2, "ROTATION": 3, "_ID": 9 });
+            let moved = json!({ "TRANSLATION": 4 });
+            let attributes = if count > 2 { moved } else { attributes };
+            d["nodes"][0]["extensions"] =
+                json!({ "EXT_mesh_gpu_instancing": { "attributes": attributes } });
+            d["nodes"][0]["translation"] = json!([10, 0, 0]);
+            if skin {
+                d["nodes"][0]["skin"] = json!(0);
+                d["skins"] = json!([{ "joints": [0] }]);
+            }
+            d["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+        });
+        bytes.extend([1.0f32, 1.0, 1.0, 2.0, 2.0, 2.0].map(f32::to_le_bytes).concat());
+        // As it is, and half a turn about y.
+        bytes.extend([0, 0, 0, 127, 0, 127, 0, 0]);
+        bytes.resize(172, 0);
+        load("copies.glb", &glb((json, bytes)))
+    };
+    let model = copies(2, false).unwrap();
+    assert_eq!(model.not_drawn, "");
+    let bounds: Vec<_> = model.items.iter().map(|item| item.mesh.bounds().unwrap()).collect();
+    // The file's z points the other way.
+    assert_eq!(bounds[0], (DVec3::new(10.0, 0.0, -1.0), DVec3::new(11.0, 1.0, 0.0)));
+    assert_eq!(bounds[1], (DVec3::new(8.0, 0.0, 0.0), DVec3::new(10.0, 2.0, 2.0)));
+    let error = copies(16_000_000, false).unwrap_err().to_string();
+    assert!(error.contains("shows 16000000 copies of its meshes"), "{error}");
+    assert_eq!(copies(2, true).unwrap().items.len(), 1, "a skin decides alone");
 }
 
 /// Joints move what is bound to them, shapes are mixed in, and single elements are replaced.
@@ -676,6 +783,7 @@ fn a_gltf_is_drawn_in_its_rest_pose() {
         d["meshes"][0]["primitives"][0] = json!({
             "attributes": { "POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3 },
             "indices": 1,
+            "material": 0,
             "targets": [{ "POSITION": 4 }, { "POSITION": 4 }],
         });
         d["meshes"][0]["weights"] = json!([0.5, 0]);

@@ -10,6 +10,7 @@ use rasterproof_models::{BadFile, Model, Normals, Options, load_texture};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Shading, shapes};
 use rasterproof_verify::cases::Rng;
+use serde_json::json;
 
 use crate::program::Folder;
 
@@ -487,6 +488,134 @@ fn the_axis_that_points_up_is_chosen_and_said() {
     assert!(said.contains("y points up, as is usual in OBJ; --up z for the other"), "{said}");
     assert!(!silent.contains("points up"), "{silent}");
     folder.check("render --scene cube --up z", 2).shows("--up is for models");
+}
+
+/// A sphere that is turned inside out is nearly all ambient light, and says so. Lit from both sides, it is the sphere.
+#[test]
+fn faces_that_run_inwards_are_noticed_and_lit_from_both_sides() {
+    let folder = Folder::new("models-inwards");
+    let outwards = sphere(|position| position);
+    let reversed = |line: &str| {
+        let corners: Vec<_> = line.split_whitespace().skip(1).collect();
+        format!("f {} {} {}", corners[2], corners[1], corners[0])
+    };
+    let line = |line: &str| if line.starts_with("f ") { reversed(line) } else { line.to_owned() };
+    let inwards = outwards.lines().map(line).collect::<Vec<_>>().join("\n");
+    folder.put("out.obj", outwards);
+    folder.put("in.obj", inwards);
+    let note = "100% of what is seen are backs of faces, lit by the normals of their fronts; --two-sided reverses these";
+    for shading in ["flat", "gouraud", "phong"] {
+        let [(out, silent), (dark, said), (lit, also_silent)] =
+            ["out.obj", "in.obj", "in.obj --two-sided"]
+                .map(|words| drawn(&folder, &format!("{words} --shading {shading}")));
+        assert!(said.contains(note), "{said}");
+        assert!(
+            !silent.contains("backs") && !also_silent.contains("backs"),
+            "{silent}{also_silent}"
+        );
+        assert!(out == lit && out != dark, "{shading}");
+    }
+    let (_, unlit) = drawn(&folder, "in.obj --shading unlit");
+    assert!(!unlit.contains("backs"), "{unlit}");
+    for command in ["plan in.obj --rounds 1", "study in.obj --quick"] {
+        let run = folder.check(format!("{command} --size 32x24"), 0);
+        assert!(run.errors.contains("--two-sided"), "{command}: {}", run.errors);
+    }
+    folder.check("render --scene cube --two-sided", 2).shows("--two-sided is for models");
+}
+
+/// The same quad with its front and with its back to the eye.
+#[test]
+fn a_double_sided_material_is_lit_on_either_side() {
+    let folder = Folder::new("models-double-sided");
+    let files = [
+        ("front.gltf", include_str!("../data/models/double-sided-front.gltf")),
+        ("back.gltf", include_str!("../data/models/double-sided-back.gltf")),
+    ];
+    let [front, back] = files.map(|(name, text)| {
+        folder.put(name, text);
+        let (picture, said) = drawn(&folder, name);
+        assert!(!said.contains("backs") && !said.contains("not drawn"), "{said}");
+        picture
+    });
+    assert!(front == back);
+    let lit = front.pixels().filter(|pixel| pixel.0[0] > 100).count();
+    assert!(lit > 500, "{lit} pixels are bright");
+}
+
+/// A square of one unit, seen by cameras that stand two units before it and behind it.
+#[test]
+fn cameras_of_a_file_are_listed_and_looked_through() {
+    let folder = Folder::new("models-cameras");
+    let text = include_str!("../data/models/double-sided-front.gltf");
+    let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
+    document["cameras"] = json!([
+        { "type": "orthographic", "orthographic": { "xmag": 9, "ymag": 1, "znear": 0, "zfar": 3 } },
+        { "type": "perspective", "perspective": { "yfov": std::f64::consts::FRAC_PI_2, "znear": 1 } },
+        { "type": "perspective", "perspective": { "yfov": 1, "znear": 1, "zfar": 0.5 } },
+    ]);
+    let nodes = document["nodes"].as_array_mut().unwrap();
+    nodes.push(json!({ "camera": 0, "translation": [0.5, 0.5, 2], "name": "wide" }));
+    nodes.push(json!({ "camera": 1, "translation": [0.5, 0.5, 2] }));
+    nodes.push(json!({ "camera": 1, "translation": [1, 0.5, -2], "rotation": [0, 1, 0, 0], "name": "behind" }));
+    nodes.push(json!({ "camera": 2 }));
+    document["scenes"][0]["nodes"] = json!([0, 1, 2, 3, 4]);
+    folder.put("m.gltf", document.to_string());
+    let (_, said) = drawn(&folder, "m.gltf");
+    let list = "1 'wide', 2, 3 'behind', 4";
+    assert!(
+        said.contains(&format!("4 cameras: {list}; --camera 1 looks through the first")),
+        "{said}"
+    );
+    assert!(!said.contains("not drawn"), "{said}");
+    // From 72 pixels for 2 and for 4 units.
+    for (words, [x0, x1], [y0, y1]) in [
+        ("--camera wide", [30, 66], [18, 54]),
+        ("--camera 2", [39, 57], [27, 45]),
+        // Its right is the left of the others.
+        ("--camera behind", [48, 66], [27, 45]),
+    ] {
+        let (picture, said) = drawn(&folder, &format!("m.gltf {words}"));
+        assert!(!said.contains("cameras"), "{said}");
+        for (x, y, pixel) in picture.enumerate_pixels() {
+            let is_inside = (x0..x1).contains(&x) && (y0..y1).contains(&y);
+            assert_eq!(pixel.0 != [18, 18, 24], is_inside, "{words}: {x}, {y}");
+        }
+    }
+    for (words, said) in [
+        ("--camera 5", format!("--camera 5: the model has the cameras {list}")),
+        ("--camera 4", "--camera 4: the frustum needs 0 < near < far".to_owned()),
+        ("--camera 1 --yaw 3", "'--yaw <DEGREES>'".to_owned()),
+    ] {
+        folder.check(format!("render m.gltf {words}"), 2).shows(&said);
+    }
+    folder.put("none.obj", TETRAHEDRON);
+    folder.check("render none.obj --camera x", 2).shows("--camera x: the model has no cameras");
+    folder.check("render --scene cube --camera 1", 2).shows("--camera is for models");
+    // The fog begins and ends where it does without a camera, and both rasterizers agree.
+    for camera in ["wide", "2"] {
+        let words =
+            format!("render m.gltf --size 96x72 --camera {camera} --fog 0,1 --shadows 64 -o o.png");
+        folder.check(words, 0).prints("AGREES");
+    }
+}
+
+/// Two repeats of a texture that is mirrored: symmetric about the middle.
+#[test]
+fn a_mirrored_texture_is_drawn_mirrored() {
+    let folder = Folder::new("models-mirrored");
+    folder.put("m.gltf", include_str!("../data/models/mirrored-repeat.gltf"));
+    let (picture, said) = drawn(&folder, "m.gltf --yaw 0 --pitch 0 --shading unlit");
+    assert!(!said.contains("not drawn"), "{said}");
+    let (width, height) = picture.dimensions();
+    let mirrored = |x: u32, y: u32| {
+        picture.get_pixel(x, y) == picture.get_pixel(width - 1 - x, y)
+            && picture.get_pixel(x, y) == picture.get_pixel(x, height - 1 - y)
+    };
+    let differ = (0..width).flat_map(|x| (0..height).map(move |y| (x, y)));
+    assert_eq!(differ.filter(|&(x, y)| !mirrored(x, y)).count(), 0);
+    let colours: std::collections::HashSet<_> = picture.pixels().collect();
+    assert!(colours.len() > 2, "{colours:?}");
 }
 
 /// Vectors and lines that no face depends on do not keep a model from being drawn.

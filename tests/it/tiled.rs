@@ -106,7 +106,11 @@ fn by_scanline(scene: &Scene, width: u32, height: u32, samples: Samples) -> Fram
 
 fn scenes() -> Vec<Scene> {
     let named = chapters::entries().map(|entry| chapters::scene(entry.name, 1.5, 0.1).unwrap());
-    let random = (0..12).map(|index| random::scene(1, index));
+    let random = (0..12).map(|index| {
+        let mut scene = random::scene(1, index);
+        scene.items.iter_mut().step_by(2).for_each(|item| item.two_sided = true);
+        scene
+    });
     let all = named.chain(random).chain(meshes::scene("knot-4000"));
     all.filter(|scene| frames::not_drawn(scene) == 0).collect()
 }

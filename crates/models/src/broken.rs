@@ -73,7 +73,8 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
 fn faces(part: &FilePart) -> Option<(usize, [u64; 2])> {
     let is_broken = |vector: &DVec3| !vector.is_finite();
     parallel::first(&part.positions, is_broken)
-        .or_else(|| parallel::first(&part.colours, is_broken))?;
+        .or_else(|| parallel::first(&part.colours, is_broken))
+        .or_else(|| parallel::first(&part.face_colours, is_broken))?;
     let (mut first, mut counts) = (None, [0; 2]);
     for number in 0..part.polygons.len() {
         let corners = part.polygons.corners(number);
@@ -83,7 +84,8 @@ fn faces(part: &FilePart) -> Option<(usize, [u64; 2])> {
             vectors.any(is_broken)
         };
         let kind = if has(&part.positions) { 0 } else { 1 };
-        if kind == 0 || has(&part.colours) {
+        let has_colour = has(&part.colours) || part.face_colours.get(number).is_some_and(is_broken);
+        if kind == 0 || has_colour {
             first.get_or_insert(number);
             counts[kind] += 1;
         }
@@ -97,10 +99,13 @@ fn remove(part: &mut FilePart) {
         let vectors = [part.positions.get(corner as usize), part.colours.get(corner as usize)];
         vectors.into_iter().flatten().any(|vector| !vector.is_finite())
     };
-    let (mut kept, mut places) = (Polygons::default(), Vec::new());
+    let (mut kept, mut places, mut colours) = (Polygons::default(), Vec::new(), Vec::new());
     for number in 0..part.polygons.len() {
         let corners = part.polygons.corners(number);
-        if !part.corners[corners.clone()].iter().any(is_broken) {
+        let colour = part.face_colours.get(number).copied();
+        let has_colour = colour.is_none_or(DVec3::is_finite);
+        if has_colour && !part.corners[corners.clone()].iter().any(is_broken) {
+            colours.extend(colour);
             kept.push(corners.len(), part.polygons.line(number), part.polygons.smoothing(number));
             places.extend(corners);
         }
@@ -112,5 +117,5 @@ fn remove(part: &mut FilePart) {
         }
     }
     part.corners = of_places(&part.corners);
-    part.polygons = kept;
+    (part.polygons, part.face_colours) = (kept, colours);
 }

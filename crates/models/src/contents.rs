@@ -5,6 +5,7 @@ use std::hash::Hash;
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::cameras::Camera;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
@@ -24,6 +25,7 @@ const MOST_PARTS: usize = 1 << 16;
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
     pub parts: Vec<FilePart>,
+    pub cameras: Vec<Camera>,
     /// The bytes of other files with vertices.
     pub other_bytes: u64,
     /// Of the parts that others are merged into their places in the list, by what has to be equal.
@@ -89,6 +91,8 @@ pub(crate) struct FilePart {
     pub colours: Vec<DVec3>,
     /// A tangent for each position, with the sign of the bitangent, or none at all.
     pub tangents: Vec<DVec4>,
+    /// The same for each polygon, in a part whose positions have none.
+    pub face_colours: Vec<DVec3>,
     /// The numbers of the positions of all corners, one polygon after the other.
     pub corners: Vec<u32>,
     pub normal_numbers: Numbers,
@@ -396,7 +400,18 @@ pub(crate) struct Surface {
     pub physical: Option<(DVec3, Arc<Physical>)>,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
-    pub both_sides: bool,
+    pub sides: Sides,
+}
+
+/// What is seen of the backs of faces, those that are clockwise as the eye sees them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// Nothing.
+    Front,
+    /// They are lit as the front is, by the same normals.
+    Alike,
+    /// They are lit by the reversed normals.
+    Both,
 }
 
 #[cfg(test)]

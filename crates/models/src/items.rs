@@ -17,7 +17,7 @@ use rasterproof_render::scene;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
 
 use crate::broken;
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface, key};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Sides, Surface, key};
 use crate::gltf::encoded;
 use crate::polygons::{self, Odd, Shape};
 use crate::tangents;
@@ -43,6 +43,8 @@ pub(crate) fn model(
     for part in &mut contents.parts {
         place(path, part, turn)?;
     }
+    let mut cameras = std::mem::take(&mut contents.cameras);
+    cameras.iter_mut().for_each(|camera| camera.place(turn));
     let left_out = broken::leave_out(path, &mut contents, &mut warnings);
     if let Some(power) = to_usual_size(&mut contents.parts) {
         let what = if power > 0 { "small" } else { "large" };
@@ -51,7 +53,11 @@ pub(crate) fn model(
              are shown are those after that"
         );
         warnings.add_as_it_is(path, "sizes", &format!("{}: {text}", printable_path(path)));
+        let steps = half_powers(power);
+        cameras.iter_mut().for_each(|camera| steps.iter().for_each(|step| camera.scale(*step)));
     }
+    let mirror = DMat4::from_scale(mirrored(DVec3::ONE));
+    cameras.iter_mut().for_each(|camera| camera.place(mirror));
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
@@ -77,8 +83,10 @@ pub(crate) fn model(
             continue;
         }
         let mut item = Item::new(mesh, material);
-        if surface.is_some_and(|surface| !surface.both_sides) {
-            item.cull = Cull::Clockwise;
+        match surface.map(|surface| surface.sides) {
+            Some(Sides::Front) => item.cull = Cull::Clockwise,
+            Some(Sides::Both) => item.two_sided = true,
+            Some(Sides::Alike) | None => {}
         }
         items.push(item);
         origins.push(origin);
@@ -108,7 +116,8 @@ pub(crate) fn model(
     let file_bytes = contents.other_bytes;
     let mut all = contents.warnings;
     all.extend(warnings.finish());
-    Ok(Model { items, origins, format, up, file_bytes, not_drawn, why_empty, warnings: all })
+    let warnings = all;
+    Ok(Model { items, origins, cameras, format, up, file_bytes, not_drawn, why_empty, warnings })
 }
 
 /// Says which materials are fully transparent, and returns why the picture is empty where all of them are.
@@ -208,15 +217,19 @@ fn to_usual_size(parts: &mut [FilePart]) -> Option<i32> {
     if USUAL_SIZES.contains(&exponent) {
         return None;
     }
-    // 2^1074 is no double, so it is done in two steps; both are exact.
     let power = -exponent;
-    let steps = [power / 2, power - power / 2].map(|power| libm::ldexp(1.0, power));
+    let steps = half_powers(power);
     for part in parts {
         parallel::each_share(&mut part.positions, &|share| {
             share.iter_mut().for_each(|position| *position = *position * steps[0] * steps[1]);
         });
     }
     Some(power)
+}
+
+/// Two factors of 2^power: 2^1074 is no double, so it is done in two steps; both are exact.
+fn half_powers(power: i32) -> [f64; 2] {
+    [power / 2, power - power / 2].map(|power| libm::ldexp(1.0, power))
 }
 
 /// The largest power of two that is no larger than a number above 0.
@@ -226,7 +239,7 @@ fn exponent(size: f64) -> Option<i32> {
 
 fn material(surface: Option<&Surface>, part: &FilePart, options: Options) -> Material {
     let shading = options.shading;
-    let vertex_colours = !part.colours.is_empty();
+    let vertex_colours = !(part.colours.is_empty() && part.face_colours.is_empty());
     match surface {
         Some(surface) => {
             let mut material = Material {
@@ -320,13 +333,7 @@ fn mesh(
     warnings: &mut Warnings,
 ) -> Mesh {
     let (normals, uvs) = (part_normals(&mut part, smooth, normals), part_uvs(&mut part));
-    let colours = match std::mem::take(&mut part.colours) {
-        colours if colours.is_empty() => Attribute::Same(DVec3::ONE),
-        mut colours => {
-            colours.resize(part.positions.len(), DVec3::ONE);
-            Attribute::OfPositions(colours)
-        }
-    };
+    let colours = part_colours(&mut part);
     let cut = (!part.polygons.are_triangles()).then(|| cut(path, &part, origin, warnings));
     let corners = match &cut {
         Some(cut) => cut.iter().map(|&corner| part.corners[corner as usize]).collect(),
@@ -344,6 +351,7 @@ fn mesh(
         Some(values) => scene::Normals::Given(of_cut(values, cut.as_deref())),
         None => scene::Normals::Flat(Arc::clone(&positions)),
     };
+    let colours = of_cut(colours, cut.as_deref());
     let triangles = Triangles::new(corners, colours, normals, of_cut(uvs, cut.as_deref()));
     Mesh { positions, triangles }
 }
@@ -403,6 +411,21 @@ fn of_cut<V>(attribute: Attribute<V>, cut: Option<&[u32]>) -> Attribute<V> {
         }
         (same, _) => same,
     }
+}
+
+/// The colours of the corners of a part: of its positions or of its polygons, or white.
+fn part_colours(part: &mut FilePart) -> Attribute<DVec3> {
+    let mut colours = std::mem::take(&mut part.colours);
+    let values = std::mem::take(&mut part.face_colours);
+    if !colours.is_empty() {
+        colours.resize(part.positions.len(), DVec3::ONE);
+        return Attribute::OfPositions(colours);
+    }
+    if values.is_empty() {
+        return Attribute::Same(DVec3::ONE);
+    }
+    let of_polygon = |number: usize| part.polygons.corners(number).map(move |_| number as u32);
+    Attribute::Indexed { values, indices: (0..part.polygons.len()).flat_map(of_polygon).collect() }
 }
 
 /// The texture coordinates of the corners of a part; (0, 0) for those that have none.

@@ -5,6 +5,7 @@
 
 mod ahead;
 mod broken;
+mod cameras;
 mod contents;
 mod format;
 mod gltf;
@@ -30,6 +31,7 @@ use rasterproof_host::{input, limits};
 use rasterproof_render::scene::{Item, Shading};
 
 use ahead::Ahead;
+pub use cameras::{Camera, Lens};
 pub use format::Format;
 use text::Text;
 pub use textures::load_texture;
@@ -102,6 +104,8 @@ impl Options {
 pub struct Model {
     pub items: Vec<Item>,
     pub origins: Vec<Origin>,
+    /// The cameras of the file that stand in what is drawn of it.
+    pub cameras: Vec<Camera>,
     pub format: Format,
     /// The axis of the file that points up in the picture.
     pub up: Up,

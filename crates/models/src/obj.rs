@@ -13,7 +13,9 @@ use rasterproof_host::text::{printable_path, printable_short};
 
 use std::sync::Arc;
 
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Surface};
+use crate::contents::{
+    Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Sides, Surface,
+};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
 use crate::outside::{self, NOT_QUOTED, is_outside};
@@ -214,6 +216,7 @@ impl Cutter {
             normal_numbers: run.normals,
             uv_numbers: run.uvs,
             polygons: run.polygons,
+            ..FilePart::default()
         }
     }
 
@@ -281,7 +284,7 @@ fn surface(
         opacity,
         physical: None,
         unlit: false,
-        both_sides: true,
+        sides: Sides::Alike,
     }
 }
 

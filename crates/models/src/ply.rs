@@ -14,7 +14,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
 
 use crate::ahead::Ahead;
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Sides, Surface};
 use crate::text::{number, without_mark};
 use crate::textures::{Textures, opacity};
 use crate::{BadFile, Warnings, bad, outside};
@@ -357,6 +357,9 @@ pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
     if part.uv_numbers == Numbers::Nothing && part.uvs.len() == part.positions.len() {
         part.uv_numbers = Numbers::OfPositions;
     }
+    if !part.face_colours.is_empty() {
+        part.face_colours.resize(part.polygons.len(), DVec3::ONE);
+    }
     if part.polygons.len() == 0 {
         add(&mut contents, "point", part.positions.len() as u64);
     }
@@ -518,6 +521,16 @@ fn columns(
     Ok((whole, transparent))
 }
 
+/// The red, green and blue of an element that has all three.
+fn channels(element: &Element) -> Option<[&Property; 3]> {
+    let find = |names: &&[&str]| {
+        let is_named = |property: &&Property| names.contains(&property.name.as_str());
+        element.properties.iter().find(|property| property.length.is_none() && is_named(property))
+    };
+    let [r, g, b] = [8, 9, 10].map(|place| find(&VERTEX[place]));
+    Some([r?, g?, b?])
+}
+
 /// The list of a face that names its vertices.
 fn is_corners(property: &Property) -> bool {
     let names = ["vertex_indices", "vertex_index", "vertex_indexes"];
@@ -536,8 +549,12 @@ fn faces(
     // Texture coordinates of the corners, as MeshLab writes them.
     let is_uvs = |property: &Property| property.length.is_some() && property.name == "texcoord";
     let has_uvs = element.properties.iter().any(is_uvs);
+    // The colours of vertices are finer.
+    let channels = if part.colours.is_empty() { channels(element) } else { None };
     for property in &element.properties {
-        if !is_corners(property) && !is_uvs(property) {
+        let is_channel =
+            || channels.is_some_and(|all| all.iter().any(|one| one.name == property.name));
+        if !is_corners(property) && !is_uvs(property) && !is_channel() {
             let key = format!("value '{}' of face", printable_short(&property.name, 40));
             add(contents, &key, element.count);
         }
@@ -563,7 +580,13 @@ fn faces(
         body.next_element().map_err(wrong)?;
         let start = part.corners.len();
         uvs.clear();
+        let mut colour = DVec3::ONE;
         for property in &element.properties {
+            let is_named = |channel: &&Property| channel.name == property.name;
+            if let Some(channel) = channels.and_then(|all| all.iter().position(is_named)) {
+                colour[channel] = body.number(property.kind).map_err(wrong)? / property.kind.full();
+                continue;
+            }
             let (Some(length), true) = (property.length, is_corners(property) || is_uvs(property))
             else {
                 skip(body, std::slice::from_ref(property)).map_err(wrong)?;
@@ -593,6 +616,11 @@ fn faces(
             if is_whole {
                 part.uvs.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
             }
+        }
+        if channels.is_some() {
+            // Triangles of strips before them have none.
+            part.face_colours.resize(part.polygons.len(), DVec3::ONE);
+            part.face_colours.push(clamped(colour));
         }
         part.polygons.push(count, body.line as u32, 0);
     }
@@ -743,7 +771,7 @@ fn surface(
                 specular: Specular::default(),
                 physical: None,
                 unlit: false,
-                both_sides: true,
+                sides: Sides::Alike,
             });
         }
         Err(error) => {

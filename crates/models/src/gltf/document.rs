@@ -44,6 +44,8 @@ pub(super) struct Root {
     #[serde(default, deserialize_with = "or_default")]
     pub buffers: Vec<Buffer>,
     #[serde(default, deserialize_with = "or_default")]
+    pub cameras: Vec<Camera>,
+    #[serde(default, deserialize_with = "or_default")]
     pub animations: Vec<IgnoredAny>,
     #[serde(default, deserialize_with = "or_default")]
     pub extensions_used: Vec<String>,
@@ -70,7 +72,7 @@ pub(super) struct Node {
     pub children: Vec<usize>,
     pub mesh: Option<usize>,
     pub skin: Option<usize>,
-    pub camera: Option<IgnoredAny>,
+    pub camera: Option<usize>,
     pub matrix: Option<[f32; 16]>,
     pub translation: Option<[f32; 3]>,
     pub rotation: Option<[f32; 4]>,
@@ -86,6 +88,8 @@ pub(super) struct Node {
 pub(super) struct Extensions {
     #[serde(rename = "KHR_lights_punctual")]
     pub light: Option<IgnoredAny>,
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    pub instances: Option<Instances>,
     #[serde(rename = "KHR_draco_mesh_compression")]
     pub draco: Option<Value>,
     #[serde(rename = "KHR_materials_unlit")]
@@ -96,6 +100,35 @@ pub(super) struct Extensions {
     pub common: Option<IgnoredAny>,
     #[serde(rename = "KHR_materials_emissive_strength")]
     pub emissive: Option<EmissiveStrength>,
+}
+
+/// The accessors of where the copies of a mesh are.
+#[derive(Deserialize)]
+pub(super) struct Instances {
+    pub attributes: HashMap<String, usize>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Camera {
+    pub name: Option<String>,
+    pub perspective: Option<Perspective>,
+    pub orthographic: Option<Orthographic>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Perspective {
+    pub yfov: f64,
+    pub znear: f64,
+    pub zfar: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Orthographic {
+    pub ymag: f64,
+    pub znear: f64,
+    pub zfar: f64,
 }
 
 #[derive(Deserialize)]
@@ -140,7 +173,7 @@ pub(super) struct Skin {
     pub inverse_bind_matrices: Option<usize>,
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Material {
     pub name: Option<String>,
@@ -280,7 +313,7 @@ pub(super) struct Image {
 }
 
 /// How a texture is read; filters and wrapping are numbers of OpenGL.
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Sampler {
     pub mag_filter: Option<u64>,
@@ -290,6 +323,7 @@ pub(super) struct Sampler {
 }
 
 pub(super) const NEAREST: u64 = 9728;
+pub(super) const LINEAR: u64 = 9729;
 pub(super) const NEAREST_MIPMAP_NEAREST: u64 = 9984;
 pub(super) const LINEAR_MIPMAP_NEAREST: u64 = 9985;
 pub(super) const NEAREST_MIPMAP_LINEAR: u64 = 9986;

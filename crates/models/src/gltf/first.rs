@@ -81,7 +81,7 @@ pub(super) fn upgraded(
     let (buffers, views, accessors) = (list("buffers"), list("bufferViews"), list("accessors"));
     let (images, samplers, textures) = (list("images"), list("samplers"), list("textures"));
     let (materials, meshes, nodes) = (list("materials"), list("meshes"), list("nodes"));
-    let scenes = list("scenes");
+    let (cameras, scenes) = (list("cameras"), list("scenes"));
     let mut out = json!({ "asset": { "version": "2.0" } });
     let made = buffers.names.iter().zip(&buffers.values).map(|(name, buffer)| {
         let is_whole = *name == "binary_glTF" || *name == "KHR_binary_glTF";
@@ -154,13 +154,16 @@ pub(super) fn upgraded(
         if !children.is_empty() {
             made["children"] = children.into();
         }
-        for key in ["camera", "skin"].into_iter().filter(|key| node.get(key).is_some()) {
-            *not_drawn.entry(key.to_owned()).or_default() += 1;
+        put(&mut made, "camera", cameras.number(node, "camera"));
+        if node.get("skin").is_some() {
+            *not_drawn.entry("skin".to_owned()).or_default() += 1;
         }
         made_nodes.push(made);
     }
     made_nodes.extend(more);
     insert(&mut out, "nodes", made_nodes);
+    let lens = |camera: &Value| members(camera, &["name", "perspective", "orthographic"]);
+    insert(&mut out, "cameras", cameras.values.iter().copied().map(lens).collect());
     let made = scenes.values.iter().map(|scene| json!({ "nodes": nodes.all(scene, "nodes") }));
     insert(&mut out, "scenes", made.collect());
     put(&mut out, "scene", scenes.number(&document, "scene"));

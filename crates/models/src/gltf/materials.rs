@@ -9,15 +9,15 @@ use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
 use rasterproof_render::pipeline::physical::{Map, Physical};
-use rasterproof_render::pipeline::texture::{Filter, Wrap};
+use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 use super::data::{Data, is_outside, resource};
 use super::document::{
-    CLAMP_TO_EDGE, Info, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT, Material,
-    NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Transform,
+    CLAMP_TO_EDGE, Info, LINEAR, LINEAR_MIPMAP_LINEAR, LINEAR_MIPMAP_NEAREST, MIRRORED_REPEAT,
+    Material, NEAREST, NEAREST_MIPMAP_LINEAR, NEAREST_MIPMAP_NEAREST, Sampler, Transform,
 };
 use crate::Warnings;
-use crate::contents::Surface;
+use crate::contents::{Sides, Surface};
 use crate::outside;
 use crate::textures::{Decoded, Pictures};
 
@@ -78,14 +78,19 @@ impl<'a> Images<'a> {
     }
 }
 
+/// Describes a material, or what the format says of a primitive that names none.
 pub(super) fn describe(
     data: &Data<'_>,
-    number: usize,
+    number: Option<usize>,
     images: &mut Images<'_>,
     not_drawn: &mut BTreeMap<String, u64>,
     warnings: &mut Warnings,
 ) -> Option<Described> {
-    let material = data.root.materials.get(number)?;
+    let missing = Material::default();
+    let material = match number {
+        Some(number) => data.root.materials.get(number)?,
+        None => &missing,
+    };
     let mut count = |key: &str| *not_drawn.entry(key.to_owned()).or_default() += 1;
     let pbr = &material.pbr_metallic_roughness;
     let other = material.extensions.glossiness.as_ref();
@@ -108,13 +113,15 @@ pub(super) fn describe(
         }
     }
     let is_physical = is_physical(material);
+    // Light has no effect on it, and its maps are of other surfaces.
+    let is_plain = !is_physical && !unlit;
     let emits = material.emissive_factor.iter().any(|&channel| channel > 0.0);
     for (key, is_there) in [
         ("specular map", other.is_some_and(|other| other.specular_glossiness_texture.is_some())),
-        ("normal map", !is_physical && material.normal_texture.is_some()),
-        ("occlusion map", !is_physical && material.occlusion_texture.is_some()),
-        ("emission map", !is_physical && material.emissive_texture.is_some()),
-        ("emission of material", !is_physical && material.emissive_texture.is_none() && emits),
+        ("normal map", is_plain && material.normal_texture.is_some()),
+        ("occlusion map", is_plain && material.occlusion_texture.is_some()),
+        ("emission map", is_plain && material.emissive_texture.is_some()),
+        ("emission of material", is_plain && material.emissive_texture.is_none() && emits),
     ] {
         if is_there {
             count(key);
@@ -126,9 +133,10 @@ pub(super) fn describe(
         "BLEND" => Some(OpacityMode::Blend),
         _ => None,
     };
-    let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
+    let numbered = || number.map_or(String::new(), |number| format!("materials[{number}]"));
+    let name = material.name.clone().unwrap_or_else(numbered);
     let decoded = info.and_then(|info| {
-        let read = texture(data, info, images, &mut count);
+        let read = texture(data, info, images);
         match read {
             Ok(decoded) => Some(decoded),
             Err(cause) => {
@@ -161,7 +169,7 @@ pub(super) fn describe(
     let transform = first_info(material).and_then(transform);
     let has_maps = physical.as_ref().is_some_and(|(_, of)| of.maps.iter().any(Option::is_some));
     Some(Described {
-        uv_set: uv_set(data, number).filter(|_| texture.is_some() || has_maps),
+        uv_set: first_info(material).map(set).filter(|_| texture.is_some() || has_maps),
         uv_transform: transform.map_or(DAffine2::IDENTITY, affine),
         surface: Surface {
             name,
@@ -171,7 +179,7 @@ pub(super) fn describe(
             opacity,
             physical,
             unlit,
-            both_sides: material.double_sided,
+            sides: if material.double_sided { Sides::Both } else { Sides::Front },
         },
     })
 }
@@ -225,11 +233,6 @@ fn set(info: &Info) -> u32 {
     transform(info).and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord)
 }
 
-/// The number of the texture coordinates that the textures of a material are read at.
-pub(super) fn uv_set(data: &Data<'_>, number: usize) -> Option<u32> {
-    first_info(data.root.materials.get(number)?).map(set)
-}
-
 /// All of a physical surface but its base colour.
 fn physical(
     data: &Data<'_>,
@@ -258,7 +261,7 @@ fn physical(
         if first_info(material).is_some_and(|first| coordinates(first) != coordinates(info)) {
             count("map with texture coordinates of its own of material");
         } else {
-            match texture(data, info, images, count) {
+            match texture(data, info, images) {
                 Ok(Decoded { texture, .. }) => {
                     let is_colour = map == Map::Emission;
                     let texture = if is_colour { texture.decoded() } else { texture };
@@ -285,12 +288,7 @@ fn glossy([r, g, b]: [f32; 3], gloss: f32) -> Specular {
 }
 
 /// The picture of a texture with its sampler.
-fn texture(
-    data: &Data<'_>,
-    info: &Info,
-    images: &mut Images<'_>,
-    count: &mut impl FnMut(&str),
-) -> Result<Decoded, String> {
+fn texture(data: &Data<'_>, info: &Info, images: &mut Images<'_>) -> Result<Decoded, String> {
     let number = info.index;
     let missing = || format!("textures[{number}] is not there");
     let texture = data.root.textures.get(number).ok_or_else(missing)?;
@@ -299,31 +297,33 @@ fn texture(
     let missing = || format!("textures[{number}] has no picture that is read");
     let mut decoded = images.get(data, source.ok_or_else(missing)?)?;
     let sampler = texture.sampler.and_then(|sampler| data.root.samplers.get(sampler));
-    // Everything else repeats.
-    let other =
-        |wrap: Option<u64>| wrap.filter(|wrap| [CLAMP_TO_EDGE, MIRRORED_REPEAT].contains(wrap));
-    let wraps = sampler.map_or([None; 2], |sampler| [sampler.wrap_s, sampler.wrap_t].map(other));
-    if wraps.contains(&Some(MIRRORED_REPEAT)) {
-        count("mirrored repetition of texture");
-    } else if wraps[0] != wraps[1] {
-        count("difference of repetition in u and v of texture");
-    }
-    let wrap = if wraps == [Some(CLAMP_TO_EDGE); 2] { Wrap::Clamp } else { Wrap::Repeat };
-    let nearest = sampler.and_then(|sampler| sampler.mag_filter) == Some(NEAREST);
-    let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
-    decoded.texture = decoded.texture.with(filter, wrap);
-    match sampler.and_then(|sampler| sampler.min_filter) {
-        Some(NEAREST_MIPMAP_LINEAR | LINEAR_MIPMAP_LINEAR) => {
-            decoded.texture = decoded.texture.with_mip_map()
-        }
-        Some(NEAREST_MIPMAP_NEAREST | LINEAR_MIPMAP_NEAREST) => {
-            // Read between two levels, where the file asks for the nearer one.
-            count("nearest level of mip map of texture");
-            decoded.texture = decoded.texture.with_mip_map();
-        }
-        _ => {}
-    }
+    decoded.texture = sampled(decoded.texture, sampler.copied().unwrap_or_default());
     Ok(decoded)
+}
+
+/// A texture that is read as a sampler says. Where it does not say it, filters are linear and there is no mip map.
+fn sampled(texture: Texture, sampler: Sampler) -> Texture {
+    let wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
+        Some(CLAMP_TO_EDGE) => Wrap::Clamp,
+        Some(MIRRORED_REPEAT) => Wrap::Mirror,
+        _ => Wrap::Repeat,
+    });
+    let nearest = sampler.mag_filter == Some(NEAREST);
+    let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
+    let texture = texture.with(filter, wrap);
+    match sampler.min_filter {
+        Some(NEAREST) => texture.with_minified(Filter::Nearest),
+        Some(LINEAR) => texture.with_minified(Filter::Bilinear),
+        Some(NEAREST_MIPMAP_NEAREST) => {
+            texture.with_mip_map().with_minified(Filter::Nearest).with_single_levels()
+        }
+        Some(LINEAR_MIPMAP_NEAREST) => {
+            texture.with_mip_map().with_minified(Filter::Bilinear).with_single_levels()
+        }
+        Some(NEAREST_MIPMAP_LINEAR) => texture.with_mip_map().with_minified(Filter::Nearest),
+        Some(LINEAR_MIPMAP_LINEAR) => texture.with_mip_map().with_minified(Filter::Bilinear),
+        _ => texture,
+    }
 }
 
 /// The map of texture coordinates, by a rotation that is counter-clockwise with v down.

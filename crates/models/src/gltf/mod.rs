@@ -20,12 +20,13 @@ use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::ClipPoint;
 use rasterproof_render::pipeline::physical::Map;
 
+use crate::cameras::{Camera, Lens};
 use crate::contents::{Contents, FilePart, Numbers, Polygons};
 use crate::text::without_mark;
 use crate::{BadFile, Warnings, bad};
 use data::Data;
 use document::{
-    LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, Root, TRIANGLE_FAN,
+    Instances, LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, Root, TRIANGLE_FAN,
     TRIANGLE_STRIP, TRIANGLES,
 };
 pub(crate) use materials::encoded;
@@ -44,8 +45,9 @@ const PART_BYTES: u64 = 256;
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 14] = [
+const READ: [&str; 15] = [
     draco::EXTENSION,
+    INSTANCES,
     LIGHTS,
     "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",
@@ -60,6 +62,9 @@ const READ: [&str; 14] = [
     "MSFT_lod",
     "WEB3D_quantized_attributes",
 ];
+
+/// The extension of nodes that show many copies of a mesh.
+const INSTANCES: &str = "EXT_mesh_gpu_instancing";
 
 /// The extension of nodes that are lights.
 const LIGHTS: &str = "KHR_lights_punctual";
@@ -183,14 +188,17 @@ const CHUNK_HEAD_BYTES: usize = 8;
 /// The head of a GLB, and that of one chunk.
 const LEAST_GLB_BYTES: usize = 12 + CHUNK_HEAD_BYTES;
 
+/// The number of a material in the contents, and where its texture finds its coordinates.
+type UsedMaterial = (usize, Option<u32>, glam::DAffine2);
+
 struct Reader<'a> {
     path: &'a Path,
     data: &'a Data<'a>,
     contents: Contents,
     warnings: Warnings,
     images: Images<'a>,
-    /// For each material that is used its number in the contents, and where its texture finds its coordinates.
-    described: HashMap<usize, Option<(usize, Option<u32>, glam::DAffine2)>>,
+    /// By the numbers of the materials that are used; nothing is that of primitives that name none.
+    described: HashMap<Option<usize>, Option<UsedMaterial>>,
     json_bytes: u64,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
@@ -242,16 +250,77 @@ impl Reader<'_> {
         self.refuse_too_many_copies(visits.iter().map(|(number, _)| *number))?;
         for (number, world) in visits {
             let node = &root.nodes[number];
+            self.camera(number, node, world);
             let Some(mesh) = node.mesh else { continue };
             let missing = || format!("meshes[{mesh}] is not there");
             let primitives = &root.meshes.get(mesh).ok_or_else(missing)?.primitives;
-            for (at, primitive) in primitives.iter().enumerate() {
-                let place = format!("meshes[{mesh}].primitives[{at}]");
-                self.primitive(primitive, (number, node), world, &worlds, &place)
-                    .map_err(|cause| format!("{place}: {cause}"))?;
+            let copies = self.instances(node).map_err(|cause| format!("nodes[{number}]: {cause}"));
+            for copy in copies? {
+                for (at, primitive) in primitives.iter().enumerate() {
+                    let place = format!("meshes[{mesh}].primitives[{at}]");
+                    self.primitive(primitive, (number, node), world * copy, &worlds, &place)
+                        .map_err(|cause| format!("{place}: {cause}"))?;
+                }
             }
         }
         Ok(())
+    }
+
+    /// Adds the camera of a node, where it has one.
+    fn camera(&mut self, number: usize, node: &Node, world: DMat4) {
+        let Some(at) = node.camera else { return };
+        let camera = self.data.root.cameras.get(at);
+        let lens = camera.and_then(|camera| match camera {
+            document::Camera { perspective: Some(lens), .. } => {
+                let angle_rad = lens.yfov;
+                Some((Lens::Perspective { angle_rad }, lens.znear, lens.zfar))
+            }
+            document::Camera { orthographic: Some(lens), .. } => {
+                let half_height = lens.ymag;
+                Some((Lens::Parallel { half_height }, lens.znear, Some(lens.zfar)))
+            }
+            _ => None,
+        });
+        let (Some(camera), Some((lens, near, far))) = (camera, lens) else {
+            self.warn("cameras", &format!("nodes[{number}]: cameras[{at}] is none of glTF"));
+            return;
+        };
+        let name = node.name.as_ref().or(camera.name.as_ref()).cloned().unwrap_or_default();
+        let (eye, ahead, up) = (DVec3::ZERO, DVec3::NEG_Z, DVec3::Y);
+        let mut camera = Camera { name, eye, ahead, up, lens, near, far };
+        camera.place(world);
+        self.contents.cameras.push(camera);
+    }
+
+    /// Where a node shows its mesh, in its own coordinates: once, or as often as an extension says.
+    fn instances(&self, node: &Node) -> Result<Vec<DMat4>, String> {
+        let once = || Ok(vec![DMat4::IDENTITY]);
+        let Some(Instances { attributes }) = &node.extensions.instances else { return once() };
+        // Where the joints of a skin are decides alone.
+        let Some(count) = self.copies(node).filter(|_| node.skin.is_none()) else { return once() };
+        let read = |name: &str| attributes.get(name).copied();
+        fn vectors<const N: usize>(
+            data: &Data<'_>,
+            accessor: Option<usize>,
+            (count, missing): (u64, [f64; N]),
+        ) -> Result<Vec<[f64; N]>, String> {
+            match accessor {
+                Some(accessor) => data.vectors(accessor),
+                None => Ok(vec![missing; count as usize]),
+            }
+        }
+        let moves = vectors(self.data, read("TRANSLATION"), (count, [0.0; 3]))?;
+        let turns = vectors(self.data, read("ROTATION"), (count, [0.0, 0.0, 0.0, 1.0]))?;
+        let scales = vectors(self.data, read("SCALE"), (count, [1.0; 3]))?;
+        let copies = moves.into_iter().zip(turns).zip(scales);
+        Ok(copies.map(|((by, turn), scale)| placed(scale, turn, by)).collect())
+    }
+
+    /// How many copies of its mesh a node shows by an extension: those of which all is given.
+    fn copies(&self, node: &Node) -> Option<u64> {
+        let attributes = node.extensions.instances.as_ref()?.attributes.iter();
+        let of_copies = attributes.filter(|(name, _)| !name.starts_with('_'));
+        of_copies.map(|(_, &accessor)| self.data.count(accessor)).min()
     }
 
     /// Refuses what the nodes show before it is built, where it takes far more than the file.
@@ -267,8 +336,10 @@ impl Reader<'_> {
             let Some(mesh) = node.mesh else { continue };
             let of = |all: &[u64], number: usize| all.get(number).copied().unwrap_or(0);
             let skin = node.skin.map_or(0, |skin| of(&of_skins, skin));
-            bytes = bytes.saturating_add(of(&of_meshes, mesh)).saturating_add(skin);
-            copies += 1;
+            let shown = self.copies(node).unwrap_or(1);
+            let of_copy = of(&of_meshes, mesh).saturating_add(skin + size_of::<DMat4>() as u64);
+            bytes = bytes.saturating_add(of_copy.saturating_mul(shown));
+            copies += shown;
         }
         let length = self.data.len() + self.json_bytes;
         let per_byte = limits::MODEL_CONTENTS_BYTES_PER_BYTE.saturating_mul(length);
@@ -318,8 +389,6 @@ impl Reader<'_> {
     fn count_the_rest(&mut self) {
         let root = &self.data.root;
         self.count("animation", root.animations.len() as u64);
-        let cameras = root.nodes.iter().filter(|node| node.camera.is_some()).count();
-        self.count("camera", cameras as u64);
         let lights = root.nodes.iter().filter(|node| node.extensions.light.is_some()).count();
         self.count("light", lights as u64);
         // Some files name what they require here alone.
@@ -410,7 +479,7 @@ impl Reader<'_> {
             None => Vec::new(),
         };
         let mut uvs = Vec::new();
-        let material = primitive.material.and_then(|material| self.material(material, place));
+        let material = self.material(primitive.material, place);
         let surface = material.map(|(material, ..)| &self.contents.materials[material]);
         let physical = surface.and_then(|surface| surface.physical.clone());
         let colours = match physical {
@@ -457,31 +526,27 @@ impl Reader<'_> {
             uvs,
             colours,
             tangents,
+            ..FilePart::default()
         };
         self.contents.add(part)
     }
 
     fn count_attributes(&mut self, primitive: &Primitive, vertices: &Vertices<'_>) {
-        let material = primitive
-            .material
-            .and_then(|material| Some((self.data.root.materials.get(material)?, material)));
-        let is_opaque = material
-            .is_none_or(|(material, _)| !["MASK", "BLEND"].contains(&&*material.alpha_mode));
+        let material = primitive.material.and_then(|at| self.data.root.materials.get(at));
+        let is_opaque =
+            material.is_none_or(|material| !["MASK", "BLEND"].contains(&&*material.alpha_mode));
         // The opacity of a colour has an effect where that of the material has one.
         if !is_opaque && let Some(Ok(colours)) = vertices.read::<4>("COLOR_0") {
             let transparent = colours.iter().filter(|[.., alpha]| *alpha < 1.0).count();
             self.count("transparent position", transparent as u64);
         }
-        let used = material.and_then(|(_, number)| materials::uv_set(self.data, number));
         let mut not_defined = 0;
         for name in primitive.attributes.keys() {
             let set = name.split_once('_');
             match set.and_then(|(kind, set)| Some((kind, set.parse().ok()?))) {
-                Some(("TEXCOORD", set)) if set > 0 && used != Some(set) => {
-                    self.count("other texture coordinates of primitive", 1);
-                }
                 Some(("COLOR", 1..)) => self.count("other colours of primitive", 1),
                 Some(("JOINTS", 1..)) => self.count("joints beyond the first four of primitive", 1),
+                // Texture coordinates that no texture is read at change nothing.
                 Some(("TEXCOORD" | "COLOR" | "JOINTS" | "WEIGHTS", _)) => {}
                 _ if ["POSITION", "NORMAL", "TANGENT"].contains(&&**name) => {}
                 _ => not_defined = 1,
@@ -550,11 +615,7 @@ impl Reader<'_> {
     }
 
     /// The number of a material in the contents, and what its texture needs.
-    fn material(
-        &mut self,
-        number: usize,
-        place: &str,
-    ) -> Option<(usize, Option<u32>, glam::DAffine2)> {
+    fn material(&mut self, number: Option<usize>, place: &str) -> Option<UsedMaterial> {
         if let Some(known) = self.described.get(&number) {
             return *known;
         }
@@ -569,11 +630,9 @@ impl Reader<'_> {
             self.contents.materials.push(surface);
             (self.contents.materials.len() - 1, uv_set, uv_transform)
         });
-        if known.is_none() {
-            self.warn(
-                "materials",
-                &format!("{place}: materials[{number}] is not there; it is drawn grey"),
-            );
+        if let (None, Some(number)) = (known, number) {
+            let text = format!("{place}: materials[{number}] is not there; it is drawn grey");
+            self.warn("materials", &text);
         }
         self.described.insert(number, known);
         known
@@ -654,18 +713,19 @@ fn local(node: &Node) -> DMat4 {
     if let Some(matrix) = &node.matrix {
         return DMat4::from_cols_array(&matrix.map(f64::from));
     }
-    let vector = |numbers: Option<[f32; 3]>, missing| {
-        numbers.map_or(missing, |numbers| DVec3::from_array(numbers.map(f64::from)))
+    let vector = |numbers: Option<[f32; 3]>, missing: f64| {
+        numbers.map_or([missing; 3], |numbers| numbers.map(f64::from))
     };
     let turn = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.map(f64::from));
+    placed(vector(node.scale, 1.0), turn, vector(node.translation, 0.0))
+}
+
+/// A matrix that scales, turns by a quaternion and moves.
+fn placed(scale: [f64; 3], turn: [f64; 4], by: [f64; 3]) -> DMat4 {
     let turn = DQuat::from_array(turn);
     // Where the four numbers are all 0, nothing is turned.
     let turn = if turn.length_squared() > 0.0 { turn.normalize() } else { DQuat::IDENTITY };
-    DMat4::from_scale_rotation_translation(
-        vector(node.scale, DVec3::ONE),
-        turn,
-        vector(node.translation, DVec3::ZERO),
-    )
+    DMat4::from_scale_rotation_translation(DVec3::from_array(scale), turn, DVec3::from_array(by))
 }
 
 /// Moves vertices by the mean of their joints.

@@ -204,7 +204,8 @@ impl<'a> Whole<'a> {
         }
         let positions = item.prepared.item.mesh.triangles.positions()[triangle];
         let corners = positions.map_array(|number| item.vertices[number as usize].place);
-        let varyings = item.prepared.varyings(self.scene, triangle);
+        let is_back = item.prepared.is_back(outline.corners);
+        let varyings = item.prepared.varyings(self.scene, triangle, is_back);
         let values = varyings.map_array(|varying| without_place(&varying));
         Surface { material: &item.material, corners, values }
     }

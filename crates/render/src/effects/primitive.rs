@@ -165,23 +165,25 @@ impl<'a> Prepared<'a> {
     }
 
     /// The vertex stage of the corners of a triangle: all but their positions. What the material has no use for is not read.
+    /// The normals of a back are reversed.
     #[inline]
-    pub fn varyings(&self, scene: &Scene, triangle: usize) -> [Packed<PLACED>; 3] {
+    pub fn varyings(&self, scene: &Scene, triangle: usize, is_back: bool) -> [Packed<PLACED>; 3] {
         let (material, mesh) = (&self.item.material, &self.item.mesh);
         let (triangles, positions) = (&mesh.triangles, mesh.triangles.positions()[triangle]);
         let mut colours =
             if material.vertex_colours { triangles.colours(triangle) } else { [DVec3::ONE; 3] };
         let mut normals = [DVec3::ZERO; 3];
+        let matrix = if is_back { self.normals * -1.0 } else { self.normals };
         match material.shading {
             Shading::Unlit => {}
-            Shading::Flat => normals = [self.normals * mesh.face_normal(positions); 3],
+            Shading::Flat => normals = [matrix * mesh.face_normal(positions); 3],
             Shading::Phong => {
-                normals = triangles.normals(triangle).map_array(|normal| self.normals * normal);
+                normals = triangles.normals(triangle).map_array(|normal| matrix * normal);
             }
             Shading::Gouraud => {
                 // Light of the corners is light too.
                 for (colour, normal) in colours.iter_mut().zip(triangles.normals(triangle)) {
-                    *colour *= scene.light.intensity(self.normals * normal);
+                    *colour *= scene.light.intensity(matrix * normal);
                 }
             }
         }
@@ -206,12 +208,18 @@ impl<'a> Prepared<'a> {
         })
     }
 
+    /// Whether a piece in the window is lit as a back.
+    #[inline]
+    pub fn is_back(&self, corners: Corners) -> bool {
+        self.assembler.is_back(corners)
+    }
+
     /// Emits the pieces of one triangle, whose positions are transformed for it alone.
     pub fn assemble_one(&self, scene: &Scene, triangle: usize, emit: &mut dyn FnMut(&Piece)) {
         let mesh = &self.item.mesh;
         let point = |number: u32| self.point(number as usize, mesh.positions[number as usize]);
         let [Ok(a), Ok(b), Ok(c)] = mesh.triangles.positions()[triangle].map(point) else { return };
-        let varyings = || self.varyings(scene, triangle);
+        let varyings = |is_back| self.varyings(scene, triangle, is_back);
         self.assembler.assemble([&a, &b, &c], varyings, &mut Counters::default(), emit);
     }
 
@@ -225,7 +233,7 @@ impl<'a> Prepared<'a> {
         let mut fills = Counters::default();
         for (triangle, positions) in self.item.mesh.triangles.positions().iter().enumerate() {
             let points = positions.map_array(|number| &self.points[number as usize]);
-            let varyings = || self.varyings(scene, triangle);
+            let varyings = |is_back| self.varyings(scene, triangle, is_back);
             let emit = |piece: &Piece| emit(piece, &mut fills);
             self.assembler.assemble(points, varyings, counters, emit);
         }
@@ -234,7 +242,7 @@ impl<'a> Prepared<'a> {
 }
 
 fn assembler(item: &Item, plan: &ItemPlan, window: PixelRect) -> Assembler {
-    let assembler = Assembler::new(window, item.cull);
+    let assembler = Assembler::new(window, item.cull).with_two_sides(item.two_sided);
     let assembler = match plan.clip {
         Mode::Planned | Mode::Material => assembler,
         Mode::Always => assembler.with_every_plane(),

@@ -117,7 +117,7 @@ impl Words {
     }
 
     fn item(&mut self, item: &Item) {
-        let Item { mesh, model, material, cull } = item;
+        let Item { mesh, model, material, cull, two_sided } = item;
         let Material { colour, vertex_colours, texture, shading, specular, opacity, physical } =
             material;
         self.numbers(&model.to_cols_array());
@@ -165,6 +165,10 @@ impl Words {
             Cull::Clockwise => 1,
             Cull::CounterClockwise => 2,
         });
+        // Of a scene without such items the digest is what it was.
+        if *two_sided {
+            self.whole(1);
+        }
         self.whole(mesh.positions.len() as u64);
         mesh.positions.iter().for_each(|position| self.point(*position));
         self.whole(mesh.triangles.len() as u64);
@@ -196,7 +200,7 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 15] = [
+        let changes: [(&str, Change); 16] = [
             ("in shadow", |scene| scene.shadows = Some(Shadows::default())),
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
@@ -218,6 +222,7 @@ mod tests {
                 scene.items[0].material.opacity = Some(opacity);
             }),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
+            ("lit from both sides", |scene| scene.items[0].two_sided = true),
             ("painted", |scene| scene.hidden = Hidden::Painter),
             ("in layers", |scene| scene.layers = std::num::NonZeroU32::new(4)),
             ("twice", |scene| scene.items.push(scene.items[0].clone())),

@@ -11,6 +11,7 @@ use glam::{DVec2, DVec4};
 
 use super::clip::{self, Outcode, Polygon};
 use super::{ClipVertex, Counters};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, Refusal, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, MAX_W, ScreenTriangle, ScreenVertex, Varying};
 
@@ -147,6 +148,8 @@ impl ClipPoint {
 pub struct Assembler {
     viewport: Viewport,
     cull: Cull,
+    /// Whether pieces that are clockwise as seen have varyings of their own.
+    two_sided: bool,
     /// Planes that every triangle is cut by, asked for or not; the rest only where a vertex is out.
     always: Outcode,
     /// Planes that cut no triangle: a claim that none crosses them.
@@ -159,7 +162,8 @@ impl Assembler {
     /// Clips by exactly the planes that a triangle crosses.
     #[must_use]
     pub fn new(bounds: PixelRect, cull: Cull) -> Self {
-        Self { viewport: Viewport::new(bounds), cull, always: 0, never: 0, asks: false }
+        let viewport = Viewport::new(bounds);
+        Self { viewport, cull, two_sided: false, always: 0, never: 0, asks: false }
     }
 
     /// Runs every triangle through all the planes: what clipping costs without outcodes.
@@ -181,6 +185,18 @@ impl Assembler {
         Self { asks: true, ..self }
     }
 
+    /// Asks for the varyings of the back where a piece is clockwise as seen.
+    #[must_use]
+    pub fn with_two_sides(self, two_sided: bool) -> Self {
+        Self { two_sided, ..self }
+    }
+
+    /// Whether a piece has the varyings of the back: decided as culling is, by the snapped corners.
+    #[must_use]
+    pub fn is_back(&self, corners: Corners) -> bool {
+        self.two_sided && Cull::Clockwise.removes(corners)
+    }
+
     #[must_use]
     pub fn without_culling(self) -> Self {
         Self { cull: Cull::None, ..self }
@@ -198,11 +214,12 @@ impl Assembler {
     }
 
     /// Emits the pieces of one triangle that are in the window and not culled. `varyings` gives
-    /// the varyings of its three corners; it is called only if the triangle is cut, or is in the window and not culled.
+    /// the varyings of its three corners, where it is told that a piece has those of the back; it is called only if the
+    /// triangle is cut, or is in the window and not culled.
     pub fn assemble<V: Varying>(
         &self,
         triangle: [&ClipPoint; 3],
-        varyings: impl FnOnce() -> [V; 3],
+        varyings: impl Fn(bool) -> [V; 3],
         counters: &mut Counters,
         mut emit: impl FnMut(&ScreenTriangle<V>),
     ) {
@@ -217,37 +234,50 @@ impl Assembler {
         if planes == 0 {
             // What a forgotten plane leaves outside the domain cannot be drawn; it is left out.
             let (Some(a), Some(b), Some(c)) = (a.place, b.place, c.place) else { return };
-            if self.keeps([a.position, b.position, c.position], counters) {
-                let [of_a, of_b, of_c] = varyings();
+            let corners = [a.position, b.position, c.position];
+            if self.keeps(corners, counters) {
+                let [of_a, of_b, of_c] = varyings(self.is_back(corners));
                 let vertices = [a.with_varying(of_a), b.with_varying(of_b), c.with_varying(of_c)];
                 emit(&ScreenTriangle { vertices });
             }
             return;
         }
         counters.clipped += u64::from(crossed != 0);
-        let [of_a, of_b, of_c] = varyings();
-        let vertex = |point: &ClipPoint, varying| ClipVertex { position: point.position, varying };
-        let vertices = [vertex(a, of_a), vertex(b, of_b), vertex(c, of_c)];
-        let (polygon, tests): (Polygon<V>, u64) = clip::clip(&vertices, planes);
+        let cut = |is_back: bool| {
+            let [of_a, of_b, of_c] = varyings(is_back);
+            let vertex =
+                |point: &ClipPoint, varying| ClipVertex { position: point.position, varying };
+            clip::clip(&[vertex(a, of_a), vertex(b, of_b), vertex(c, of_c)], planes)
+        };
+        let (polygon, tests): (Polygon<V>, u64) = cut(false);
         counters.plane_tests += tests;
-        self.emit_fan(&polygon, counters, &mut emit);
+        self.emit_fan(&polygon, &|| cut(true).0, counters, &mut emit);
     }
 
-    /// Places the vertices of a convex polygon and emits the fan around the first.
+    /// Places the vertices of a convex polygon and emits the fan around the first. `back` is the polygon with the varyings of
+    /// the back: which piece needs them is known only when it is placed.
     fn emit_fan<V: Varying>(
         &self,
         polygon: &Polygon<V>,
+        back: &dyn Fn() -> Polygon<V>,
         counters: &mut Counters,
         emit: &mut impl FnMut(&ScreenTriangle<V>),
     ) {
-        let mut placed = polygon.vertices().filter_map(|vertex| self.viewport.place(vertex).ok());
+        let place = |vertex: &ClipVertex<V>| self.viewport.place(vertex).ok();
+        let mut placed = polygon.vertices().filter_map(place);
         let (Some(first), Some(mut previous)) = (placed.next(), placed.next()) else { return };
-        for next in placed {
-            let piece = ScreenTriangle { vertices: [first, previous, next] };
+        for (number, next) in placed.enumerate() {
+            let mut vertices = [first, previous, next];
             previous = next;
-            if self.keeps(piece.corners(), counters) {
-                emit(&piece);
+            let corners = vertices.map_array(|vertex| vertex.position);
+            if !self.keeps(corners, counters) {
+                continue;
             }
+            if self.is_back(corners) {
+                let back: Vec<_> = back().vertices().filter_map(place).collect();
+                vertices = [back[0], back[number + 1], back[number + 2]];
+            }
+            emit(&ScreenTriangle { vertices });
         }
     }
 
@@ -286,13 +316,43 @@ mod tests {
             let assembler = Assembler::new(bounds, Cull::Clockwise);
             for triangle in [[a, b, c], [a, c, d]] {
                 let points = triangle.map(|vertex| assembler.point(vertex.position));
-                let varyings = || triangle.map(|vertex| vertex.varying);
+                let varyings = |_| triangle.map(|vertex| vertex.varying);
                 let hit = |piece: &ScreenTriangle<_>| {
                     Oracle.cover(piece.corners(), bounds, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
                 };
                 assembler.assemble(points.each_ref(), varyings, &mut Counters::default(), hit);
             }
             assert!(hits.rows().all(|(_, row)| row.iter().all(|&hit| hit == 1)));
+        }
+    }
+
+    /// Whole and cut, a triangle of two sides has the varyings of the side that its snapped corners show.
+    #[test]
+    fn a_piece_has_the_varyings_of_the_side_that_is_seen() {
+        let bounds = PixelRect::window(8, 8);
+        let inside = [(0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 1.0), (0.0, 0.5, 0.0, 1.0)];
+        let crossing = [inside[0], inside[1], (0.0, 0.0, -3.0, 1.0)];
+        for triangle in [inside, crossing] {
+            for turned in [false, true] {
+                let [a, b, c] = triangle;
+                let corners = if turned { [a, c, b] } else { [a, b, c] };
+                for two_sided in [false, true] {
+                    let assembler = Assembler::new(bounds, Cull::None).with_two_sides(two_sided);
+                    let points =
+                        corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
+                    let varyings = |is_back| [DVec2::splat(f64::from(u8::from(is_back))); 3];
+                    let mut counters = Counters::default();
+                    let mut pieces = 0;
+                    assembler.assemble(points.each_ref(), varyings, &mut counters, |piece| {
+                        let is_back = two_sided && twice_area(piece.corners()) > 0;
+                        let expected = DVec2::splat(f64::from(u8::from(is_back)));
+                        assert!(piece.vertices.iter().all(|v| v.varying == expected));
+                        pieces += 1;
+                    });
+                    assert_eq!(counters.pieces, pieces);
+                    assert!(pieces > 0);
+                }
+            }
         }
     }
 
@@ -303,7 +363,7 @@ mod tests {
             let mut counters = Counters::default();
             let assembler = Assembler::new(bounds, cull);
             let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
-            let varyings = || [glam::DVec2::ZERO; 3];
+            let varyings = |_| [glam::DVec2::ZERO; 3];
             assembler.assemble(points.each_ref(), varyings, &mut counters, |_| {});
             [counters.rejected, counters.clipped, counters.pieces, counters.culled]
         };

@@ -141,7 +141,7 @@ fn assemble_all<I, V: Varying>(
     let points: Vec<_> = vertices.iter().map(|vertex| assembler.point(vertex.position)).collect();
     for &[a, b, c] in triangles {
         let indices = [a as usize, b as usize, c as usize];
-        let varyings = || indices.map_array(|i| vertices[i].varying);
+        let varyings = |_| indices.map_array(|i| vertices[i].varying);
         assembler.assemble(indices.map_array(|i| &points[i]), varyings, counters, &mut emit);
     }
     Ok(())

@@ -10,7 +10,7 @@
 //! and all, and one of opacity 0 is not drawn. Items that blend are drawn after all others, from the farthest to the
 //! nearest by the middle of their bounding box, and the triangles of each in their own order.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -18,6 +18,7 @@ use glam::DVec2;
 use super::depth::OFF_FRACTION;
 use super::sample::Colour;
 use super::texture::{Filter, FourTexels, Texture, Wrap};
+use super::wrap::within;
 
 /// How opaque a material is, and what that decides.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +138,7 @@ pub struct OpacityMap {
     whole: [u8; 2],
 }
 
-const BLOCK: i64 = 8;
+const BLOCK: usize = 8;
 
 /// Of triangles that read in more blocks, those of the whole picture are taken.
 const MOST_BLOCKS: usize = 256;
@@ -150,12 +151,11 @@ impl OpacityMap {
         let none = [u8::MAX, 0];
         let join = |[a, b]: [u8; 2], [c, d]: [u8; 2]| [a.min(c), b.max(d)];
         let across = across(width);
-        let mut blocks = vec![none; across * (height as usize).div_ceil(BLOCK as usize)];
+        let mut blocks = vec![none; across * (height as usize).div_ceil(BLOCK)];
         for y in 0..height {
             for x in 0..width {
                 let texel = texture.red(x, y);
-                let block =
-                    &mut blocks[y as usize / BLOCK as usize * across + x as usize / BLOCK as usize];
+                let block = &mut blocks[y as usize / BLOCK * across + x as usize / BLOCK];
                 *block = join(*block, [texel; 2]);
             }
         }
@@ -165,7 +165,7 @@ impl OpacityMap {
 
     /// The same, read differently.
     #[must_use]
-    pub fn with(self, filter: Filter, wrap: Wrap) -> Self {
+    pub fn with(self, filter: Filter, wrap: impl Into<[Wrap; 2]>) -> Self {
         Self { texture: self.texture.with(filter, wrap), ..self }
     }
 
@@ -187,8 +187,9 @@ impl OpacityMap {
     pub fn between(&self, uv: [DVec2; 3]) -> [u8; 2] {
         let (width, height) = self.texture.size();
         let [columns, rows] = self.texture.texels_between(uv);
-        let columns = blocks(self.texture.wrap, columns, width.into());
-        let rows = blocks(self.texture.wrap, rows, height.into());
+        let [across_u, along_v] = self.texture.wrap;
+        let columns = blocks(across_u, columns, width.into());
+        let rows = blocks(along_v, rows, height.into());
         let count = |ranges: &[Range<usize>; 2]| ranges[0].len() + ranges[1].len();
         if count(&columns) * count(&rows) > MOST_BLOCKS {
             return self.whole;
@@ -205,26 +206,15 @@ impl OpacityMap {
 }
 
 fn across(width: u32) -> usize {
-    (width as usize).div_ceil(BLOCK as usize)
+    (width as usize).div_ceil(BLOCK)
 }
 
 /// The blocks of texels between two that are counted beyond the borders too: one range, or two where the picture
 /// begins again between them.
-fn blocks(wrap: Wrap, [first, last]: [i64; 2], side: i64) -> [Range<usize>; 2] {
-    let range = |first: i64, last: i64| (first / BLOCK) as usize..(last / BLOCK + 1) as usize;
-    match wrap {
-        Wrap::Clamp => [range(first.clamp(0, side - 1), last.clamp(0, side - 1)), 0..0],
-        Wrap::Repeat if last - first >= side - 1 => [range(0, side - 1), 0..0],
-        Wrap::Repeat => {
-            let start = first.rem_euclid(side);
-            let end = start + (last - first);
-            if end < side {
-                [range(start, end), 0..0]
-            } else {
-                [range(start, side - 1), range(0, end - side)]
-            }
-        }
-    }
+fn blocks(wrap: Wrap, ends: [i64; 2], side: i64) -> [Range<usize>; 2] {
+    let of_texels =
+        |texels: RangeInclusive<usize>| texels.start() / BLOCK..texels.end() / BLOCK + 1;
+    within(wrap, ends, side).map(|texels| texels.map_or(0..0, of_texels))
 }
 
 #[cfg(test)]
@@ -246,7 +236,8 @@ mod tests {
             texels.push(if is_clear { 0 } else { u8::MAX });
         }
         let filter = [Filter::Nearest, Filter::Bilinear][rng.int(0, 1) as usize];
-        let wrap = [Wrap::Repeat, Wrap::Clamp][rng.int(0, 1) as usize];
+        let wrap =
+            [0; 2].map(|_| [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][rng.int(0, 2) as usize]);
         let texture = Texture::grey(width, height, texels).unwrap().with(filter, wrap);
         let map = Some(Arc::new(OpacityMap::new(texture)));
         let factor = if rng.chance(4) { rng.unit() } else { 1.0 };

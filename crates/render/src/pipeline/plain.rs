@@ -119,7 +119,8 @@ mod tests {
             let texels: Vec<_> =
                 (0..width * height).map(|at| colour(at % width, at / width)).collect();
             let filter = [Filter::Nearest, Filter::Bilinear][rng.int(0, 1) as usize];
-            let wrap = [Wrap::Repeat, Wrap::Clamp][rng.int(0, 1) as usize];
+            let wrap =
+                [0; 2].map(|_| [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][rng.int(0, 2) as usize]);
             let texture = Texture::new(width, height, &texels).unwrap().with(filter, wrap);
             let texture = texture.with_mip_map();
             let from = DVec2::new(rng.signed(), rng.signed()) * 1.5;

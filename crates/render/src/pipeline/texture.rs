@@ -1,4 +1,4 @@
-//! Textures: nearest and bilinear lookup, repeat and clamp (the book's sections 3.3 and 11.2).
+//! Textures: nearest and bilinear lookup, repeat and clamp (the book's sections 3.3 and 11.2), and mirrored repeat.
 //!
 //! A coordinate is rounded to 1/256 texel before a texel is chosen, as GPUs do, so that two engines
 //! that differ in the last bit of a coordinate read the same texel. The thresholds of that rounding
@@ -39,13 +39,18 @@ pub struct Texture {
     texels: Texels,
     /// The channel in [0, 1] of each byte.
     channels: &'static [f64; 256],
-    /// Beyond the border.
-    pub wrap: Wrap,
+    /// Beyond the borders in u and in v.
+    pub wrap: [Wrap; 2],
     /// Between texels.
     pub filter: Filter,
+    /// The same where it is minified.
+    minified: Filter,
+    /// Whether the nearest level is read alone, where others mix two.
+    has_single_levels: bool,
     /// How often it is read at most along the longer axis of a pixel's footprint ([`super::footprint`]).
     pub anisotropy: u8,
-    /// Its mip map: smaller and smaller pictures, down to one texel; empty without one.
+    /// Its mip map: smaller and smaller pictures, down to one texel; empty without one. A texture that has none and is filtered
+    /// in another way where it is minified has itself as its only level.
     levels: Vec<Texture>,
     derived: Arc<Derived>,
 }
@@ -151,20 +156,19 @@ impl Texture {
 
     fn of(width: u32, height: u32, texels: Texels) -> Self {
         let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
-        let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        let (anisotropy, levels, derived) = (1, Vec::new(), Arc::default());
-        let channels = &CHANNELS;
         Self {
             width,
             height,
             subtexels,
             texels,
-            channels,
-            wrap,
-            filter,
-            anisotropy,
-            levels,
-            derived,
+            channels: &CHANNELS,
+            wrap: [Wrap::Repeat; 2],
+            filter: Filter::Nearest,
+            minified: Filter::Nearest,
+            has_single_levels: false,
+            anisotropy: 1,
+            levels: Vec::new(),
+            derived: Arc::default(),
         }
     }
 
@@ -185,16 +189,43 @@ impl Texture {
             return self;
         }
         let derived = Arc::clone(self.derived.otherwise.get_or_init(Arc::default));
-        let has_mip_map = self.has_mip_map();
+        let Self { has_single_levels, minified, .. } = self;
+        let first_level = self.levels.first().map(Self::size);
+        let size = self.size();
         let other = Self { channels, levels: Vec::new(), derived, ..self };
-        if has_mip_map { other.with_mip_map() } else { other }
+        let other = match first_level {
+            None => other,
+            Some(level) if level == size => {
+                Self { minified: other.filter, ..other }.with_minified(minified)
+            }
+            Some(_) => other.with_mip_map(),
+        };
+        Self { has_single_levels, ..other }
     }
 
     /// The same, read differently.
     #[must_use]
-    pub fn with(mut self, filter: Filter, wrap: Wrap) -> Self {
+    pub fn with(mut self, filter: Filter, wrap: impl Into<[Wrap; 2]>) -> Self {
+        let wrap = wrap.into();
         self.levels = self.levels.into_iter().map(|level| level.with(filter, wrap)).collect();
-        Self { wrap, filter, ..self }
+        Self { wrap, filter, minified: filter, ..self }
+    }
+
+    /// The same, filtered in this way where it is minified, by its mip map if it has one.
+    #[must_use]
+    pub fn with_minified(mut self, minified: Filter) -> Self {
+        if self.levels.is_empty() && minified != self.filter {
+            self.levels.push(self.clone());
+        }
+        let wrap = self.wrap;
+        self.levels = self.levels.into_iter().map(|level| level.with(minified, wrap)).collect();
+        Self { minified, ..self }
+    }
+
+    /// The same, of which the nearest level is read alone in place of a mixture of two.
+    #[must_use]
+    pub fn with_single_levels(self) -> Self {
+        Self { has_single_levels: true, ..self }
     }
 
     /// The same, read up to so many times along the longer axis of a footprint.
@@ -211,9 +242,9 @@ impl Texture {
             let next = |last: &Self| (last.size() != (1, 1)).then(|| last.half());
             std::iter::successors(next(&self), next).collect()
         });
-        let level = |level: &Self| level.clone().with(self.filter, self.wrap);
+        let level = |level: &Self| level.clone().with(self.minified, self.wrap);
         self.levels = levels.iter().map(level).collect();
-        self
+        Self { has_single_levels: false, ..self }
     }
 
     #[must_use]
@@ -258,17 +289,21 @@ impl Texture {
         Self { channels: self.channels, ..Self::of(width, height, texels) }
     }
 
-    /// The colour at (u, v) at a level of detail: between the two levels of the mip map, or the texture itself
-    /// at levels up to 0 and for NaN.
+    /// The colour at (u, v) at a level of detail: between the two levels of the mip map or of the nearer one, or the texture
+    /// itself at levels up to 0 and for NaN. The thresholds between levels lie off simple fractions, as others do.
     #[must_use]
     pub fn at_level(&self, uv: DVec2, level: f64) -> DVec3 {
-        if self.levels.is_empty() || level <= 0.0 || level.is_nan() {
+        let is_minified = level > if self.minified == self.filter { 0.0 } else { OFF_FRACTION };
+        if self.levels.is_empty() || !is_minified {
             return self.at(uv);
         }
-        let level = level.min(self.levels.len() as f64);
+        let mut level = level.min(self.levels.len() as f64);
+        if self.has_single_levels {
+            level = (level + (0.5 - OFF_FRACTION)).floor();
+        }
         let (number, part) = (level as usize, level.fract());
         let read = |number: usize| match number {
-            0 => self.at(uv),
+            0 => self.read(uv, self.minified),
             number => self.levels[number - 1].at(uv),
         };
         let near = read(number);
@@ -284,8 +319,13 @@ impl Texture {
     /// which one is read: for who reads many at once. Nothing of a grey one.
     #[must_use]
     pub fn nearest_bytes(&self) -> Option<&[u32]> {
-        let masks = self.width.is_power_of_two() && self.height.is_power_of_two();
-        let simple = self.filter == Filter::Nearest && (masks || self.wrap == Wrap::Clamp);
+        let is_simple = |(wrap, side): (Wrap, u32)| match wrap {
+            Wrap::Repeat => side.is_power_of_two(),
+            Wrap::Clamp => true,
+            Wrap::Mirror => false,
+        };
+        let sides = [(self.wrap[0], self.width), (self.wrap[1], self.height)];
+        let simple = self.filter == Filter::Nearest && sides.into_iter().all(is_simple);
         match &self.texels {
             Texels::Colour(bytes) if simple => Some(bytes),
             _ => None,
@@ -296,7 +336,13 @@ impl Texture {
     #[must_use]
     #[inline]
     pub fn at(&self, uv: DVec2) -> DVec3 {
-        self.at_subtexel(subtexel(uv.x, self.subtexels.x), subtexel(1.0 - uv.y, self.subtexels.y))
+        self.read(uv, self.filter)
+    }
+
+    #[inline]
+    fn read(&self, uv: DVec2, filter: Filter) -> DVec3 {
+        let [x, y] = [subtexel(uv.x, self.subtexels.x), subtexel(1.0 - uv.y, self.subtexels.y)];
+        self.at_subtexel(x, y, filter)
     }
 
     /// The same, with the four texels of the last read: where a texture is magnified, neighbours mostly read the same ones.
@@ -333,8 +379,8 @@ impl Texture {
 
     /// The colour at whole numbers of 1/256 texel from the top left corner.
     #[inline]
-    fn at_subtexel(&self, x: i64, y: i64) -> DVec3 {
-        match self.filter {
+    fn at_subtexel(&self, x: i64, y: i64, filter: Filter) -> DVec3 {
+        match filter {
             Filter::Nearest => {
                 let column = self.column(x >> SUBTEXEL_BITS);
                 self.texel(self.row_start(y >> SUBTEXEL_BITS) + column)
@@ -398,7 +444,7 @@ impl Texture {
     /// The least and the largest of each channel over subtexels that read the same texels.
     fn between(&self, [x0, x1]: [i64; 2], [y0, y1]: [i64; 2]) -> [DVec3; 2] {
         let [[a, b], [c, d]] =
-            [y0, y1].map_array(|y| [x0, x1].map_array(|x| self.at_subtexel(x, y)));
+            [y0, y1].map_array(|y| [x0, x1].map_array(|x| self.at_subtexel(x, y, self.filter)));
         let (least, most) = (a.min(b).min(c).min(d), a.max(b).max(c).max(d));
         if self.filter == Filter::Nearest || (x0, y0) == (x1, y1) {
             return [least, most];
@@ -409,7 +455,7 @@ impl Texture {
         [least - rounding, most + rounding]
     }
 
-    /// The first and the last column and row of the texels that [`Self::at`] reads at coordinates between three, counted
+    /// The first and the last column and row of the texels that are read at coordinates between three, minified or not, counted
     /// beyond the borders too; all of them where a coordinate is far out.
     ///
     /// An engine's coordinate is off by at most 2^-53 (15 D + 2 M)
@@ -425,9 +471,11 @@ impl Texture {
             let margin = 64.0 * f64::EPSILON * (1.0 + most);
             let [first, last] = [a.min(b).min(c) - margin, a.max(b).max(c) + margin]
                 .map_array(|end| subtexel(end, subtexels));
-            match self.filter {
-                Filter::Nearest => [first >> SUBTEXEL_BITS, last >> SUBTEXEL_BITS],
-                Filter::Bilinear => [
+            match [self.filter, self.minified] {
+                [Filter::Nearest, Filter::Nearest] => {
+                    [first >> SUBTEXEL_BITS, last >> SUBTEXEL_BITS]
+                }
+                _ => [
                     (first - SUBTEXELS / 2) >> SUBTEXEL_BITS,
                     ((last - SUBTEXELS / 2) >> SUBTEXEL_BITS) + 1,
                 ],
@@ -455,8 +503,8 @@ impl Texture {
         let reach = if reach > 0.0 { reach.ceil() as i64 + 1 } else { 0 };
         let [columns, rows] =
             self.texels_between(uv).map_array(|[first, last]| [first - reach, last + reach]);
-        let columns = within(self.wrap, columns, self.width.into());
-        let rows = within(self.wrap, rows, self.height.into());
+        let columns = within(self.wrap[0], columns, self.width.into());
+        let rows = within(self.wrap[1], rows, self.height.into());
         match &self.texels {
             Texels::Colour(bytes) => {
                 self.derived.plain.colour(self.sides(), &columns, &rows, |at| bytes[at])
@@ -509,12 +557,12 @@ impl Texture {
 
     #[inline]
     fn column(&self, column: i64) -> usize {
-        wrapped(self.wrap, column, self.width.into()) as usize
+        wrapped(self.wrap[0], column, self.width.into()) as usize
     }
 
     #[inline]
     fn row_start(&self, row: i64) -> usize {
-        wrapped(self.wrap, row, self.height.into()) as usize * self.width as usize
+        wrapped(self.wrap[1], row, self.height.into()) as usize * self.width as usize
     }
 }
 
@@ -553,7 +601,7 @@ mod tests {
         let texture = Texture::new(9, 6, &bytes).unwrap();
         let mut kept = 0;
         for filter in [Filter::Nearest, Filter::Bilinear] {
-            for wrap in [Wrap::Repeat, Wrap::Clamp] {
+            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
                 let texture = texture.clone().with(filter, wrap);
                 let mut last = FourTexels::NONE;
                 for i in 0..4000 {
@@ -567,7 +615,7 @@ mod tests {
                 assert_eq!(texture.at_again(odd, &mut last), texture.at(odd));
             }
         }
-        assert!(kept > 6000, "{kept}");
+        assert!(kept > 9000, "{kept}");
     }
 
     fn two_by_two() -> Texture {
@@ -609,7 +657,7 @@ mod tests {
         let texture = texture.with(Filter::Nearest, Wrap::Clamp);
         assert_eq!(texture.at(DVec2::new(1.1, -0.9)), DVec3::ONE);
         for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
-            for wrap in [Wrap::Clamp, Wrap::Repeat] {
+            for wrap in [Wrap::Clamp, Wrap::Repeat, Wrap::Mirror] {
                 let texture = two_by_two().with(Filter::Bilinear, wrap);
                 assert!(texture.at(DVec2::new(odd, odd)).is_finite());
             }
@@ -621,7 +669,7 @@ mod tests {
     fn all_colours_within_a_bound_are_listed() {
         let numbers: Vec<[u8; 3]> = (0..=255).map(|i| [i, 255 - i, i / 2]).collect();
         for filter in [Filter::Nearest, Filter::Bilinear] {
-            for wrap in [Wrap::Repeat, Wrap::Clamp] {
+            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
                 let texture = Texture::new(16, 16, &numbers).unwrap().with(filter, wrap);
                 let mut several = 0;
                 for (i, far) in [0.37, -2.2, 1e6, -3.3e9, 1e10, 1e12].into_iter().enumerate() {
@@ -709,6 +757,59 @@ mod tests {
         let grey = Texture::grey(2, 2, vec![0, 10, 20, 31]).unwrap().with_mip_map();
         assert_eq!(grey.at_level(uv(0.2), 1.0), DVec3::splat(CHANNELS[15]));
         assert_eq!(texture.with(Filter::Bilinear, Wrap::Clamp).levels[1].filter, Filter::Bilinear);
+    }
+
+    /// A row of texels 0 1 2, read by its columns from -7 on.
+    #[test]
+    fn a_mirrored_texture_turns_back_at_its_borders() {
+        let texture = Texture::grey(3, 2, vec![0, 1, 2, 10, 11, 12]).unwrap();
+        let read = |wrap: [Wrap; 2], uv: DVec2| {
+            (texture.clone().with(Filter::Nearest, wrap).at(uv).x * 255.0) as u8
+        };
+        let row = |wrap: [Wrap; 2]| {
+            (-7..7).map(move |x| read(wrap, DVec2::new((f64::from(x) + 0.5) / 3.0, 0.75)))
+        };
+        let mirrored = [0, 0, 1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0];
+        assert!(row([Wrap::Mirror, Wrap::Clamp]).eq(mirrored));
+        assert!(row([Wrap::Clamp, Wrap::Mirror]).eq([0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2]));
+        // Rows from the top: one and a half heights above, the lower one is read again.
+        let above = |v| read([Wrap::Clamp, v], DVec2::new(0.1, 1.75));
+        assert_eq!([Wrap::Mirror, Wrap::Repeat, Wrap::Clamp].map(above), [10, 0, 0]);
+        for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+            for (first, length) in (-20..20).flat_map(|first| (0..9).map(move |l| (first, l))) {
+                let ends = [first, first + length];
+                let found = within(wrap, ends, 3);
+                for at in 0..3 {
+                    let is_read = (ends[0]..=ends[1]).any(|column| wrapped(wrap, column, 3) == at);
+                    let is_listed = found.iter().flatten().any(|r| r.contains(&(at as usize)));
+                    // Of as many as a side has all are listed.
+                    let expected = is_read || (length >= 2 && wrap != Wrap::Clamp);
+                    assert_eq!(is_listed, expected, "{wrap:?} {ends:?} {at}");
+                }
+            }
+        }
+    }
+
+    /// Columns 0, 100 and 200, 40; where it is minified, other filters and levels of the same texels.
+    #[test]
+    fn a_minified_texture_is_read_as_its_sampler_says() {
+        let texture = Texture::grey(4, 1, vec![0, 100, 200, 40]).unwrap();
+        let texture = texture.with(Filter::Nearest, Wrap::Clamp);
+        let read = |texture: &Texture, level: f64| {
+            (texture.at_level(DVec2::new(0.5, 0.5) - 1e-3, level).x * 255.0).round() as u8
+        };
+        let all = |texture: Texture| [0.0, 0.4, 0.6, 1.4, 1.6].map(|level| read(&texture, level));
+        let smooth = || texture.clone().with_minified(Filter::Bilinear);
+        assert_eq!(all(texture.clone()), [100; 5], "always nearest");
+        // Between columns 1 and 2 lies their mean.
+        assert_eq!(all(smooth()), [100, 150, 150, 150, 150]);
+        // The levels are 50 and 120, then 85.
+        let nearest = || texture.clone().with_mip_map();
+        assert_eq!(all(nearest()), [100, 80, 70, 64, 71], "a mixture of nearest texels");
+        assert_eq!(all(nearest().with_single_levels()), [100, 100, 50, 50, 85]);
+        assert_eq!(all(smooth().with_mip_map()), [100, 124, 111, 85, 85]);
+        let single = texture.clone().with_mip_map().with_minified(Filter::Bilinear);
+        assert_eq!(all(single.with_single_levels()), [100, 150, 85, 85, 85]);
     }
 
     #[test]

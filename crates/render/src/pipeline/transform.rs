@@ -78,6 +78,27 @@ pub fn perspective(
     frustum(-top * aspect, top * aspect, -top, top, near, far)
 }
 
+/// A projection without perspective: w is 1, and z/w grows with the distance, from -1 at the near to 1 at the far plane. The
+/// window shows `half_height` above and below the axis.
+///
+/// # Errors
+/// [`NoProjection`] unless `half_height` is above 0 and near < far, all finite.
+pub fn parallel(half_height: f64, aspect: f64, near: f64, far: f64) -> Result<DMat4, NoProjection> {
+    if ![half_height, aspect, near, far].iter().all(|v| v.is_finite()) {
+        return Err(NoProjection("a side of the view is not finite"));
+    }
+    if half_height <= 0.0 || aspect <= 0.0 || near >= far {
+        return Err(NoProjection("the view needs a height above 0 and near < far"));
+    }
+    let length = far - near;
+    Ok(DMat4::from_cols(
+        DVec4::new(1.0 / (half_height * aspect), 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 1.0 / half_height, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, 2.0 / length, 0.0),
+        DVec4::new(0.0, 0.0, -(far + near) / length, 1.0),
+    ))
+}
+
 /// The model matrix that turns things about a point instead of about the origin: there and back
 /// again (section 10.5).
 ///
@@ -100,9 +121,16 @@ pub fn about(centre: DVec3, turn: DMat4) -> DMat4 {
 /// # Errors
 /// [`NoProjection`] where eye and target coincide, or `up` points along the view.
 pub fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DMat4, NoProjection> {
-    let forward = (target - eye)
-        .try_normalize()
-        .ok_or(NoProjection("the eye must not be where it looks at"))?;
+    look_along(eye, target - eye, up)
+}
+
+/// The same of an eye that looks in a direction.
+///
+/// # Errors
+/// [`NoProjection`] where there is no direction, or `up` points along it.
+pub fn look_along(eye: DVec3, ahead: DVec3, up: DVec3) -> Result<DMat4, NoProjection> {
+    let forward =
+        ahead.try_normalize().ok_or(NoProjection("the eye must not be where it looks at"))?;
     let right = up
         .cross(forward)
         .try_normalize()
@@ -120,6 +148,20 @@ pub fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DMat4, NoProjecti
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn without_perspective_the_corners_of_a_box_are_those_of_clip_space() {
+        let projection = parallel(2.0, 1.5, 1.0, 5.0).unwrap();
+        for (point, clip) in
+            [([3.0, 2.0, 5.0], [1.0, 1.0, 1.0]), ([-3.0, 0.0, 1.0], [-1.0, 0.0, -1.0])]
+        {
+            let found = projection * DVec3::from_array(point).extend(1.0);
+            assert_eq!(found, DVec3::from_array(clip).extend(1.0));
+        }
+        for [height, near, far] in [[0.0, 1.0, 2.0], [1.0, 2.0, 2.0], [1.0, 0.0, f64::NAN]] {
+            assert!(parallel(height, 1.0, near, far).is_err());
+        }
+    }
 
     #[test]
     fn frustum_is_the_books() {

@@ -151,13 +151,16 @@ pub struct Item {
     pub material: Material,
     /// Which windings are left out, as the eye sees them.
     pub cull: Cull,
+    /// Whether triangles that are clockwise as the eye sees them are lit with their normals reversed.
+    pub two_sided: bool,
 }
 
 impl Item {
-    /// A mesh where it is, of a material, both sides visible.
+    /// A mesh where it is, of a material, both sides visible and lit by the same normals.
     #[must_use]
     pub fn new(mesh: Mesh, material: Material) -> Self {
-        Self { mesh: Arc::new(mesh), model: DMat4::IDENTITY, material, cull: Cull::None }
+        let (mesh, model, cull) = (Arc::new(mesh), DMat4::IDENTITY, Cull::None);
+        Self { mesh, model, material, cull, two_sided: false }
     }
 }
 

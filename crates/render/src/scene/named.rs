@@ -46,7 +46,7 @@ fn clipped(triangles: &[[Clip; 3]]) -> Case {
     for corners in triangles {
         let assembler = Assembler::new(WINDOW, Cull::None);
         let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
-        let varyings = || [DVec2::ZERO, DVec2::X, DVec2::Y];
+        let varyings = |_| [DVec2::ZERO, DVec2::X, DVec2::Y];
         let mut counters = Counters::default();
         assembler.assemble(points.each_ref(), varyings, &mut counters, |p| list.push(*p));
     }

@@ -99,6 +99,14 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
         scene.layers = NonZeroU32::new(rng.int(1, 4) as u32);
     }
     for item in &mut scene.items {
+        item.two_sided = rng.chance(2);
+        if let Some(texture) = item.material.texture.take() {
+            let texture = Arc::unwrap_or_clone(texture);
+            let wrap = [0; 2].map(|_| wrap(&mut rng));
+            let texture = texture.with(filter(&mut rng), wrap).with_minified(filter(&mut rng));
+            let texture = if rng.chance(2) { texture.with_single_levels() } else { texture };
+            item.material.texture = Some(Arc::new(texture));
+        }
         if rng.chance(3) {
             make_physical(item, &mut rng);
         }
@@ -147,6 +155,14 @@ fn make_physical(item: &mut Item, rng: &mut Rng) {
     }
     let mesh = Arc::unwrap_or_clone(std::mem::take(&mut item.mesh));
     item.mesh = Arc::new(shapes::with_tangents(mesh));
+}
+
+fn filter(rng: &mut Rng) -> Filter {
+    [Filter::Nearest, Filter::Bilinear][rng.int(0, 1) as usize]
+}
+
+fn wrap(rng: &mut Rng) -> Wrap {
+    [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][rng.int(0, 2) as usize]
 }
 
 /// Opacities in patches: none, all, and anything.

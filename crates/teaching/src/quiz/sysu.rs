@@ -78,7 +78,7 @@ fn is_lost(triangle: Screen) -> bool {
     let points = vertices.map(|v| assembler.point(v.position));
     assembler.assemble(
         points.each_ref(),
-        || [0.0; 3],
+        |_| [0.0; 3],
         &mut Counters::default(),
         |piece| {
             Oracle.cover(piece.corners(), window, |_| visible = true);

@@ -246,8 +246,8 @@ fn bytes_at<S: Simd>(
     v: Lanes<S>,
 ) -> [Lanes<S>; 3] {
     let (width, height) = texture.size();
-    let column = nearest(u, width as i32, texture.wrap);
-    let row = nearest(Lanes::splat(simd, 1.0) - v, height as i32, texture.wrap);
+    let column = nearest(u, width as i32, texture.wrap[0]);
+    let row = nearest(Lanes::splat(simd, 1.0) - v, height as i32, texture.wrap[1]);
     let at = (row * (width as i32) + column).to_array();
     // From memory, one load each: left alone, the compiler takes them out of the vector, which is dearer.
     let at = std::hint::black_box(&at);
@@ -274,7 +274,8 @@ fn nearest<S: Simd>(coordinate: Lanes<S>, side: i32, wrap: Wrap) -> i32x16<S> {
     let whole: i32x16<S> = moved.max_precise(-FAR).min(FAR).to_int();
     let texel = whole >> 8;
     match wrap {
-        Wrap::Repeat => texel & (side - 1),
+        // Mirrored textures have no bytes to read in this way.
+        Wrap::Repeat | Wrap::Mirror => texel & (side - 1),
         Wrap::Clamp => texel.max(0).min(side - 1),
     }
 }

@@ -1,0 +1,61 @@
+//! The cameras of a model: which ones it has, and what one sees.
+
+use glam::{DMat4, DVec3};
+use rasterproof_host::text::printable_short;
+use rasterproof_models::{Camera, Lens};
+use rasterproof_render::pipeline::transform::{NoProjection, look_along, parallel, perspective};
+
+/// Cameras of a file that a note lists.
+const MOST_LISTED: usize = 8;
+
+/// The cameras by number and name: `1 'front', 2`.
+pub(super) fn listed(cameras: &[Camera]) -> String {
+    let one = |(number, camera): (usize, &Camera)| match camera.name.as_str() {
+        "" => format!("{}", number + 1),
+        name => format!("{} '{}'", number + 1, printable_short(name, 40)),
+    };
+    let mut list: Vec<String> = cameras.iter().enumerate().take(MOST_LISTED).map(one).collect();
+    if cameras.len() > MOST_LISTED {
+        list.push(format!("... {}", cameras.len()));
+    }
+    list.join(", ")
+}
+
+/// The camera of this number, from 1, or else of this name.
+pub(super) fn find<'a>(cameras: &'a [Camera], wanted: &str) -> Result<&'a Camera, String> {
+    let number = wanted.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+    let numbered = number.and_then(|number| cameras.get(number));
+    let named = || cameras.iter().find(|camera| camera.name == wanted);
+    numbered.or_else(named).ok_or_else(|| {
+        let has = match cameras {
+            [] => "has no cameras".to_owned(),
+            _ => format!("has the cameras {}", listed(cameras)),
+        };
+        format!("--camera {}: the model {has}", printable_short(wanted, 40))
+    })
+}
+
+/// From world to camera and from camera to clip space, for a model between two corners. The picture has the camera's height,
+/// whatever its width is.
+pub(super) fn matrices(
+    camera: &Camera,
+    aspect: f64,
+    [min, max]: [DVec3; 2],
+) -> Result<[DMat4; 2], NoProjection> {
+    let view = look_along(camera.eye, camera.ahead, camera.up)?;
+    let near = camera.near;
+    // A camera that sees infinitely far sees all of the model.
+    let far = camera.far.unwrap_or_else(|| {
+        let corner = |at: usize| {
+            let pick = |bit: usize, min: f64, max: f64| if at >> bit & 1 == 0 { min } else { max };
+            DVec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z))
+        };
+        let farthest = (0..8).map(|at| view.transform_point3(corner(at)).z);
+        1.01 * farthest.fold(2.0 * near, f64::max)
+    });
+    let projection = match camera.lens {
+        Lens::Perspective { angle_rad } => perspective(angle_rad, aspect, near, far),
+        Lens::Parallel { half_height } => parallel(half_height, aspect, near, far),
+    }?;
+    Ok([view, projection])
+}
