@@ -663,6 +663,16 @@ fn counterexamples() -> Vec<Counterexample> {
             let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
             Scene { light, ..one(mesh, material) }
         }),
+        make(Effect::Specular, none, |by| {
+            // The same of a physical surface that faces away from a light at the side.
+            let away = DVec3::new(-1.0, 0.0, -1.0);
+            let mut mesh = screen_with(|corner| corner.normal = away);
+            mesh.triangles.change(0, |corners| corners[1].normal -= DVec3::Z * by);
+            let mut scene = reflecting(mesh, Physical::default());
+            scene.light.towards = DVec3::X;
+            scene.items[0].material.specular = Specular { colour: DVec3::ONE, shininess: 1.0 };
+            scene
+        }),
         make(Effect::Reflection, none, |by| {
             // All normals are at a right angle to the light, and one turns towards it.
             let mut mesh = screen_with(|corner| corner.normal = DVec3::X);

@@ -15,7 +15,7 @@ use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{FragmentStage, Way, each, fill, fill_flat};
 use crate::pipeline::fog::{Share, Veil};
-use crate::pipeline::footprint::Reading;
+use crate::pipeline::footprint::{Footprint, Reading};
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
 use crate::pipeline::physical::{Map, Parts, Physical, Point};
@@ -156,10 +156,19 @@ impl<'a> Coat<'a> {
         let [emission, reflection, occlusion, bumps] =
             [plan.emission, plan.reflection, plan.occlusion, plan.normal_maps];
         let (mut maps, mut texels) = ([None; Map::ALL.len()], Map::ALL.map(Map::missing));
+        // Mostly all textures have one size.
+        let mut known: Option<((u32, u32), Footprint)> = None;
         for (map, is_read) in Map::ALL.into_iter().zip([emission, reflection, occlusion, bumps]) {
             let Some(texture) = surface.map(map).filter(|_| is_read) else { continue };
             if plan.interpolates.has(Attributes::UV) {
-                let reading = plan.reads_around().then(|| reading(texture, piece, plan));
+                let reading = plan.reads_around().then(|| {
+                    let known = known.filter(|(size, _)| *size == texture.size());
+                    reading(texture, plan, || match known {
+                        Some((_, footprint)) => footprint,
+                        None => footprint(texture, piece, plan.perspective).0,
+                    })
+                });
+                known = reading.map(|reading| (texture.size(), reading.footprint));
                 maps[map as usize] = Some((texture, reading));
             } else if item.carries.has(Attributes::UV) {
                 counters.texels += 1;
@@ -172,9 +181,9 @@ impl<'a> Coat<'a> {
 }
 
 /// How a texture is read around fragments.
-fn reading(texture: &Texture, piece: &Piece, plan: PiecePlan) -> Reading {
+fn reading(texture: &Texture, plan: PiecePlan, footprint: impl FnOnce() -> Footprint) -> Reading {
     Reading {
-        footprint: footprint(texture, piece, plan.perspective).0,
+        footprint: footprint(),
         at_levels: plan.mip_maps,
         most: if plan.anisotropy { texture.anisotropy } else { 1 },
     }
@@ -227,7 +236,8 @@ impl<'a> Kernel<'a> {
             (item.texture, plan.reads_around() && plan.interpolates.has(Attributes::UV))
         {
             let veil = (!is_affine(piece, plan.perspective)).then_some(&item.veil);
-            kernel.reading = Some((reading(texture, piece, plan), veil));
+            let own = || footprint(texture, piece, plan.perspective).0;
+            kernel.reading = Some((reading(texture, plan, own), veil));
         }
         if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
             counters.texels += 1;

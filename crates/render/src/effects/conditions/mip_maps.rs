@@ -63,7 +63,12 @@ pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> [bool; 2] 
         return [true; 2];
     }
     let mut may_be = [false; 2];
+    // The footprint of all textures of one size is the same.
+    let mut last = None;
     for texture in item.texture.into_iter().chain(item.item.material.maps()) {
+        if last.replace(texture.size()) == Some(texture.size()) {
+            continue;
+        }
         let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
         may_be[0] |= !(rule.mip_maps.is_open() && footprint.is_magnified(inv_w, uv));
         may_be[1] |= !(rule.anisotropy.is_open() && footprint.is_round(inv_w, uv));

@@ -35,6 +35,7 @@ use super::{Effect, Effects, Mode};
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
 use crate::pipeline::physical::Map;
+use crate::pipeline::texture::Texture;
 use crate::scene::{Item, Scene};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
@@ -93,6 +94,11 @@ pub(super) fn samples_of(piece: &Piece) -> i64 {
         piece.corners().map_array(|corner| DVec2::new(corner.x.into(), corner.y.into()));
     let subpixels = 2.0 * f64::from(SUBPIXELS).powi(2);
     ((b - a).perp_dot(c - a).abs() / subpixels) as i64
+}
+
+/// Whether it is looked at if a piece of so many samples reads one colour of a texture.
+fn is_looked_at(texture: &Texture, samples: i64) -> bool {
+    samples >= ALWAYS_PLAIN || samples as f64 * texture.plain_part() >= LEAST_PLAIN
 }
 
 impl Facts {
@@ -164,8 +170,7 @@ impl Facts {
         if rule.mip_maps.is_open() || rule.anisotropy.is_open() {
             [facts.is_minified, facts.is_stretched] = mip_maps::footprints(rule, item, piece);
         }
-        let has_many = samples >= ALWAYS_PLAIN
-            || item.texture.is_some_and(|t| samples as f64 * t.plain_part() >= LEAST_PLAIN);
+        let has_many = item.texture.is_some_and(|texture| is_looked_at(texture, samples));
         if has_many && interpolation::may_be_plain(rule, facts.opacity) {
             let reads =
                 [rule.mip_maps.pays(facts.is_minified), rule.anisotropy.pays(facts.is_stretched)];

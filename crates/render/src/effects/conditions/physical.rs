@@ -12,7 +12,7 @@
 
 use super::account::Account;
 use super::interpolation::is_plain_in;
-use super::{Facts, LEAST_TEXTURED, shadows};
+use super::{Facts, is_looked_at, shadows};
 use crate::effects::plan::{Attributes, Decision, Rule};
 use crate::effects::primitive::{Piece, Prepared, is_lit};
 use crate::effects::{Effect, Effects, Mode};
@@ -72,7 +72,7 @@ fn all_are(
 ) -> bool {
     let Some(texture) = item.map(map) else { return are_like(map.missing()) };
     let first = || texture.at(Surface::from(piece.vertices[0].varying).uv);
-    samples >= LEAST_TEXTURED && are_like(first()) && is_plain_in(texture, rule, item, piece)
+    is_looked_at(texture, samples) && are_like(first()) && is_plain_in(texture, rule, item, piece)
 }
 
 /// What is known of a piece of a physical surface.
