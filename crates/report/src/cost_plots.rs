@@ -193,6 +193,8 @@ fn panel(
         let x = time.place(value);
         drawing.line([x, y0], [x, bottom], GRID);
         let text = tick(value);
+        // The last one may stand at the border of the picture.
+        let x = x.min(x1 - canvas::width(&text) / 2.0);
         drawing.text_about([x, bottom + 9.0], &text, SOFT);
     }
     if snapping.is_some() || dots.iter().any(|d| d.error.is_some()) {
