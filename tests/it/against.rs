@@ -59,7 +59,7 @@ fn who_is_right_is_told() {
 }
 
 fn against(second: &str, first: &str, options: &str) -> Run {
-    let mut command = shared().command(&format!("judge --cases 40 {options}"));
+    let mut command = shared().command(format!("judge --cases 40 {options}"));
     command.args(["--against", &format!("'{PROGRAM}' engine {second}")]);
     command.args(["--", PROGRAM, "engine", first]);
     Run::of(&mut command)

@@ -641,10 +641,12 @@ fn mistakes_are_not_named_for_thousands_of_conventions() {
     }
 }
 
+type Change = dyn Fn(&judge::ask::Question, Answer) -> Answer + Send;
+
 /// A right program but for the answers that `changed` gives.
 struct Wrong {
     right: Inside,
-    changed: Box<dyn Fn(&judge::ask::Question, Answer) -> Answer + Send>,
+    changed: Box<Change>,
 }
 
 impl judge::ask::Ask for Wrong {

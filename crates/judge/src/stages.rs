@@ -279,12 +279,13 @@ fn mean(t: &Triangle) -> f64 {
     depths(t).iter().sum::<f64>() / 3.0
 }
 
+type Quantise = fn(f64, i32) -> f64;
 /// How a depth is brought to so many bits.
-const QUANTISED: [(fn(f64, i32) -> f64, &str); 2] = [
+const QUANTISED: [(Quantise, &str); 2] = [
     (|depth, bits| (depth * f64::from(2).powi(bits)).floor(), "cut down"),
     (|depth, bits| (depth * (f64::from(2).powi(bits) - 1.0)).round(), "rounded"),
 ];
-/// Bits of a depth buffer that are told apart.
+/// Depth buffers of more bits are not distinguished.
 const MOST_BITS: i32 = 24;
 
 const CENTRE: [f64; 2] = [0.5, 0.5];
