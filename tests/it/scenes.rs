@@ -798,6 +798,44 @@ fn mapped(map: Map, texels: [[u8; 3]; 2]) -> Physical {
     physical
 }
 
+/// The normal that a map makes of that of a back is the reversed one of the front.
+#[test]
+fn bumps_of_a_back_are_reversed() {
+    let texel = [204, 50, 230];
+    let surface = |mesh: Mesh, map: Option<[u8; 3]>| {
+        let texture = map.map(|texel| Arc::new(Texture::new(1, 1, &[texel]).unwrap()));
+        let mut physical = Physical::default();
+        physical.maps[Map::Normal as usize] = texture;
+        let mut scene = reflecting(mesh, physical);
+        scene.light.towards = DVec3::new(-0.5, 0.4, -0.6).normalize();
+        scene
+    };
+    let facing = |corners: [[f64; 2]; 4], normal: DVec3| {
+        let mut mesh = shapes::quad(corners.map(|[x, y]| DVec3::new(x, y, 0.0)));
+        mesh.triangles.change_corners(|corner| {
+            corner.normal = normal;
+            let DVec3 { x, y, .. } = mesh.positions[corner.position as usize];
+            corner.uv = (DVec2::new(x, y) + 1.0) / 2.0;
+        });
+        mesh
+    };
+    // Along x, n x t, and away from the eye.
+    let [x, y, z] = texel.map(|byte| 2.0 * f64::from(byte) / 255.0 - 1.0);
+    let turned = DVec3::new(x, y, z);
+    let front = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let back = [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
+    let expected = surface(facing(front, -turned), None);
+    let mut seen = surface(facing(back, DVec3::Z), Some(texel));
+    seen.items[0].two_sided = true;
+    let middle = |scene: &Scene| {
+        let drawn = draw(scene, Drawer::Scanline, Effects::PLANNED, Antialias::None);
+        drawn.picture.get(40, 30).unwrap()
+    };
+    let [expected, seen] = [&expected, &seen].map(middle);
+    let is_near = expected.iter().zip(seen).all(|(a, b)| a.abs_diff(b) <= 1);
+    assert!(is_near && expected[0] > 180, "{expected:?} {seen:?}");
+}
+
 /// A screen with a texture of black and white texels in turn, repeated so often.
 fn chequered(kind: fn(Texture) -> Texture, repeated: DVec2) -> Scene {
     let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));

@@ -36,7 +36,7 @@ struct Surface<'a> {
     tangents: Vec<[DVec4; 3]>,
 }
 
-/// The same on every machine.
+/// Functions that give the same bits on every machine.
 struct Libm;
 
 impl Ops for Libm {

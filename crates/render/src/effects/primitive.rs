@@ -201,7 +201,9 @@ impl<'a> Prepared<'a> {
                 let DVec4 { x, y, z, w } = triangles.tangents(triangle)[i];
                 let model = DMat3::from_mat4(self.item.model);
                 let sign = if model.determinant() < 0.0 { -w } else { w };
-                tangent = (model * DVec3::new(x, y, z)).extend(sign);
+                // Of a back the turned normal is reversed, and so are all three directions that it is made of.
+                let back = if is_back { -1.0 } else { 1.0 };
+                tangent = (model * DVec3::new(x, y, z)).extend(sign) * back;
             }
             Surface { colour: colours[i], normal: normals[i], uv: uvs[i], place, world, tangent }
                 .into()

@@ -55,9 +55,9 @@ impl Map {
 
 #[derive(Clone, Debug)]
 pub struct Physical {
-    /// From 0 to 1.
+    /// From 0, as plastic or wood, to 1, as metal.
     pub metal: f64,
-    /// From 0 to 1.
+    /// From 0, as a mirror, to 1; its square is the a of the formulas.
     pub roughness: f64,
     /// In linear light, from 0 on.
     pub emission: DVec3,
@@ -69,7 +69,7 @@ pub struct Physical {
 }
 
 impl Default for Physical {
-    /// Matt, of no metal.
+    /// A matt surface without metal, maps and emission.
     fn default() -> Self {
         let maps = [const { None }; Map::ALL.len()];
         let emission = DVec3::ZERO;
@@ -77,7 +77,7 @@ impl Default for Physical {
     }
 }
 
-/// Smaller ones count as it.
+/// A smaller roughness counts as this one, so that the highlight of a light that is a point has a size.
 pub const LEAST_ROUGHNESS: f64 = 1.0 / 32.0;
 
 /// How far a normal map departs from (0, 0, 1) where it changes nothing: a step, and its rounding.
