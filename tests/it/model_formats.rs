@@ -1007,7 +1007,7 @@ fn files_that_other_programs_read_are_read() {
     check("mixed.ply", mixed(&text).as_bytes(), &[]);
     check("no-end.ply", text.trim_end().as_bytes(), &[]);
     let comma = text.replacen("1 0 0 255", "1,0 0 0 255", 1);
-    check("comma.ply", comma.as_bytes(), &[":16: from this line on, a comma in a number is"]);
+    check("comma.ply", comma.as_bytes(), &[":18: from this line on, a comma in a number is"]);
     // Indices of 64 bits, and faces before what they name.
     for form in ["ascii", "binary_little_endian", "binary_big_endian"] {
         for kind in ["int64", "uint64", "long", "ulong"] {
