@@ -534,14 +534,17 @@ fn extend(root: &mut Value, bin: &mut Vec<u8>, rng: &mut Rng) {
             let names = json!(["KHR_odd", "KHR_draco_mesh_compression", "EXT_meshopt_compression"]);
             root["extensionsRequired"] = json!([names[below(rng, 3)]]);
         }
-        // Bytes that begin as those of Draco, and others.
+        // Triangles that Draco compressed, mostly with some other bytes, and bytes that are none.
         1 | 2 => {
-            let length = below(rng, 400);
             let start = bin.len();
-            if !rng.chance(5) {
-                bin.extend(DRACO);
+            match rng.chance(5) {
+                true => bin.extend((0..below(rng, 400)).map(|_| rng.next() as u8)),
+                false => bin.extend(STANDARD.decode(DRACO).unwrap()),
             }
-            bin.extend((0..length).map(|_| rng.next() as u8 & pick(rng, &[1, 15, 255])));
+            for _ in 0..below(rng, 4).min(bin.len() - start) {
+                let at = start + below(rng, bin.len() - start);
+                bin[at] = rng.next() as u8 & pick(rng, &[1, 15, 255]);
+            }
             let view = json!({"buffer": 0, "byteOffset": start, "byteLength": bin.len() - start});
             let views = root["bufferViews"].as_array_mut().unwrap();
             views.push(view);
@@ -597,8 +600,8 @@ fn extend(root: &mut Value, bin: &mut Vec<u8>, rng: &mut Rng) {
     }
 }
 
-/// The head of a mesh that is compressed by Draco.
-const DRACO: [u8; 11] = *b"DRACO\x02\x02\x01\x01\0\0";
+/// A tetrahedron that Draco compressed, by its encoder.
+const DRACO: &str = "RFJBQ08CAgEBAAAABAQAAwAAAS8BARAB/wAAAQAJAwAAAAAAAAAAAAAAAACAPwAAAAAAAIA/AAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAA==";
 
 /// Changes bytes of a file, or cuts it off; digits mostly become other digits, so that numbers change and not words.
 fn mutate(bytes: &mut Vec<u8>, rng: &mut Rng) {
@@ -975,6 +978,43 @@ fn long_names_are_cut() {
         let run = within(800, &folder, &words).has(0);
         assert!(!run.errors.contains("no material file describes"), "{run}");
     }
+}
+
+/// The positions of six million points, all the same, are 72 bytes when Draco has compressed them.
+#[test]
+fn what_draco_compressed_is_refused_before_it_is_decoded() {
+    let folder = Folder::new("hostile-models-draco");
+    let points = "RFJBQ08CAgEAAAABgJvuAgEAAAAAAAAAAAAAAAABAQAJAwAAAgABAQEBAQFAAQAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAgD8I";
+    let model = |data: &str, copies: usize| {
+        let mut root: Value = serde_json::from_slice(&instances(&[copies])).unwrap();
+        let bytes = STANDARD.decode(data).unwrap().len();
+        let buffer = json!({"byteLength": bytes, "uri": format!("data:;base64,{data}")});
+        root["buffers"].as_array_mut().unwrap().push(buffer);
+        let view = json!({"buffer": 1, "byteLength": bytes});
+        root["bufferViews"].as_array_mut().unwrap().push(view);
+        let draco = json!({"bufferView": 1, "attributes": {"POSITION": 0}});
+        let primitive = &mut root["meshes"][0]["primitives"][0];
+        primitive["extensions"] = json!({"KHR_draco_mesh_compression": draco});
+        folder.put("m.gltf", root.to_string());
+        within(1024, &folder, &["render", "m.gltf", "--size", "64x48", "-o", "drawn.png"])
+    };
+    model(DRACO, 100).has(0).prints("triangles 400");
+    model(points, 100).has(2).says("what Draco compressed takes more than the ");
+}
+
+/// Triangles that are shown thousands of times in few pixels, and in a million texels of a shadow map.
+#[test]
+fn shadow_maps_have_a_limit_of_time() {
+    let folder = Folder::new("hostile-models-shadows");
+    folder.put("m.gltf", instances(&[100, 200]));
+    let draw = |shadows: &str| {
+        let words =
+            ["render", "m.gltf", "--size", "24x18", "-o", "drawn.png", "--shadows", shadows];
+        bounded(&folder, &words)
+    };
+    draw("16").has(0);
+    let run = draw("1024").has(2).says("texels in the shadow map");
+    run.says("give smaller --shadows, or a part of the model");
 }
 
 /// Options that multiply: a message says so before anything is held.
