@@ -13,14 +13,16 @@ mod materials;
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::ClipPoint;
+use rasterproof_render::pipeline::opacity::{Opacity, OpacityMap};
 
 use crate::cameras::{Camera, Lens};
-use crate::contents::{Contents, FilePart, Numbers, Polygons};
+use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface};
 use crate::text::without_mark;
 use crate::{BadFile, Warnings, bad};
 use data::Data;
@@ -112,6 +114,8 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         warnings: Warnings::default(),
         images: Images::new(path),
         described: HashMap::new(),
+        see_through: HashMap::new(),
+        opacities: None,
         json_bytes: json.len() as u64,
         corners: 0,
     };
@@ -196,6 +200,10 @@ struct Reader<'a> {
     images: Images<'a>,
     /// By the numbers of the materials that are used; nothing is that of primitives that name none.
     described: HashMap<Option<usize>, Option<UsedMaterial>>,
+    /// The surfaces of primitives whose vertices have opacities, by that of their material and the one opacity.
+    see_through: HashMap<(usize, u64), usize>,
+    /// The map of all opacities, where one is needed.
+    opacities: Option<Arc<OpacityMap>>,
     json_bytes: u64,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
@@ -470,14 +478,14 @@ impl Reader<'_> {
                 _ => self.warn("skins", &format!("{place}: its joints are not as many as its positions; it is drawn without its skin")),
             }
         }
-        self.count_attributes(primitive, &vertices);
+        self.count_attributes(primitive);
         let colours = match vertices.read("COLOR_0") {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
         };
         let colours = colours.into_iter().map(|colour| colour.map(encoded)).collect();
         let mut uvs = Vec::new();
-        let material = self.material(primitive.material, place);
+        let mut material = self.material(primitive.material, place);
         if let Some((_, Some(set), transform)) = material {
             match vertices.read(&format!("TEXCOORD_{set}")) {
                 Some(read) => {
@@ -492,6 +500,9 @@ impl Reader<'_> {
                 }
                 None => self.warn("textures", &format!("{place}: has a texture and no TEXCOORD_{set}; all of it has the colour of one texel")),
             }
+        }
+        if let Some((number, ..)) = &mut material {
+            *number = self.with_opacities(*number, primitive, &vertices, &mut uvs);
         }
         let numbers = |is_empty: bool| {
             if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
@@ -514,15 +525,49 @@ impl Reader<'_> {
         self.contents.add(part)
     }
 
-    fn count_attributes(&mut self, primitive: &Primitive, vertices: &Vertices<'_>) {
+    /// The surface, by its number, of a primitive whose vertices have opacities, where those of its material have an effect. A
+    /// surface without a picture reads them from a map in which each lies at a coordinate of its own, so that what is
+    /// interpolated is the opacity. Others are multiplied by an opacity that is the same at all vertices.
+    fn with_opacities(
+        &mut self,
+        number: usize,
+        primitive: &Primitive,
+        vertices: &Vertices<'_>,
+        uvs: &mut Vec<DVec2>,
+    ) -> usize {
         let material = primitive.material.and_then(|at| self.data.root.materials.get(at));
-        let is_opaque =
-            material.is_none_or(|material| !["MASK", "BLEND"].contains(&&*material.alpha_mode));
-        // The opacity of a colour has an effect where that of the material has one.
-        if !is_opaque && let Some(Ok(colours)) = vertices.read::<4>("COLOR_0") {
-            let transparent = colours.iter().filter(|[.., alpha]| *alpha < 1.0).count();
-            self.count("transparent position", transparent as u64);
+        let Some(mode) = material.and_then(materials::alpha_mode) else { return number };
+        let Some(Ok(colours)) = vertices.read::<4>("COLOR_0") else { return number };
+        let opacities = || colours.iter().map(|[.., alpha]| alpha.clamp(0.0, 1.0));
+        let Some(first) = opacities().next().filter(|_| opacities().any(|alpha| alpha < 1.0))
+        else {
+            return number;
+        };
+        let surface = &self.contents.materials[number];
+        let has_picture = surface.texture.is_some();
+        let opacity = surface.opacity.clone();
+        let mut opacity = opacity.unwrap_or(Opacity { factor: 1.0, map: None, mode });
+        let is_one = opacities().all(|alpha| alpha == first);
+        if is_one {
+            opacity.factor *= first;
+        } else if has_picture {
+            let transparent = opacities().filter(|alpha| *alpha < 1.0).count();
+            self.count("transparent position of textured primitive", transparent as u64);
+            return number;
+        } else {
+            *uvs = opacities().map(materials::uv_of_opacity).collect();
+            opacity.map = Some(self.opacities.get_or_insert_with(materials::opacities).clone());
         }
+        let key = (number, if is_one { first.to_bits() } else { u64::MAX });
+        let Contents { materials, .. } = &mut self.contents;
+        *self.see_through.entry(key).or_insert_with(|| {
+            let surface = Surface { opacity: Some(opacity), ..materials[number].clone() };
+            materials.push(surface);
+            materials.len() - 1
+        })
+    }
+
+    fn count_attributes(&mut self, primitive: &Primitive) {
         let mut not_defined = 0;
         for name in primitive.attributes.keys() {
             let set = name.split_once('_');
