@@ -664,6 +664,46 @@ fn instances_of_a_mesh_are_drawn() {
     assert_eq!(copies(2, true).unwrap().items.len(), 1, "a skin decides alone");
 }
 
+/// A torus that gltfpack wrote as it is, compressed, and with positions that another filter rounds.
+#[test]
+fn triangles_that_meshoptimizer_compressed_are_decoded() {
+    let (plain, [torus]) = items("torus.glb", include_bytes!("../data/models/torus.glb"));
+    assert_eq!((plain.not_drawn.as_str(), torus.mesh.triangles.len()), ("", 192));
+    let corners = |item: &Item| {
+        let place = |at: u32| item.mesh.positions[at as usize];
+        let corners = item.mesh.triangles.corners();
+        corners.map(|corner| (place(corner.position), corner.normal, corner.uv)).collect::<Vec<_>>()
+    };
+    let compressed = include_bytes!("../data/models/torus-meshopt.glb");
+    let float = include_bytes!("../data/models/torus-meshopt-float.glb");
+    // Two steps of the 14 bits of a position, of a torus 6 units wide.
+    for (bytes, most) in [(&compressed[..], 0.0), (&float[..], 12.0 / f64::from(1 << 14))] {
+        let (model, [item]) = items("compressed.glb", bytes);
+        assert_eq!((model.not_drawn.as_str(), model.warnings.len()), ("", 0));
+        let (decoded, expected) = (corners(&item), corners(&torus));
+        assert_eq!(decoded.len(), expected.len());
+        // The order of the triangles may differ, and normals have 8 bits.
+        for (p, n, uv) in decoded {
+            let is_near = |(q, m, vw): &(DVec3, DVec3, DVec2)| {
+                p.distance(*q) <= most && n.dot(*m) > 0.99 && uv == *vw
+            };
+            assert!(expected.iter().any(is_near), "{p} {n} {uv}");
+        }
+    }
+    // Bytes of the compressed views, changed.
+    for at in (compressed.len() - 1224..compressed.len()).step_by(7) {
+        let mut broken = compressed.to_vec();
+        broken[at] ^= 0x55;
+        let _ = load("broken.glb", &broken);
+    }
+    let length = b"\"byteLength\":664";
+    let place = compressed.windows(length.len()).position(|bytes| bytes == length).unwrap();
+    let mut cut = compressed.to_vec();
+    cut[place..place + length.len()].copy_from_slice(b"\"byteLength\": 64");
+    let error = load("cut.glb", &cut).unwrap_err().to_string();
+    assert!(error.contains("bufferViews[0]: EXT_meshopt_compression"), "{error}");
+}
+
 /// Joints move what is bound to them, shapes are mixed in, and single elements are replaced.
 #[test]
 fn a_gltf_is_drawn_in_its_rest_pose() {
@@ -724,8 +764,8 @@ fn what_a_gltf_names_and_is_not_there_is_said() {
         (|d| d["nodes"][0]["children"] = json!([9]), "nodes[9] is not there"),
         (|d| d["buffers"][0]["uri"] = json!("none.bin"), "buffers[0]: there is no file 'none.bin'"),
         (
-            |d| d["extensionsRequired"] = json!(["EXT_meshopt_compression"]),
-            "compressed by EXT_meshopt_compression",
+            |d| d["extensionsRequired"] = json!(["KHR_meshopt_compression"]),
+            "compressed by KHR_meshopt_compression",
         ),
         (
             |d| d["accessors"][0]["type"] = json!("VEC2"),

@@ -9,6 +9,7 @@ mod document;
 mod draco;
 mod first;
 mod materials;
+mod meshopt;
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
@@ -45,8 +46,9 @@ const PART_BYTES: u64 = 256;
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 14] = [
+const READ: [&str; 15] = [
     draco::EXTENSION,
+    meshopt::EXTENSION,
     INSTANCES,
     LIGHTS,
     "KHR_materials_unlit",
@@ -68,8 +70,8 @@ const INSTANCES: &str = "EXT_mesh_gpu_instancing";
 /// The extension of nodes that are lights.
 const LIGHTS: &str = "KHR_lights_punctual";
 
-/// Extensions that hide where the triangles are.
-const COMPRESSED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+/// Extensions that hide where the triangles are, and are not read.
+const COMPRESSED: [&str; 1] = ["KHR_meshopt_compression"];
 
 /// Whether these bytes begin as a GLB.
 pub(crate) fn is_glb(bytes: &[u8]) -> bool {
