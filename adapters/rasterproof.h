@@ -48,6 +48,12 @@ typedef void (*rasterproof_add_corner)(double x, double y, double z, double w);
 /* Adds the corners of what z >= -w leaves of a triangle. */
 typedef void (*rasterproof_clip)(const struct rasterproof_clip_corner corners[3], rasterproof_add_corner add_corner);
 
+/* The same with an attribute, which new corners get as well. */
+struct rasterproof_carried_corner { double x, y, z, w, a; };
+typedef void (*rasterproof_add_carried)(double x, double y, double z, double w, double a);
+typedef void (*rasterproof_clip_attributes)(const struct rasterproof_carried_corner corners[3],
+                                            rasterproof_add_carried add_corner);
+
 /* What the program draws; what is NULL it has not got. */
 struct rasterproof_drawers {
     rasterproof_triangle triangle;
@@ -56,6 +62,7 @@ struct rasterproof_drawers {
     rasterproof_samples samples;
     rasterproof_depth depth;
     rasterproof_clip clip;
+    rasterproof_clip_attributes clip_attributes;
 };
 
 enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22,
@@ -98,13 +105,15 @@ static void rasterproof_hit_seen(int x, int y, int t) {
 }
 
 /* The corners that add_corner has added; those beyond the last place are counted alone. */
-static struct { struct rasterproof_clip_corner corners[64]; int count; } rasterproof_polygon;
+static struct { struct rasterproof_carried_corner corners[64]; int count; } rasterproof_polygon;
 
-static void rasterproof_add(double x, double y, double z, double w) {
-    const struct rasterproof_clip_corner corner = {x, y, z, w};
+static void rasterproof_carry(double x, double y, double z, double w, double a) {
+    const struct rasterproof_carried_corner corner = {x, y, z, w, a};
     if (rasterproof_polygon.count < 64) rasterproof_polygon.corners[rasterproof_polygon.count] = corner;
     if (rasterproof_polygon.count <= 64) rasterproof_polygon.count++;
 }
+
+static void rasterproof_add(double x, double y, double z, double w) { rasterproof_carry(x, y, z, w, 0); }
 
 static int rasterproof_by_row(const void *left, const void *right) {
     const struct rasterproof_hit *a = (const struct rasterproof_hit *)left;
@@ -157,12 +166,13 @@ static void rasterproof_write_marked(FILE *out, char letter, const char *id) {
     }
 }
 
-static void rasterproof_write_polygon(FILE *out, const char *id) {
+static void rasterproof_write_polygon(FILE *out, const char *id, int carries) {
     int i;
-    fprintf(out, "G %s %d", id, rasterproof_polygon.count);
+    fprintf(out, "%c %s %d", carries ? 'B' : 'G', id, rasterproof_polygon.count);
     for (i = 0; i < rasterproof_polygon.count; i++) {
-        const struct rasterproof_clip_corner *corner = &rasterproof_polygon.corners[i];
+        const struct rasterproof_carried_corner *corner = &rasterproof_polygon.corners[i];
         fprintf(out, " %.17g %.17g %.17g %.17g", corner->x, corner->y, corner->z, corner->w);
+        if (carries) fprintf(out, " %.17g", corner->a);
     }
 }
 
@@ -249,20 +259,25 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
 /* Reads what follows the id and clips: the near plane has no window. What is wrong with the request, or NULL. */
 static const char *rasterproof_cut(char **words, int count, const struct rasterproof_drawers *drawers) {
     struct rasterproof_clip_corner corners[3];
-    double v[12];
+    struct rasterproof_carried_corner carried[3];
+    double v[15];
+    const int carries = words[0][0] == 'A', size = carries ? 5 : 4;
     int i;
-    if (count != 14) return "N takes id and 12 numbers";
-    for (i = 0; i < 12; i++) {
+    if (count != 2 + 3 * size) return carries ? "A takes id and 15 numbers" : "N takes id and 12 numbers";
+    for (i = 0; i < 3 * size; i++) {
         char *end;
         v[i] = strtod(words[i + 2], &end);
         if (*end || !(fabs(v[i]) <= 1.7976931348623157e308)) return "a value is not a number";
     }
     for (i = 0; i < 3; i++) {
-        corners[i].x = v[4 * i], corners[i].y = v[4 * i + 1];
-        corners[i].z = v[4 * i + 2], corners[i].w = v[4 * i + 3];
+        const double *at = v + size * i;
+        corners[i].x = carried[i].x = at[0], corners[i].y = carried[i].y = at[1];
+        corners[i].z = carried[i].z = at[2], corners[i].w = carried[i].w = at[3];
+        carried[i].a = carries ? at[4] : 0;
     }
     rasterproof_polygon.count = 0;
-    drawers->clip(corners, rasterproof_add);
+    if (carries) drawers->clip_attributes(carried, rasterproof_carry);
+    else drawers->clip(corners, rasterproof_add);
     return rasterproof_polygon.count > 64 ? "more than 64 corners" : NULL;
 }
 
@@ -271,15 +286,17 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
     const char *verb = words[0], *id = count > 1 ? words[1] : "-", *wrong = "unsupported";
     int is_known = !verb[1] && ((verb[0] == 'T' && drawers->triangle) || (verb[0] == 'L' && drawers->line) ||
                                 (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples) ||
-                                (verb[0] == 'D' && drawers->depth) || (verb[0] == 'N' && drawers->clip));
+                                (verb[0] == 'D' && drawers->depth) || (verb[0] == 'N' && drawers->clip) ||
+                                (verb[0] == 'A' && drawers->clip_attributes));
     if (strcmp(verb, "HELLO") == 0) {
-        char known[64] = "";
+        char known[80] = "";
         if (drawers->triangle) strcat(known, " coverage");
         if (drawers->line) strcat(known, " line");
         if (drawers->values) strcat(known, " attributes");
         if (drawers->samples) strcat(known, " samples4");
         if (drawers->depth) strcat(known, " depth");
         if (drawers->clip) strcat(known, " clip");
+        if (drawers->clip_attributes) strcat(known, " clip-attributes");
         if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s%s", name, known);
         else if (count == 2 && strcmp(id, "2") == 0)
             fprintf(out, "HELLO 2 %s%s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
@@ -287,14 +304,14 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
         else fputs("E - say HELLO 1 or HELLO 2", out);
         return;
     }
-    if (is_known && verb[0] == 'N') wrong = rasterproof_cut(words, count, drawers);
+    if (is_known && (verb[0] == 'N' || verb[0] == 'A')) wrong = rasterproof_cut(words, count, drawers);
     else if (is_known) wrong = rasterproof_draw(words, count, declares, drawers);
     if (wrong) fprintf(out, "E %s %s", id, wrong);
     else if (verb[0] == 'T') rasterproof_write_runs(out, id);
     else if (verb[0] == 'I') rasterproof_write_values(out, id);
     else if (verb[0] == 'S') rasterproof_write_marked(out, 'M', id);
     else if (verb[0] == 'D') rasterproof_write_marked(out, 'V', id);
-    else if (verb[0] == 'N') rasterproof_write_polygon(out, id);
+    else if (verb[0] == 'N' || verb[0] == 'A') rasterproof_write_polygon(out, id, verb[0] == 'A');
     else rasterproof_write_line(out, id);
 }
 
@@ -320,7 +337,7 @@ static int rasterproof_serve_all(const char *name, const char *declares, struct 
 
 /* The same for a program that draws triangles and lines alone. */
 static inline int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle, rasterproof_line line) {
-    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL};
+    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL, NULL};
     return rasterproof_serve_all(name, declares, drawers);
 }
 

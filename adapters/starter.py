@@ -44,8 +44,8 @@ def line(x0, y0, x1, y1, width, height, set_pixel):
         set_pixel(math.floor(x0 + dx * i / max(steps, 1) + 0.5), math.floor(y0 + dy * i / max(steps, 1) + 0.5))
 
 
-# What else there is (verbs I, S, D and N): write functions in their stead, as `rasterproof course start` has them.
-values = samples = depth = clip = None
+# What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them.
+values = samples = depth = clip = clip_attributes = None
 
 
 # ---- the line protocol: nothing to change from here on ----
@@ -97,6 +97,7 @@ def answer(words):
     if verb == "HELLO":
         known = "coverage" + " line" * (line is not None)
         more = {"attributes": values, "samples4": samples, "depth": depth, "clip": clip}
+        more["clip-attributes"] = clip_attributes
         known += "".join(f" {word}" for word, has in more.items() if has is not None)
         declared = f" window={MOST_SIDE}x{MOST_SIDE} {DECLARES}"
         return {
@@ -104,12 +105,12 @@ def answer(words):
             ("2",): f"HELLO 2 {NAME} {known}{declared}",
         }.get(tuple(words[1:]), "E - say HELLO 1 or HELLO 2")
     verbs = {"T": (triangle, 6, "C"), "L": (line, 4, "P"), "I": (values, 18, "F"), "S": (samples, 6, "M")}
-    verbs.update({"D": (depth, 9 * max(1, (len(words) - 4) // 9), "V"), "N": (clip, 12, "G")})
+    verbs.update({"D": (depth, 9 * max(1, (len(words) - 4) // 9), "V"), "N": (clip, 12, "G"), "A": (clip_attributes, 15, "B")})
     draw, count, letter = verbs.get(verb, (None, 0, ""))
     if draw is None:
         return f"E {id} unsupported"
     try:
-        first = 2 if verb == "N" else 4  # the near plane has no window
+        first = 2 if verb in "NA" else 4  # the near plane has no window
         if len(words) != count + first:
             raise Refused(f"{verb} takes id {'width height ' * (first == 4)}and {count} numbers")
         sides = [int(word) if word.isdecimal() and len(word) < 9 else 0 for word in words[2:first]]
@@ -117,7 +118,7 @@ def answer(words):
             raise Refused(f"the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}")
         # Of each corner the first two are coordinates of the window.
         size = {"I": 6, "D": 3}.get(verb, 2)
-        numbers = [number(word, verb != "N" and i % size < 2) for i, word in enumerate(words[first:])]
+        numbers = [number(word, verb not in "NA" and i % size < 2) for i, word in enumerate(words[first:])]
         if verb == "T":
             found = runs(drawn(draw, numbers, *sides))
         elif verb == "I":
@@ -127,10 +128,12 @@ def answer(words):
             corners = [numbers[i : i + 3] for i in range(0, count, 3)]
             triangles = [corners[i : i + 3] for i in range(0, count // 3, 3)]
             found = [(y, x, x + 1, operator.index(t)) for y, x, t in drawn(draw, [triangles], *sides)]
-        elif verb == "N":
-            found = [tuple(map(float, corner)) for corner in draw([numbers[0:4], numbers[4:8], numbers[8:12]])]
-            if any(len(corner) != 4 for corner in found):
-                raise Refused("a corner of the polygon has x, y, z, w")
+        elif verb in "NA":
+            size = count // 3
+            corners = [numbers[i : i + size] for i in range(0, count, size)]
+            found = [tuple(map(float, corner)) for corner in draw(corners)]
+            if any(len(corner) != size for corner in found):
+                raise Refused("a corner of the polygon has x, y, z, w" + ", a" * (verb == "A"))
         elif verb == "S":
             found = [(y, x, x + 1, operator.index(mask)) for y, x, mask in drawn(draw, numbers, *sides) if mask]
         else:

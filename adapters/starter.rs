@@ -60,11 +60,12 @@ fn line(
     }
 }
 
-// What else there is (verbs I, S, D and N): write functions in their stead, as `rasterproof course start` has them.
+// What else there is (verbs I, S, D, N and A): write functions in their stead, as `rasterproof course start` has them.
 const VALUES: Option<Values> = None;
 const SAMPLES: Option<Samples> = None;
 const DEPTH: Option<Depth> = None;
-const CLIP: Option<Clip> = None;
+const CLIP: Option<Clip<4>> = None;
+const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 
 // ---- the line protocol: nothing to change from here on ----
 
@@ -85,8 +86,8 @@ type Depth = fn(
     height: i32,
     set_pixel: &mut dyn FnMut(i32, i32, usize),
 );
-/// Three corners x, y, z, w of clip space; the corners of what z >= -w leaves of them.
-type Clip = fn(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]>;
+/// Three corners x, y, z, w of clip space, and with `N` of 5 an attribute; the corners of what z >= -w leaves of them.
+type Clip<const N: usize> = fn(corners: [[f64; N]; 3]) -> Vec<[f64; N]>;
 
 const MOST_BYTES: usize = 65536;
 const MOST_SIDE: i32 = 1024;
@@ -148,7 +149,10 @@ fn value(word: &str) -> Result<f64, String> {
 fn draw(words: &[&str]) -> Result<String, String> {
     let verb = words[0];
     if let ("N", Some(clip)) = (verb, CLIP) {
-        return clipped(words, clip);
+        return clipped(words, "G", clip);
+    }
+    if let ("A", Some(clip)) = (verb, CLIP_ATTRIBUTES) {
+        return clipped(words, "B", clip);
     }
     let count = match verb {
         "L" => 4,
@@ -210,16 +214,20 @@ fn draw(words: &[&str]) -> Result<String, String> {
 }
 
 /// What the near plane leaves: no window has a part in it.
-fn clipped(words: &[&str], clip: Clip) -> Result<String, String> {
-    if words.len() != 14 {
-        return Err("N takes id and 12 numbers".into());
+fn clipped<const N: usize>(
+    words: &[&str],
+    letter: &str,
+    clip: Clip<N>,
+) -> Result<String, String> {
+    if words.len() != 2 + 3 * N {
+        return Err(format!("{} takes id and {} numbers", words[0], 3 * N));
     }
     let v = words[2..].iter().map(|word| value(word)).collect::<Result<Vec<_>, _>>()?;
-    let corner = |i: usize| std::array::from_fn(|n| v[4 * i + n]);
+    let corner = |i: usize| std::array::from_fn(|n| v[N * i + n]);
     let corners = [corner(0), corner(1), corner(2)];
     let polygon = std::panic::catch_unwind(|| clip(corners)).map_err(|_| "raised a panic")?;
     let groups: Vec<_> = polygon.into_iter().map(|corner| corner.to_vec()).collect();
-    Ok(reply("G", words[1], &groups))
+    Ok(reply(letter, words[1], &groups))
 }
 
 fn reply(letter: &str, id: &str, groups: &[Vec<f64>]) -> String {
@@ -233,12 +241,14 @@ fn reply(letter: &str, id: &str, groups: &[Vec<f64>]) -> String {
 fn answer(words: &[&str]) -> String {
     let more = [VALUES.is_some(), SAMPLES.is_some(), DEPTH.is_some(), CLIP.is_some()];
     let [values, samples, depth, clip] = more;
+    let carries = CLIP_ATTRIBUTES.is_some();
     let has = [
         (HAS_LINES, " line"),
         (values, " attributes"),
         (samples, " samples4"),
         (depth, " depth"),
         (clip, " clip"),
+        (carries, " clip-attributes"),
     ];
     let more: String = has.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
     let known = format!("coverage{more}");
@@ -251,7 +261,7 @@ fn answer(words: &[&str]) -> String {
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         [verb, ..]
-            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip)]
+            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip), ("A", carries)]
                 .contains(&(*verb, true)) =>
         {
             draw(words).unwrap_or_else(|reason| format!("E {id} {reason}"))

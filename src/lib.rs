@@ -19,6 +19,7 @@
 //! - [`assert_rasterizer`]: judges in one line of a test
 //! - [`assert_lines`]: the same for a line drawer
 //! - [`assert_values`]: the same with depths and attributes
+//! - [`assert_same_coverage`]: two rasterizers draw the same pixels, whether or not they are right
 //! - [`assert_partition`]: the same for a tessellator
 //!
 //! The rest is public for the program, its tests and the samples under `docs/`, is not shown here,
@@ -59,7 +60,9 @@
 #[doc(inline)]
 pub use rasterproof_core::{contract, frame, grid, line, raster, triangle};
 #[doc(inline)]
-pub use rasterproof_verify::{assert_lines, assert_partition, assert_rasterizer, assert_values};
+pub use rasterproof_verify::{
+    assert_lines, assert_partition, assert_rasterizer, assert_same_coverage, assert_values,
+};
 #[doc(inline)]
 pub use rasterproof_verify::{cases, comparison as verify, oracle, partition};
 

@@ -35,3 +35,6 @@ static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corne
     (void)corners, (void)add_corner;
 }
 
+// To be judged with attributes, too, let it be a function of rasterproof_carried_corner (step 11).
+static const rasterproof_clip_attributes clip_attributes = nullptr;
+

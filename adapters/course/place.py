@@ -3,6 +3,9 @@
 
 # ---- YOUR PLACE: six functions, empty as they stand ----
 
+# To be judged with attributes, too, let it be clip, of corners (x, y, z, w, a) then (step 11).
+clip_attributes = None
+
 
 def line(x0, y0, x1, y1, width, height, set_pixel):
     """Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3)."""

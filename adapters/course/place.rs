@@ -4,7 +4,9 @@
 const VALUES: Option<Values> = Some(values);
 const SAMPLES: Option<Samples> = Some(samples);
 const DEPTH: Option<Depth> = Some(depth);
-const CLIP: Option<Clip> = Some(clip);
+const CLIP: Option<Clip<4>> = Some(clip);
+/// To be judged with attributes, too, let it be a function of corners x, y, z, w, a (step 11).
+const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 
 /// Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3).
 fn line(

@@ -115,13 +115,23 @@ static void depth(const rasterproof_point (*triangles)[3], int count, int width,
             if (seen[size_t(y) * width + x] >= 0) set_pixel(x, y, seen[size_t(y) * width + x]);
 }
 
-static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corner add_corner) {
+static void clip_attributes(const rasterproof_carried_corner corners[3], rasterproof_add_carried add_corner) {
     for (int i = 0; i < 3; i++) {
-        const rasterproof_clip_corner a = corners[i], b = corners[(i + 1) % 3];
+        const rasterproof_carried_corner a = corners[i], b = corners[(i + 1) % 3];
         const double da = a.z + a.w, db = b.z + b.w, t = da / (da - db);
-        if (da >= 0) add_corner(a.x, a.y, a.z, a.w);
+        if (da >= 0) add_corner(a.x, a.y, a.z, a.w, a.a);
         if ((da >= 0) != (db >= 0))
-            add_corner(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t);
+            add_corner(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t,
+                       a.a + (b.a - a.a) * t);
     }
+}
+
+static rasterproof_add_corner add_without;
+
+static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corner add_corner) {
+    rasterproof_carried_corner carried[3];
+    for (int i = 0; i < 3; i++) carried[i] = {corners[i].x, corners[i].y, corners[i].z, corners[i].w, 0};
+    add_without = add_corner;
+    clip_attributes(carried, [](double x, double y, double z, double w, double) { add_without(x, y, z, w); });
 }
 

@@ -104,3 +104,6 @@ def clip(corners):
             polygon.append([p + (q - p) * da / (da - db) for p, q in zip(a, b)])
     return polygon
 
+
+clip_attributes = clip
+

@@ -75,7 +75,8 @@ fn snap(place: [f64; 2]) -> [i64; 2] {
 const VALUES: Option<Values> = Some(values);
 const SAMPLES: Option<Samples> = Some(samples);
 const DEPTH: Option<Depth> = Some(depth);
-const CLIP: Option<Clip> = Some(clip);
+const CLIP: Option<Clip<4>> = Some(clip);
+const CLIP_ATTRIBUTES: Option<Clip<5>> = Some(clip);
 
 fn line(
     from: (i32, i32),
@@ -176,7 +177,7 @@ fn depth(
     }
 }
 
-fn clip(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
+fn clip<const N: usize>(corners: [[f64; N]; 3]) -> Vec<[f64; N]> {
     let mut left = Vec::new();
     for i in 0..3 {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);

@@ -10,7 +10,8 @@ use super::files::{self, Output, Use};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Status, Streams, exit, league, usage};
+use super::{Failure, Status, Streams, exit, league, usage};
+use rasterproof_judge::against;
 use rasterproof_judge::ask::Ask;
 use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::process::{Limits, Program};
@@ -68,6 +69,9 @@ pub struct JudgeArguments {
     /// Write what fails now into the file of --baseline
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
+    /// Compare with another program, on all that both can answer: its command and arguments in one word
+    #[arg(long, value_name = "CMD", value_parser = command_line, conflicts_with_all = ["league", "baseline"])]
+    against: Option<CommandLine>,
     /// Judge libraries instead, by their installed adapters, all or these: target/rasterproof/league.json
     #[arg(long, value_name = "NAME", num_args = 0.., conflicts_with_all = ["command", "baseline"])]
     league: Option<Vec<String>>,
@@ -84,6 +88,18 @@ fn seconds(text: &str) -> Result<Duration, String> {
     match text.parse::<f64>() {
         Ok(s) if s > 0.0 && s <= 1e6 => Ok(Duration::from_secs_f64(s)),
         _ => Err("expected a number of seconds above 0, at most 1e6".to_owned()),
+    }
+}
+
+/// A program and its arguments, typed as one word.
+#[derive(Clone, Debug)]
+struct CommandLine(Vec<String>);
+
+fn command_line(text: &str) -> Result<CommandLine, String> {
+    match shlex::split(text) {
+        Some(words) if !words.is_empty() => Ok(CommandLine(words)),
+        Some(_) => Err("expected a program, and its arguments".to_owned()),
+        None => Err("a quote is not closed".to_owned()),
     }
 }
 
@@ -130,29 +146,52 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         None => None,
     };
     process_group::end_all_on_ctrl_c();
+    let start = |who: &str, command: &[String]| {
+        let program = Program::start(command, &arguments.words(), limits);
+        let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
+        Ok::<_, Failure>(Box::new(program) as Box<dyn Ask>)
+    };
     let mut askers = Vec::new();
+    let mut others = Vec::new();
     for _ in 0..arguments.jobs {
-        let program = Program::start(&arguments.command, &arguments.words(), limits);
-        let program = program.map_err(|m| usage(format!("the program {m}\n  {}", m.remedy())))?;
-        askers.push(Box::new(program) as Box<dyn Ask>);
+        askers.push(start("the program", &arguments.command)?);
+        if let Some(CommandLine(command)) = &arguments.against {
+            others.push(start("the program of --against", command)?);
+        }
     }
-    let declared = askers[0].declared();
-    if declared.capabilities().is_empty() {
-        return Err(usage(format!(
-            "{} names no capability after HELLO; expected coverage, line, attributes, \
-             samples4, depth or clip",
-            declared.name
-        )));
+    for declared in askers.first().into_iter().chain(others.first()).map(|asked| asked.declared()) {
+        if declared.capabilities().is_empty() {
+            return Err(usage(format!(
+                "{} names no capability after HELLO; expected coverage, line, attributes, \
+                 samples4, depth or clip",
+                declared.name
+            )));
+        }
+    }
+    let mut declared = askers[0].declared().clone();
+    if let Some(other) = others.first().map(|other| other.declared()) {
+        let names = [declared.name.clone(), other.name.clone()];
+        declared = declared.within(other);
+        if declared.capabilities().is_empty() {
+            return Err(usage(format!(
+                "{} and {} have no capability in common, so there is nothing to compare",
+                names[0], names[1]
+            )));
+        }
     }
     let options = arguments.options(baseline.as_ref());
-    let total = cases_of(&options, declared);
+    let total = cases_of(&options, &declared);
     let progress = Progress::new(streams.progress, "cases judged", Some(total));
     let scope = arguments.scope();
     let recognise = |program: &mut dyn Ask| recognise(program, scope);
-    let mut verdict =
-        rasterproof_judge::judge(&mut askers, &options, &recognise, &|step| progress.step(step));
+    let step = |step| progress.step(step);
+    let mut verdict = if others.is_empty() {
+        rasterproof_judge::judge(&mut askers, &options, &recognise, &step)
+    } else {
+        let mut pairs: Vec<_> = askers.into_iter().zip(others).map(|(a, b)| [a, b]).collect();
+        against::compare(&mut pairs, &options, &step)
+    };
     drop(progress);
-    drop(askers);
     // Whoever draws nothing would agree.
     let expects = verdict.windings.is_known() || verdict.found.rows.iter().any(|r| r.pixels > 0);
     let is_empty = verdict.found.rows.is_empty() || (verdict.agrees() && !expects);

@@ -550,6 +550,7 @@ fn draw_in_tiles(
     for (count, reason) in [
         (handed_over.in_shadows, "are in a scene with shadows"),
         (handed_over.not_opaque, "are of a material that is not opaque"),
+        (handed_over.physical, "are of a physical material"),
         (
             handed_over.beyond_f32,
             "are of an item with values beyond 2^62,\n  which may overflow in f32",

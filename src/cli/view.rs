@@ -175,8 +175,7 @@ fn parse_opacity(text: &str) -> Result<f64, &'static str> {
 /// Gives all textures a mip map, and anisotropy where it is asked for; one that several items share is made once.
 fn give_mip_maps(scene: &mut Scene, anisotropy: Option<u8>) {
     let mut made: Vec<[Arc<Texture>; 2]> = Vec::new();
-    for item in &mut scene.items {
-        let Some(texture) = &mut item.material.texture else { continue };
+    let mut give = |texture: &mut Arc<Texture>| {
         let known = made.iter().find(|[before, _]| Arc::ptr_eq(before, texture));
         let with = match known {
             Some([_, with]) => with.clone(),
@@ -188,6 +187,12 @@ fn give_mip_maps(scene: &mut Scene, anisotropy: Option<u8>) {
             }
         };
         *texture = with;
+    };
+    for item in &mut scene.items {
+        item.material.texture.iter_mut().for_each(&mut give);
+        if let Some(physical) = &mut item.material.physical {
+            Arc::make_mut(physical).maps.iter_mut().flatten().for_each(&mut give);
+        }
     }
 }
 

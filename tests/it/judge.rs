@@ -17,6 +17,7 @@ use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::verdict::{Outcome, Verdict};
 use rasterproof_judge::{Options, judge};
 use rasterproof_registry::engines::{self, SPECIMENS};
+use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rayon::prelude::*;
 
 use crate::misbehave;
@@ -404,7 +405,7 @@ pub fn of_misbehaving(options: &[&str], engine: &str, fault: &str) -> Vec<String
 #[ignore = "takes seconds; .ci/run runs it"]
 fn judge_prints_a_verdict() {
     let errors = check(of(&["--jobs", "2"], &["scanline"]), 0)
-        .prints("scanline speaks version 2: coverage attributes samples4 depth clip grid=256")
+        .prints("scanline speaks version 2: coverage attributes samples4 depth clip clip-attributes grid=256")
         .prints("\nAGREES: ")
         .prints("as declared:         0 wrong")
         .errors;
@@ -709,6 +710,35 @@ fn judge_takes_a_declared_shape() {
     }
 }
 
+/// Of a program that fills and draws lines, the fill is what its own outline encloses, whatever the rule on edges is.
+#[test]
+fn judge_compares_fill_and_outline() {
+    let fill_by = |convention: Convention| {
+        let mut oracle = inside("oracle");
+        let declared = Declared::parse("HELLO 2 both coverage line").unwrap();
+        let answer = move |questions: &[Question], most| {
+            let mut answers = oracle.ask(questions, most);
+            for (question, answer) in questions.iter().zip(&mut answers) {
+                if let Asked::Coverage(corners) = &question.of {
+                    let window = PixelRect::window(question.width, question.height);
+                    *answer = Answer::Coverage(convention.expected(corners, window).must);
+                }
+            }
+            answers
+        };
+        let verdict =
+            judged(Box::new(Answering(declared, answer)), &options(200, &["half-integer"]));
+        let row = verdict.found.rows.iter().find(|row| row.name == "fill-and-outline").unwrap();
+        assert_eq!(row.cases, 50);
+        row.wrong_cases
+    };
+    for rule in [Rule::TopLeft, Rule::BottomRight, Rule::Strict] {
+        assert_eq!(fill_by(Convention::default().rule(rule)), 0, "{rule:?}");
+    }
+    assert!(fill_by(Convention::default().sample(128, 384)) > 30);
+    assert!(fill_by(Convention::default().winding(Winding::Clockwise)) == 0);
+}
+
 /// The near plane of Direct3D and Vulkan is declared.
 #[test]
 fn judge_takes_a_declared_near_plane() {
@@ -716,10 +746,8 @@ fn judge_takes_a_declared_near_plane() {
         let declared = Declared::parse(&format!("HELLO 2 x clip {words}")).unwrap();
         let answer = |questions: &[Question], _| {
             let clip = |question: &Question| {
-                let Asked::Near(triangle) = &question.of else {
-                    return Answer::Polygon(Vec::new());
-                };
-                let corners = rasterproof_verify::cases::near_plane::clip_corners(triangle);
+                let triangle = rasterproof_judge::near_plane::asked(&question.of).unwrap();
+                let corners = rasterproof_verify::cases::near_plane::clip_corners(&triangle);
                 let mut left = Vec::new();
                 for i in 0..3 {
                     let (a, b) = (corners[i], corners[(i + 1) % 3]);
@@ -728,7 +756,7 @@ fn judge_takes_a_declared_near_plane() {
                     }
                     if (a[2] >= 0.0) != (b[2] >= 0.0) {
                         let t = a[2] / (a[2] - b[2]);
-                        left.push([0, 1, 2, 3].map(|k| a[k] + t * (b[k] - a[k])));
+                        left.push([0, 1, 2, 3, 4].map(|k| a[k] + t * (b[k] - a[k])));
                     }
                 }
                 Answer::Polygon(left)

@@ -13,6 +13,7 @@ use rasterproof_judge::check::Check;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::Failure;
 use rasterproof_judge::in_process::Inside;
+use rasterproof_judge::near_plane::asked;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::Outcome;
@@ -55,8 +56,8 @@ impl Ask for Careless {
                 (Asked::Samples(_), Answer::Samples(runs)) => {
                     runs.iter_mut().for_each(|r| r.1 = 15)
                 }
-                (Asked::Near(triangle), Answer::Polygon(corners)) => {
-                    *corners = clip_corners(triangle).to_vec();
+                (of @ Asked::Near(_), Answer::Polygon(corners)) => {
+                    *corners = clip_corners(&asked(of).unwrap()).to_vec();
                 }
                 _ => {}
             }
@@ -192,7 +193,7 @@ fn progress_counts_what_is_judged() {
     for words in [
         "coverage",
         "line",
-        "coverage attributes samples4 depth clip line",
+        "coverage attributes samples4 depth clip clip-attributes line",
         "depth",
         "attributes clip",
     ] {
@@ -254,7 +255,7 @@ fn judge_shows_what_differs() {
                 assert!(picture.of.contains(said), "{name}: {failure:?}");
             }
             let mut text = String::new();
-            shown::picture(&mut text, "judged", picture);
+            shown::picture(&mut text, &["judged"], picture);
             let grids = [
                 ascii::grid(&picture.drawn, &picture.expected),
                 ascii::grid(&picture.expected, &picture.expected),

@@ -5,6 +5,7 @@
 )]
 
 mod accessibility;
+mod against;
 mod book;
 mod by_hand;
 mod circles;

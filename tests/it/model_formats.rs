@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 use rasterproof_models::{BadFile, Camera, Format, Lens, Model, Options, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
+use rasterproof_render::pipeline::physical::Map;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::scene::{Item, Material, Shading};
 use rasterproof_verify::cases::Rng;
@@ -438,9 +439,12 @@ fn strips_and_fans_of_a_gltf_are_triangles_of_one_winding() {
 
 /// A texture of two texels, red on the left and green on the right, as a PNG.
 fn picture() -> Vec<u8> {
+    picture_of([[255, 0, 0, 255], [0, 255, 0, 128]])
+}
+
+fn picture_of(texels: [[u8; 4]; 2]) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
-    let pixel = |x, _| image::Rgba(if x == 0 { [255, 0, 0, 255] } else { [0, 255, 0, 128] });
-    let picture = image::RgbaImage::from_fn(2, 1, pixel);
+    let picture = image::RgbaImage::from_fn(2, 1, |x, _| image::Rgba(texels[x as usize]));
     picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
     bytes.into_inner()
 }
@@ -510,7 +514,111 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
     assert_eq!(opacity.of(DVec2::ZERO), 255, "as opaque as the threshold");
     let missing = "textures[1] has no picture that is read; the material 'materials[1]'";
     assert!(warning(&model).contains(missing), "{:?}", model.warnings);
-    assert_eq!(model.not_drawn, "1 extension KHR_materials_sheen, metal of 1 material");
+    assert_eq!(model.not_drawn, "1 extension KHR_materials_sheen");
+}
+
+/// Factors, maps and tangents of a surface in linear light; what is read at other coordinates is counted.
+#[test]
+fn surfaces_of_a_gltf_are_in_linear_light() {
+    let bytes = |numbers: &[f32]| numbers.iter().copied().flat_map(f32::to_le_bytes).collect();
+    let uvs: Vec<u8> = bytes(&[0.25, 0.0, 0.75, 0.0, 0.25, 1.0, 0.75, 1.0]);
+    let normals: Vec<u8> = bytes(&[0.0, 0.0, 1.0].repeat(4));
+    let tangents: Vec<u8> = bytes(&[0.0, 0.6, 0.8, 1.0].repeat(4));
+    let picture = picture_of([[200, 100, 50, 255], [10, 20, 30, 255]]);
+    let made = |change: &dyn Fn(&mut Value)| {
+        let (json, mut whole) = document(|d| {
+            let mut start = 72;
+            for bytes in [&uvs, &normals, &tangents, &picture] {
+                let view = json!({ "buffer": 0, "byteOffset": start, "byteLength": bytes.len() });
+                d["bufferViews"].as_array_mut().unwrap().push(view);
+                start += bytes.len();
+            }
+            let of = |view: u32, form: &str| json!({ "bufferView": view, "componentType": 5126, "count": 4, "type": form });
+            let colours = json!({ "bufferView": 0, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4" });
+            let all = [of(2, "VEC2"), of(3, "VEC3"), of(4, "VEC4"), colours];
+            d["accessors"].as_array_mut().unwrap().extend(all);
+            d["meshes"][0]["primitives"] = json!([{
+                "attributes": { "POSITION": 0, "TEXCOORD_0": 2, "NORMAL": 3, "TANGENT": 4, "COLOR_0": 5 },
+                "indices": 1, "material": 0,
+            }]);
+            d["images"] = json!([{ "bufferView": 5, "mimeType": "image/png" }]);
+            d["textures"] = json!([{ "source": 0 }]);
+            d["materials"] = json!([{
+                "pbrMetallicRoughness": {
+                    "baseColorTexture": { "index": 0 }, "baseColorFactor": [0.5, 0, 1, 1],
+                    "metallicFactor": 0.25, "roughnessFactor": 0.75, "metallicRoughnessTexture": { "index": 0 },
+                },
+                "normalTexture": { "index": 0, "scale": 0.5 },
+                "occlusionTexture": { "index": 0, "strength": 0.125 },
+                "emissiveTexture": { "index": 0 }, "emissiveFactor": [0, 0.5, 1],
+                "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 8 } },
+            }]);
+            d["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+            change(d);
+        });
+        for bytes in [&uvs, &normals, &tangents, &picture] {
+            whole.extend(bytes);
+        }
+        glb((json, whole))
+    };
+    let folder = folder();
+    let read = |name: &str, shading: Shading, change: &dyn Fn(&mut Value)| {
+        let options = Options { shading, ..Options::default() };
+        let path = folder.put(name, made(change));
+        let model = rasterproof_models::load(&path, options).unwrap();
+        let [item] = model.items.clone().try_into().unwrap();
+        (model, item)
+    };
+    let (model, item) = read("surface.glb", Shading::Phong, &|_| ());
+    assert_eq!(model.not_drawn, "");
+    let material = &item.material;
+    assert_eq!(material.colour.to_array(), [0.5, 0.0, 1.0]);
+    let surface = material.physical.as_ref().unwrap();
+    let numbers = [surface.metal, surface.roughness, surface.bumps, surface.occlusion];
+    assert_eq!(numbers, [0.25, 0.75, 0.5, 0.125]);
+    assert_eq!(surface.emission.to_array(), [0.0, 4.0, 8.0]);
+    // Colours are decoded, and no other numbers.
+    let uv = DVec2::new(0.25, 0.75);
+    let stored = Texture::clone(material.texture.as_ref().unwrap()).as_stored();
+    let decoded = stored.clone().decoded();
+    assert_ne!(stored.at(uv), decoded.at(uv));
+    assert_eq!(material.texture.as_ref().unwrap().at(uv), decoded.at(uv));
+    for (map, is_decoded) in
+        [(Map::Emission, true), (Map::Metal, false), (Map::Occlusion, false), (Map::Normal, false)]
+    {
+        let expected = if is_decoded { &decoded } else { &stored };
+        assert_eq!(surface.map(map).unwrap().at(uv), expected.at(uv), "{map:?}");
+    }
+    // A scene is left-handed, and colours are amounts of light in the file.
+    assert_eq!(
+        item.mesh.triangles.tangents(0)[1].to_array(),
+        [0.0, 0.6f32.into(), (-0.8f32).into(), -1.0]
+    );
+    assert_eq!(item.mesh.triangles.at(3)[2].colour.to_array(), [0.0, 0.0, 128.0 / 255.0]);
+    // Without tangents they are made, and are at a right angle to the normal.
+    let (_, computed) = read("computed.glb", Shading::Phong, &|d| {
+        d["meshes"][0]["primitives"][0]["attributes"].as_object_mut().unwrap().remove("TANGENT");
+    });
+    let tangent = computed.mesh.triangles.tangents(0)[1];
+    assert!(tangent.z == 0.0 && (tangent.truncate().length() - 1.0).abs() < 1e-6, "{tangent}");
+    // Coordinates of its own, and a picture that is not there.
+    let (model, item) = read("other.glb", Shading::Phong, &|d| {
+        d["materials"][0]["normalTexture"]["texCoord"] = json!(1);
+        d["materials"][0]["emissiveTexture"]["index"] = json!(7);
+    });
+    assert_eq!(model.not_drawn, "map with texture coordinates of its own of 1 material");
+    let missing =
+        "textures[7] is not there; the material 'materials[0]' is drawn without its emission";
+    assert!(warning(&model).contains(missing), "{:?}", model.warnings);
+    let surface = item.material.physical.as_ref().unwrap();
+    assert!(surface.map(Map::Normal).is_none() && surface.emission == DVec3::ZERO);
+    // With light of the corners, the colours are those of a picture.
+    let (model, item) = read("surface.glb", Shading::Gouraud, &|_| ());
+    assert_eq!(model.not_drawn, "metal and roughness, with Gouraud shading, of 1 material");
+    let material = &item.material;
+    assert!(material.physical.is_none() && (material.colour.x * 255.0 - 187.516).abs() < 0.01);
+    assert_eq!(material.texture.as_ref().unwrap().at(uv), stored.at(uv));
+    assert!((item.mesh.triangles.at(3)[2].colour.z * 255.0 - 187.845).abs() < 0.01);
 }
 
 /// A primitive that names no material is white, and seen from the front alone.
@@ -1152,5 +1260,5 @@ fn names_of_a_gltf_are_found_and_said() {
     });
     let model = load_in(&folder, "nulls.gltf", json.as_bytes()).unwrap();
     assert!(model.items[0].material.texture.is_some(), "{:?}", model.warnings);
-    assert_eq!(model.not_drawn, "metal of 1 material");
+    assert_eq!(model.not_drawn, "");
 }

@@ -730,7 +730,7 @@ fn text_outside_the_folder_is_not_quoted() {
         "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
             {"bufferView":0,"componentType":5125,"count":12,"type":"SCALAR"}],
         "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
-        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}"#;
+        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"animations":[{}]}"#;
     for image in [r#"{"uri":"../secret.png"}"#, r#"{"bufferView":0}"#] {
         check("in/picture.gltf", gltf.replace("IMAGE", image).as_bytes(), unreadable);
     }

@@ -19,6 +19,7 @@ use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
+use rasterproof_render::pipeline::physical::{Map, Physical};
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
@@ -248,6 +249,10 @@ pub fn as_they_come(interpolates: &Value) -> Value {
         "perspective": "planned",
         "depth": true,
         "specular": "planned",
+        "reflection": "planned",
+        "normal_maps": "planned",
+        "occlusion": "planned",
+        "emission": "planned",
         "mip_maps": "planned",
         "shadows": "planned",
         "anisotropy": "planned",
@@ -658,6 +663,22 @@ fn counterexamples() -> Vec<Counterexample> {
             let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
             Scene { light, ..one(mesh, material) }
         }),
+        make(Effect::Reflection, none, |by| {
+            // All normals are at a right angle to the light, and one turns towards it.
+            let mut mesh = screen_with(|corner| corner.normal = DVec3::X);
+            mesh.triangles.change(0, |corners| corners[1].normal = DVec3::new(1.0, 0.0, -by));
+            reflecting(mesh, Physical { metal: 1.0, ..Physical::default() })
+        }),
+        make(Effect::NormalMaps, none, |by| {
+            // The right side reads beyond the flat one of two texels.
+            reflecting(beyond(by), mapped(Map::Normal, [[128, 128, 255], [255, 128, 128]]))
+        }),
+        make(Effect::Occlusion, none, |by| {
+            reflecting(beyond(by), mapped(Map::Occlusion, [[255; 3], [0; 3]]))
+        }),
+        make(Effect::Emission, none, |by| {
+            reflecting(beyond(by), mapped(Map::Emission, [[0; 3], [255; 3]]))
+        }),
         make(Effect::Shadows, none, |by| {
             // A smaller screen moves from the large one towards the light, which is behind the eye; its shadow is wider
             // by what the filter reads. The depths of the map reach to a third one.
@@ -740,6 +761,31 @@ fn counterexamples() -> Vec<Counterexample> {
             })
         },
     ]
+}
+
+/// A screen of grey in linear light, with the light behind the eye.
+fn reflecting(mesh: Mesh, physical: Physical) -> Scene {
+    let light = Light { towards: -DVec3::Z, ambient: 0.5, diffuse: 0.5 };
+    let physical = Some(Arc::new(physical));
+    let material = Material { physical, shading: Shading::Phong, ..grey(0.5) };
+    Scene { light, ..one(shapes::with_tangents(mesh), material) }
+}
+
+/// The screen with the left one of two texels, and so much of the right one.
+fn beyond(by: f64) -> Mesh {
+    screen_with(|corner| {
+        corner.uv.x *= 0.5 * (1.0 + by);
+        corner.normal = -DVec3::Z;
+    })
+}
+
+/// A surface with a map of two texels.
+fn mapped(map: Map, texels: [[u8; 3]; 2]) -> Physical {
+    let texture = Texture::new(2, 1, &texels).unwrap().with(Filter::Nearest, Wrap::Clamp);
+    let mut physical = Physical { emission: DVec3::ONE, ..Physical::default() };
+    physical.maps[Map::Emission as usize] = Some(Arc::new(Texture::new(1, 1, &[[0; 3]]).unwrap()));
+    physical.maps[map as usize] = Some(Arc::new(texture));
+    physical
 }
 
 /// A screen with a texture of black and white texels in turn, repeated so often.
@@ -883,7 +929,7 @@ proptest! {
         index in any::<u32>(),
         items in 1..6usize,
         kind in 0..4usize,
-        modes in proptest::array::uniform21(0..3u8),
+        modes in proptest::array::uniform25(0..3u8),
         some_never in any::<bool>(),
     ) {
         let mut scene = random::with_effects(3, index.into());

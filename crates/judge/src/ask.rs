@@ -14,7 +14,7 @@ use super::text::{Words, printable, px};
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
-use rasterproof_verify::cases::near_plane::clip_corners;
+use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
@@ -42,6 +42,8 @@ pub enum Asked {
     /// N: what the near plane leaves of a triangle of clip space, as
     /// [`rasterproof_verify::cases::near_plane::clip_corners`] reads it; the window has no part in it.
     Near(Triangle),
+    /// A: the same, with an attribute that new corners get as well.
+    Carried(Triangle),
 }
 
 impl Asked {
@@ -54,6 +56,7 @@ impl Asked {
             Self::Line { .. } => b"LP",
             Self::Depth(_) => b"DV",
             Self::Near(_) => b"NG",
+            Self::Carried(_) => b"AB",
         }
     }
 }
@@ -70,15 +73,28 @@ pub enum Answer {
     Line(Vec<(i32, i32)>),
     /// V: runs of pixels, with the number of the triangle that is seen there.
     Seen(Vec<(Span, u8)>),
-    /// G: corners x, y, z, w of a polygon.
-    Polygon(Vec<[f64; 4]>),
+    /// G: corners of a polygon, their attributes 0.
+    Polygon(Vec<ClipCorner>),
+    /// B: corners of a polygon with attributes.
+    Carried(Vec<ClipCorner>),
     /// E: the reason, printable.
     Refused(String),
+    /// What each of two programs answers that are compared.
+    Two(Box<[Self; 2]>),
     /// No answer: the program had to be started again.
     Died(Misbehaviour),
 }
 
 impl Answer {
+    /// The corners of a polygon, with attributes or without.
+    #[must_use]
+    pub fn polygon(&self) -> Option<&[ClipCorner]> {
+        match self {
+            Self::Polygon(corners) | Self::Carried(corners) => Some(corners),
+            _ => None,
+        }
+    }
+
     /// Whether the program had to be started again.
     #[must_use]
     pub fn is_death(&self) -> bool {
@@ -189,7 +205,7 @@ impl Question {
     pub fn write(&self, id: u64, out: &mut Vec<u8>) {
         // Writing to a vector does not fail.
         let _ = write!(out, "{} {id}", char::from(self.of.letters()[0]));
-        if !matches!(self.of, Asked::Near(_)) {
+        if !matches!(self.of, Asked::Near(_) | Asked::Carried(_)) {
             let _ = write!(out, " {} {}", self.width, self.height);
         }
         // Rust prints the shortest decimal that reads back as the same number.
@@ -218,10 +234,10 @@ impl Question {
                 }
             }
             Asked::Near(triangle) => {
-                for (v, [_, _, z, w]) in triangle.vertices.iter().zip(clip_corners(triangle)) {
-                    add(&at(v.position));
-                    add(&[z, w]);
-                }
+                clip_corners(triangle).iter().for_each(|corner| add(&corner[..4]));
+            }
+            Asked::Carried(triangle) => {
+                clip_corners(triangle).iter().for_each(|corner| add(corner));
             }
         }
         out.push(b'\n');
@@ -255,7 +271,10 @@ impl Question {
             Asked::Samples(_) => Answer::Samples(each(n, words, marked)?),
             Asked::Depth(_) => Answer::Seen(each(n, words, marked)?),
             Asked::Near(_) => Answer::Polygon(each(n, words, |w| {
-                Some([w.float()?, w.float()?, w.float()?, w.float()?])
+                Some([w.float()?, w.float()?, w.float()?, w.float()?, 0.0])
+            })?),
+            Asked::Carried(_) => Answer::Carried(each(n, words, |w| {
+                Some([w.float()?, w.float()?, w.float()?, w.float()?, w.float()?])
             })?),
         };
         if words.is_empty() { Ok(answer) } else { Err("more follows than it counts") }
@@ -310,7 +329,11 @@ pub fn show(answer: &Answer, id: u64) -> String {
             list('V', runs.iter().map(|(s, of)| format!("{} {of}", run(s))).collect())
         }
         Answer::Polygon(corners) => {
-            list('G', corners.iter().map(|[x, y, z, w]| format!("{x} {y} {z} {w}")).collect())
+            list('G', corners.iter().map(|[x, y, z, w, _]| format!("{x} {y} {z} {w}")).collect())
+        }
+        Answer::Carried(corners) => {
+            let one = |[x, y, z, w, a]: &ClipCorner| format!("{x} {y} {z} {w} {a}");
+            list('B', corners.iter().map(one).collect())
         }
         Answer::Line(pixels) => list('P', pixels.iter().map(|(x, y)| format!("{x} {y}")).collect()),
         Answer::Values(fragments) => {
@@ -320,6 +343,7 @@ pub fn show(answer: &Answer, id: u64) -> String {
             list('F', fragments.iter().map(one).collect())
         }
         Answer::Refused(reason) => format!("E {id} {reason}"),
+        Answer::Two(both) => show(&both[0], id),
         Answer::Died(misbehaviour) => format!("({misbehaviour})"),
     }
 }

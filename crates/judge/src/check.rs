@@ -11,9 +11,9 @@ use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values};
 use super::finding::{Finding, hits, mix};
-use super::{mesh, near_plane};
+use super::{against, mesh, near_plane, outline};
 use rasterproof_core::frame::{Coverage, Frame};
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
@@ -37,12 +37,16 @@ pub enum Check {
     Depth,
     /// What the near plane leaves of a triangle, against exact corners.
     Near,
+    /// The attributes of these corners, too.
+    Carried,
     /// A triangle with its vertices in another order against itself.
     Order,
     /// A mesh has no holes and no doubles.
     Watertight,
     /// A line drawn backwards against itself.
     Direction,
+    /// The fill of a triangle against its outline.
+    Outline,
 }
 
 pub struct Truth {
@@ -53,6 +57,8 @@ pub struct Truth {
     pub recognised: Option<Box<dyn Expect>>,
     /// The windings that it was seen to draw, or declares.
     pub drawn: Winding,
+    /// By what each of two programs is judged, where two are compared.
+    pub of_two: Option<Box<[Self; 2]>>,
 }
 
 impl Truth {
@@ -64,6 +70,7 @@ impl Truth {
             recognised: None,
             drawn: declared.convention().seen_winding(),
             declared: declared.clone(),
+            of_two: None,
         }
     }
 }
@@ -71,7 +78,16 @@ impl Truth {
 impl Finding {
     pub fn describe(&self, check: Check) -> String {
         let Tally { missing, extra, twice, order } = self.tally;
+        let behind = if check == Check::Depth { "show what lies behind" } else { "out of order" };
         let counts = match check {
+            _ if self.right.is_some() => vec![
+                (missing, "only in the second answer"),
+                (extra, "only in the first"),
+                (twice, "drawn another number of times"),
+            ],
+            Check::Outline => {
+                vec![(missing, "not filled within the outline"), (extra, "filled outside of it")]
+            }
             Check::Watertight => vec![(missing, "holes"), (twice, "drawn by two triangles")],
             Check::Order | Check::Direction => vec![(missing + extra + twice, "pixels differ")],
             Check::Samples => {
@@ -80,14 +96,15 @@ impl Finding {
             Check::Near => {
                 vec![(missing, "corners missing"), (extra, "corners that are not there")]
             }
+            Check::Carried => vec![
+                (missing, "corners missing, or with another attribute"),
+                (extra, "corners with an attribute that no such corner has, or that are not there"),
+            ],
             _ => vec![(missing, "missing"), (extra, "extra"), (twice, "twice")],
         };
         let mut parts: Vec<String> = counts
             .into_iter()
-            .chain([(
-                order,
-                if check == Check::Depth { "show what lies behind" } else { "out of order" },
-            )])
+            .chain([(order, if self.right.is_some() { "that differ" } else { behind })])
             .filter(|(n, _)| *n > 0)
             .map(|(n, what)| format!("{n} {what}"))
             .collect();
@@ -108,27 +125,44 @@ impl Check {
         match self {
             Self::Coverage | Self::Line | Self::Depth | Self::Near => family,
             Self::Values => "values",
+            Self::Carried => "clip-attributes",
             Self::Samples => "samples4",
             Self::Order => "vertex-order",
             Self::Watertight => "watertight",
             Self::Direction => "line-direction",
+            Self::Outline => "fill-and-outline",
         }
     }
 
-    /// The checks of a case: each case is asked the first question, some of them others.
+    /// The checks of a case; of two programs those that compare answers of the same program with each other are left out.
+    #[must_use]
+    pub fn of_truth(family: &str, case: &Case, index: u64, truth: &Truth) -> Vec<Self> {
+        let mut checks = Self::of(family, case, index, &truth.declared);
+        let compares_answers = |check: &Self| {
+            matches!(check, Self::Order | Self::Watertight | Self::Direction | Self::Outline)
+        };
+        checks.retain(|check| truth.of_two.is_none() || !compares_answers(check));
+        checks
+    }
+
+    /// The checks of a case of one program: each case is asked the first question, some of them others.
     #[must_use]
     pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
         let mut checks = Vec::new();
         match &case.shape {
             // Exact depths of overlapping triangles are dear.
-            Shape::Triangles { .. } if family == "depth-order" => {
-                if declared.depth && index.is_multiple_of(4) {
+            Shape::Triangles { .. } if family.starts_with("depth-") => {
+                let every = if family == "depth-order" { 4 } else { 2 };
+                if declared.depth && index.is_multiple_of(every) {
                     checks.push(Self::Depth);
                 }
             }
             Shape::Triangles { .. } if family == "near-plane" => {
                 if declared.clip {
                     checks.push(Self::Near);
+                }
+                if declared.clip_attributes {
+                    checks.push(Self::Carried);
                 }
             }
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
@@ -142,6 +176,15 @@ impl Check {
                     checks.push(Self::Coverage);
                     if index.is_multiple_of(4) && list.len() == 1 {
                         checks.push(Self::Order);
+                    }
+                    let is_centred = declared.origin == [HALF_PIXEL; 2] && declared.grid > 1;
+                    if family == "half-integer"
+                        && declared.line
+                        && is_centred
+                        && declared.shape == declared::Shape::Sample
+                        && index % 4 == 2
+                    {
+                        checks.push(Self::Outline);
                     }
                     // Neighbours share the pixels that an edge touches.
                     if *disjoint && declared.shape == declared::Shape::Sample {
@@ -180,11 +223,22 @@ impl Check {
                 });
                 out.extend(ordered);
             }
+            (Shape::Triangles { list, .. }, Self::Outline) => {
+                for corners in list.iter().map(Triangle::corners) {
+                    let Some([a, b, c]) = outline::ends(&corners, case.window) else { continue };
+                    out.push(ask(Asked::Coverage(wound(corners, truth.drawn))));
+                    out.extend(
+                        [[a, b], [b, c], [c, a]]
+                            .map(|ends| ask(Asked::Line { ends, whole: false })),
+                    );
+                }
+            }
             (Shape::Triangles { list, .. }, check) => out.extend(list.iter().map(|t| {
                 ask(match check {
                     Self::Values => Asked::Values(*t),
                     Self::Samples => Asked::Samples(t.corners()),
                     Self::Near => Asked::Near(*t),
+                    Self::Carried => Asked::Carried(*t),
                     // A mesh is wound as the program draws.
                     Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
                     _ => Asked::Coverage(t.corners()),
@@ -223,11 +277,17 @@ impl Check {
     /// Judges the answers to the questions of [`Check::questions`].
     #[must_use]
     pub fn judge(self, case: &Case, answers: &[Answer], truth: &Truth) -> Finding {
+        if let Some(of_two) = &truth.of_two {
+            return against::judge(self, case, answers, of_two);
+        }
         let mut finding = Self::judge_deaths(answers);
         match (&case.shape, self) {
             (Shape::Triangles { list, .. }, Self::Order) => {
                 finding.shapes = list.len() as u64;
                 answers.chunks(3).for_each(|same| alike(&mut finding, same, case.window));
+            }
+            (Shape::Triangles { .. }, Self::Outline) => {
+                answers.chunks(4).for_each(|of| outline::compare(&mut finding, of, case.window));
             }
             (Shape::Triangles { list, .. }, Self::Watertight) => {
                 watertight(&mut finding, list, answers, case.window);
@@ -239,10 +299,13 @@ impl Check {
                 }
                 finding.unscored += u64::from(truth.recognised.is_some());
             }
-            (Shape::Triangles { list, .. }, Self::Near) => {
-                for (triangle, answer) in list.iter().zip(answers) {
-                    if let Answer::Polygon(corners) = answer {
-                        near_plane::compare(&mut finding, triangle, corners, &truth.declared);
+            (Shape::Triangles { .. }, Self::Near | Self::Carried) => {
+                let mut questions = Vec::new();
+                self.questions(case, truth, &mut questions);
+                for (question, answer) in questions.iter().zip(answers) {
+                    let asked = near_plane::asked(&question.of);
+                    if let (Some(triangle), Some(corners)) = (asked, answer.polygon()) {
+                        near_plane::compare(&mut finding, &triangle, corners, &truth.declared);
                     }
                 }
             }
@@ -373,7 +436,11 @@ pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
         Answer::Samples(runs) | Answer::Seen(runs) => runs.iter().map(|(run, _)| *run).collect(),
         Answer::Values(fragments) => fragments.iter().map(pixel_of).collect(),
         Answer::Line(pixels) => as_runs(pixels),
-        Answer::Polygon(_) | Answer::Refused(_) | Answer::Died(_) => return None,
+        Answer::Polygon(_)
+        | Answer::Carried(_)
+        | Answer::Refused(_)
+        | Answer::Two(_)
+        | Answer::Died(_) => return None,
     };
     Some(hits(&runs, window))
 }
@@ -513,7 +580,7 @@ fn leave_out(finding: &mut Finding, wrong: u64) {
 }
 
 /// Compares the pixels of a line, and where they are the same ones their order.
-fn sequence(
+pub(super) fn sequence(
     tally: &mut Tally,
     mark: &mut u64,
     pixels: &[(i32, i32)],
@@ -557,10 +624,12 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             let pile = Pile::new(list, window, &*truth.expect, &truth.declared)?;
             Some(Answer::Seen(pile.runs()))
         }
-        Asked::Near(triangle) => {
+        Asked::Near(triangle) | Asked::Carried(triangle) => {
             let corners = near_plane::polygon(triangle, truth.declared.near_is_zero);
-            let floats = corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64));
-            Some(Answer::Polygon(floats.collect()))
+            let floats =
+                corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64)).collect();
+            let carries = matches!(question.of, Asked::Carried(_));
+            Some(if carries { Answer::Carried(floats) } else { Answer::Polygon(floats) })
         }
         Asked::Samples(_) => None,
     }

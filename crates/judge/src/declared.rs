@@ -29,6 +29,8 @@ pub struct Declared {
     pub depth: bool,
     /// Answers N.
     pub clip: bool,
+    /// Answers A.
+    pub clip_attributes: bool,
     /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
     pub grid: i32,
     /// Where in a pixel its sample lies, in subpixels from the upper left corner.
@@ -90,6 +92,7 @@ impl Default for Declared {
             samples4: false,
             depth: false,
             clip: false,
+            clip_attributes: false,
             grid: SUBPIXELS,
             origin: [HALF_PIXEL; 2],
             rule: Rule::TopLeft,
@@ -142,6 +145,7 @@ impl Declared {
             ("samples4", None) => self.samples4 = true,
             ("depth", None) => self.depth = true,
             ("clip", None) => self.clip = true,
+            ("clip-attributes", None) => self.clip_attributes = true,
             ("yup", None) => self.yup = true,
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
@@ -180,6 +184,33 @@ impl Declared {
         Some(())
     }
 
+    /// The same, asked only what another can answer too. Its conventions stay its own.
+    #[must_use]
+    pub fn within(self, other: &Self) -> Self {
+        let least = |a: Option<i32>, b: Option<i32>| a.into_iter().chain(b).min();
+        let window = match (self.window, other.window) {
+            (Some([w, h]), Some([x, y])) => Some([w.min(x), h.min(y)]),
+            (a, b) => a.or(b),
+        };
+        Self {
+            coverage: self.coverage && other.coverage,
+            line: self.line && other.line,
+            attributes: self.attributes && other.attributes,
+            samples4: self.samples4 && other.samples4,
+            depth: self.depth && other.depth,
+            clip: self.clip && other.clip,
+            clip_attributes: self.clip_attributes && other.clip_attributes,
+            grid: self.grid.min(other.grid),
+            range: least(self.range, other.range),
+            reach: least(self.reach, other.reach),
+            window,
+            mask: self.mask || other.mask,
+            line_set: self.line_set || other.line_set,
+            tolerance: self.tolerance.max(other.tolerance),
+            ..self
+        }
+    }
+
     pub fn convention(&self) -> Convention {
         let [x, y] = self.origin;
         let convention = Convention::default().rule(self.rule).winding(self.winding).sample(x, y);
@@ -194,6 +225,7 @@ impl Declared {
             ("line", self.line),
             ("depth", self.depth),
             ("clip", self.clip),
+            ("clip-attributes", self.clip_attributes),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
     }
@@ -228,7 +260,7 @@ impl fmt::Display for Declared {
             write!(f, " window={width}x{height}")?;
         }
         write!(f, " batch={}", self.batch)?;
-        if self.attributes || self.depth || self.clip {
+        if self.attributes || self.depth || self.clip || self.clip_attributes {
             write!(f, " tolerance={:e}", self.tolerance)?;
         }
         Ok(())
@@ -241,7 +273,7 @@ mod tests {
 
     #[test]
     fn declarations_are_read_and_said_again() {
-        let line = "HELLO 2 mine coverage attributes depth clip grid=16 origin=0,0.25 rule=strict winding=ccw \
+        let line = "HELLO 2 mine coverage attributes depth clip clip-attributes grid=16 origin=0,0.25 rule=strict winding=ccw \
                     yup mask shape=touched near=zero range=4096 window=64x32 batch=8 tolerance=1e-5";
         let declared = Declared::parse(line).unwrap();
         assert_eq!((declared.grid, declared.origin), (16, [0, 64]));

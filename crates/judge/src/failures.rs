@@ -34,6 +34,8 @@ pub struct Failure {
 pub struct Exchange {
     pub request: String,
     pub answer: String,
+    /// What the other of two compared programs answered, or nothing.
+    pub other: String,
     /// What was expected instead, or nothing.
     pub expected: String,
 }
@@ -88,7 +90,7 @@ fn failure(
 ) -> Option<Failure> {
     let family = adapt_case::family(failing.family)?;
     let original = adapt_case::put(family.case(options.seed, failing.index), &truth.declared);
-    let check = Check::of(family.name, &original, failing.index, &truth.declared)
+    let check = Check::of_truth(family.name, &original, failing.index, truth)
         .into_iter()
         .find(|check| check.name(family.name) == failing.property)?;
     let program = RefCell::new(program);
@@ -149,8 +151,17 @@ fn failure(
     let exchanges = questions.iter().zip(&answers).map(|(question, answer)| Exchange {
         request: question.text(1),
         answer: show(answer, 1),
+        other: match answer {
+            Answer::Two(both) => show(&both[1], 1),
+            _ => String::new(),
+        },
         expected: match check {
-            Check::Coverage | Check::Line | Check::Values | Check::Depth | Check::Near => {
+            Check::Coverage
+            | Check::Line
+            | Check::Values
+            | Check::Depth
+            | Check::Near
+            | Check::Carried => {
                 expected_answer(question, truth).map_or_else(String::new, |e| show(&e, 1))
             }
             _ => String::new(),

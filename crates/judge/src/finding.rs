@@ -31,6 +31,8 @@ pub struct Finding {
     pub answered: u64,
     /// What happened instead of answers, with the number of the question.
     pub died: Vec<(usize, Misbehaviour)>,
+    /// Whether each of two programs is right, where two are compared and the rest is how their answers differ.
+    pub right: Option<[bool; 2]>,
     /// A hash of the wrong pixels.
     pub(super) mark: u64,
 }

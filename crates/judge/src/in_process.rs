@@ -28,6 +28,7 @@ impl From<&Entry> for Declared {
             samples4: is_engine,
             depth: is_engine,
             clip: is_engine,
+            clip_attributes: is_engine,
             batch: MOST_IN_FLIGHT / 4,
             tolerance: if is_engine { OWN_TOLERANCE } else { Self::default().tolerance },
             ..Self::default()

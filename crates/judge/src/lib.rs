@@ -5,11 +5,12 @@
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
 //! wrong with a case ([`finding`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
-//! convention that is followed, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
+//! convention that is followed, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
 //! [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
+pub mod against;
 pub mod ask;
 pub mod baseline;
 pub mod check;
@@ -22,7 +23,8 @@ pub mod in_process;
 pub mod league;
 mod leaving;
 pub mod mesh;
-mod near_plane;
+pub mod near_plane;
+mod outline;
 pub mod pictured;
 pub mod process;
 pub mod process_group;
@@ -137,7 +139,8 @@ pub fn judge(
         options.patience = options.patience.min(limit / 10);
     }
     let options = &options;
-    let mut found = run::run(askers, options, &truth, &|cases| progress(Step::Judged(cases)));
+    let mut all: Vec<&mut dyn Ask> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
+    let mut found = run::run(&mut all, options, &truth, &|cases| progress(Step::Judged(cases)));
     found.incidents.splice(0..0, before);
     found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];

@@ -5,52 +5,77 @@
 //! interpolate. A polygon may begin at any corner and may name a corner several times: where an edge
 //! begins in the plane, the textbook names it twice.
 
+use glam::DVec2;
+
+use super::ask::Asked;
 use super::declared::Declared;
 use super::finding::Finding;
+use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::Triangle;
-use rasterproof_verify::cases::near_plane::clip_corners;
+use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::oracle::values::{Exact, at_crossing};
 
-type Corner = [Exact; 4];
+type Corner = [Exact; 5];
 
 /// The corners that are left, in the order of the triangle's; the plane is z = -w, or z = 0.
 pub(super) fn polygon(triangle: &Triangle, is_zero: bool) -> Vec<Corner> {
     let corners = clip_corners(triangle);
     let asked = |w: f64| if is_zero { 0.0 } else { w };
-    let is_kept = |[_, _, z, w]: [f64; 4]| z + asked(w) >= 0.0;
+    let is_kept = |[_, _, z, w, _]: ClipCorner| z + asked(w) >= 0.0;
     let mut left = Vec::new();
     for (i, &from) in corners.iter().enumerate() {
         let to = corners[(i + 1) % 3];
-        let distances = [from, to].map(|[_, _, z, w]| [z, asked(w)]);
+        let distances = [from, to].map(|[_, _, z, w, _]| [z, asked(w)]);
         let at = |k: usize| at_crossing([from[k], to[k]], distances);
         if is_kept(from) {
             left.push(from.map(Exact::from));
         }
         if is_kept(from) != is_kept(to) {
-            left.push([at(0), at(1), at(2), at(3)]);
+            left.push([at(0), at(1), at(2), at(3), at(4)]);
         }
     }
     left
 }
 
-/// Compares a polygon with the exact one: corners within the tolerance times the largest number asked.
+/// How far the numbers of a corner may be off: the tolerance times the largest number asked, or the largest attribute.
+pub(super) fn bounds(corners: &[ClipCorner; 3], tolerance: f64) -> ClipCorner {
+    let largest = |numbers: &dyn Fn(&ClipCorner) -> f64| {
+        let largest = corners.iter().map(numbers).fold(0.0, f64::max);
+        (tolerance * largest).max(f64::MIN_POSITIVE)
+    };
+    let place = largest(&|c| c[..4].iter().fold(0.0, |m: f64, v| m.max(v.abs())));
+    [place, place, place, place, largest(&|c| c[4].abs())]
+}
+
+/// The triangle of a question about the near plane, whose attributes are 0 where they are not asked for.
+pub fn asked(of: &Asked) -> Option<Triangle> {
+    match of {
+        Asked::Near(triangle) => Some(Triangle {
+            vertices: triangle.vertices.map(|v| {
+                let varying = DVec2::new(v.varying.x, 0.0);
+                ScreenVertex { varying, ..v }
+            }),
+        }),
+        Asked::Carried(triangle) => Some(*triangle),
+        _ => None,
+    }
+}
+
+/// Compares a polygon with the exact one.
 pub(super) fn compare(
     finding: &mut Finding,
     triangle: &Triangle,
-    answer: &[[f64; 4]],
+    answer: &[ClipCorner],
     declared: &Declared,
 ) {
-    let tolerance = declared.tolerance;
     let mut exact = polygon(triangle, declared.near_is_zero);
     exact.dedup();
     if exact.len() > 1 && exact.first() == exact.last() {
         exact.pop();
     }
-    let numbers = clip_corners(triangle);
-    let largest = numbers.as_flattened().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let bound = (tolerance * largest).max(f64::MIN_POSITIVE);
-    let near = |at: &Corner, corner: &[f64; 4]| {
-        at.iter().zip(corner).all(|(e, v)| e.distance(*v) <= bound)
+    let bounds = bounds(&clip_corners(triangle), declared.tolerance);
+    let near = |at: &Corner, corner: &ClipCorner| {
+        at.iter().zip(corner).zip(bounds).all(|((e, v), bound)| e.distance(*v) <= bound)
     };
     finding.shapes += 1;
     finding.pixels += exact.len() as u64;
@@ -60,7 +85,7 @@ pub(super) fn compare(
     }
     let lacks = |at: &&Corner| !answer.iter().any(|corner| near(at, corner));
     let missing = exact.iter().filter(lacks).count() as u64;
-    let strays = |corner: &&[f64; 4]| !exact.iter().any(|at| near(at, corner));
+    let strays = |corner: &&ClipCorner| !exact.iter().any(|at| near(at, corner));
     let extra = answer.iter().filter(strays).count() as u64;
     finding.tally.missing += missing;
     finding.tally.extra += extra;
@@ -100,7 +125,7 @@ mod tests {
     use rasterproof_verify::cases::near_plane::FAMILIES;
 
     /// What of 400 cases is found wrong with a clipper.
-    fn wrong(clip: impl Fn([[f64; 4]; 3]) -> Vec<[f64; 4]>) -> usize {
+    fn wrong(clip: impl Fn([ClipCorner; 3]) -> Vec<ClipCorner>) -> usize {
         let is_wrong = |index: &u64| {
             let Shape::Triangles { list, .. } = FAMILIES[1].case(1, *index).shape else {
                 return true;
@@ -115,10 +140,10 @@ mod tests {
 
     /// Sutherland and Hodgman with a plane of its own, and sides of its own.
     fn textbook(
-        corners: [[f64; 4]; 3],
-        distance: fn([f64; 4]) -> f64,
+        corners: [ClipCorner; 3],
+        distance: fn(ClipCorner) -> f64,
         is_kept: fn(f64) -> bool,
-    ) -> Vec<[f64; 4]> {
+    ) -> Vec<ClipCorner> {
         let mut left = Vec::new();
         for i in 0..3 {
             let (a, b) = (corners[i], corners[(i + 1) % 3]);
@@ -127,7 +152,7 @@ mod tests {
                 left.push(a);
             }
             if is_kept(from) != is_kept(to) {
-                left.push([0, 1, 2, 3].map(|k| a[k] + (b[k] - a[k]) * from / (from - to)));
+                left.push([0, 1, 2, 3, 4].map(|k| a[k] + (b[k] - a[k]) * from / (from - to)));
             }
         }
         left
@@ -137,7 +162,7 @@ mod tests {
     /// area: all of it is the same polygon. Every fault is found.
     #[test]
     fn polygons_are_told_apart() {
-        let near: fn([f64; 4]) -> f64 = |[_, _, z, w]| z + w;
+        let near: fn(ClipCorner) -> f64 = |[_, _, z, w, _]| z + w;
         let right = |corners| textbook(corners, near, |d| d >= 0.0);
         assert_eq!((wrong(pipeline::clipped), wrong(right)), (0, 0));
         let turned = |corners| {
@@ -151,14 +176,14 @@ mod tests {
         assert_eq!(wrong(|corners| textbook(corners, near, |d| d > 0.0)), 0);
         let backwards = |corners| right(corners).into_iter().rev().collect();
         let divided = |corners| {
-            let by_w = |[x, y, z, w]: [f64; 4]| [x / w, y / w, z / w, 1.0];
+            let by_w = |[x, y, z, w, a]: ClipCorner| [x / w, y / w, z / w, 1.0, a];
             right(corners).into_iter().map(by_w).collect()
         };
         let shortened = |corners| right(corners).into_iter().take(3).collect();
         let faults = [
-            wrong(|corners| textbook(corners, |[_, _, z, _]| z, |d| d >= 0.0)),
-            wrong(|corners| textbook(corners, |[_, _, _, w]| w - 0.1, |d| d >= 0.0)),
-            wrong(|corners| textbook(corners, |[_, _, z, w]| w - z, |d| d >= 0.0)),
+            wrong(|corners| textbook(corners, |[_, _, z, _, _]| z, |d| d >= 0.0)),
+            wrong(|corners| textbook(corners, |[_, _, _, w, _]| w - 0.1, |d| d >= 0.0)),
+            wrong(|corners| textbook(corners, |[_, _, z, w, _]| w - z, |d| d >= 0.0)),
             wrong(|corners| corners.to_vec()),
             wrong(|_| Vec::new()),
             wrong(backwards),

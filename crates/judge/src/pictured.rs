@@ -8,7 +8,7 @@ use super::ask::{Answer, Asked, Question};
 use super::check::{Check, Truth, expected_answer, hits_of, mesh_of, picture_of};
 use super::depth::Pile;
 use super::finding::Finding;
-use super::{mesh, near_plane};
+use super::{against, mesh, near_plane, outline};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -22,6 +22,8 @@ use rasterproof_verify::oracle::values::Exact;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
     pub drawn: Coverage,
+    /// What the second of two compared programs drew.
+    pub other: Option<Coverage>,
     pub expected: Coverage,
     /// What the picture is of, where it is not of the window as it was asked.
     pub of: String,
@@ -34,8 +36,18 @@ pub struct Pictured {
 pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<Pictured> {
     let mut questions = Vec::new();
     check.questions(case, truth, &mut questions);
-    let mut picture = picture(check, case, (&questions[..], answers), truth)?;
-    if picture.drawn == picture.expected && answers.len() == questions.len() {
+    let mut picture = match &truth.of_two {
+        Some(of_two) => {
+            let [first, second] = against::sides(answers);
+            let of = |answers: &[Answer], truth| picture(check, case, (&questions, answers), truth);
+            let second = of(&second, &of_two[1])?;
+            let first = of(&first, &of_two[0])?;
+            Pictured { other: Some(second.drawn).filter(|_| second.of == first.of), ..first }
+        }
+        None => picture(check, case, (&questions, answers), truth)?,
+    };
+    let beside = picture.other.as_ref().unwrap_or(&picture.expected);
+    if picture.drawn == *beside && answers.len() == questions.len() {
         let finding = check.judge(case, answers, truth);
         if finding.is_wrong() {
             let space = if picture.of.is_empty() { "" } else { "; " };
@@ -53,8 +65,15 @@ fn unseen(check: Check, case: &Case, answers: &[Answer], finding: &Finding) -> S
     let outside = answers.iter().filter_map(|answer| Some(hits_of(answer, case.window)?.1));
     let outside: u64 = outside.sum();
     let mut parts = Vec::new();
-    if check == Check::Near {
-        parts.push("z, w or the way round".to_owned());
+    if matches!(check, Check::Near | Check::Carried) {
+        parts.push(
+            if check == Check::Near {
+                "z, w or the way round"
+            } else {
+                "an attribute, z, w or the way round"
+            }
+            .to_owned(),
+        );
     }
     if outside > 0 {
         parts.push(format!("{outside} pixels outside the window"));
@@ -80,8 +99,9 @@ fn picture(
     (questions, answers): (&[Question], &[Answer]),
     truth: &Truth,
 ) -> Option<Pictured> {
-    let plain =
-        |drawn, expected| Some(Pictured { drawn, expected, of: String::new(), moved: None });
+    let plain = |drawn, expected| {
+        Some(Pictured { drawn, other: None, expected, of: String::new(), moved: None })
+    };
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
     match check {
         Check::Order | Check::Direction => {
@@ -90,14 +110,19 @@ fn picture(
             plain(other.clone(), first.clone())
         }
         Check::Samples => Some(samples(questions, answers, case.window, truth)),
-        Check::Near => near(questions, answers, truth.declared.near_is_zero),
+        Check::Near | Check::Carried => near(questions, answers, truth.declared.near_is_zero),
         Check::Watertight => {
             let Shape::Triangles { list, .. } = &case.shape else { return None };
             let drawn = mesh_of(answers, case.window)?;
             let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
             let expected = mesh::mended(&corners, &drawn);
             let of = "the triangles of the mesh together; expected is the same without holes and doubles";
-            Some(Pictured { drawn, expected, of: of.to_owned(), moved: None })
+            Some(Pictured { drawn, other: None, expected, of: of.to_owned(), moved: None })
+        }
+        Check::Outline => {
+            let [drawn, expected] = outline::pictures(answers, case.window)?;
+            let of = "the fill; expected is what the outline encloses, and on the outline the fill itself";
+            Some(Pictured { drawn, other: None, expected, of: of.to_owned(), moved: None })
         }
         Check::Depth => pile(questions.first()?, answers.first()?, truth),
         _ => {
@@ -127,7 +152,7 @@ fn pile(question: &Question, answer: &Answer, truth: &Truth) -> Option<Pictured>
     let (triangle, [drawn, expected]) = pile.pictures(runs)?;
     let of =
         format!("where triangle {triangle} of the pile is seen, the one with most wrong pixels");
-    Some(Pictured { drawn, expected, of, moved: None })
+    Some(Pictured { drawn, other: None, expected, of, moved: None })
 }
 
 /// Cells of a pixel's side, so that each sample lies in the middle of one.
@@ -171,7 +196,7 @@ fn samples(
         }
     }
     let of = "the four samples of each pixel, in a grid of 4 x 4 cells for a pixel".to_owned();
-    Pictured { drawn, expected, of, moved: Some(moved) }
+    Pictured { drawn, other: None, expected, of, moved: Some(moved) }
 }
 
 /// Cells that the longer side of a triangle of clip space spans at least.
@@ -180,7 +205,7 @@ const FEW_CELLS: f64 = 12.0;
 /// What a polygon covers in x and y: an affine image of it, whatever w is.
 fn near(questions: &[Question], answers: &[Answer], near_is_zero: bool) -> Option<Pictured> {
     let (question, answer) = (questions.first()?, answers.first()?);
-    let Asked::Near(triangle) = &question.of else { return None };
+    let triangle = &near_plane::asked(&question.of)?;
     let corners = triangle.corners().map(|p| p.to_px());
     let reach = |of: fn(&(f64, f64)) -> f64| {
         let values = corners.iter().map(of);
@@ -200,10 +225,8 @@ fn near(questions: &[Question], answers: &[Answer], near_is_zero: bool) -> Optio
         .iter()
         .map(|[x, y, ..]| [Exact::to_f64(x), Exact::to_f64(y)])
         .collect();
-    let answered: Vec<[f64; 2]> = match answer {
-        Answer::Polygon(corners) => corners.iter().map(|[x, y, ..]| [*x, *y]).collect(),
-        _ => Vec::new(),
-    };
+    let answered = answer.polygon().unwrap_or_default().iter().map(|[x, y, ..]| [*x, *y]);
+    let answered: Vec<[f64; 2]> = answered.collect();
     let expected = fan(&exact, cell, window);
     let drawn = fan(&answered, cell, window);
     let [left, top] = [window.x0, window.y0].map(|v| f64::from(v) * cell);
@@ -212,7 +235,7 @@ fn near(questions: &[Question], answers: &[Answer], near_is_zero: bool) -> Optio
     );
     let moved = on_cells(&corners.map(|(x, y)| [x, y]), cell);
     let moved = moved.and_then(|m| <Corners>::try_from(m).ok()).map(|corners| vec![corners]);
-    Some(Pictured { drawn, expected, of, moved })
+    Some(Pictured { drawn, other: None, expected, of, moved })
 }
 
 /// Positions in cells as positions in pixels; nothing where one is too far away or no number.
@@ -242,7 +265,7 @@ mod tests {
     use super::*;
     use crate::declared::Declared;
     use rasterproof_verify::cases::Triangle;
-    use rasterproof_verify::cases::near_plane::FAMILIES;
+    use rasterproof_verify::cases::near_plane::{ClipCorner, FAMILIES, clip_corners};
 
     fn pictures(check: Check, case: &Case, answers: &[Answer]) -> Pictured {
         let truth = Truth::of(&Declared::default());
@@ -257,13 +280,13 @@ mod tests {
         for index in 0..100 {
             let case = FAMILIES[1].case(1, index);
             let Shape::Triangles { list, .. } = &case.shape else { panic!("triangles") };
-            let corners = rasterproof_verify::cases::near_plane::clip_corners(&list[0]);
-            let exact: Vec<[f64; 4]> = near_plane::polygon(&list[0], false)
+            let corners = clip_corners(&list[0]);
+            let exact: Vec<ClipCorner> = near_plane::polygon(&list[0], false)
                 .iter()
                 .map(|c| c.each_ref().map(Exact::to_f64))
                 .collect();
-            let of = |polygon: &[[f64; 4]]| {
-                pictures(Check::Near, &case, &[Answer::Polygon(polygon.to_vec())])
+            let of = |polygon: &[ClipCorner]| {
+                pictures(Check::Carried, &case, &[Answer::Carried(polygon.to_vec())])
             };
             let right = of(&exact);
             assert_eq!(right.drawn, right.expected, "{index}");

@@ -213,6 +213,7 @@ pub fn mistakes(
                     Check::Values => "values",
                     Check::Samples => "samples",
                     Check::Depth => "depths",
+                    Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };
                 let programs: Vec<_> =
@@ -220,7 +221,7 @@ pub fn mistakes(
                 (of, stages::mistakes(program, check, truth, &programs, goes_on))
             }
         };
-        all.extend(why.map(|why| Why { of, why }));
+        all.extend(why.map(|why| Why { by: String::new(), of, why }));
     }
     all
 }
@@ -228,10 +229,21 @@ pub fn mistakes(
 /// The mistakes of a program in one kind of check.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Why {
+    /// Whose mistake it is, where two programs are compared.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub by: String,
     /// What is wrong: triangles, lines, values, samples, depths, or the near plane.
     pub of: &'static str,
     #[serde(flatten)]
     pub why: Mistakes,
+}
+
+impl Why {
+    /// Of whose wrong pixels or values this is the cause.
+    #[must_use]
+    pub fn whose(&self) -> String {
+        if self.by.is_empty() { self.of.to_owned() } else { format!("{} of {}", self.of, self.by) }
+    }
 }
 
 /// The planted faults and the published algorithms, each with what is wrong with it.

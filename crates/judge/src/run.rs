@@ -54,6 +54,44 @@ pub struct Row {
     /// Times the program had to be started again.
     pub deaths: u64,
     pub stopped: bool,
+    /// Who is right, where two programs are compared and the wrong cases are those that differ.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sides: Option<Sides>,
+}
+
+/// Of two programs, how often each is right as it declares: the first four are the cases that differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Sides {
+    pub first: u64,
+    pub second: u64,
+    pub neither: u64,
+    /// What may be drawn either way, or is declared differently.
+    pub both: u64,
+    /// The same answers, which are wrong.
+    pub same_but_wrong: u64,
+}
+
+impl Sides {
+    pub(super) fn of(right: [bool; 2], differ: bool) -> Self {
+        let one = |is_it: bool| u64::from(is_it);
+        Self {
+            first: one(differ && right == [true, false]),
+            second: one(differ && right == [false, true]),
+            neither: one(differ && right == [false, false]),
+            both: one(differ && right == [true, true]),
+            same_but_wrong: one(!differ && right != [true, true]),
+        }
+    }
+}
+
+impl AddAssign for Sides {
+    fn add_assign(&mut self, other: Self) {
+        self.first += other.first;
+        self.second += other.second;
+        self.neither += other.neither;
+        self.both += other.both;
+        self.same_but_wrong += other.same_but_wrong;
+    }
 }
 
 impl Row {
@@ -80,6 +118,13 @@ impl Row {
         self.values += finding.values;
         self.worst = self.worst.max(finding.worst);
         self.deaths += finding.died.len() as u64;
+        self.add_sides(finding.right.map(|right| Sides::of(right, finding.is_wrong())));
+    }
+
+    fn add_sides(&mut self, sides: Option<Sides>) {
+        if let Some(sides) = sides {
+            *self.sides.get_or_insert_default() += sides;
+        }
     }
 }
 
@@ -99,6 +144,7 @@ impl AddAssign<&Row> for Row {
         self.worst = self.worst.max(other.worst);
         self.deaths += other.deaths;
         self.stopped |= other.stopped;
+        self.add_sides(other.sides);
     }
 }
 
@@ -164,29 +210,14 @@ impl Found {
     /// What is wrong that no recognised convention explains, one check of each kind.
     #[must_use]
     pub fn unexplained(&self) -> Vec<Check> {
-        let families = adapt_case::families(&[]);
-        let check = |row: &Row| match row.name {
-            "values" => Some(Check::Values),
-            "samples4" => Some(Check::Samples),
-            "depth-order" => Some(Check::Depth),
-            "near-plane" => Some(Check::Near),
-            name => families.iter().find(|family| family.name == name).map(|family| {
-                if adapt_case::is_lines(family) { Check::Line } else { Check::Coverage }
-            }),
-        };
         let is_explained = |row: &Row| {
             row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0
         };
-        let is_wrong = |row: &Row, check: Check| match check {
-            Check::Values => row.worst > 1.0,
+        let is_wrong = |row: &&Row| match row.name {
+            "values" => row.worst > 1.0,
             _ => row.tally.total() > 0 && !is_explained(row),
         };
-        let mut checks = Vec::new();
-        for row in &self.rows {
-            let check = check(row).filter(|check| is_wrong(row, *check));
-            checks.extend(check.filter(|check| !checks.contains(check)));
-        }
-        checks
+        checks_of(self.rows.iter().filter(is_wrong))
     }
 
     fn merge(&mut self, other: Self) {
@@ -203,6 +234,29 @@ impl Found {
         self.answered += other.answered;
         self.cases += other.cases;
     }
+}
+
+/// The checks that these rows count and of which a cause can be found, each once.
+pub(super) fn checks_of<'a>(rows: impl Iterator<Item = &'a Row>) -> Vec<Check> {
+    let families = adapt_case::families(&[]);
+    let check = |row: &Row| match row.name {
+        "values" => Some(Check::Values),
+        "samples4" => Some(Check::Samples),
+        "depth-order" | "depth-near-tie" => Some(Check::Depth),
+        "near-plane" => Some(Check::Near),
+        "clip-attributes" => Some(Check::Carried),
+        name => families
+            .iter()
+            .find(|family| family.name == name)
+            .map(|family| if adapt_case::is_lines(family) { Check::Line } else { Check::Coverage }),
+    };
+    let mut checks = Vec::new();
+    for check in rows.filter_map(check) {
+        if !checks.contains(&check) {
+            checks.push(check);
+        }
+    }
+    checks
 }
 
 /// Two passes: cases within their windows, then those that leave it.
@@ -260,7 +314,7 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
 }
 
 pub fn run(
-    askers: &mut [Box<dyn Ask>],
+    askers: &mut [&mut dyn Ask],
     options: &Options,
     truth: &Truth,
     progress: &(dyn Fn(u64) + Sync),
@@ -385,7 +439,7 @@ fn block(
         if adapt_case::leaves_window(&case) != pass {
             continue;
         }
-        for check in Check::of(family.name, &case, index, &truth.declared) {
+        for check in Check::of_truth(family.name, &case, index, truth) {
             let start = questions.len();
             check.questions(&case, truth, &mut questions);
             jobs.push((index, start, check, cases.len()));

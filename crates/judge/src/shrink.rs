@@ -4,6 +4,8 @@
 //! A corner that triangles share moves for all of them, so that a mesh stays together. Depths of piles, and z
 //! and w of clip space, are numbers like the others.
 
+use glam::DVec2;
+
 use super::check::Check;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::shrink::{greedy, shrink};
@@ -12,7 +14,7 @@ use rasterproof_verify::comparison::area2;
 
 /// The smallest case reached from `case` that still fails; `case` itself does.
 pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case {
-    let has_depth = matches!(check, Check::Depth | Check::Near);
+    let has_depth = matches!(check, Check::Depth | Check::Near | Check::Carried);
     // Of these a picture is shown, and what has no area has none.
     let most_flat = if has_depth { flat(&case) } else { usize::MAX };
     let fails = |case: &Case| flat(case) <= most_flat && fails(case);
@@ -57,8 +59,9 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
         let without = |i: usize| [&list[..i], &list[i + 1..]].concat();
         found.extend((0..list.len()).map(|i| with(w, without(i))));
     }
-    // What N asks has no window.
-    if check != Check::Near {
+    let is_clipped = matches!(check, Check::Near | Check::Carried);
+    // What N and A ask has no window.
+    if !is_clipped {
         let sides = [[w.x1 / 2, w.y1], [w.x1, w.y1 / 2], [w.x1 - 1, w.y1], [w.x1, w.y1 - 1]];
         let sides = sides.into_iter().filter(|[x1, y1]| *x1 > w.x0 && *y1 > w.y0);
         found.extend(sides.map(|[x1, y1]| with(PixelRect { x1, y1, ..w }, list.to_vec())));
@@ -84,11 +87,11 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
         found.extend(simpler(corner.y).map(|y| to(corner.x, y)));
     }
     // The depths of a whole triangle, then each number alone.
-    let numbers = |change: &dyn Fn(usize, usize, &mut f64, &mut f64)| {
+    let numbers = |change: &dyn Fn(usize, usize, &mut f64, &mut DVec2)| {
         let mut list = list.to_vec();
         for (i, triangle) in list.iter_mut().enumerate() {
             for (j, v) in triangle.vertices.iter_mut().enumerate() {
-                change(i, j, &mut v.depth, &mut v.varying.x);
+                change(i, j, &mut v.depth, &mut v.varying);
             }
         }
         with(w, list)
@@ -100,17 +103,20 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
             }
         }
         for (j, v) in triangle.vertices.iter().enumerate() {
-            if matches!(check, Check::Depth | Check::Near) {
+            if check == Check::Depth || is_clipped {
                 let to = |z| {
                     numbers(&|t, c, depth, _| *depth = if (t, c) == (i, j) { z } else { *depth })
                 };
                 found.extend(simpler_number(v.depth).map(to));
             }
-            if check == Check::Near {
+            if is_clipped {
                 let to =
-                    |w| numbers(&|t, c, _, old| *old = if (t, c) == (i, j) { w } else { *old });
+                    |new| numbers(&|t, c, _, old| *old = if (t, c) == (i, j) { new } else { *old });
+                let DVec2 { x: w, y: a } = v.varying;
                 // At w = 0 a corner lies nowhere.
-                found.extend(simpler_number(v.varying.x).filter(|w| *w != 0.0).map(to));
+                let ws = simpler_number(w).filter(|w| *w != 0.0);
+                found.extend(ws.map(|w| to(DVec2::new(w, a))));
+                found.extend(simpler_number(a).map(|a| to(DVec2::new(w, a))));
             }
         }
     }
@@ -158,7 +164,7 @@ mod tests {
         for index in 0..40 {
             let case = FAMILIES[1].case(1, index);
             let fails = |case: &Case| {
-                let sides = clip_corners(&triangles(case)[0]).map(|[_, _, z, w]| z + w);
+                let sides = clip_corners(&triangles(case)[0]).map(|[_, _, z, w, _]| z + w);
                 sides.iter().filter(|side| **side < 0.0).count() == 1
             };
             if fails(&case) && flat(&case) == 0 {

@@ -4,22 +4,22 @@
 //! predicts the answers. To add one, add an entry to a table.
 
 use std::cell::RefCell;
+use std::rc::Rc;
 
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
 use super::check::{Check, Truth, masks_of, picks};
 use super::in_process::Inside;
-use super::near_plane::is_round;
+use super::near_plane::{asked, bounds, is_round};
 use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::contract::Rasterize as _;
-use rasterproof_core::frame::Frame;
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use rasterproof_core::triangle::{Corners, Fragment};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Fragment;
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
-use rasterproof_verify::cases::near_plane::clip_corners;
+use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
-use rasterproof_verify::comparison::area2;
+use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, of_answers};
 use rasterproof_verify::oracle::Oracle;
 
@@ -75,10 +75,10 @@ fn answered(
 /// The families in which the mistakes of a check differ.
 fn families(check: Check) -> &'static [&'static str] {
     match check {
-        Check::Values => &["w-ratio", "uniform", "w-extreme", "fan"],
+        Check::Values => values::FAMILIES,
         Check::Samples => &["uniform", "half-integer"],
-        Check::Depth => &["depth-order"],
-        Check::Near => &["near-plane"],
+        Check::Depth => &["depth-order", "depth-near-tie"],
+        Check::Near | Check::Carried => &["near-plane"],
         _ => &[],
     }
 }
@@ -98,7 +98,7 @@ pub fn mistakes(
         Check::Values => of_values(&all, tolerance),
         Check::Samples => of_samples(&all),
         Check::Depth => of_depth(&all),
-        Check::Near => of_near(&all, tolerance),
+        Check::Near | Check::Carried => of_near(&all, tolerance),
         _ => Vec::new(),
     };
     for known in programs {
@@ -158,262 +158,16 @@ fn is_near(
     })
 }
 
-/// What is wrong with values, from the weights of the corners at a place.
-struct ValueMistake {
-    name: &'static str,
-    does: &'static str,
-    repair: &'static str,
-    page: &'static str,
-    refuted: &'static str,
-    /// Depth and both attributes.
-    values: fn(&Triangle, [f64; 3]) -> [f64; 3],
-}
-
-fn each(v: &Triangle, of: impl Fn(DVec2) -> f64) -> [f64; 3] {
-    v.vertices.map(|v| of(v.varying))
-}
-
-fn depths(t: &Triangle) -> [f64; 3] {
-    t.vertices.map(|v| v.depth)
-}
-
-fn sum(weights: [f64; 3], values: [f64; 3]) -> f64 {
-    weights.into_iter().zip(values).map(|(weight, value)| weight * value).sum()
-}
-
-/// The weights of a corner's value after the perspective is corrected.
-fn corrected(t: &Triangle, weights: [f64; 3]) -> [f64; 3] {
-    let parts = [0, 1, 2].map(|i| weights[i] * t.vertices[i].inv_w);
-    let whole: f64 = parts.iter().sum();
-    parts.map(|part| part / whole)
-}
-
-fn attributes(t: &Triangle, weights: [f64; 3]) -> [f64; 2] {
-    [sum(weights, each(t, |v| v.x)), sum(weights, each(t, |v| v.y))]
-}
-
-fn with(depth: f64, [a, b]: [f64; 2]) -> [f64; 3] {
-    [depth, a, b]
-}
-
-fn right_values(t: &Triangle, weights: [f64; 3]) -> [f64; 3] {
-    with(sum(weights, depths(t)), attributes(t, corrected(t, weights)))
-}
-
-const VALUES: &[ValueMistake] = &[
-    ValueMistake {
-        name: "attributes ignore w",
-        does: "interpolates attributes linearly on the screen and ignores w (affine)",
-        repair: "interpolate a/w and 1/w, and divide at every pixel",
-        page: "ch05",
-        refuted: "a triangle with unequal w whose attributes bend",
-        values: |t, l| with(sum(l, depths(t)), attributes(t, l)),
-    },
-    ValueMistake {
-        name: "depth as an attribute",
-        does: "interpolates depth as an attribute, with the correction for perspective",
-        repair: "depth after the division by w is linear on the screen: interpolate it without correction",
-        page: "ch06",
-        refuted: "a triangle with unequal w whose depth is linear on the screen",
-        values: |t, l| with(sum(corrected(t, l), depths(t)), attributes(t, corrected(t, l))),
-    },
-    ValueMistake {
-        name: "depth and attributes exchanged",
-        does: "corrects depth for perspective, and not the attributes",
-        repair: "correct the attributes, and leave depth linear",
-        page: "ch06",
-        refuted: "a triangle with unequal w whose attributes bend",
-        values: |t, l| with(sum(corrected(t, l), depths(t)), attributes(t, l)),
-    },
-    ValueMistake {
-        name: "not divided back",
-        does: "interpolates a/w and forgets to divide by the interpolated 1/w",
-        repair: "divide by the interpolated 1/w at every pixel",
-        page: "ch05",
-        refuted: "a triangle with w other than 1 and right attributes",
-        values: |t, l| {
-            let over_w = [0, 1, 2].map(|i| l[i] * t.vertices[i].inv_w);
-            with(sum(l, depths(t)), attributes(t, over_w))
-        },
-    },
-    ValueMistake {
-        name: "w in place of 1/w",
-        does: "weights the corners by w where 1/w is right",
-        repair: "weight the corners by 1/w",
-        page: "ch05",
-        refuted: "a triangle with unequal w and right attributes",
-        values: |t, l| {
-            let parts = [0, 1, 2].map(|i| l[i] / t.vertices[i].inv_w);
-            let whole: f64 = parts.iter().sum();
-            with(sum(l, depths(t)), attributes(t, parts.map(|part| part / whole)))
-        },
-    },
-    ValueMistake {
-        name: "attributes exchanged",
-        does: "exchanges the two attributes",
-        repair: "keep their order from the corners to the pixels",
-        page: "ch05",
-        refuted: "a pixel whose first attribute is right",
-        values: |t, l| {
-            let [a, b] = attributes(t, corrected(t, l));
-            with(sum(l, depths(t)), [b, a])
-        },
-    },
-    ValueMistake {
-        name: "values of one corner",
-        does: "gives every pixel the values of the first corner",
-        repair: "interpolate between the corners",
-        page: "ch05",
-        refuted: "two pixels of a triangle with different values",
-        values: |t, _| right_values(t, [1.0, 0.0, 0.0]),
-    },
-    ValueMistake {
-        name: "values of one corner",
-        does: "gives every pixel the values of the last corner",
-        repair: "interpolate between the corners",
-        page: "ch05",
-        refuted: "two pixels of a triangle with different values",
-        values: |t, _| right_values(t, [0.0, 0.0, 1.0]),
-    },
-    ValueMistake {
-        name: "the mean of the corners",
-        does: "gives every pixel the mean of the corners",
-        repair: "interpolate between the corners",
-        page: "ch05",
-        refuted: "two pixels of a triangle with different values",
-        values: |t, _| with(sum([1.0 / 3.0; 3], depths(t)), attributes(t, [1.0 / 3.0; 3])),
-    },
-    ValueMistake {
-        name: "values are clamped",
-        does: "clamps values to 0 to 1",
-        repair: "clamp colours where they are stored, and nothing before",
-        page: "ch05",
-        refuted: "a value above 1",
-        values: |t, l| right_values(t, l).map(|v| v.clamp(0.0, 1.0)),
-    },
-    ValueMistake {
-        name: "w as depth",
-        does: "gives w as depth",
-        repair: "give z/w",
-        page: "ch06",
-        refuted: "a depth other than w",
-        values: |t, l| {
-            let w: f64 = 1.0 / sum(l, t.vertices.map(|v| v.inv_w));
-            with(w, attributes(t, corrected(t, l)))
-        },
-    },
-    ValueMistake {
-        name: "weights of other corners",
-        does: "gives the second corner the weight of the third and the third that of the second",
-        repair: "keep a value with its corner where corners are sorted or exchanged",
-        page: "ch05",
-        refuted: "a pixel near the second corner with its values",
-        values: |t, [a, b, c]| right_values(t, [a, c, b]),
-    },
-    ValueMistake {
-        name: "weights of other corners",
-        does: "gives the first corner the weight of the second and the second that of the first",
-        repair: "keep a value with its corner where corners are sorted or exchanged",
-        page: "ch05",
-        refuted: "a pixel near the first corner with its values",
-        values: |t, [a, b, c]| right_values(t, [b, a, c]),
-    },
-    ValueMistake {
-        name: "weights of other corners",
-        does: "gives each corner the weight of the next one",
-        repair: "the weight of a corner is the area opposite to it",
-        page: "ch05",
-        refuted: "a pixel near a corner with its values",
-        values: |t, [a, b, c]| right_values(t, [b, c, a]),
-    },
-    ValueMistake {
-        name: "weights of other corners",
-        does: "gives each corner the weight of the one before",
-        repair: "the weight of a corner is the area opposite to it",
-        page: "ch05",
-        refuted: "a pixel near a corner with its values",
-        values: |t, [a, b, c]| right_values(t, [c, a, b]),
-    },
-    ValueMistake {
-        name: "corners keep their places when they are exchanged",
-        does: "exchanges the weights of the second and the third corner of counterclockwise triangles",
-        repair: "exchange the values with the corners",
-        page: "ch05",
-        refuted: "a counterclockwise triangle with right values",
-        values: |t, [a, b, c]| {
-            right_values(t, if area2(&t.corners()) < 0 { [a, c, b] } else { [a, b, c] })
-        },
-    },
-    ValueMistake {
-        name: "values at another place",
-        does: "computes right values",
-        repair: "compute values where coverage is sampled",
-        page: "ch05",
-        refuted: "a pixel with the values of its sample",
-        values: right_values,
-    },
-];
-
-/// Where values may be taken in a pixel, and how that is said.
-const PLACES: [([f64; 2], &str); 5] = [
-    ([0.5, 0.5], ""),
-    ([0.0, 0.0], ", at the upper left corner of the pixel"),
-    ([1.0, 1.0], ", at the lower right corner of the pixel"),
-    ([0.0, 0.5], ", at the left side of the pixel"),
-    ([0.5, 0.0], ", at the upper side of the pixel"),
-];
-
-fn px(p: SubpixelPoint) -> [f64; 2] {
-    [p.x, p.y].map(|v| f64::from(v) / f64::from(SUBPIXELS))
-}
-
-fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-/// The weights of the corners at a place, in pixels.
-fn weights(corners: &Corners, at: [f64; 2]) -> [f64; 3] {
-    let [a, b, c] = corners.map(px);
-    let area = cross(a, b, c);
-    [cross(b, c, at), cross(c, a, at), cross(a, b, at)].map(|part| part / area)
-}
-
-type Moved = fn(i32) -> i32;
-/// What becomes of corners before the weights are computed, and how that is said.
-const CORNERS: [(Moved, &str); 3] = [
-    (|v| v, ""),
-    (|v| v.div_euclid(SUBPIXELS) * SUBPIXELS, ", from corners that are cut to whole pixels"),
-    (
-        |v| v.saturating_add(HALF_PIXEL).div_euclid(SUBPIXELS) * SUBPIXELS,
-        ", from corners that are rounded to whole pixels",
-    ),
-];
-
 fn of_values(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
-    let mut hypotheses = Vec::new();
-    for (moved, from) in CORNERS {
-        for (place, at) in PLACES {
-            for mistake in VALUES {
-                let ValueMistake { name, does, repair, page, refuted, values } = *mistake;
-                let says =
-                    Explanation::new(name, format!("{does}{at}{from}"), repair, page, refuted);
-                hypotheses.push(hypothesis(all, says, move |question, answer| {
-                    let (Asked::Values(triangle), Answer::Values(fragments)) =
-                        (&question.of, answer)
-                    else {
-                        return true;
-                    };
-                    let corners =
-                        triangle.corners().map(|p| SubpixelPoint::new(moved(p.x), moved(p.y)));
-                    picks(fragments).all(|f| {
-                        let at = [f64::from(f.x_px) + place[0], f64::from(f.y_px) + place[1]];
-                        is_near(triangle, f, values(triangle, weights(&corners, at)), tolerance)
-                    })
-                }));
-            }
-        }
-    }
-    hypotheses
+    let of = |known: ValueHypothesis| {
+        hypothesis(all, known.says.clone(), move |question, answer| match (&question.of, answer) {
+            (Asked::Values(triangle), Answer::Values(fragments)) => picks(fragments).all(|f| {
+                is_near(triangle, f, known.predict(triangle, (f.x_px, f.y_px)), tolerance)
+            }),
+            _ => true,
+        })
+    };
+    values::of_values().into_iter().map(of).collect()
 }
 
 /// Places of the four samples in 1/16 px, in the order of their bits.
@@ -524,10 +278,13 @@ fn mean(t: &Triangle) -> f64 {
     depths(t).iter().sum::<f64>() / 3.0
 }
 
-/// Depth in so many bits: cut down to a step of 2^-bits.
-fn bits(depth: f64, bits: i32) -> f64 {
-    (depth * f64::from(2).powi(bits)).floor()
-}
+/// How a depth is brought to so many bits.
+const QUANTISED: [(fn(f64, i32) -> f64, &str); 2] = [
+    (|depth, bits| (depth * f64::from(2).powi(bits)).floor(), "cut down"),
+    (|depth, bits| (depth * (f64::from(2).powi(bits) - 1.0)).round(), "rounded"),
+];
+/// Bits of a depth buffer that are told apart.
+const MOST_BITS: i32 = 24;
 
 const CENTRE: [f64; 2] = [0.5, 0.5];
 const DEPTHS: &[DepthMistake] = &[
@@ -585,34 +342,6 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
-        does: "keeps depth in 4 bits, the first of equals",
-        repair: "keep more bits of depth",
-        refuted: "two depths that differ by less and are told apart",
-        replaces: |a, b| bits(b.depth, 4) < bits(a.depth, 4),
-        place: CENTRE,
-    },
-    DepthMistake {
-        does: "keeps depth in 8 bits, the first of equals",
-        repair: "keep more bits of depth",
-        refuted: "two depths that differ by less and are told apart",
-        replaces: |a, b| bits(b.depth, 8) < bits(a.depth, 8),
-        place: CENTRE,
-    },
-    DepthMistake {
-        does: "keeps depth in 8 bits, the last of equals",
-        repair: "keep more bits of depth",
-        refuted: "two depths that differ by less and are told apart",
-        replaces: |a, b| bits(b.depth, 8) <= bits(a.depth, 8),
-        place: CENTRE,
-    },
-    DepthMistake {
-        does: "keeps depth in 12 bits, the first of equals",
-        repair: "keep more bits of depth",
-        refuted: "two depths that differ by less and are told apart",
-        replaces: |a, b| bits(b.depth, 12) < bits(a.depth, 12),
-        place: CENTRE,
-    },
-    DepthMistake {
         does: "computes depth at the upper left corner of the pixel",
         repair: "compute depth where coverage is sampled",
         refuted: "a pixel near a crossing that shows the right triangle",
@@ -629,48 +358,96 @@ const DEPTHS: &[DepthMistake] = &[
 ];
 
 fn of_depth(all: &[Answered]) -> Vec<Hypothesis<'_>> {
-    let of = |mistake: &'static DepthMistake| {
-        let DepthMistake { does, repair, refuted, .. } = mistake;
-        let says = Explanation::new("order of depths", (*does).to_owned(), repair, "ch06", refuted);
-        hypothesis(all, says, move |question, answer| {
-            let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else {
-                return true;
-            };
-            let window = window_of(question);
-            let shown: Vec<_> = runs.iter().map(|(run, number)| (*run, number + 1)).collect();
-            seen(list, window, mistake) == masks_of(&shown, window)
+    let mut hypotheses: Vec<_> = DEPTHS
+        .iter()
+        .map(|mistake| {
+            let DepthMistake { does, repair, refuted, replaces, place } = mistake;
+            let does = (*does).to_owned();
+            let says = Explanation::new("order of depths", does, repair, "ch06", refuted);
+            hypothesis(all, says, move |question, answer| {
+                let Asked::Depth(list) = &question.of else { return true };
+                let layers = layers(list, window_of(question), *place);
+                is_seen(&layers, answer, &|a, b| replaces(a, b))
+            })
         })
-    };
-    DEPTHS.iter().map(of).collect()
+        .collect();
+    // All at the same place, so the depths are computed once.
+    let piles: Rc<Vec<_>> = Rc::new(all.iter().map(pile).collect());
+    for bits in 4..=MOST_BITS {
+        for (quantise, how) in QUANTISED {
+            for (is_last, which) in [(false, "first"), (true, "last")] {
+                let does = format!(
+                    "keeps depth in {bits} bits ({how}), and of equal ones shows the {which} drawn"
+                );
+                let says = Explanation::new(
+                    "bits of depth",
+                    does,
+                    "keep more bits of depth, or move the near plane away from the eye",
+                    "ch06",
+                    "two depths that differ by less and are told apart",
+                );
+                let piles = Rc::clone(&piles);
+                let replaces = move |a: &Layer<'_>, b: &Layer<'_>| {
+                    let [a, b] = [a, b].map(|layer| quantise(layer.depth, bits));
+                    b < a || (is_last && a == b)
+                };
+                let predicts = move |i: usize| {
+                    piles[i]
+                        .as_ref()
+                        .is_none_or(|(layers, answer)| is_seen(layers, answer, &replaces))
+                };
+                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+            }
+        }
+    }
+    hypotheses
 }
 
-/// One more than the number of the triangle that is seen at each pixel, 0 for none.
-fn seen(list: &[Triangle], window: PixelRect, mistake: &DepthMistake) -> Frame<u8> {
-    let mut held: Frame<Option<Layer<'_>>> = Frame::new(window, None);
+/// The layers at the centre of each pixel of a case, and what was answered.
+fn pile(answered: &Answered) -> Option<(Layers<'_>, &Answer)> {
+    let (question, answer) = (answered.questions.first()?, answered.answers.first()?);
+    let Asked::Depth(list) = &question.of else { return None };
+    Some((layers(list, window_of(question), CENTRE), answer))
+}
+
+/// The triangles that cover each pixel of a window, row by row, in drawing order.
+struct Layers<'a> {
+    window: PixelRect,
+    of_pixels: Vec<Vec<Layer<'a>>>,
+}
+
+fn layers(list: &[Triangle], window: PixelRect, place: [f64; 2]) -> Layers<'_> {
+    let width = window.width() as usize;
+    let mut of_pixels = vec![Vec::new(); width * window.height() as usize];
     for (number, triangle) in list.iter().enumerate() {
         let corners = triangle.corners();
         Oracle.cover(corners, window, |span| {
-            let row = held.span_mut(span.y_px, span.x0_px, span.x1_px);
-            for (x, held) in (span.x0_px..).zip(row) {
-                let at = [f64::from(x) + mistake.place[0], f64::from(span.y_px) + mistake.place[1]];
+            let row = (span.y_px - window.y0) as usize * width;
+            for x in span.x0_px..span.x1_px {
+                let at = [f64::from(x) + place[0], f64::from(span.y_px) + place[1]];
                 let depth = sum(weights(&corners, at), depths(triangle));
-                let new = Layer { number, depth, triangle };
-                if held.as_ref().is_none_or(|held| (mistake.replaces)(held, &new)) {
-                    *held = Some(new);
-                }
+                of_pixels[row + (x - window.x0) as usize].push(Layer { number, depth, triangle });
             }
         });
     }
-    let mut seen = Frame::new(window, 0);
-    for (y, row) in held.rows() {
-        for (seen, held) in seen.row_mut(y).iter_mut().zip(row) {
-            *seen = held.map_or(0, |held| held.number as u8 + 1);
-        }
-    }
-    seen
+    Layers { window, of_pixels }
 }
 
-type ClipCorner = [f64; 4];
+/// Whether an answer shows what is left where a layer replaces the one that was kept by this rule.
+fn is_seen(
+    layers: &Layers<'_>,
+    answer: &Answer,
+    replaces: &dyn Fn(&Layer<'_>, &Layer<'_>) -> bool,
+) -> bool {
+    let Answer::Seen(runs) = answer else { return true };
+    let shown: Vec<_> = runs.iter().map(|(run, number)| (*run, number + 1)).collect();
+    let shown = masks_of(&shown, layers.window);
+    let shown = shown.rows().flat_map(|(_, row)| row);
+    layers.of_pixels.iter().zip(shown).all(|(here, shown)| {
+        let kept = here.iter().reduce(|kept, new| if replaces(kept, new) { new } else { kept });
+        kept.map_or(0, |kept| kept.number as u8 + 1) == *shown
+    })
+}
 
 struct NearMistake {
     does: &'static str,
@@ -683,7 +460,7 @@ struct NearMistake {
 fn clip(
     corners: [ClipCorner; 3],
     distance: fn(ClipCorner) -> f64,
-    new: fn(ClipCorner, ClipCorner, f64) -> ClipCorner,
+    new: impl Fn(ClipCorner, ClipCorner, f64) -> ClipCorner,
 ) -> Vec<ClipCorner> {
     let mut left = Vec::new();
     for (i, &from) in corners.iter().enumerate() {
@@ -701,12 +478,12 @@ fn clip(
     left
 }
 
-fn near_plane([_, _, z, w]: ClipCorner) -> f64 {
+fn near_plane([_, _, z, w, _]: ClipCorner) -> f64 {
     z + w
 }
 
 fn between(from: ClipCorner, to: ClipCorner, t: f64) -> ClipCorner {
-    [0, 1, 2, 3].map(|k| from[k] + (to[k] - from[k]) * t)
+    [0, 1, 2, 3, 4].map(|k| from[k] + (to[k] - from[k]) * t)
 }
 
 const NEAR: &[NearMistake] = &[
@@ -732,13 +509,13 @@ const NEAR: &[NearMistake] = &[
         does: "clips at w = 0 and not at the near plane",
         repair: "clip at z = -w",
         refuted: "a corner between both planes that is cut off",
-        clip: |c| clip(c, |[_, _, _, w]| w, between),
+        clip: |c| clip(c, |[_, _, _, w, _]| w, between),
     },
     NearMistake {
         does: "clips at z = 0, as Direct3D and Vulkan have it",
         repair: "clip at z = -w, as OpenGL has it",
         refuted: "a corner between both planes that is kept",
-        clip: |c| clip(c, |[_, _, z, _]| z, between),
+        clip: |c| clip(c, |[_, _, z, _, _]| z, between),
     },
     NearMistake {
         does: "clips at z = -w, as OpenGL has it",
@@ -750,7 +527,7 @@ const NEAR: &[NearMistake] = &[
         does: "clips at z = w, the far plane",
         repair: "clip at z = -w",
         refuted: "a corner beyond the far plane that is kept",
-        clip: |c| clip(c, |[_, _, z, w]| w - z, between),
+        clip: |c| clip(c, |[_, _, z, w, _]| w - z, between),
     },
     NearMistake {
         does: "keeps the part behind the near plane",
@@ -777,7 +554,7 @@ const NEAR: &[NearMistake] = &[
         clip: |c| {
             clip(c, near_plane, |kept, lost, t| {
                 let new = between(kept, lost, t);
-                [new[0], new[1], new[2], kept[3]]
+                [new[0], new[1], new[2], kept[3], new[4]]
             })
         },
     },
@@ -788,7 +565,7 @@ const NEAR: &[NearMistake] = &[
         clip: |c| {
             clip(c, near_plane, |kept, lost, t| {
                 let new = between(kept, lost, t);
-                [kept[0], kept[1], new[2], new[3]]
+                [kept[0], kept[1], new[2], new[3], new[4]]
             })
         },
     },
@@ -806,19 +583,71 @@ const NEAR: &[NearMistake] = &[
         does: "moves corners behind the plane onto it (clamps z) and cuts nothing",
         repair: "divide the edges",
         refuted: "a new corner on an edge",
-        clip: |c| c.map(|[x, y, z, w]| [x, y, z.max(-w), w]).to_vec(),
+        clip: |c| c.map(|[x, y, z, w, a]| [x, y, z.max(-w), w, a]).to_vec(),
+    },
+    NearMistake {
+        does: "keeps the attribute of the corner that stays at a new corner",
+        repair: "interpolate attributes as x, y, z and w",
+        refuted: "a new corner with an attribute of its own",
+        clip: |c| carried(c, |kept, _, _| kept[4]),
+    },
+    NearMistake {
+        does: "keeps the attribute of the corner that is cut off at a new corner",
+        repair: "interpolate attributes as x, y, z and w",
+        refuted: "a new corner with an attribute of its own",
+        clip: |c| carried(c, |_, lost, _| lost[4]),
+    },
+    NearMistake {
+        does: "divides attributes from the wrong end: t is 1 - t",
+        repair: "use the same t for attributes as for x, y, z and w",
+        refuted: "a new corner with the attribute of its place",
+        clip: |c| carried(c, |kept, lost, t| lost[4] + (kept[4] - lost[4]) * t),
+    },
+    NearMistake {
+        does: "gives a new corner the mean of both attributes",
+        repair: "divide attributes as the distances of the ends do",
+        refuted: "a new corner with the attribute of its place",
+        clip: |c| carried(c, |kept, lost, _| (kept[4] + lost[4]) / 2.0),
+    },
+    NearMistake {
+        does: "interpolates attributes at a new corner with a correction for perspective",
+        repair: "attributes are linear in clip space, before the division by w: interpolate them as x, y, z and w",
+        refuted: "a new corner between unequal w with the attribute of its place",
+        clip: |c| {
+            carried(c, |kept, lost, t| {
+                let (k, l) = ((1.0 - t) / kept[3], t / lost[3]);
+                (k * kept[4] + l * lost[4]) / (k + l)
+            })
+        },
+    },
+    NearMistake {
+        does: "gives a new corner the attribute 0",
+        repair: "interpolate attributes as x, y, z and w",
+        refuted: "a new corner with an attribute",
+        clip: |c| carried(c, |_, _, _| 0.0),
     },
 ];
+
+/// Right corners, with another attribute at new ones.
+fn carried(
+    corners: [ClipCorner; 3],
+    attribute: fn(ClipCorner, ClipCorner, f64) -> f64,
+) -> Vec<ClipCorner> {
+    clip(corners, near_plane, |kept, lost, t| {
+        let [x, y, z, w, _] = between(kept, lost, t);
+        [x, y, z, w, attribute(kept, lost, t)]
+    })
+}
 
 fn of_near(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
     let of = |mistake: &'static NearMistake| {
         let NearMistake { does, repair, refuted, clip } = mistake;
         let says = Explanation::new("the near plane", (*does).to_owned(), repair, "ch07", refuted);
         hypothesis(all, says, move |question, answer| {
-            let (Asked::Near(triangle), Answer::Polygon(polygon)) = (&question.of, answer) else {
+            let (Some(triangle), Some(polygon)) = (asked(&question.of), answer.polygon()) else {
                 return true;
             };
-            let corners = clip_corners(triangle);
+            let corners = clip_corners(&triangle);
             same_polygon(&clip(corners), polygon, &corners, tolerance)
         })
     };
@@ -832,11 +661,9 @@ fn same_polygon(
     corners: &[ClipCorner; 3],
     tolerance: f64,
 ) -> bool {
-    let largest = corners.as_flattened().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let bounds = bounds(corners, 10.0 * tolerance);
     let near = |p: &ClipCorner, q: &ClipCorner| {
-        p.iter()
-            .zip(q)
-            .all(|(p, q)| (p - q).abs() <= 10.0 * tolerance * largest + f64::MIN_POSITIVE)
+        p.iter().zip(q).zip(bounds).all(|((p, q), bound)| (p - q).abs() <= bound)
     };
     let has_area = |polygon: &[ClipCorner]| polygon.len() > 2;
     (!has_area(a) && !has_area(b)) || is_round(a.len(), b.len(), |i, j| near(&a[i], &b[j]))

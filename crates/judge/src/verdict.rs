@@ -5,7 +5,7 @@ use super::adapt_case;
 use super::declared::Declared;
 use super::failures::Failure;
 use super::recognise::{Said, Why};
-use super::run::{Found, Row};
+use super::run::{Found, Row, Sides};
 use super::windings::Windings;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -37,6 +37,8 @@ pub struct Property {
 #[derive(Clone, Debug)]
 pub struct Verdict {
     pub declared: Declared,
+    /// What the second of two compared programs says of itself; the rows then count cases in which both differ.
+    pub against: Option<Declared>,
     pub seed: u64,
     pub cases: u64,
     pub windings: Windings,
@@ -71,12 +73,14 @@ pub fn per_million(wrong: u64, pixels: u64) -> f64 {
 }
 
 /// What the checks over all families say.
-const CHECKS: [(&str, &str); 5] = [
+const CHECKS: [(&str, &str); 7] = [
     ("watertight", "meshes have no holes and no pixels drawn by two triangles"),
     ("vertex-order", "the order of the vertices does not change the picture"),
     ("values", "values lie within the tolerance of the exact ones"),
     ("samples4", "four samples a pixel are covered as the oracle says"),
+    ("clip-attributes", "corners that the near plane makes have the attributes of their place"),
     ("line-direction", "a line drawn backwards lights the same pixels"),
+    ("fill-and-outline", "the fill of a triangle is what its outline encloses"),
 ];
 
 impl Verdict {
@@ -100,6 +104,7 @@ impl Verdict {
         found.rows.sort_by_key(rank);
         let mut verdict = Self {
             declared,
+            against: None,
             seed: options.seed,
             cases: options.cases,
             windings,
@@ -114,6 +119,21 @@ impl Verdict {
         };
         verdict.properties = verdict.judge();
         verdict
+    }
+
+    pub(super) fn compared_with(&mut self, second: Declared) {
+        self.against = Some(second);
+        self.properties = self.judge();
+    }
+
+    /// Who is right, over all rows.
+    #[must_use]
+    pub fn sides(&self) -> Sides {
+        let sides = self.found.rows.iter().filter_map(|row| row.sides);
+        sides.fold(Sides::default(), |mut sum, sides| {
+            sum += sides;
+            sum
+        })
     }
 
     fn judge(&self) -> Vec<Property> {
@@ -142,7 +162,10 @@ impl Verdict {
             all.push(property("winding", &about, is_declared, counts));
         }
         for row in &self.found.rows {
-            let about = about(row.name);
+            let about = match &self.against {
+                Some(_) => format!("both answer the same: {}", row.name),
+                None => about(row.name),
+            };
             all.push(property(row.name, &about, row.wrong_cases == 0, sentence(row)));
         }
         all
@@ -180,8 +203,9 @@ impl Verdict {
 
     /// Rows that compare with an expected picture; not those that compare answers.
     pub fn pictures(&self) -> impl Iterator<Item = &Row> {
-        let compares =
-            |name: &str| ["watertight", "vertex-order", "line-direction"].contains(&name);
+        let compares = |name: &str| {
+            ["watertight", "vertex-order", "line-direction", "fill-and-outline"].contains(&name)
+        };
         self.found.rows.iter().filter(move |row| !compares(row.name))
     }
 
@@ -210,7 +234,7 @@ impl Verdict {
     pub fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
         let is_asked = |row: &&Row| lines.is_none_or(|l| row.name.starts_with("line-") == l);
         // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
-        let others = ["samples4", "depth-order", "near-plane"];
+        let others = ["samples4", "depth-order", "depth-near-tie", "near-plane", "clip-attributes"];
         let rows = self.pictures().filter(|row| !others.contains(&row.name)).filter(is_asked);
         rows.map(of).fold(Score::default(), |sum, (wrong, pixels, unscored)| Score {
             wrong: sum.wrong + wrong,
@@ -231,6 +255,7 @@ fn about(name: &str) -> String {
 pub fn sentence(row: &Row) -> String {
     let mut out = match row.wrong_cases {
         0 => format!("{} cases agree", row.cases),
+        n if row.sides.is_some() => format!("different in {n} of {} cases", row.cases),
         n => format!("wrong in {n} of {} cases", row.cases),
     };
     let (missing, twice) =

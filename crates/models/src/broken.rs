@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use rasterproof_core::parallel;
 use rasterproof_host::text::printable_short;
 
@@ -37,6 +37,9 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
         }
         for colour in part.colours.iter_mut().filter(|colour| !colour.is_finite()) {
             *colour = DVec3::ONE;
+        }
+        for tangent in part.tangents.iter_mut().filter(|tangent| !tangent.is_finite()) {
+            *tangent = DVec4::ZERO;
         }
         for uv in part.uvs.iter_mut().filter(|uv| !uv.is_finite()) {
             *uv = DVec2::ZERO;

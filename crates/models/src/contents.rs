@@ -6,9 +6,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::cameras::Camera;
-use glam::{DMat3, DMat4, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
+use rasterproof_render::pipeline::physical::Physical;
 use rasterproof_render::pipeline::texture::Texture;
 
 /// What a reader counts of faces with fewer than three corners, which show nothing.
@@ -39,8 +40,8 @@ pub(crate) struct Contents {
     pub warnings: Vec<String>,
 }
 
-/// What has to be equal for two parts to become one: the material, and whether there are colours.
-pub(crate) type Kind = (Option<usize>, bool);
+/// What has to be equal for two parts to become one: the material, and whether there are colours and tangents.
+pub(crate) type Kind = (Option<usize>, bool, bool);
 
 impl Contents {
     /// Adds a part; many parts become few. An error in words where that cannot be.
@@ -49,7 +50,7 @@ impl Contents {
             self.parts.push(part);
             return Ok(());
         }
-        let kind = (part.material, part.colours.is_empty());
+        let kind = (part.material, part.colours.is_empty(), part.tangents.is_empty());
         match self.merged.get(&kind) {
             Some(&place) => {
                 part.place(part.to_file);
@@ -88,6 +89,8 @@ pub(crate) struct FilePart {
     pub uvs: Vec<DVec2>,
     /// A colour for each position, each channel in [0, 1], or none at all.
     pub colours: Vec<DVec3>,
+    /// A tangent for each position, with the sign of the bitangent, or none at all.
+    pub tangents: Vec<DVec4>,
     /// The same for each polygon, in a part whose positions have none.
     pub face_colours: Vec<DVec3>,
     /// The numbers of the positions of all corners, one polygon after the other.
@@ -114,6 +117,10 @@ impl FilePart {
         for normal in &mut self.normals {
             *normal = cofactors * *normal * if mirrors { -1.0 } else { 1.0 };
         }
+        for tangent in &mut self.tangents {
+            let sign = if mirrors { -tangent.w } else { tangent.w };
+            *tangent = (linear * tangent.truncate()).extend(sign);
+        }
         if mirrors {
             for number in 0..self.polygons.len() {
                 let corners = self.polygons.corners(number);
@@ -127,7 +134,7 @@ impl FilePart {
         }
     }
 
-    /// Adds the polygons of another part in the same coordinates. Both have colours, or neither has.
+    /// Adds the polygons of another part in the same coordinates. Both have colours, or neither has, and likewise tangents.
     fn append(&mut self, mut other: Self) {
         let before = self.positions.len();
         let corners = [&*self.corners, &*other.corners];
@@ -139,6 +146,10 @@ impl FilePart {
         if !other.colours.is_empty() {
             self.colours.resize(before, DVec3::ONE);
             self.colours.append(&mut other.colours);
+        }
+        if !other.tangents.is_empty() {
+            self.tangents.resize(before, DVec4::ZERO);
+            self.tangents.append(&mut other.tangents);
         }
         self.positions.append(&mut other.positions);
         self.corners.extend(other.corners.iter().map(|corner| corner + before as u32));
@@ -385,6 +396,8 @@ pub(crate) struct Surface {
     pub texture: Option<Arc<Texture>>,
     pub specular: Specular,
     pub opacity: Option<Opacity>,
+    /// Of a surface in linear light its colour in it, and the rest. The texture, and colours of corners, are in linear light then.
+    pub physical: Option<(DVec3, Arc<Physical>)>,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
     pub sides: Sides,

@@ -11,12 +11,16 @@ use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Drawn;
+use rasterproof_render::pipeline::physical::Map;
+use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::scene;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
 
 use crate::broken;
 use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Sides, Surface, key};
+use crate::gltf::encoded;
 use crate::polygons::{self, Odd, Shape};
+use crate::tangents;
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
 /// The largest coordinate: products of three stay far below the largest double.
@@ -57,16 +61,24 @@ pub(crate) fn model(
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
-    for part in std::mem::take(&mut contents.parts) {
+    for mut part in std::mem::take(&mut contents.parts) {
         let surface = part.material.and_then(|number| contents.materials.get(number));
-        let material = material(surface, &part, options.shading);
+        if surface.is_some_and(|surface| surface.physical.is_some()) && !options.is_per_fragment() {
+            part.colours.iter_mut().for_each(|colour| *colour = colour.map(encoded));
+        }
+        let material = material(surface, &part, options);
         let name = surface.map_or(String::new(), |surface| surface.name.clone());
         let (faces, lines, concave) = (None, Vec::new(), Vec::new());
         let part_name = part.name.clone();
         let mut origin =
             Origin { part: part_name, material: name, faces, lines, concave, first_face };
         first_face += part.polygons.len() as u32;
-        let mesh = mesh(path, part, &smooth, options.normals, &mut origin, &mut warnings);
+        let tangents = std::mem::take(&mut part.tangents);
+        let mut mesh = mesh(path, part, &smooth, options.normals, &mut origin, &mut warnings);
+        let physical = material.physical.as_deref();
+        if physical.is_some_and(|physical| physical.map(Map::Normal).is_some()) {
+            mesh.triangles = tangents::with(mesh.triangles, &mesh.positions, tangents);
+        }
         if mesh.triangles.is_empty() {
             continue;
         }
@@ -84,6 +96,11 @@ pub(crate) fn model(
     if options.shading == Shading::Gouraud && shiny > 0 {
         let key = "specular colour, with Gouraud shading, of material".to_owned();
         contents.not_drawn.insert(key, shiny);
+    }
+    let physical = contents.materials.iter().filter(|surface| surface.physical.is_some()).count();
+    if options.shading == Shading::Gouraud && physical > 0 {
+        let key = "metal and roughness, with Gouraud shading, of material".to_owned();
+        contents.not_drawn.insert(key, physical as u64);
     }
     let not_drawn = counted(&contents.not_drawn);
     let mut why_empty = clear_materials(path, &items, &origins, &mut warnings);
@@ -220,17 +237,34 @@ fn exponent(size: f64) -> Option<i32> {
     (size > 0.0 && size.is_finite()).then(|| libm::ilogb(size))
 }
 
-fn material(surface: Option<&Surface>, part: &FilePart, shading: Shading) -> Material {
+fn material(surface: Option<&Surface>, part: &FilePart, options: Options) -> Material {
+    let shading = options.shading;
     let vertex_colours = !(part.colours.is_empty() && part.face_colours.is_empty());
     match surface {
-        Some(surface) => Material {
-            colour: surface.colour,
-            vertex_colours,
-            texture: surface.texture.clone(),
-            specular: surface.specular,
-            opacity: surface.opacity.clone(),
-            shading: if surface.unlit { Shading::Unlit } else { shading },
-        },
+        Some(surface) => {
+            let mut material = Material {
+                colour: surface.colour,
+                vertex_colours,
+                texture: surface.texture.clone(),
+                specular: surface.specular,
+                opacity: surface.opacity.clone(),
+                shading: if surface.unlit { Shading::Unlit } else { shading },
+                physical: None,
+            };
+            match &surface.physical {
+                Some((colour, physical)) if options.is_per_fragment() => {
+                    material.colour = *colour;
+                    material.physical = Some(Arc::clone(physical));
+                }
+                Some(_) => {
+                    let stored =
+                        |texture: Arc<Texture>| Arc::new(Texture::clone(&texture).as_stored());
+                    material.texture = material.texture.map(stored);
+                }
+                None => {}
+            }
+            material
+        }
         None => {
             let colour = if vertex_colours { DVec3::ONE } else { DVec3::splat(0.8) };
             Material { colour, vertex_colours, shading, ..Material::default() }

@@ -16,6 +16,7 @@ mod outside;
 mod ply;
 mod polygons;
 mod stl;
+mod tangents;
 mod text;
 mod textures;
 
@@ -89,6 +90,13 @@ pub struct Options {
     pub normals: Normals,
     /// The axis that points up; by default the one that is usual for the format.
     pub up: Option<Up>,
+}
+
+impl Options {
+    /// Whether light is computed of the normal at each fragment, as physical surfaces need it.
+    pub(crate) fn is_per_fragment(self) -> bool {
+        matches!(self.shading, Shading::Flat | Shading::Phong)
+    }
 }
 
 /// A model: what is drawn of a file, and what is not.

@@ -211,6 +211,7 @@ impl Cutter {
             normals: n.iter().map(|&index| normals[index as usize]).collect(),
             uvs: t.iter().map(|&index| uvs[index as usize]).collect(),
             colours: if coloured { p.iter().map(colour).collect() } else { Vec::new() },
+            tangents: Vec::new(),
             corners: run.corners,
             normal_numbers: run.normals,
             uv_numbers: run.uvs,
@@ -281,6 +282,7 @@ fn surface(
         texture,
         specular: material.specular(),
         opacity,
+        physical: None,
         unlit: false,
         sides: Sides::Alike,
     }

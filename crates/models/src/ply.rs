@@ -769,6 +769,7 @@ fn surface(
                 opacity: opacity(1.0, decoded.opacity()),
                 texture: Some(decoded.texture.into()),
                 specular: Specular::default(),
+                physical: None,
                 unlit: false,
                 sides: Sides::Alike,
             });

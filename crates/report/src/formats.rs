@@ -66,6 +66,9 @@ fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) ->
         let _ = write!(out, "\n{}", failure.what);
         for e in failure.exchanges.iter().take(3) {
             let _ = write!(out, "\nrequest:  {}\nanswer:   {}", e.request, e.answer);
+            if !e.other.is_empty() {
+                let _ = write!(out, "\nother:    {}", e.other);
+            }
             if !e.expected.is_empty() {
                 let _ = write!(out, "\nexpected: {}", e.expected);
             }
@@ -92,7 +95,14 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
             let exchanges: Vec<Value> = f
                 .exchanges
                 .iter()
-                .map(|e| json!({"request": e.request, "answer": e.answer, "expected": e.expected}))
+                .map(|e| {
+                    let mut exchange =
+                        json!({"request": e.request, "answer": e.answer, "expected": e.expected});
+                    if !e.other.is_empty() {
+                        exchange["other"] = e.other.clone().into();
+                    }
+                    exchange
+                })
                 .collect();
             json!({
                 "property": f.property, "family": f.family, "index": f.index, "what": f.what,
@@ -108,7 +118,7 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
             "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
         })
     });
-    json!({
+    let mut all = json!({
         "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
         "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.seed,
         "cases": verdict.cases, "judged_cases": verdict.found.cases,
@@ -120,7 +130,13 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "causes": verdict.causes, "line_reach": verdict.reach, "stderr": verdict.complaints, "repeat": repeat_all,
-    })
+    });
+    if let Some(second) = &verdict.against {
+        all["against"] = json!({
+            "program": second.name, "declared": second.to_string(), "sides": verdict.sides(),
+        });
+    }
+    all
 }
 
 /// Text between tags and in quoted attributes, where the ends of lines are kept.

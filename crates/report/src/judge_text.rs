@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::html::{Chapter, Outcome, Report};
 use super::table::{Column, Mark, Row, Table};
-use super::{ascii, page_cases, summary};
+use super::{against_text, ascii, page_cases, summary};
+use rasterproof_judge::against;
 use rasterproof_judge::check::Check;
 use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
@@ -24,6 +25,9 @@ pub fn text(
     repeat: &dyn Fn(&str, u64) -> String,
     (with_table, colour): (bool, bool),
 ) -> String {
+    if let Some(second) = &verdict.against {
+        return against_text::text(verdict, second, repeat_all, repeat, colour);
+    }
     let (d, agrees) = (&verdict.declared, verdict.agrees());
     let answer = if agrees { "is right" } else { "is not right" };
     let mut out = format!(
@@ -54,25 +58,39 @@ pub fn text(
         table(&mut out, verdict);
     }
     incidents(&mut out, verdict, repeat);
-    for failure in &verdict.failures {
-        one_failure(&mut out, failure, &repeat(failure.family, failure.index));
-    }
+    failures(&mut out, verdict, &["judged"], repeat);
     if verdict.known > 0 {
         let known = summary::thousands(verdict.known);
         let _ = writeln!(out, "\nnot shown: {known} failing cases that the baseline knows");
     }
-    if !verdict.complaints.is_empty() {
-        let _ = writeln!(out, "\nthe end of its standard error:");
-        for line in &verdict.complaints {
-            let _ = writeln!(out, "  | {line}");
-        }
-    }
+    complaints(&mut out, verdict);
     let _ = writeln!(out, "\nrepeat with: {repeat_all}");
     if !with_table && agrees {
         out += "every family as a table: add --table\n";
     }
     let _ = writeln!(out, "{}: {}", summary::word(agrees), closing(verdict));
     out
+}
+
+pub(super) fn complaints(out: &mut String, verdict: &Verdict) {
+    if !verdict.complaints.is_empty() {
+        let _ = writeln!(out, "\nthe end of its standard error:");
+        for line in &verdict.complaints {
+            let _ = writeln!(out, "  | {line}");
+        }
+    }
+}
+
+/// The failing cases; `drawn_by` names the one or the two programs.
+pub(super) fn failures(
+    out: &mut String,
+    verdict: &Verdict,
+    drawn_by: &[&str],
+    repeat: &dyn Fn(&str, u64) -> String,
+) {
+    for failure in &verdict.failures {
+        one_failure(out, failure, drawn_by, &repeat(failure.family, failure.index));
+    }
 }
 
 /// A line for how it keeps the protocol, for its winding, for each danger and for each other check.
@@ -166,10 +184,11 @@ fn scores(out: &mut String, verdict: &Verdict) {
 }
 
 /// Why it is wrong, where that was looked for.
-fn causes(out: &mut String, verdict: &Verdict) {
-    for Why { of, why } in &verdict.causes {
-        let known = if why.is_known() { "probable cause" } else { "no cause recognised" };
-        let _ = writeln!(out, "{known}, of the wrong {of}:");
+pub(super) fn causes(out: &mut String, verdict: &Verdict) {
+    for why in &verdict.causes {
+        let known = if why.why.is_known() { "probable cause" } else { "no cause recognised" };
+        let _ = writeln!(out, "{known}, of the wrong {}:", why.whose());
+        let why = &why.why;
         why.sentences().iter().for_each(|said| *out += &wrapped(&format!("  {said}"), "    "));
         out.push('\n');
     }
@@ -242,7 +261,7 @@ pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64)
 }
 
 /// A failing case: what was asked and answered, with its pixel grid.
-pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
+pub fn one_failure(out: &mut String, failure: &Failure, drawn_by: &[&str], command: &str) {
     let (family, index) = (failure.family, failure.index);
     let (property, what) = (failure.property, &failure.what);
     let _ = writeln!(out, "\n{property}: {what} (from {family} #{index}, {})", failure.shrunk);
@@ -250,6 +269,7 @@ pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
         for (what, line) in [
             ("request", &exchange.request),
             ("answer", &exchange.answer),
+            ("other", &exchange.other),
             ("expected", &exchange.expected),
         ] {
             if !line.is_empty() {
@@ -262,18 +282,18 @@ pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
         let _ = writeln!(out, "  and {more} requests more");
     }
     if let Some(pictured) = &failure.picture {
-        picture(out, "judged", pictured);
+        picture(out, drawn_by, pictured);
     }
     let _ = writeln!(out, "  repeat with: {command}");
 }
 
 /// What was drawn beside what was expected, as characters.
-pub fn picture(out: &mut String, drawn_by: &str, picture: &Pictured) {
-    let Pictured { drawn, expected, of, .. } = picture;
-    let blocks = [
-        (drawn_by.to_owned(), ascii::grid(drawn, expected)),
-        ("expected".to_owned(), ascii::grid(expected, expected)),
-    ];
+pub fn picture(out: &mut String, drawn_by: &[&str], picture: &Pictured) {
+    let Pictured { drawn, other, expected, of, .. } = picture;
+    let drawn = drawn_by.iter().zip([drawn].into_iter().chain(other));
+    let judged = drawn.map(|(by, drawn)| ((*by).to_owned(), ascii::grid(drawn, expected)));
+    let exact = ("expected".to_owned(), ascii::grid(expected, expected));
+    let blocks: Vec<_> = judged.chain([exact]).collect();
     for line in ascii::side_by_side(&blocks, 98).lines() {
         let _ = writeln!(out, "{}", format!("  {line}").trim_end());
     }
@@ -317,21 +337,21 @@ fn closing(verdict: &Verdict) -> String {
 /// The run as a page: properties and counts, then each failing case with what everybody draws there.
 #[must_use]
 pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
+    let d = &verdict.declared;
+    let both = verdict.against.as_ref().map(|second| against::names([d, second]));
+    let programs = match &both {
+        Some([first, second]) => vec![first.as_str(), second],
+        None => vec![d.name.as_str()],
+    };
     let views = verdict.failures.iter().map(|f| {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("{}: found in {} #{}, {}", f.property, f.family, f.index, f.shrunk);
-        let mut view = page_cases::of_program(
-            name,
-            about,
-            &f.case,
-            &verdict.declared.name,
-            f.picture.as_ref(),
-        );
+        let mut view = page_cases::of_program(name, about, &f.case, &programs, f.picture.as_ref());
         view.found.clone_from(&f.what);
         view.command = repeat(f.family, f.index);
         let chapter = match f.check {
             Check::Depth => Some(("chapter 6, depth", "ch06.md")),
-            Check::Near => Some(("chapter 7, clipping", "ch07.md")),
+            Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),
             Check::Samples => Some(("GAMES101, four samples", "games101.md")),
             _ => None,
         };
@@ -340,11 +360,10 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
         }
         view
     });
-    let d = &verdict.declared;
     let mut notes = vec![format!("{} speaks version {}: {d}", d.name, d.version)];
-    for Why { of, why } in &verdict.causes {
-        let known = if why.is_known() { "Probable cause" } else { "No cause recognised" };
-        notes.push(format!("{known}, of the wrong {of}: {why}"));
+    for why in &verdict.causes {
+        let known = if why.why.is_known() { "Probable cause" } else { "No cause recognised" };
+        notes.push(format!("{known}, of the wrong {}: {}", why.whose(), why.why));
     }
     if let Some(said) = &verdict.recognised {
         notes.extend(said.sentences.iter().chain(&said.compass).cloned());
@@ -352,9 +371,15 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
     // The mistake says more than the properties that fail.
     let cause = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
     let cause = cause.map_or_else(String::new, |cause| format!("it {}; ", cause.does));
-    let headline = cause + &closing(verdict);
+    let (title, headline) = match &both {
+        Some(names) => {
+            let title = format!("{} against {}", names[0], names[1]);
+            (title, against_text::headline(verdict, names))
+        }
+        None => (format!("Verdict on {}", d.name), cause + &closing(verdict)),
+    };
     Report {
-        title: format!("Verdict on {}", d.name),
+        title,
         outcome: Some(Outcome::of(verdict.agrees(), headline)),
         command: command.to_owned(),
         seed: Some(verdict.seed),

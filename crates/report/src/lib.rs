@@ -1,5 +1,6 @@
 //! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
 
+mod against_text;
 pub mod ascii;
 pub mod board;
 pub mod canvas;

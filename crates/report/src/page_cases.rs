@@ -225,23 +225,25 @@ fn request(engine: &str, case: &Case) -> String {
     format!("printf '%s\\n' {} | rasterproof engine {engine}", quoted.join(" "))
 }
 
-/// A failing case of a program that was judged, beside what the engines and the specimens draw. Where
+/// A failing case of a program that was judged, or of two that were compared, beside what the engines and the specimens draw. Where
 /// something else is expected of it than of them, or the picture is another than theirs, beside what
 /// was expected alone.
 pub fn of_program(
     name: String,
     about: String,
     case: &Case,
-    program: &str,
+    programs: &[&str],
     picture: Option<&Pictured>,
 ) -> CaseView {
     let mut view = of_case(name, about, Kind::Failing, case, &Judged::default());
-    let Some(Pictured { drawn, expected, of, moved }) = picture else { return view };
+    let Some(Pictured { drawn, other, expected, of, moved }) = picture else { return view };
+    let pictures = programs.iter().zip([drawn].into_iter().chain(other));
+    let drawn = pictures
+        .map(|(by, drawn)| layer((*by).to_owned(), Role::Engine, Ok(drawn.clone()), expected));
     let truth = oracle_hits(case);
     if !of.is_empty() || *expected != truth {
-        let drawn = layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), expected);
         let target = layer("expected".to_owned(), Role::Expected, Ok(expected.clone()), expected);
-        (view.layers, view.start) = (vec![drawn, target], [0, 1]);
+        (view.layers, view.start) = (drawn.chain([target]).collect(), [0, 1]);
         view.window = expected.bounds();
         if !of.is_empty() {
             view.pictured = format!("The picture: {of}.");
@@ -252,8 +254,8 @@ pub fn of_program(
         }
         return view;
     }
-    view.layers.insert(0, layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), &truth));
-    view.start = [0, view.place("oracle", 1)];
+    view.layers.splice(0..0, drawn);
+    view.start = [0, if other.is_some() { 1 } else { view.place("oracle", 1) }];
     view
 }
 

@@ -238,6 +238,24 @@ macro_rules! assert_values {
     };
 }
 
+/// Panics unless two rasterizers draw the same pixels, such as a port and its original; whether they are right is not asked. A
+/// third argument has other [`Options`](comparison::Options) than 2,000 cases of each family.
+#[macro_export]
+macro_rules! assert_same_coverage {
+    ($first:expr, $second:expr $(,)?) => {
+        $crate::assert_same_coverage!(
+            $first,
+            $second,
+            $crate::comparison::Options::default().cases(2_000)
+        )
+    };
+    ($first:expr, $second:expr, $options:expr $(,)?) => {
+        $crate::comparison::must_agree($crate::comparison::compare_coverage(
+            &$first, &$second, &$options,
+        ))
+    };
+}
+
 /// Panics unless the triangles that a tessellator makes of every generated polygon cover it exactly once. A second
 /// argument has other [`Options`](partition::Options) than 2,000 polygons of each family.
 #[macro_export]

@@ -118,11 +118,12 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         "L" => (declared.line, 4),
         "I" => (declared.attributes, 18),
         "N" => (declared.clip, 12),
+        "A" => (declared.clip_attributes, 15),
         // As many triangles as there are.
         "D" => (declared.depth, (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9),
         _ => {
             return Err(refused(format!(
-                "unknown request '{}'; expected HELLO, T, L, I, S, D, N",
+                "unknown request '{}'; expected HELLO, T, L, I, S, D, N, A",
                 printable(verb)
             )));
         }
@@ -131,9 +132,10 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         return Err(refused("unsupported".to_owned()));
     }
     // What the near plane leaves has nothing to do with a window.
-    let first = if verb == "N" { 1 } else { 3 };
+    let is_clipped = matches!(verb, "N" | "A");
+    let first = if is_clipped { 1 } else { 3 };
     if rest.len() != count + first {
-        let sides = if verb == "N" { "" } else { ", width, height" };
+        let sides = if is_clipped { "" } else { ", width, height" };
         let numbers = if verb == "D" {
             format!("9 numbers for each of 1 to {MOST_LAYERS} triangles")
         } else {
@@ -161,7 +163,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         ("S", Some(engine), ..) => samples(engine, window, &numbers),
         ("L", _, Some(engine), _) => line(engine, window, &numbers),
         ("D", Some(engine), ..) => depth(engine, window, &numbers),
-        ("N", Some(_), ..) => near(&numbers),
+        ("N" | "A", Some(_), ..) => near(&numbers, verb == "A"),
         ("I", Some(engine), ..) => {
             let (triangle, n) = values(engine, window, &numbers).map_err(refused)?;
             return write_fragments(engine, &triangle, window, id, n, out);
@@ -179,7 +181,7 @@ fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> 
     match rest {
         ["1"] => {
             // Version 1 knows no words for what came later.
-            let old = Declared { depth: false, clip: false, ..declared };
+            let old = Declared { depth: false, clip: false, clip_attributes: false, ..declared };
             writeln!(out, "HELLO 1 {} {}", entry.name, old.capabilities().join(" "))?;
         }
         ["2"] => writeln!(out, "HELLO 2 {} {declared}", entry.name)?,
@@ -269,19 +271,22 @@ fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('V', seen.len(), runs))
 }
 
-fn near(numbers: &[f64]) -> Reply {
+/// N, of corners of four numbers, and A, of corners that carry an attribute.
+fn near(numbers: &[f64], carries: bool) -> Reply {
+    let size = if carries { 5 } else { 4 };
     for (i, &number) in numbers.iter().enumerate() {
-        let axis = ["x", "y", "z", "w"][i % 4];
-        check_value(number).map_err(named(&format!("{axis}{}", i / 4)))?;
+        let axis = ["x", "y", "z", "w", "a"][i % size];
+        check_value(number).map_err(named(&format!("{axis}{}", i / size)))?;
     }
-    let corner = |i: usize| [0, 1, 2, 3].map(|k| numbers[4 * i + k]);
+    let corner =
+        |i: usize| [0, 1, 2, 3, 4].map(|k| if k < size { numbers[size * i + k] } else { 0.0 });
     let polygon = pipeline::clipped([corner(0), corner(1), corner(2)]);
     let mut corners = Vec::new();
-    for [x, y, z, w] in &polygon {
+    for number in polygon.iter().flat_map(|corner| &corner[..size]) {
         // Writing to a vector does not fail.
-        let _ = write!(corners, " {x} {y} {z} {w}");
+        let _ = write!(corners, " {number}");
     }
-    Ok(('G', polygon.len(), corners))
+    Ok((if carries { 'B' } else { 'G' }, polygon.len(), corners))
 }
 
 fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply {

@@ -14,6 +14,7 @@ use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::clip::{ClipPlane, clip};
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::cases::near_plane::ClipCorner;
 
 /// The number of pixels that a triangle covers, or nothing where it is more than `most`.
 ///
@@ -71,9 +72,15 @@ pub(crate) fn seen(
     Ok(runs)
 }
 
-pub(crate) fn clipped(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
-    let vertex =
-        |position| ClipVertex { position: DVec4::from_array(position), varying: DVec2::ZERO };
+pub(crate) fn clipped(corners: [ClipCorner; 3]) -> Vec<ClipCorner> {
+    let vertex = |[x, y, z, w, a]: ClipCorner| ClipVertex {
+        position: DVec4::new(x, y, z, w),
+        varying: DVec2::new(a, 0.0),
+    };
     let (polygon, _) = clip(&corners.map(vertex), ClipPlane::Near.bit());
-    polygon.vertices().map(|v| v.position.to_array()).collect()
+    let corner = |v: &ClipVertex<DVec2>| {
+        let [x, y, z, w] = v.position.to_array();
+        [x, y, z, w, v.varying.x]
+    };
+    polygon.vertices().map(corner).collect()
 }

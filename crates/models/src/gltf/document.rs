@@ -96,6 +96,10 @@ pub(super) struct Extensions {
     pub unlit: Option<IgnoredAny>,
     #[serde(rename = "KHR_materials_pbrSpecularGlossiness")]
     pub glossiness: Option<Glossiness>,
+    #[serde(rename = "KHR_materials_common")]
+    pub common: Option<IgnoredAny>,
+    #[serde(rename = "KHR_materials_emissive_strength")]
+    pub emissive: Option<EmissiveStrength>,
 }
 
 /// The accessors of where the copies of a mesh are.
@@ -180,9 +184,9 @@ pub(super) struct Material {
     pub double_sided: bool,
     #[serde(default, deserialize_with = "or_default")]
     pub pbr_metallic_roughness: Metallic,
-    pub normal_texture: Option<IgnoredAny>,
-    pub occlusion_texture: Option<IgnoredAny>,
-    pub emissive_texture: Option<IgnoredAny>,
+    pub normal_texture: Option<Info>,
+    pub occlusion_texture: Option<Info>,
+    pub emissive_texture: Option<Info>,
     #[serde(default, deserialize_with = "or_default")]
     pub emissive_factor: [f32; 3],
     #[serde(default, deserialize_with = "or_default")]
@@ -196,7 +200,7 @@ pub(super) struct Metallic {
     pub base_color_texture: Option<Info>,
     pub metallic_factor: f32,
     pub roughness_factor: f32,
-    pub metallic_roughness_texture: Option<IgnoredAny>,
+    pub metallic_roughness_texture: Option<Info>,
 }
 
 impl Default for Metallic {
@@ -240,8 +244,24 @@ pub(super) struct Info {
     pub index: usize,
     #[serde(default)]
     pub tex_coord: u32,
+    /// Of a normal map: what x and y are multiplied by.
+    pub scale: Option<f32>,
+    /// Of an occlusion map, from 0 to 1.
+    pub strength: Option<f32>,
     #[serde(default, deserialize_with = "or_default")]
     pub extensions: InfoExtensions,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct EmissiveStrength {
+    pub emissive_strength: f32,
+}
+
+impl Default for EmissiveStrength {
+    fn default() -> Self {
+        Self { emissive_strength: 1.0 }
+    }
 }
 
 #[derive(Default, Deserialize)]

@@ -243,6 +243,10 @@ fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String,
     if let Some(shiny) = shiny {
         made["extensions"] = json!({ "KHR_materials_pbrSpecularGlossiness": shiny });
     }
+    if made.get("extensions").is_none() {
+        // Its light is not that of glTF 2.0.
+        made["extensions"] = json!({ "KHR_materials_common": {} });
+    }
     // Culling is a state of the technique, which is not read.
     made["doubleSided"] = true.into();
     made

@@ -8,6 +8,7 @@ use glam::{DAffine2, DVec2, DVec3};
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity, OpacityMap};
+use rasterproof_render::pipeline::physical::{Map, Physical};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 use super::data::{Data, is_outside, resource};
@@ -30,7 +31,7 @@ pub(super) struct Described {
 }
 
 /// The channel as a picture stores it: colours of a glTF that are no picture are linear.
-pub(super) fn encoded(linear: f64) -> f64 {
+pub(crate) fn encoded(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         return 12.92 * linear.max(0.0);
     }
@@ -114,17 +115,16 @@ pub(super) fn describe(
             }
         }
     }
-    let is_physical = other.is_none() && !unlit;
+    let is_physical = is_physical(material);
+    // Light has no effect on it, and its maps are of other surfaces.
+    let is_plain = !is_physical && !unlit;
     let emits = material.emissive_factor.iter().any(|&channel| channel > 0.0);
     for (key, is_there) in [
         ("specular map", other.is_some_and(|other| other.specular_glossiness_texture.is_some())),
-        ("metal of material", is_physical && pbr.metallic_factor > 0.0),
-        ("reflection of material", is_physical && pbr.roughness_factor < 1.0),
-        ("metal and roughness map", is_physical && pbr.metallic_roughness_texture.is_some()),
-        ("normal map", !unlit && material.normal_texture.is_some()),
-        ("occlusion map", !unlit && material.occlusion_texture.is_some()),
-        ("emission map", !unlit && material.emissive_texture.is_some()),
-        ("emission of material", !unlit && material.emissive_texture.is_none() && emits),
+        ("normal map", is_plain && material.normal_texture.is_some()),
+        ("occlusion map", is_plain && material.occlusion_texture.is_some()),
+        ("emission map", is_plain && material.emissive_texture.is_some()),
+        ("emission of material", is_plain && material.emissive_texture.is_none() && emits),
     ] {
         if is_there {
             count(key);
@@ -145,15 +145,29 @@ pub(super) fn describe(
             }
         }
     });
+    let physical = is_physical.then(|| {
+        let linear = DVec3::new(r.into(), g.into(), b.into()).clamp(DVec3::ZERO, DVec3::ONE);
+        let mut missing = |map: Map, cause: String| {
+            let name = printable_short(&name, 40);
+            let text =
+                format!("{cause}; the material '{name}' is drawn without its {}", named(map));
+            warnings.add(images.path, None, "textures", &text);
+        };
+        (linear, Arc::new(physical(data, material, images, &mut count, &mut missing)))
+    });
     let map = decoded.as_ref().and_then(Decoded::opacity);
     let factor = f64::from(alpha).clamp(0.0, 1.0);
     // A file may let blend what is opaque everywhere.
     let is_opaque = map.is_none() && factor == 1.0;
     let opacity = mode.filter(|_| !is_opaque).map(|mode| Opacity { factor, map, mode });
-    let texture = decoded.map(|decoded| Arc::new(decoded.texture));
-    let transform = info.and_then(transform);
+    let texture = decoded.map(|decoded| match is_physical {
+        true => Arc::new(decoded.texture.decoded()),
+        false => Arc::new(decoded.texture),
+    });
+    let transform = first_info(material).and_then(transform);
+    let has_maps = physical.as_ref().is_some_and(|(_, of)| of.maps.iter().any(Option::is_some));
     Some(Described {
-        uv_set: info.map(uv_set).filter(|_| texture.is_some()),
+        uv_set: first_info(material).map(set).filter(|_| texture.is_some() || has_maps),
         uv_transform: transform.map_or(DAffine2::IDENTITY, affine),
         surface: Surface {
             name,
@@ -161,6 +175,7 @@ pub(super) fn describe(
             texture,
             specular,
             opacity,
+            physical,
             unlit,
             sides: if material.double_sided { Sides::Both } else { Sides::Front },
         },
@@ -199,9 +214,87 @@ fn transform(info: &Info) -> Option<&Transform> {
     info.extensions.transform.as_ref()
 }
 
-/// The number of the texture coordinates that a texture is read at.
-fn uv_set(info: &Info) -> u32 {
+/// Whether a surface is one of metal and roughness, in linear light.
+fn is_physical(material: &Material) -> bool {
+    let extensions = &material.extensions;
+    extensions.glossiness.is_none() && extensions.common.is_none() && extensions.unlit.is_none()
+}
+
+/// The maps of a physical surface.
+fn maps(material: &Material) -> [(Map, Option<&Info>); Map::ALL.len()] {
+    Map::ALL.map(|map| {
+        let info = match map {
+            Map::Emission => &material.emissive_texture,
+            Map::Metal => &material.pbr_metallic_roughness.metallic_roughness_texture,
+            Map::Occlusion => &material.occlusion_texture,
+            Map::Normal => &material.normal_texture,
+        };
+        (map, info.as_ref())
+    })
+}
+
+fn named(map: Map) -> &'static str {
+    match map {
+        Map::Emission => "emission",
+        Map::Metal => "map of metal and roughness",
+        Map::Occlusion => "occlusion map",
+        Map::Normal => "normal map",
+    }
+}
+
+/// The texture whose coordinates all of a material is read at: that of its colour, or its first map.
+fn first_info(material: &Material) -> Option<&Info> {
+    let maps = maps(material).into_iter().filter(|_| is_physical(material));
+    colour_texture(material).or_else(|| maps.into_iter().find_map(|(_, info)| info))
+}
+
+fn set(info: &Info) -> u32 {
     transform(info).and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord)
+}
+
+/// All of a physical surface but its base colour.
+fn physical(
+    data: &Data<'_>,
+    material: &Material,
+    images: &mut Images<'_>,
+    count: &mut impl FnMut(&str),
+    missing: &mut dyn FnMut(Map, String),
+) -> Physical {
+    let pbr = &material.pbr_metallic_roughness;
+    let strength = material.extensions.emissive.as_ref().map_or(1.0, |of| of.emissive_strength);
+    let [r, g, b] = material.emissive_factor.map(|channel| f64::from(channel).max(0.0));
+    let share = |number: f32| f64::from(number).clamp(0.0, 1.0);
+    let info = |map: Map| maps(material)[map as usize].1;
+    let mut surface = Physical {
+        metal: share(pbr.metallic_factor),
+        roughness: share(pbr.roughness_factor),
+        emission: DVec3::new(r, g, b) * f64::from(strength).max(0.0),
+        occlusion: share(info(Map::Occlusion).and_then(|info| info.strength).unwrap_or(1.0)),
+        bumps: info(Map::Normal).and_then(|info| info.scale).unwrap_or(1.0).into(),
+        ..Physical::default()
+    };
+    let emits = surface.emission != DVec3::ZERO;
+    for (map, info) in maps(material) {
+        let Some(info) = info.filter(|_| map != Map::Emission || emits) else { continue };
+        let coordinates = |info| (set(info), transform(info).map(affine));
+        if first_info(material).is_some_and(|first| coordinates(first) != coordinates(info)) {
+            count("map with texture coordinates of its own of material");
+        } else {
+            match texture(data, info, images) {
+                Ok(Decoded { texture, .. }) => {
+                    let is_colour = map == Map::Emission;
+                    let texture = if is_colour { texture.decoded() } else { texture };
+                    surface.maps[map as usize] = Some(Arc::new(texture));
+                    continue;
+                }
+                Err(cause) => missing(map, cause),
+            }
+        }
+        if map == Map::Emission {
+            surface.emission = DVec3::ZERO;
+        }
+    }
+    surface
 }
 
 /// The highlight that is about as wide as that of a physically based surface: of roughness a = (1 - gloss)^2, the

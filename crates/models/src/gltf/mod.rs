@@ -16,11 +16,12 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
+use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::ClipPoint;
 use rasterproof_render::pipeline::opacity::{Opacity, OpacityMap};
+use rasterproof_render::pipeline::physical::Map;
 
 use crate::cameras::{Camera, Lens};
 use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface};
@@ -31,7 +32,8 @@ use document::{
     Instances, LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, Root, TRIANGLE_FAN,
     TRIANGLE_STRIP, TRIANGLES,
 };
-use materials::{Described, Images, encoded};
+pub(crate) use materials::encoded;
+use materials::{Described, Images};
 
 /// Corners of all parts together, where Draco has more of them than the document says.
 const MOST_CORNERS: usize = 1 << 25;
@@ -46,13 +48,14 @@ const PART_BYTES: u64 = 256;
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 15] = [
+const READ: [&str; 16] = [
     draco::EXTENSION,
     meshopt::EXTENSION,
     INSTANCES,
     LIGHTS,
     "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_emissive_strength",
     "KHR_texture_transform",
     "EXT_texture_webp",
     "KHR_mesh_quantization",
@@ -485,9 +488,22 @@ impl Reader<'_> {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
         };
-        let colours = colours.into_iter().map(|colour| colour.map(encoded)).collect();
         let mut uvs = Vec::new();
         let mut material = self.material(primitive.material, place);
+        let surface = material.map(|(material, ..)| &self.contents.materials[material]);
+        let physical = surface.and_then(|surface| surface.physical.clone());
+        let colours = match physical {
+            Some(_) => colours,
+            None => colours.into_iter().map(|colour| colour.map(encoded)).collect(),
+        };
+        let is_bumpy = physical.is_some_and(|(_, of)| of.map(Map::Normal).is_some());
+        // Those of a file without normals are not to be used, and those that a skin moves are computed.
+        let is_read = is_bumpy && !normals.is_empty() && node.skin.is_none();
+        let tangents = match vertices.read::<4>("TANGENT").filter(|_| is_read) {
+            Some(read) => self.optional(read, count, "tangents", place),
+            None => Vec::new(),
+        };
+        let tangents = tangents.into_iter().map(DVec4::from_array).collect();
         if let Some((_, Some(set), transform)) = material {
             match vertices.read(&format!("TEXCOORD_{set}")) {
                 Some(read) => {
@@ -503,8 +519,9 @@ impl Reader<'_> {
                 None => self.warn("textures", &format!("{place}: has a texture and no TEXCOORD_{set}; all of it has the colour of one texel")),
             }
         }
-        if let Some((number, ..)) = &mut material {
-            *number = self.with_opacities(*number, primitive, &vertices, &mut uvs);
+        if let Some((number, uv_set, _)) = &mut material {
+            let used = (*number, uv_set.is_some());
+            *number = self.with_opacities(used, primitive, &vertices, &mut uvs);
         }
         let numbers = |is_empty: bool| {
             if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
@@ -522,6 +539,7 @@ impl Reader<'_> {
             normals,
             uvs,
             colours,
+            tangents,
             ..FilePart::default()
         };
         self.contents.add(part)
@@ -532,7 +550,7 @@ impl Reader<'_> {
     /// interpolated is the opacity. Others are multiplied by an opacity that is the same at all vertices.
     fn with_opacities(
         &mut self,
-        number: usize,
+        (number, has_picture): (usize, bool),
         primitive: &Primitive,
         vertices: &Vertices<'_>,
         uvs: &mut Vec<DVec2>,
@@ -546,7 +564,6 @@ impl Reader<'_> {
             return number;
         };
         let surface = &self.contents.materials[number];
-        let has_picture = surface.texture.is_some();
         let opacity = surface.opacity.clone();
         let mut opacity = opacity.unwrap_or(Opacity { factor: 1.0, map: None, mode });
         let is_one = opacities().all(|alpha| alpha == first);

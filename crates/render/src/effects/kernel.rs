@@ -5,7 +5,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 
 use super::conditions::mip_maps::{footprint, is_affine};
 use super::parts::Constants;
@@ -18,6 +18,7 @@ use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
+use crate::pipeline::physical::{Map, Parts, Physical, Point};
 use crate::pipeline::see_through::{self, Look};
 use crate::pipeline::shade::{Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
@@ -124,6 +125,59 @@ pub(super) struct Kernel<'a> {
     first_opacity: Option<u8>,
     /// Whether it is checked if all fragments of a run have one colour in the fog or one highlight.
     checks_runs: bool,
+    /// Of a physical surface. Most kernels have none, and would be much larger with it.
+    coat: Option<Box<Coat<'a>>>,
+}
+
+/// What a physical surface has beside base colour, normal and light.
+struct Coat<'a> {
+    surface: &'a Physical,
+    parts: Parts,
+    /// The maps that are read in each fragment.
+    maps: [Option<(&'a Texture, Option<Reading>)>; Map::ALL.len()],
+    /// What is read of the others.
+    texels: [DVec3; Map::ALL.len()],
+    eye: DVec4,
+    /// Place and tangent, where they do not vary.
+    world: DVec3,
+    tangent: DVec4,
+}
+
+impl<'a> Coat<'a> {
+    fn new(
+        item: &'a Prepared<'_>,
+        surface: &'a Physical,
+        piece: &Piece,
+        plan: PiecePlan,
+        counters: &mut Counters,
+    ) -> Self {
+        let first = Surface::from(piece.vertices[0].varying);
+        let (world, tangent) = (first.world, first.tangent);
+        let [emission, reflection, occlusion, bumps] =
+            [plan.emission, plan.reflection, plan.occlusion, plan.normal_maps];
+        let (mut maps, mut texels) = ([None; Map::ALL.len()], Map::ALL.map(Map::missing));
+        for (map, is_read) in Map::ALL.into_iter().zip([emission, reflection, occlusion, bumps]) {
+            let Some(texture) = surface.map(map).filter(|_| is_read) else { continue };
+            if plan.interpolates.has(Attributes::UV) {
+                let reading = plan.reads_around().then(|| reading(texture, piece, plan));
+                maps[map as usize] = Some((texture, reading));
+            } else if item.carries.has(Attributes::UV) {
+                counters.texels += 1;
+                texels[map as usize] = texture.at(first.uv);
+            }
+        }
+        let parts = Parts { emission, reflection, occlusion, bumps };
+        Self { surface, parts, maps, texels, eye: item.eye, world, tangent }
+    }
+}
+
+/// How a texture is read around fragments.
+fn reading(texture: &Texture, piece: &Piece, plan: PiecePlan) -> Reading {
+    Reading {
+        footprint: footprint(texture, piece, plan.perspective).0,
+        at_levels: plan.mip_maps,
+        most: if plan.anisotropy { texture.anisotropy } else { 1 },
+    }
 }
 
 impl<'a> Kernel<'a> {
@@ -159,6 +213,7 @@ impl<'a> Kernel<'a> {
             taps: Cell::new(0),
             last: None,
             veil: (plan.fog != Share::None).then_some(&item.veil),
+            coat: None,
         };
         if plan.fog == Share::Whole && plan.is_one_colour() && kernel.opacity.is_none() {
             kernel.veil = None;
@@ -172,12 +227,7 @@ impl<'a> Kernel<'a> {
             (item.texture, plan.reads_around() && plan.interpolates.has(Attributes::UV))
         {
             let veil = (!is_affine(piece, plan.perspective)).then_some(&item.veil);
-            let reading = Reading {
-                footprint: footprint(texture, piece, plan.perspective).0,
-                at_levels: plan.mip_maps,
-                most: if plan.anisotropy { texture.anisotropy } else { 1 },
-            };
-            kernel.reading = Some((reading, veil));
+            kernel.reading = Some((reading(texture, piece, plan), veil));
         }
         if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
             counters.texels += 1;
@@ -202,6 +252,12 @@ impl<'a> Kernel<'a> {
         } else if plan.specular && item.carries.has(Attributes::NORMAL) {
             counters.highlights += 1;
             kernel.shine = dimmed(item.highlight.at(first.normal), kernel.lit);
+        }
+        if let Some(surface) = item.physical() {
+            kernel.coat = Some(Box::new(Coat::new(item, surface, piece, plan, counters)));
+            if plan.is_one_colour() {
+                kernel.count_coat(1, counters);
+            }
         }
         kernel
     }
@@ -228,6 +284,14 @@ impl<'a> Kernel<'a> {
             self.draw_flat(engine, piece, to);
             return;
         }
+        if self.coat.is_some() {
+            match self.plan.interpolates.components() {
+                0 => self.draw_any::<0>(engine, piece, to),
+                1..=8 => self.draw_any::<8>(engine, piece, to),
+                _ => self.draw_any::<PLACED>(engine, piece, to),
+            }
+            return;
+        }
         let varies = self.plan.interpolates.has(Attributes::NORMAL);
         let is_partly_lit = self.receiver.is_some() || (varies && self.lit != TAPS);
         // Few pieces have more than two attributes or a part of the light: one stage is for them all.
@@ -252,7 +316,10 @@ impl<'a> Kernel<'a> {
         piece: &Piece,
         (target, bounds, samples, counters): To<'_>,
     ) {
-        let shade = || brightened(self.shade::<0, 0, true>(&Packed([]), 0.0), self.shine);
+        let shade = || match self.coat {
+            Some(_) => self.shade_all(&[], 0.0),
+            None => brightened(self.shade::<0, 0, true>(&Packed([]), 0.0), self.shine),
+        };
         let colour = self.fogged.unwrap_or_else(shade);
         let shaded = counters.shaded;
         if let Some(on_demand) = samples {
@@ -325,6 +392,18 @@ impl<'a> Kernel<'a> {
         counters.levels += where_true(self.plan.mip_maps && self.reading.is_some(), shaded);
         counters.taps += self.taps.take();
         counters.lights += where_true(self.plan.interpolates.has(Attributes::NORMAL), shaded);
+        self.count_coat(shaded, counters);
+    }
+
+    /// Counts what so many evaluations of a physical surface have paid for.
+    fn count_coat(&self, shaded: u64, counters: &mut Counters) {
+        let Some(coat) = &self.coat else { return };
+        let where_true = |pays: bool| if pays { shaded } else { 0 };
+        counters.reflections += where_true(coat.parts.reflection);
+        counters.bumped += where_true(coat.parts.bumps);
+        counters.occluded += where_true(coat.parts.occlusion);
+        counters.emitted += where_true(coat.parts.emission);
+        counters.texels += shaded * coat.maps.iter().flatten().count() as u64;
     }
 
     /// The kernel for the `N` components of the attributes in `MASK`.
@@ -410,19 +489,47 @@ impl<'a> Kernel<'a> {
         let at = |bit: u8| DVec3::from_slice(&values[self.start(bit)..]);
         let normal = if varies(Attributes::NORMAL) { at(Attributes::NORMAL) } else { self.normal };
         let lit = self.receiver.map_or(self.lit, |receiver| receiver.lit(at(Attributes::PLACE)));
+        let base = self.base;
+        let colour = if varies(Attributes::COLOUR) { base * at(Attributes::COLOUR) } else { base };
+        if let Some(coat) = &self.coat {
+            let world = if varies(Attributes::WORLD) { at(Attributes::WORLD) } else { coat.world };
+            let tangent = if varies(Attributes::TANGENT) {
+                DVec4::from_slice(&values[self.start(Attributes::TANGENT)..])
+            } else {
+                coat.tangent
+            };
+            let mut texels = coat.texels;
+            for (texel, (map, reading)) in
+                texels.iter_mut().zip(&coat.maps).filter_map(|(texel, map)| Some((texel, (*map)?)))
+            {
+                let uv = DVec2::from_slice(&values[self.start(Attributes::UV)..]);
+                let veil = self.reading.and_then(|(_, veil)| veil);
+                let w = veil.map_or(1.0, |veil| veil.w(depth));
+                *texel = reading.map_or_else(|| map.at(uv), |reading| reading.texel(map, uv, w).0);
+            }
+            let to_eye = coat.eye.truncate() - world * coat.eye.w;
+            let base = colour * texel;
+            let share = f64::from(lit) / f64::from(TAPS);
+            let point = Point { base, normal, tangent, to_eye, texels, lit: share };
+            let shown = coat.surface.colour(&self.light, &point, coat.parts);
+            return self.finish(shown, normal, lit, depth);
+        }
         let intensity = if varies(Attributes::NORMAL) || self.receiver.is_some() {
             self.light.intensity_in(normal, lit)
         } else {
             self.intensity
         };
-        let base = self.base;
-        let colour = if varies(Attributes::COLOUR) { base * at(Attributes::COLOUR) } else { base };
+        self.finish(to_colour(colour * texel * intensity), normal, lit, depth)
+    }
+
+    /// A colour with its highlight, in the fog.
+    fn finish(&self, colour: Colour, normal: DVec3, lit: u32, depth: f64) -> Colour {
         let shine = match (self.highlight, self.receiver) {
             (Some(highlight), _) => dimmed(highlight.at(normal), lit),
             (None, Some(_)) => dimmed(self.shine, lit),
             (None, None) => self.shine,
         };
-        let colour = brightened(to_colour(colour * texel * intensity), shine);
+        let colour = brightened(colour, shine);
         self.veil.map_or(colour, |veil| veil.before(colour, veil.distance(depth)))
     }
 

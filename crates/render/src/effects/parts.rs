@@ -30,6 +30,7 @@ use crate::pipeline::opacity::Drawn;
 use crate::pipeline::shade::Surface;
 use crate::pipeline::shadow::{LitPlane, ShadowMap};
 use crate::pipeline::target::Antialias;
+use crate::scene::Item;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 
@@ -53,7 +54,7 @@ const MOST_SHARED: f64 = 0.5;
 
 impl Parts {
     /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is.
-    pub(super) fn of(rule: &Rule, antialias: Antialias) -> Option<Self> {
+    pub(super) fn of(rule: &Rule, item: &Item, antialias: Antialias) -> Option<Self> {
         let varies = !rule.interpolates.without(Attributes(Attributes::COLOUR)).is_empty();
         let is_planned = [
             rule.specular,
@@ -66,7 +67,9 @@ impl Parts {
         ]
         .contains(&Mode::Planned);
         let side = if antialias.planes() > 1 { LARGE_SIDE } else { SIDE };
-        (rule.where_it_varies && (is_planned || varies)).then_some(Self { side, rule: *rule })
+        // Squares of physical surfaces are not checked.
+        let is_checked = rule.where_it_varies && item.material.physical.is_none();
+        (is_checked && (is_planned || varies)).then_some(Self { side, rule: *rule })
     }
 
     /// No more than fits whatever is computed of it.
@@ -627,8 +630,11 @@ mod tests {
     #[test]
     fn squares_are_checked_where_something_may_be_left_out_of_them() {
         let scenes = (0..60).map(|index| random::with_effects(6, index));
-        let rule = |scene: Scene| rule(&scene, &scene.items[0], &Effects::PLANNED).1;
-        let parts = scenes.map(rule).find_map(|rule| Parts::of(&rule, Antialias::None)).unwrap();
+        let parts = |scene: Scene| {
+            let rule = rule(&scene, &scene.items[0], &Effects::PLANNED).1;
+            Parts::of(&rule, &scene.items[0], Antialias::None)
+        };
+        let parts = scenes.into_iter().find_map(parts).unwrap();
         let piece = |[x_px, y_px]: [i32; 2]| {
             let vertex = |x_px: i32, y_px: i32| ScreenVertex {
                 position: SubpixelPoint::new(x_px * SUBPIXELS, y_px * SUBPIXELS),

@@ -99,6 +99,9 @@ pub enum Attribute {
     /// Texture coordinates.
     Uv,
     Place,
+    /// Where it is in the world.
+    World,
+    Tangent,
 }
 
 /// A set of attributes.
@@ -112,12 +115,20 @@ impl Attributes {
     pub(super) const NORMAL: u8 = 2;
     pub(super) const UV: u8 = 4;
     pub(super) const PLACE: u8 = 8;
+    pub(super) const WORLD: u8 = 16;
+    pub(super) const TANGENT: u8 = 32;
     /// Where each stands among all numbers of a vertex.
-    pub(super) const RANGES: [(u8, std::ops::Range<usize>); 4] =
-        [(Self::COLOUR, 0..3), (Self::NORMAL, 3..6), (Self::UV, 6..8), (Self::PLACE, 8..11)];
+    pub(super) const RANGES: [(u8, std::ops::Range<usize>); 6] = [
+        (Self::COLOUR, 0..3),
+        (Self::NORMAL, 3..6),
+        (Self::UV, 6..8),
+        (Self::PLACE, 8..11),
+        (Self::WORLD, 11..14),
+        (Self::TANGENT, 14..18),
+    ];
     /// For each set of attributes: where its numbers stand among all numbers of a vertex, and how many there are.
-    const NUMBERS: [([u8; PLACED], usize); 16] = {
-        let mut numbers = [([0; PLACED], 0); 16];
+    const NUMBERS: [([u8; PLACED], usize); 64] = {
+        let mut numbers = [([0; PLACED], 0); 64];
         let mut set = 0;
         while set < numbers.len() {
             let (places, count) = &mut numbers[set];
@@ -136,17 +147,19 @@ impl Attributes {
         }
         numbers
     };
-    const BITS: [(Attribute, u8); 4] = [
+    const BITS: [(Attribute, u8); 6] = [
         (Attribute::Colour, Self::COLOUR),
         (Attribute::Normal, Self::NORMAL),
         (Attribute::Uv, Self::UV),
         (Attribute::Place, Self::PLACE),
+        (Attribute::World, Self::WORLD),
+        (Attribute::Tangent, Self::TANGENT),
     ];
 
     /// No attribute.
     pub const NONE: Self = Self(0);
 
-    pub(super) const EVERY: Self = Self(15);
+    pub(super) const EVERY: Self = Self(63);
 
     pub(super) fn has(self, bit: u8) -> bool {
         self.0 & bit != 0
@@ -183,6 +196,8 @@ impl fmt::Display for Attributes {
             (Self::NORMAL, "normal"),
             (Self::UV, "uv"),
             (Self::PLACE, "place"),
+            (Self::WORLD, "place in the world"),
+            (Self::TANGENT, "tangent"),
         ];
         let names: Vec<_> =
             names.into_iter().filter(|(bit, _)| self.has(*bit)).map(|(_, name)| name).collect();
@@ -275,6 +290,14 @@ macro_rules! plans {
 plans! {
     /// Whether the material's highlight is computed and added.
     specular: bool, true => Specular, "where a highlight may show between the normals of the corners.";
+    /// Whether it is computed what metal and roughness reflect; else the surface is matt.
+    reflection: bool, true => Reflection, "where a normal may face the light.";
+    /// Whether normals are turned by a map.
+    normal_maps: bool, true => NormalMaps, "where the map is not known to be flat.";
+    /// Whether ambient light is multiplied by an occlusion.
+    occlusion: bool, true => Occlusion, "where the map is not known to be white.";
+    /// Whether emission is added.
+    emission: bool, true => Emission, "where the map is not known to be black.";
     /// Whether it is looked up which part of the light arrives.
     shadows: bool, true => Shadows, "where something may lie between a piece and the light.";
     /// Whether textures are read at a level of detail.

@@ -92,7 +92,8 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> (Plan, Vec<Rule>
     let item = |item| {
         let (carries, rule) = conditions::rule(scene, item, effects);
         let (clip, cull) = (effects.mode(Effect::Clip), effects.mode(Effect::Cull));
-        let (pieces, parts) = (Pieces::AsTheyCome(rule), Parts::of(&rule, canvas.antialias));
+        let parts = Parts::of(&rule, item, canvas.antialias);
+        let pieces = Pieces::AsTheyCome(rule);
         (ItemPlan { clip, cull, carries, pieces, parts }, rule)
     };
     let (items, rules) = scene.items.iter().map(item).unzip();

@@ -3,13 +3,14 @@
 use std::fmt;
 use std::sync::{Arc, LazyLock};
 
-use glam::{DMat3, DMat4, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
 use super::Mode;
 use super::plan::{Attributes, ItemPlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, ClipPoint, check_vertex};
 use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
+use crate::pipeline::physical::{Map, Physical};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::LightView;
 use crate::pipeline::target::Antialias;
@@ -56,6 +57,8 @@ pub(super) struct Prepared<'a> {
     pub veil: Veil,
     /// Nothing where no light is looked up.
     pub light_view: Option<Arc<LightView>>,
+    /// The eye in world space, or the direction to it where w is 0, as it is from everywhere.
+    pub eye: DVec4,
     index: usize,
     assembler: Assembler,
     /// From object to clip space.
@@ -72,13 +75,24 @@ pub(super) fn is_lit(scene: &Scene, item: &Item) -> bool {
     matches!(item.material.shading, Shading::Flat | Shading::Phong) && scene.light != Light::NONE
 }
 
-/// The highlights of an item in the light of its scene.
-pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
-    // Camera space has z away from the eye.
+/// The direction against that of the viewing axis. Camera space has z away from the eye.
+fn towards_eye(scene: &Scene) -> DVec3 {
     let [x, y, z] =
         [scene.view.x_axis, scene.view.y_axis, scene.view.z_axis].map_array(|axis| axis.z);
-    let towards_eye = -DVec3::new(x, y, z).normalize_or_zero();
-    Highlight::new(&item.material.specular, &scene.light, towards_eye)
+    -DVec3::new(x, y, z).normalize_or_zero()
+}
+
+/// The highlights of an item in the light of its scene.
+pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
+    Highlight::new(&item.material.specular, &scene.light, towards_eye(scene))
+}
+
+/// The eye, where w of clip space grows with the distance; else the direction to it.
+pub(super) fn eye(scene: &Scene) -> DVec4 {
+    if scene.projection.z_axis.w == 0.0 {
+        return towards_eye(scene).extend(0.0);
+    }
+    scene.view.inverse().w_axis
 }
 
 impl<'a> Prepared<'a> {
@@ -119,11 +133,21 @@ impl<'a> Prepared<'a> {
             highlight: highlight(scene, item),
             veil: Veil::new(scene.fog.as_ref(), &scene.projection),
             light_view: None,
+            eye: eye(scene),
             index,
             assembler: assembler(item, plan, window),
             matrix: scene.projection * scene.view * item.model,
             normals: DMat3::from_mat4(item.model).inverse().transpose(),
         }
+    }
+
+    /// A map of the item, where it is physical and has it.
+    pub fn map(&self, map: Map) -> Option<&'a Texture> {
+        self.physical().and_then(|physical| physical.map(map))
+    }
+
+    pub fn physical(&self) -> Option<&'a Physical> {
+        self.item.material.physical.as_deref()
     }
 
     /// The number of the item in its scene.
@@ -163,12 +187,24 @@ impl<'a> Prepared<'a> {
                 }
             }
         }
-        let has_uv = material.texture.is_some() || material.has_opacity_map();
+        let has_uv = material.textures().next().is_some() || material.has_opacity_map();
         let uvs = if has_uv { triangles.uvs(triangle) } else { [DVec2::ZERO; 3] };
         [0, 1, 2].map_array(|i: usize| {
             let view = self.light_view.as_ref();
             let place = view.map_or(DVec3::ZERO, |view| view.place(self.index, positions[i]));
-            Surface { colour: colours[i], normal: normals[i], uv: uvs[i], place }.into()
+            let (mut world, mut tangent) = (DVec3::ZERO, DVec4::ZERO);
+            if self.carries.has(Attributes::WORLD) {
+                let position = mesh.positions[positions[i] as usize];
+                world = self.item.model.transform_point3(position);
+            }
+            if self.carries.has(Attributes::TANGENT) {
+                let DVec4 { x, y, z, w } = triangles.tangents(triangle)[i];
+                let model = DMat3::from_mat4(self.item.model);
+                let sign = if model.determinant() < 0.0 { -w } else { w };
+                tangent = (model * DVec3::new(x, y, z)).extend(sign);
+            }
+            Surface { colour: colours[i], normal: normals[i], uv: uvs[i], place, world, tangent }
+                .into()
         })
     }
 

@@ -9,6 +9,7 @@ use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity};
+use crate::pipeline::physical::Physical;
 use crate::pipeline::shade::Light;
 use crate::scene::Shadows;
 use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
@@ -117,7 +118,8 @@ impl Words {
 
     fn item(&mut self, item: &Item) {
         let Item { mesh, model, material, cull, two_sided } = item;
-        let Material { colour, vertex_colours, texture, shading, specular, opacity } = material;
+        let Material { colour, vertex_colours, texture, shading, specular, opacity, physical } =
+            material;
         self.numbers(&model.to_cols_array());
         self.point(*colour);
         self.whole((*vertex_colours).into());
@@ -137,6 +139,14 @@ impl Words {
         if *specular != Specular::default() {
             self.point(specular.colour);
             self.numbers(&[specular.shininess]);
+        }
+        if let Some(physical) = physical {
+            let Physical { metal, roughness, emission, occlusion, bumps, maps } = &**physical;
+            self.point(*emission);
+            self.numbers(&[*metal, *roughness, *occlusion, *bumps]);
+            for map in maps {
+                self.whole(map.as_ref().map_or(0, |map| 1 + u64::from(map.has_mip_map())));
+            }
         }
         if let Some(Opacity { factor, map, mode }) = opacity {
             let (kind, threshold) = match *mode {
@@ -190,7 +200,7 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 15] = [
+        let changes: [(&str, Change); 16] = [
             ("in shadow", |scene| scene.shadows = Some(Shadows::default())),
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
@@ -202,6 +212,10 @@ mod tests {
             }),
             ("shading", |scene| scene.items[0].material.shading = Shading::Phong),
             ("shiny", |scene| scene.items[0].material.specular.shininess = 10.0),
+            ("emission", |scene| {
+                let physical = Physical { emission: DVec3::X, ..Physical::default() };
+                scene.items[0].material.physical = Some(std::sync::Arc::new(physical));
+            }),
             ("cut out", |scene| {
                 let mode = AlphaMode::Test { threshold: 0.5 };
                 let opacity = Opacity { factor: 1.0, map: None, mode };

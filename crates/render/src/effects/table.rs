@@ -67,6 +67,14 @@ effects! {
     Light = "light": Planned, lights, Some([60, 180, 90]);
     /// Highlights of shiny materials, and the normals they need.
     Specular = "specular": Material, highlights, Some([240, 190, 60]);
+    /// What metal and roughness reflect, and from where it is seen.
+    Reflection = "reflection": Material, reflections, Some([245, 130, 160]);
+    /// Turning normals by a map, and the tangents they need.
+    NormalMaps = "normal-maps": Material, bumped, Some([130, 130, 250]);
+    /// Multiplying ambient light by a map.
+    Occlusion = "occlusion": Material, occluded, Some([120, 90, 60]);
+    /// Adding emission.
+    Emission = "emission": Material, emitted, Some([250, 235, 120]);
     /// Looking up whether the light reaches a fragment, and the shadow map.
     Shadows = "shadows": Material, shadowed, Some([150, 110, 160]);
     /// Texture lookup, and the coordinates it needs.

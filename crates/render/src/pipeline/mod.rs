@@ -16,8 +16,10 @@ pub mod fog;
 pub mod footprint;
 pub mod highlight;
 pub mod layers;
+pub mod linear;
 pub mod multisample;
 pub mod opacity;
+pub mod physical;
 mod plain;
 pub mod present;
 mod sample;
@@ -110,6 +112,14 @@ counters! {
     lights = "lights";
     /// Evaluations of a highlight.
     highlights = "highlights";
+    /// Evaluations of what metal and roughness reflect.
+    reflections = "reflections";
+    /// Fragments whose normal was turned by a map.
+    bumped = "normals turned";
+    /// Fragments whose ambient light was multiplied by an occlusion.
+    occluded = "occlusions";
+    /// Fragments to which emission was added.
+    emitted = "emissions";
     /// Fragments that read the shadow map.
     shadowed = "shadow lookups";
     /// Fragments that were drawn into the shadow map.

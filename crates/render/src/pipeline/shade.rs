@@ -7,7 +7,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use rasterproof_core::triangle::Varying;
 
 /// `N` numbers that are interpolated together.
@@ -64,27 +64,39 @@ pub struct Surface {
     pub uv: DVec2,
     /// Where the light sees it, as in [`super::shadow::LightView`]; 0 where it has no shadows.
     pub place: DVec3,
+    /// Where it is in world space; 0 where it does not matter from where it is seen.
+    pub world: DVec3,
+    /// The direction of u in world space, of any length, and the sign of the bitangent; 0 without a normal map.
+    pub tangent: DVec4,
 }
 
 /// All attributes of a [`Surface`] without shadows.
 pub const ALL: usize = 8;
 
-/// The same, and after them the place.
-pub const PLACED: usize = 11;
+/// The same, and after them the places and the tangent.
+pub const PLACED: usize = 18;
 
 impl From<Surface> for Attributes<PLACED> {
-    fn from(Surface { colour, normal, uv, place }: Surface) -> Self {
-        let ([r, g, b], [x, y, z], [p, q, d]) =
-            (colour.to_array(), normal.to_array(), place.to_array());
-        Self([r, g, b, x, y, z, uv.x, uv.y, p, q, d])
+    fn from(Surface { colour, normal, uv, place, world, tangent }: Surface) -> Self {
+        let ([r, g, b], [x, y, z]) = (colour.to_array(), normal.to_array());
+        let ([p, q, d], [e, f, h]) = (place.to_array(), world.to_array());
+        let [t, k, l, w] = tangent.to_array();
+        Self([r, g, b, x, y, z, uv.x, uv.y, p, q, d, e, f, h, t, k, l, w])
     }
 }
 
 impl From<Attributes<PLACED>> for Surface {
     #[inline]
-    fn from(Attributes([r, g, b, x, y, z, u, v, p, q, d]): Attributes<PLACED>) -> Self {
-        let (colour, normal) = (DVec3::new(r, g, b), DVec3::new(x, y, z));
-        Self { colour, normal, uv: DVec2::new(u, v), place: DVec3::new(p, q, d) }
+    fn from(Attributes(all): Attributes<PLACED>) -> Self {
+        let three = |at: usize| DVec3::new(all[at], all[at + 1], all[at + 2]);
+        Self {
+            colour: three(0),
+            normal: three(3),
+            uv: DVec2::new(all[6], all[7]),
+            place: three(8),
+            world: three(11),
+            tangent: three(14).extend(all[17]),
+        }
     }
 }
 
@@ -130,7 +142,8 @@ mod tests {
     fn a_surface_survives_packing() {
         let (colour, normal, uv) = (DVec3::X, DVec3::new(1.0, 2.0, 3.0), DVec2::new(4.0, 5.0));
         let place = DVec3::new(6.0, 7.0, 8.0);
-        let surface = Surface { colour, normal, uv, place };
+        let (world, tangent) = (place + 3.0, DVec4::new(12.0, 13.0, 14.0, -1.0));
+        let surface = Surface { colour, normal, uv, place, world, tangent };
         assert_eq!(Surface::from(Attributes::from(surface)), surface);
     }
 }

@@ -6,11 +6,12 @@
 //!
 //! It refuses to be empty or larger than [`MAX_SIDE_PX`] a side.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use glam::{DVec2, DVec3};
 
 use super::depth::OFF_FRACTION;
+use super::linear::{decoded, encoded_byte};
 use super::plain::PlainBlocks;
 pub use super::wrap::Wrap;
 use super::wrap::{within, wrapped};
@@ -36,6 +37,8 @@ pub struct Texture {
     /// Subtexels of a row and of a column.
     subtexels: DVec2,
     texels: Texels,
+    /// The channel in [0, 1] of each byte.
+    channels: &'static [f64; 256],
     /// Beyond the borders in u and in v.
     pub wrap: [Wrap; 2],
     /// Between texels.
@@ -58,6 +61,8 @@ struct Derived {
     plain: PlainBlocks,
     /// The levels of the mip map, read as a texture is where nothing else is said.
     levels: OnceLock<Vec<Texture>>,
+    /// Of copies whose bytes stand for other channels.
+    otherwise: OnceLock<Arc<Derived>>,
 }
 
 /// What is computed from the texels makes no difference.
@@ -118,6 +123,9 @@ static CHANNELS: [f64; 256] = {
     channels
 };
 
+/// The same in linear light, of a picture that is encoded as sRGB.
+static DECODED: LazyLock<[f64; 256]> = LazyLock::new(|| CHANNELS.map(decoded));
+
 impl Texture {
     /// A texture from rows of 8-bit red, green, blue, the top row first. Nothing if a side is 0 or
     /// exceeds [`MAX_SIDE_PX`], or the number of texels is not width times height.
@@ -153,6 +161,7 @@ impl Texture {
             height,
             subtexels,
             texels,
+            channels: &CHANNELS,
             wrap: [Wrap::Repeat; 2],
             filter: Filter::Nearest,
             minified: Filter::Nearest,
@@ -161,6 +170,37 @@ impl Texture {
             levels: Vec::new(),
             derived: Arc::default(),
         }
+    }
+
+    /// The same read in linear light: its bytes are taken as encoded by sRGB.
+    #[must_use]
+    pub fn decoded(self) -> Self {
+        self.by(&DECODED)
+    }
+
+    /// The same with its bytes read as they are.
+    #[must_use]
+    pub fn as_stored(self) -> Self {
+        self.by(&CHANNELS)
+    }
+
+    fn by(self, channels: &'static [f64; 256]) -> Self {
+        if std::ptr::eq(channels, self.channels) {
+            return self;
+        }
+        let derived = Arc::clone(self.derived.otherwise.get_or_init(Arc::default));
+        let Self { has_single_levels, minified, .. } = self;
+        let first_level = self.levels.first().map(Self::size);
+        let size = self.size();
+        let other = Self { channels, levels: Vec::new(), derived, ..self };
+        let other = match first_level {
+            None => other,
+            Some(level) if level == size => {
+                Self { minified: other.filter, ..other }.with_minified(minified)
+            }
+            Some(_) => other.with_mip_map(),
+        };
+        Self { has_single_levels, ..other }
     }
 
     /// The same, read differently.
@@ -212,23 +252,29 @@ impl Texture {
         !self.levels.is_empty()
     }
 
-    /// The next level of a mip map: each texel is the mean of those that it covers.
+    /// The next level of a mip map: each texel is the mean of those that it covers, in linear light where it is read so.
     fn half(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let part = |at: u32, half: u32, whole: u32| {
             2 * at..if at + 1 == half { whole } else { 2 * at + 2 }
         };
+        let is_linear = !std::ptr::eq(self.channels, &CHANNELS);
         let mean = |x: u32, y: u32, channel: u32| {
-            let (mut sum, mut count) = (0, 0);
+            let (mut sum, mut count, mut light) = (0, 0, 0.0);
             for row in part(y, height, self.height) {
                 for column in part(x, width, self.width) {
                     let at = row as usize * self.width as usize + column as usize;
-                    sum += match &self.texels {
+                    let byte = match &self.texels {
                         Texels::Colour(bytes) => bytes[at] >> (8 * channel) & 0xff,
                         Texels::Grey(bytes) => bytes[at].into(),
                     };
+                    light += self.channels[byte as usize];
+                    sum += byte;
                     count += 1;
                 }
+            }
+            if is_linear {
+                return encoded_byte(light / f64::from(count)).into();
             }
             (2 * sum + count) / (2 * count)
         };
@@ -240,7 +286,7 @@ impl Texture {
             ),
             Texels::Grey(_) => Texels::Grey(all.map(|(x, y)| mean(x, y, 0) as u8).collect()),
         };
-        Self::of(width, height, texels)
+        Self { channels: self.channels, ..Self::of(width, height, texels) }
     }
 
     /// The colour at (u, v) at a level of detail: between the two levels of the mip map or of the nearer one, or the texture
@@ -503,9 +549,9 @@ impl Texture {
         match &self.texels {
             Texels::Colour(bytes) => {
                 let [red, green, blue, _] = bytes[at].to_le_bytes();
-                DVec3::from([red, green, blue].map_array(|byte| CHANNELS[usize::from(byte)]))
+                DVec3::from([red, green, blue].map_array(|byte| self.channels[usize::from(byte)]))
             }
-            Texels::Grey(bytes) => DVec3::splat(CHANNELS[usize::from(bytes[at])]),
+            Texels::Grey(bytes) => DVec3::splat(self.channels[usize::from(bytes[at])]),
         }
     }
 

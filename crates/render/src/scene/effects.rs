@@ -12,6 +12,8 @@ use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
+use crate::pipeline::physical::{Map, Physical};
+use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_core::angle::{turn_x, turn_y, turn_z};
 
@@ -52,6 +54,16 @@ pub const SCENES: &[Entry] = &[
         "layers",
         "panes that cross, balls of glass and a pane that stands alone, of which a pixel shows at most four layers",
         layers,
+    ),
+    entry(
+        "metal",
+        "spheres of plastic, copper and gold from smooth to rough before a board whose map has fields of metal, in linear light",
+        metal,
+    ),
+    entry(
+        "surfaces",
+        "a wall with bumps in its middle, grooves that keep ambient light, lamps that emit and a turning box of the same",
+        surfaces,
     ),
 ];
 
@@ -355,4 +367,90 @@ fn layers(scene: Scene, turn: f64) -> Scene {
     let alone = Item::new(board(DVec3::new(2.3, 1.5, 5.0), 1.6, 4), glass(yellow, 0.5));
     items.push(alone);
     Scene { light: daylight(), layers: NonZeroU32::new(4), ..with(scene, items) }
+}
+
+/// As [`daylight`] in linear light.
+fn sunlight() -> Light {
+    Light { ambient: 0.12, diffuse: 0.88, ..daylight() }
+}
+
+/// A surface in linear light, lit in each fragment.
+fn physical(colour: DVec3, physical: Physical) -> Material {
+    let physical = Some(Arc::new(physical));
+    Material { colour, physical, shading: Shading::Phong, ..Material::default() }
+}
+
+fn metal(scene: Scene, turn: f64) -> Scene {
+    let at = |x: f64, y: f64| DVec3::new(x, y, 6.0);
+    let board = shapes::quad([at(-4.0, -3.0), at(4.0, -3.0), at(4.0, 3.0), at(-4.0, 3.0)]);
+    // Fields of metal, three rough ones to a smooth one.
+    let fields = textures::generate(64, |column, row| {
+        let (column, row) = (column / 16, row / 16);
+        let is_metal = (column + row) % 2 == 0;
+        let roughness = if (column + 2 * row) % 4 == 0 { 0.35 } else { 0.8 };
+        DVec3::new(0.0, roughness, if is_metal { 1.0 } else { 0.0 })
+    });
+    let mut surface = Physical { metal: 1.0, ..Physical::default() };
+    let fields = fields.with(Filter::Nearest, Wrap::Repeat);
+    surface.maps[Map::Metal as usize] = Some(Arc::new(fields));
+    let mut items = vec![Item::new(board, physical(DVec3::new(0.55, 0.6, 0.7), surface))];
+    for (row, (colour, metal)) in [
+        (DVec3::new(0.6, 0.05, 0.04), 0.0),
+        (DVec3::new(0.95, 0.64, 0.54), 1.0),
+        (DVec3::new(1.0, 0.77, 0.34), 1.0),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        for (column, roughness) in [0.15, 0.4, 0.7, 1.0].into_iter().enumerate() {
+            let place = DVec3::new(column as f64 - 1.5, 1.0 - row as f64, 0.0) * 0.95;
+            let surface = Physical { metal, roughness, ..Physical::default() };
+            let sphere = shapes::sphere(AHEAD + place, 0.42, 24, 12);
+            let sphere = Item::new(sphere, physical(colour, surface));
+            let turned = turned(sphere, AHEAD, turn_y(turn * TAU));
+            items.push(Item { cull: Cull::Clockwise, ..turned });
+        }
+    }
+    Scene { light: sunlight(), ..with(scene, items) }
+}
+
+fn surfaces(scene: Scene, turn: f64) -> Scene {
+    let from_middle = |column: u32, row: u32| {
+        [column, row].map(|at| (f64::from(at) - 63.5) / 64.0).map(|at| (at, at.abs()))
+    };
+    // Half spheres in the middle; what lies around is flat.
+    let bumps = textures::generate(128, |column, row| {
+        let [(_, x), (_, y)] = from_middle(column, row);
+        let [u, v] = [column, row].map(|at| (f64::from(at % 16) - 7.5) / 8.0);
+        let height = 1.0 - u * u - v * v;
+        if x.max(y) < 0.5 && height > 0.0 {
+            (DVec3::new(u, -v, height.sqrt()).normalize() + 1.0) / 2.0
+        } else {
+            Map::Normal.missing()
+        }
+    });
+    let grooves = textures::generate(128, |column, row| {
+        let [(_, x), (_, y)] = from_middle(column, row);
+        let is_groove = (0.55..0.65).contains(&x.max(y));
+        DVec3::splat(if is_groove { 0.15 } else { 1.0 })
+    });
+    let lamps = textures::generate(128, |column, row| {
+        let [(_, x), (_, y)] = from_middle(column, row);
+        let is_lamp = (x - 0.8).powi(2) + (y - 0.8).powi(2) < 0.12 * 0.12;
+        if is_lamp { DVec3::new(1.0, 0.8, 0.3) } else { DVec3::ZERO }
+    });
+    let mut surface = Physical { emission: DVec3::ONE, roughness: 0.6, ..Physical::default() };
+    let smooth = |texture: Texture| Some(Arc::new(texture.with(Filter::Bilinear, Wrap::Clamp)));
+    surface.maps[Map::Normal as usize] = smooth(bumps);
+    surface.maps[Map::Occlusion as usize] = smooth(grooves);
+    surface.maps[Map::Emission as usize] = smooth(lamps.decoded());
+    let material = physical(DVec3::new(0.5, 0.42, 0.36), surface);
+    let place = DVec3::new(0.0, 0.0, 6.0);
+    let wall = Item::new(shapes::with_tangents(board(place, 5.5, 16)), material.clone());
+    let place = DVec3::new(-0.9, -0.4, 4.0);
+    let reach = DVec3::splat(0.55);
+    let cube = shapes::with_tangents(shapes::cuboid(place - reach, place + reach));
+    let cube = turned(Item::new(cube, material), place, turn_y(0.6 + turn * TAU) * turn_x(0.4));
+    let cube = Item { cull: Cull::Clockwise, ..cube };
+    Scene { light: sunlight(), ..with(scene, [wall, cube]) }
 }

@@ -21,6 +21,7 @@ use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::Opacity;
+use crate::pipeline::physical::Physical;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
@@ -102,9 +103,21 @@ pub struct Material {
     pub specular: Specular,
     /// Nothing where all of it is opaque.
     pub opacity: Option<Opacity>,
+    /// Of a surface in linear light, as all of its colours are then too, and its texture is read in.
+    pub physical: Option<Arc<Physical>>,
 }
 
 impl Material {
+    /// The maps of a physical surface that it has, beside its texture.
+    pub fn maps(&self) -> impl Iterator<Item = &Texture> {
+        self.physical.iter().flat_map(|of| of.maps.iter().flatten().map(|map| &**map))
+    }
+
+    /// All that is read at texture coordinates but opacities.
+    pub fn textures(&self) -> impl Iterator<Item = &Texture> {
+        self.texture.as_deref().into_iter().chain(self.maps())
+    }
+
     /// Whether its opacity is read at texture coordinates.
     #[must_use]
     pub fn has_opacity_map(&self) -> bool {
@@ -116,8 +129,16 @@ impl Default for Material {
     fn default() -> Self {
         let shading = Shading::Unlit;
         let specular = Specular::default();
-        let (texture, opacity) = (None, None);
-        Self { colour: DVec3::ONE, vertex_colours: false, texture, shading, specular, opacity }
+        let (texture, opacity, physical) = (None, None, None);
+        Self {
+            colour: DVec3::ONE,
+            vertex_colours: false,
+            texture,
+            shading,
+            specular,
+            opacity,
+            physical,
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
+use crate::pipeline::physical::{Map, Physical};
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use crate::pipeline::transform::{about, frustum};
@@ -42,7 +43,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 
 /// The same scene with effects beyond the book's: some of its materials have
 /// highlights or holes or blend, some of its textures mip maps or anisotropy, and some scenes fog
-/// or layers or a shadow map.
+/// or layers or a shadow map, and some items are physical.
 ///
 /// # Panics
 /// As [`scene`].
@@ -106,8 +107,54 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
             let texture = if rng.chance(2) { texture.with_single_levels() } else { texture };
             item.material.texture = Some(Arc::new(texture));
         }
+        if rng.chance(3) {
+            make_physical(item, &mut rng);
+        }
     }
     scene
+}
+
+/// Gives an item a surface in linear light, with maps that are mostly plain.
+fn make_physical(item: &mut Item, rng: &mut Rng) {
+    let map = |plain: DVec3, rng: &mut Rng| {
+        let (width, height) = (rng.int(1, 40) as u32, rng.int(1, 40) as u32);
+        let (patch, one_in) = (rng.int(1, 30) as u32, rng.int(1, 4) as u32);
+        let other = DVec3::new(rng.unit(), rng.unit(), rng.unit());
+        let texel = |at: u32| {
+            let (x, y) = (at % width / patch, at / width / patch);
+            let colour = if (x + 2 * y) % one_in == 0 { plain } else { other };
+            colour.to_array().map(|channel| (channel * 255.0 + 0.5) as u8)
+        };
+        let texels: Vec<_> = (0..width * height).map(texel).collect();
+        let texture = Texture::new(width, height, &texels).expect("as many texels as it has");
+        let filter = [Filter::Nearest, Filter::Bilinear][rng.int(0, 1) as usize];
+        let texture = texture.with(filter, [Wrap::Repeat, Wrap::Clamp][rng.int(0, 1) as usize]);
+        let texture = if rng.chance(2) { texture.decoded() } else { texture };
+        let texture = if rng.chance(2) { texture.with_mip_map() } else { texture };
+        Some(Arc::new(texture.with_anisotropy(if rng.chance(4) { 4 } else { 1 })))
+    };
+    let mut surface = Physical {
+        metal: [0.0, 1.0, rng.unit()][rng.int(0, 2) as usize],
+        roughness: rng.unit(),
+        emission: DVec3::new(rng.unit(), rng.unit(), 0.0) * if rng.chance(2) { 0.5 } else { 0.0 },
+        occlusion: rng.unit(),
+        bumps: 1.5 * rng.unit(),
+        ..Physical::default()
+    };
+    for kind in Map::ALL {
+        if rng.chance(2) {
+            let plain = if kind == Map::Emission { DVec3::ZERO } else { kind.missing() };
+            surface.maps[kind as usize] = map(plain, rng);
+        }
+    }
+    item.material.physical = Some(Arc::new(surface));
+    if rng.chance(2)
+        && let Some(texture) = item.material.texture.take()
+    {
+        item.material.texture = Some(Arc::new(Arc::unwrap_or_clone(texture).decoded()));
+    }
+    let mesh = Arc::unwrap_or_clone(std::mem::take(&mut item.mesh));
+    item.mesh = Arc::new(shapes::with_tangents(mesh));
 }
 
 fn filter(rng: &mut Rng) -> Filter {

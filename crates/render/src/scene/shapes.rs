@@ -6,8 +6,28 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::{Corner, Mesh};
+use super::{Attribute, Corner, Mesh};
 use rasterproof_core::angle::sin_cos;
+
+/// The same with tangents: those of each triangle by itself, by its positions and texture coordinates.
+#[must_use]
+pub fn with_tangents(mut mesh: Mesh) -> Mesh {
+    let of = |corners: [Corner; 3]| {
+        let [a, b, c] = corners.map(|corner| mesh.positions[corner.position as usize]);
+        let [p, q] = [1, 2].map(|i: usize| corners[i].uv - corners[0].uv);
+        let (to_b, to_c) = (b - a, c - a);
+        let area = p.perp_dot(q);
+        let along = ((to_b * q.y - to_c * p.y) * area).normalize_or_zero();
+        let across = (to_c * p.x - to_b * q.x) * area;
+        corners.map(|corner| {
+            let sign = if corner.normal.cross(along).dot(across) < 0.0 { -1.0 } else { 1.0 };
+            along.extend(sign)
+        })
+    };
+    let tangents = mesh.triangles.iter().map(of).collect();
+    mesh.triangles = mesh.triangles.with_tangents(Attribute::OfCorners(tangents));
+    mesh
+}
 
 /// A triangle from its positions and corner colours.
 #[must_use]

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 
 use super::Corner;
 
@@ -122,6 +122,7 @@ pub struct Triangles {
     colours: Attribute<DVec3>,
     normals: Normals,
     uvs: Attribute<DVec2>,
+    tangents: Option<Attribute<DVec4>>,
 }
 
 impl Triangles {
@@ -143,7 +144,17 @@ impl Triangles {
             values.check(count);
         }
         uvs.check(count);
-        Self { positions, colours, normals, uvs }
+        Self { positions, colours, normals, uvs, tangents: None }
+    }
+
+    /// The same with the direction of u at each corner, of any length, and as w the sign of the bitangent n x t.
+    ///
+    /// # Panics
+    /// As [`Self::new`].
+    #[must_use]
+    pub fn with_tangents(self, tangents: Attribute<DVec4>) -> Self {
+        tangents.check(self.len());
+        Self { tangents: Some(tangents), ..self }
     }
 
     #[must_use]
@@ -195,6 +206,14 @@ impl Triangles {
         self.uvs.get(triangle, self.positions()[triangle])
     }
 
+    /// 0 where there are none.
+    #[inline]
+    #[must_use]
+    pub fn tangents(&self, triangle: usize) -> [DVec4; 3] {
+        let of = |tangents: &Attribute<DVec4>| tangents.get(triangle, self.positions()[triangle]);
+        self.tangents.as_ref().map_or([DVec4::ZERO; 3], of)
+    }
+
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [Corner; 3]> + DoubleEndedIterator + Clone {
         (0..self.len()).map(|triangle| self.at(triangle))
     }
@@ -209,6 +228,9 @@ impl Triangles {
         self.colours.of_corners(before).push(corners.map(|corner| corner.colour));
         self.normals.of_corners(before).push(corners.map(|corner| corner.normal));
         self.uvs.of_corners(before).push(corners.map(|corner| corner.uv));
+        if let Some(tangents) = &mut self.tangents {
+            tangents.of_corners(before).push([DVec4::ZERO; 3]);
+        }
         self.positions.extend(corners.map(|corner| corner.position));
     }
 
@@ -248,13 +270,17 @@ impl Triangles {
             reverse(values);
         }
         reverse(&mut self.uvs);
+        self.tangents.iter_mut().for_each(reverse);
     }
 }
 
 /// Two lists are equal if their values are, in whichever form these are stored.
 impl PartialEq for Triangles {
     fn eq(&self, other: &Self) -> bool {
-        self.len() == other.len() && self.iter().eq(other.iter())
+        let tangents = |of: &Self, triangle: usize| of.tangents(triangle);
+        self.len() == other.len()
+            && self.iter().eq(other.iter())
+            && (0..self.len()).all(|i| tangents(self, i) == tangents(other, i))
     }
 }
 

@@ -11,9 +11,10 @@ use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_judge::ask::runs_of;
 use rasterproof_judge::ask::{Answer, Asked, Question};
 use rasterproof_judge::check::{Truth, expected_answer, picture_of};
+use rasterproof_judge::near_plane;
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::Triangle;
-use rasterproof_verify::cases::near_plane::clip_corners;
+use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::convention::{
     Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
     Rounding, Shape, Ties, Windings,
@@ -279,9 +280,9 @@ fn is_same(question: &Question, a: &Answer, b: &Answer) -> bool {
                             .all(|(a, b)| (a - b).abs() <= NEAR * largest)
                 })
         }
-        (Answer::Polygon(a), Answer::Polygon(b)) => {
+        (Answer::Polygon(a), Answer::Polygon(b)) | (Answer::Carried(a), Answer::Carried(b)) => {
             let largest = b.as_flattened().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-            let near = |a: &[f64; 4], b: &[f64; 4]| {
+            let near = |a: &ClipCorner, b: &ClipCorner| {
                 a.iter().zip(b).all(|(a, b)| (a - b).abs() <= NEAR * largest)
             };
             let n = b.len();
@@ -569,13 +570,17 @@ fn pile_by(
     Some(Answer::Seen(seen))
 }
 
-fn near(question: &Question, polygon: fn([[f64; 4]; 3]) -> Vec<[f64; 4]>) -> Option<Answer> {
-    let Asked::Near(triangle) = &question.of else { return None };
-    Some(Answer::Polygon(polygon(clip_corners(triangle))))
+fn near(question: &Question, polygon: fn([ClipCorner; 3]) -> Vec<ClipCorner>) -> Option<Answer> {
+    let triangle = near_plane::asked(&question.of)?;
+    let polygon = polygon(clip_corners(&triangle));
+    Some(match &question.of {
+        Asked::Carried(_) => Answer::Carried(polygon),
+        _ => Answer::Polygon(polygon),
+    })
 }
 
 /// What has no negative distance is left of a triangle.
-fn clip(corners: [[f64; 4]; 3], distance: fn(&[f64; 4]) -> f64) -> Vec<[f64; 4]> {
+fn clip(corners: [ClipCorner; 3], distance: fn(&ClipCorner) -> f64) -> Vec<ClipCorner> {
     let mut left = Vec::new();
     for i in 0..3 {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
@@ -584,7 +589,7 @@ fn clip(corners: [[f64; 4]; 3], distance: fn(&[f64; 4]) -> f64) -> Vec<[f64; 4]>
             left.push(a);
         }
         if (da >= 0.0) != (db >= 0.0) {
-            left.push([0, 1, 2, 3].map(|k| a[k] + (b[k] - a[k]) * da / (da - db)));
+            left.push([0, 1, 2, 3, 4].map(|k| a[k] + (b[k] - a[k]) * da / (da - db)));
         }
     }
     left

@@ -173,8 +173,10 @@ impl Studio<'_> {
             for pair in polygon.get(1..).unwrap_or_default().windows(2) {
                 let piece = [polygon[0], pair[0], pair[1]];
                 // What was not cut has no place in the window.
-                if piece.iter().all(|[.., w]| *w > 0.0) {
-                    pieces.push(Triangle { vertices: piece.map(in_window) });
+                if piece.iter().all(|[_, _, _, w, _]| *w > 0.0) {
+                    pieces.push(Triangle {
+                        vertices: piece.map(|[x, y, z, w, _]| in_window([x, y, z, w])),
+                    });
                 }
             }
         }

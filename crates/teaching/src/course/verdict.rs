@@ -29,7 +29,7 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
         }
     }
     if let Some(picture) = &failure.picture {
-        judge_text::picture(&mut out, "yours", picture);
+        judge_text::picture(&mut out, &["yours"], picture);
     }
     if let Some(misconception) = outcome.misconception {
         out += &(judge_text::hanging(misconception.says, "it looks as if ", "  ") + "\n");

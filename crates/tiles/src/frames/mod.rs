@@ -9,7 +9,7 @@
 //!
 //! It is the fast way, not the exact one: coverage is that of the other engines, values lie within
 //! their bound of the exact ones, and so two surfaces nearer to each other than that may come out in
-//! either order. What is not opaque, and a scene with shadows as a whole, it hands to an exact engine
+//! either order. What is not opaque or physical, and a scene with shadows as a whole, it hands to an exact engine
 //! ([`Division`]). It does not plan, and of antialiasing it has four samples a pixel, shaded once.
 
 mod bins;
@@ -75,7 +75,7 @@ impl fmt::Display for TilesError {
             Self::Scene(bad) => write!(f, "{bad}"),
             Self::NotDrawn(triangles) => write!(
                 f,
-                "{triangles} triangles are not opaque or in a scene with shadows, which tiles do not draw; \
+                "{triangles} triangles are not opaque, physical or in a scene with shadows, which tiles do not draw; \
                  a `Division` hands them to an exact engine"
             ),
         }
@@ -84,16 +84,22 @@ impl fmt::Display for TilesError {
 
 impl std::error::Error for TilesError {}
 
-/// Triangles of materials that are not opaque, and in a scene with shadows all: they would be drawn opaque and in the light.
+/// Triangles of materials that are not opaque or physical, and in a scene with shadows all: they would be drawn opaque, matt and in
+/// the light.
 #[must_use]
 pub fn not_drawn(scene: &Scene) -> usize {
-    let is_not_drawn = |item: &&Item| is_seen_through(item) || scene.shadows.is_some();
+    let is_not_drawn =
+        |item: &&Item| is_seen_through(item) || is_physical(item) || scene.shadows.is_some();
     let items = scene.items.iter().filter(is_not_drawn);
     items.map(|item| item.mesh.triangles.len()).sum()
 }
 
 fn is_seen_through(item: &Item) -> bool {
     item.material.opacity.is_some()
+}
+
+fn is_physical(item: &Item) -> bool {
+    item.material.physical.is_some()
 }
 
 /// Triangles, or parts of them that the window shows, with an attribute beyond [`planes::MOST_ATTRIBUTE`]. Their planes

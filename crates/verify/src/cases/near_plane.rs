@@ -13,6 +13,7 @@ use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 pub const FAMILIES: &[Family] = &[
     family("depth-order", "triangles before and through each other", piles),
     family("near-plane", "corners before, behind and in the near plane", near),
+    family("depth-near-tie", "triangles that lie almost in one plane", near_ties),
     family("mesh-border", "meshes across the border of the window", across),
 ];
 
@@ -44,6 +45,33 @@ fn piles(rng: &mut Rng) -> Case {
     }
 }
 
+/// Two or three triangles in planes that are the same but for a step of 2^-6 to 2^-24 between their depths, along which
+/// some of them also lean. Depths of fewer bits are equal there.
+fn near_ties(rng: &mut Rng) -> Case {
+    let step = f64::from(2).powi(-(rng.int(6, 24) as i32));
+    let count = rng.int(2, 3);
+    let (base, leans) = (rng.int(0, 1 << 6) as f64 / 128.0, rng.chance(2));
+    let slope = [(); 3].map(|()| if leans { rng.int(0, 1 << 5) as f64 / 128.0 } else { 0.0 });
+    let side = i64::from(SIDE_PX) * 4;
+    let corners = [(); 3].map(|()| sub(rng.int(0, side) * QUARTER, rng.int(0, side) * QUARTER));
+    let list = (0..count).map(|_| {
+        let steps = rng.int(0, 8) as f64;
+        let mut corner = 0;
+        // The same corners, so that the planes are parallel.
+        let vertices = corners.map(|position| {
+            corner += 1;
+            let depth = base + slope[corner - 1] + steps * step;
+            ScreenVertex { position, depth, inv_w: 1.0, varying: DVec2::ZERO }
+        });
+        ScreenTriangle { vertices }
+    });
+    let list = list.collect();
+    Case {
+        window: PixelRect::window(SIDE_PX, SIDE_PX),
+        shape: Shape::Triangles { list, disjoint: false },
+    }
+}
+
 /// A triangle of clip space, as [`clip_corners`] reads it: z + w is what the near plane asks.
 fn near(rng: &mut Rng) -> Case {
     // Corners in the plane are what formulas with a division forget.
@@ -51,7 +79,7 @@ fn near(rng: &mut Rng) -> Case {
     // Some lie wholly behind it.
     let [w_most, z_most] = if rng.chance(5) { [4, 0] } else { [12, 12] };
     let mut number = 0;
-    let vertices = [(); 3].map(|()| {
+    let mut vertices = [(); 3].map(|()| {
         let quarters = |rng: &mut Rng, low: i64, high: i64| rng.int(4 * low, 4 * high) as f64 / 4.0;
         let position = sub(rng.int(-64, 64) * QUARTER, rng.int(-64, 64) * QUARTER);
         let w = quarters(rng, -4, w_most);
@@ -59,6 +87,10 @@ fn near(rng: &mut Rng) -> Case {
         number += 1;
         ScreenVertex { position, depth, inv_w: 1.0, varying: DVec2::new(w, 0.0) }
     });
+    // The attributes of two corners are never the same.
+    for (v, of_corner) in vertices.iter_mut().zip([-20, 0, 20]) {
+        v.varying.y = (of_corner + rng.int(-8, 8)) as f64 / 4.0;
+    }
     let list = vec![ScreenTriangle { vertices }];
     Case {
         window: PixelRect::window(SIDE_PX, SIDE_PX),
@@ -104,13 +136,16 @@ fn across(rng: &mut Rng) -> Case {
     Case { window: PixelRect::window(SIDE_PX, SIDE_PX), shape: Shape::Triangles { list, disjoint } }
 }
 
-/// x, y, z, w in clip space of a case of `near-plane`, whose vertices keep w as their first attribute:
-/// a window position has no place for a w that is zero or less.
+/// x, y, z, w in clip space, and an attribute.
+pub type ClipCorner = [f64; 5];
+
+/// The corners of a case of `near-plane`, whose vertices keep w as their first attribute: a window position has no place
+/// for a w that is zero or less. The second one is the attribute.
 #[must_use]
-pub fn clip_corners(triangle: &Triangle) -> [[f64; 4]; 3] {
+pub fn clip_corners(triangle: &Triangle) -> [ClipCorner; 3] {
     triangle.vertices.each_ref().map(|v| {
         let (x, y) = v.position.to_px();
-        [x, y, v.depth, v.varying.x]
+        [x, y, v.depth, v.varying.x, v.varying.y]
     })
 }
 
@@ -125,7 +160,7 @@ mod tests {
         let mut in_plane = 0;
         for index in 0..400 {
             let Shape::Triangles { list, .. } = FAMILIES[1].case(1, index).shape else { continue };
-            let sides = clip_corners(&list[0]).map(|[_, _, z, w]| z + w);
+            let sides = clip_corners(&list[0]).map(|[_, _, z, w, _]| z + w);
             behind[sides.iter().filter(|s| **s < 0.0).count()] += 1;
             in_plane += sides.iter().filter(|s| **s == 0.0).count();
         }

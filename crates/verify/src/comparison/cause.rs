@@ -50,7 +50,7 @@ impl Cause {
     }
 
     /// With what is wrong beyond the convention, or instead of one.
-    fn with(mut self, mistakes: Option<Mistakes>) -> Self {
+    pub(super) fn with(mut self, mistakes: Option<Mistakes>) -> Self {
         let Some(mistakes) = mistakes else { return self };
         let is_named = !mistakes.causes.is_empty();
         self.sentence = match self.is_known {
@@ -109,11 +109,13 @@ impl fmt::Display for Cause {
 mod tests {
     use super::*;
     use crate::cases::FamilyName;
-    use crate::comparison::{Options, Rule, Winding, judge_coverage};
-    use rasterproof_core::contract::Rasterize;
+    use crate::comparison::{Options, Rule, Winding, judge_coverage, judge_values, tolerance};
+    use rasterproof_core::contract::{Interpolate, Rasterize};
     use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
     use rasterproof_core::raster::scanline::Scanline;
-    use rasterproof_core::triangle::{Corners, Span};
+    use rasterproof_core::triangle::{
+        Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying,
+    };
 
     /// Draws what has to be drawn by a convention. Corners reach a coarser grid by cutting them down, or by rounding.
     #[derive(Clone, Copy, Debug)]
@@ -203,6 +205,44 @@ mod tests {
             let verdict = judge_coverage(&by, &open).unwrap();
             assert_eq!(verdict.agrees(), is_right, "{}", by.convention);
         }
+    }
+
+    /// Wrong values have a cause of their own, beside that of the pixels.
+    #[test]
+    fn wrong_values_are_explained() {
+        struct Affine;
+        impl Rasterize for Affine {
+            fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+                Scanline.cover(corners, bounds, emit);
+            }
+        }
+        impl Interpolate for Affine {
+            fn fragments<V: Varying>(
+                &self,
+                triangle: &ScreenTriangle<V>,
+                bounds: PixelRect,
+                mut emit: impl FnMut(Fragment<V>),
+            ) {
+                let [a, b, c] = &triangle.vertices;
+                Scanline.fragments(triangle, bounds, |mut f| {
+                    let flat = |v: &ScreenVertex<V>| ScreenVertex { inv_w: 1.0, ..*v };
+                    let affine = ScreenTriangle { vertices: [flat(a), flat(b), flat(c)] };
+                    let pixel =
+                        PixelRect { x0: f.x_px, y0: f.y_px, x1: f.x_px + 1, y1: f.y_px + 1 };
+                    Scanline.fragments(&affine, pixel, |g| f.varying = g.varying);
+                    emit(f);
+                });
+            }
+        }
+        let options = Options::default().cases(20).family(FamilyName::W100);
+        let verdict = judge_values(&Affine, tolerance::SCANLINE, &options).unwrap();
+        let cause = verdict.cause.unwrap().to_string();
+        assert!(
+            cause.starts_with("probable cause: It interpolates attributes linearly on the screen"),
+            "{cause}"
+        );
+        let right = judge_values(&Scanline, tolerance::SCANLINE, &options).unwrap();
+        assert!(right.agrees() && right.cause.is_none());
     }
 
     /// A fault that small triangles do not show has no convention for its cause, and is named as a mistake.

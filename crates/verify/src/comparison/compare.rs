@@ -14,16 +14,22 @@ use super::truth::{Bounds, Truth, compare_on_line};
 use crate::cases::named::plain_line;
 use crate::cases::{Case, Kind, Line, Shape, Triangle};
 use crate::convention::{LineQuestion, Question};
+use crate::mistakes::{self, Mistakes};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
-use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, ScreenTriangle, Span, Varying};
+use rasterproof_core::triangle::{
+    Corners, Fragment, PixelPoint, ScreenLine, ScreenTriangle, Span, Varying,
+};
 
 /// The name of the oracle in a pair.
 pub const ORACLE: &str = "oracle";
+
+/// The side of the window in which values are asked for.
+const VALUES_SIDE_PX: u32 = 64;
 
 /// What the oracle says of a case.
 #[derive(Clone, Debug, Default)]
@@ -71,6 +77,35 @@ fn pairs_of<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<[String; 2]
     oracle.into_iter().chain(each_other).collect()
 }
 
+/// Engines against each other alone: what the oracle draws is not asked for.
+pub struct EachOther<C>(pub C);
+
+impl<C: CompareCases> CompareCases for EachOther<C> {
+    fn kind(&self) -> Kind {
+        self.0.kind()
+    }
+
+    fn pairs(&self) -> Vec<[String; 2]> {
+        self.0.pairs().into_iter().filter(|pair| pair[1] != ORACLE).collect()
+    }
+
+    fn judge(&self, case: &Case, known: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
+        let by_oracle = self.0.pairs().len() - known.len();
+        let mut findings = vec![Finding::default(); by_oracle];
+        findings.extend(known);
+        let (facts, mut findings) = self.0.judge(case, findings);
+        (facts, findings.split_off(by_oracle))
+    }
+
+    fn coverage(&self, engine: &str, case: &Case) -> Option<Coverage> {
+        self.0.coverage(engine, case)
+    }
+
+    fn cause(&self, engine: &str) -> Option<Cause> {
+        self.0.cause(engine)
+    }
+}
+
 /// [`Rasterize::cover`] as a pointer.
 pub type Cover<'a> = dyn Fn(Corners, PixelRect, &mut dyn FnMut(Span)) + Sync + 'a;
 
@@ -92,6 +127,26 @@ impl Interpolate for CoverageOnly<'_> {
         _: PixelRect,
         _: impl FnMut(Fragment<V>),
     ) {
+    }
+}
+
+/// Two line drawers as one type, so that they can be compared.
+pub enum OneOf<'a, A, B> {
+    First(&'a A),
+    Second(&'a B),
+}
+
+impl<A: DrawLine, B: DrawLine> DrawLine for OneOf<'_, A, B> {
+    fn draw<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        match self {
+            Self::First(first) => first.draw(line, bounds, emit),
+            Self::Second(second) => second.draw(line, bounds, emit),
+        }
     }
 }
 
@@ -138,15 +193,17 @@ impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
     }
 
     fn cause(&self, engine: &str) -> Option<Cause> {
-        let (_, engine, _) = self.engines.iter().find(|(name, ..)| *name == engine)?;
-        Some(Cause::of_triangles(&self.convention, |Question { corners, window }| {
+        let (_, engine, tolerance) = self.engines.iter().find(|(name, ..)| *name == engine)?;
+        let cause = Cause::of_triangles(&self.convention, |Question { corners, window }| {
             let hits = caught(|| {
                 let mut hits = Coverage::new(*window, 0);
                 engine.cover(*corners, *window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
                 hits
             });
             hits.ok()
-        }))
+        });
+        let values = tolerance.and_then(|tolerance| self.mistakes_in_values(engine, tolerance));
+        Some(cause.with(values))
     }
 
     fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
@@ -199,6 +256,27 @@ fn against(
 }
 
 impl<R: Interpolate + Sync> TriangleComparer<'_, R> {
+    fn mistakes_in_values(&self, engine: &R, tolerance: Tolerance) -> Option<Mistakes> {
+        mistakes::values::of_engine(|triangle| {
+            let window = PixelRect::window(VALUES_SIDE_PX, VALUES_SIDE_PX);
+            let fragments = caught(|| {
+                let mut fragments = Vec::new();
+                engine.fragments(triangle, window, |f| fragments.push(f));
+                fragments
+            });
+            let fragments = fragments.ok()?;
+            let corners = triangle.corners();
+            let inside = |f: &&Fragment<DVec2>| holds_centre(&corners, f);
+            let fragments: Vec<_> = few(&fragments).filter(inside).copied().collect();
+            let (mut truth, mut finding) = (Truth::new(triangle)?, Finding::default());
+            let bounds = Bounds::new(tolerance, triangle);
+            fragments.iter().for_each(|f| truth.compare(f, &bounds, &mut finding));
+            let is_wrong = finding.attribute.max(finding.depth) > 1.0;
+            let Bounds { attributes: [a, b], depth } = bounds;
+            Some((fragments, [depth, a, b], is_wrong))
+        })
+    }
+
     /// Compares fragments: their pixels with the same engine's spans, their values at a few pixels
     /// with the exact ones and with those of the next engine.
     fn judge_values(

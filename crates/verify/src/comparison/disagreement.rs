@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::{self, Write as _};
 
-use super::{Cause, Convention, Failure, Verdict, shrink};
+use super::{Cause, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
 use crate::cases::{Case, FamilyName, Shape};
 use rasterproof_core::frame::Coverage;
 
@@ -15,7 +15,7 @@ const MOST_SIDE_PX: u32 = 40;
 /// What was wrong in a verdict. Its text is the whole message: print it.
 #[derive(Clone, Debug)]
 pub struct Disagreement {
-    /// Wrong pixels over all cases.
+    /// Wrong pixels over all cases; of two compared engines those that differ.
     pub wrong_pixels: u64,
     /// Cases in which anything was wrong, and all cases.
     pub wrong_cases: [u64; 2],
@@ -45,7 +45,10 @@ impl Disagreement {
             .filter(|f| f.1 > 0)
             .collect();
         Self {
-            wrong_pixels: verdict.mismatches(),
+            wrong_pixels: {
+                let Comparisons { oracle, engines, .. } = verdict.comparisons();
+                if oracle == Tally::default() { engines.total() } else { oracle.total() }
+            },
             wrong_cases: [
                 families.iter().map(|(_, wrong)| wrong).sum(),
                 verdict.families.iter().map(|family| family.cases).sum(),
@@ -65,7 +68,9 @@ impl Disagreement {
 impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [wrong, all] = self.wrong_cases;
-        writeln!(f, "{} wrong pixels, in {wrong} of {all} cases", self.wrong_pixels)?;
+        let two = self.smallest.as_ref().filter(|failure| failure.pair[1] != ORACLE);
+        let what = if two.is_some() { "pixels differ" } else { "wrong pixels" };
+        writeln!(f, "{} {what}, in {wrong} of {all} cases", self.wrong_pixels)?;
         if self.panics > 0 {
             let panics = self.panics;
             writeln!(f, "it panics in {panics} cases; only the first of these panics was shown")?;
@@ -84,13 +89,27 @@ impl fmt::Display for Disagreement {
             )?;
             let fits = window.width().max(window.height()) <= MOST_SIDE_PX;
             match &failure.drawn {
-                Some(drawn) if fits => f.write_str(&grids(drawn, &failure.expected))?,
+                Some(drawn) if fits => f.write_str(&grids(drawn, failure))?,
                 Some(_) => {}
                 None => writeln!(f, "  the engine panics on it")?,
             }
+            if two.is_some() {
+                let [first, second] = [&failure.drawn, &failure.other]
+                    .map(|drawn| drawn.as_ref() == Some(&failure.expected));
+                let who = match (first, second) {
+                    (true, false) => "the first is right here",
+                    (false, true) => "the second is right here",
+                    (false, false) => "neither is right here",
+                    (true, true) => "both light the right pixels, in another order",
+                };
+                writeln!(f, "  {who}, by the oracle")?;
+            }
         }
         if let Some(cause) = &self.cause {
-            writeln!(f, "\n{cause}")?;
+            match two {
+                Some(failure) => writeln!(f, "\nof the {}: {cause}", failure.who_is_wrong())?,
+                None => writeln!(f, "\n{cause}")?,
+            }
         }
         if !self.families.is_empty() {
             f.write_str("\nwrong cases by family:")?;
@@ -120,26 +139,34 @@ impl fmt::Display for Disagreement {
     }
 }
 
-/// What was drawn and what is expected beside each other; pixels that differ are marked.
-fn grids(drawn: &Coverage, expected: &Coverage) -> String {
-    let width = drawn.bounds().width() as usize;
-    let mut text = format!("\n  {:<1$}   expected\n", "drawn", width.max(5));
+/// What was drawn, of two engines by each, and what is expected beside each other; pixels that differ from it are marked.
+fn grids(drawn: &Coverage, failure: &Failure) -> String {
+    let expected = &failure.expected;
+    let drawn: Vec<&Coverage> = [drawn].into_iter().chain(&failure.other).collect();
+    let titles: &[&str] = if drawn.len() == 2 { &["first", "second"] } else { &["drawn"] };
+    let width = expected.bounds().width().max(6) as usize;
+    let mut text = String::from("\n");
+    let mut line = |cells: &mut dyn Iterator<Item = String>, last: &str| {
+        let cells: String = cells.map(|cell| format!("  {cell:<width$} ")).collect();
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{cells}  {last}");
+    };
+    line(&mut titles.iter().map(|title| (*title).to_owned()), "expected");
     let digit = |hits: u8| match hits {
         0 => '.',
         1 => '#',
         hits => char::from_digit(u32::from(hits.min(9)), 10).unwrap_or('9'),
     };
-    for ((_, drawn), (_, expected)) in drawn.rows().zip(expected.rows()) {
-        let mark = |(&d, &e): (&u8, &u8)| match (d, e) {
-            (d, e) if d == e => digit(d),
-            (d, e) if d < e => '-',
-            (1, 0) => '+',
-            (d, _) => digit(d),
-        };
-        let left: String = drawn.iter().zip(expected).map(mark).collect();
+    let mark = |(&d, &e): (&u8, &u8)| match (d, e) {
+        (d, e) if d == e => digit(d),
+        (d, e) if d < e => '-',
+        (1, 0) => '+',
+        (d, _) => digit(d),
+    };
+    for (y, expected) in expected.rows() {
+        let row = |drawn: &&Coverage| drawn.row(y).iter().zip(expected).map(mark).collect();
         let right: String = expected.iter().map(|&hits| digit(hits)).collect();
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "  {left:<0$}   {right}", width.max(5));
+        line(&mut drawn.iter().map(row), &right);
     }
     text + "  # drawn once, - missing, + extra, 2 to 9 drawn so often, 9 also more often, . neither\n"
 }
@@ -147,8 +174,67 @@ fn grids(drawn: &Coverage, expected: &Coverage) -> String {
 #[cfg(test)]
 mod tests {
     use crate::cases::FamilyName;
-    use crate::comparison::{Convention, Options, Rule, judge_coverage};
+    use crate::comparison::{
+        Convention, Options, Rule, Verdict, compare_coverage, compare_lines, judge_coverage,
+    };
+    use rasterproof_core::contract::{DrawLine, Rasterize};
+    use rasterproof_core::grid::PixelRect;
+    use rasterproof_core::line::bresenham::Bresenham;
+    use rasterproof_core::line::dda::Dda;
     use rasterproof_core::raster::scanline::Scanline;
+    use rasterproof_core::triangle::{Corners, Fragment, ScreenLine, Span, Varying};
+
+    /// Of two engines that differ the message shows both, and with which of them the oracle agrees.
+    #[test]
+    fn two_engines_are_compared() {
+        let strict = Convention::default().rule(Rule::Strict);
+        let right = Convention::default();
+        let options = Options::default().cases(40).family(FamilyName::HalfInteger);
+        compare_coverage(&Scanline, &right, &options).unwrap().check().unwrap();
+        // Both are wrong, and the same.
+        compare_coverage(&strict, &strict, &options).unwrap().check().unwrap();
+        let said = |verdict: Result<Verdict, _>| verdict.unwrap().check().unwrap_err().to_string();
+        let message = said(compare_coverage(&right, &strict, &options));
+        for part in [
+            " pixels differ, in ",
+            "first    second   expected",
+            "the first is right here, by the oracle",
+            "of the second: probable cause: It samples at the pixel's centre and draws nothing on an edge",
+        ] {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+        let message = said(compare_coverage(&strict, &right, &options));
+        assert!(message.contains("the second is right here, by the oracle"), "{message}");
+        let message = said(compare_coverage(&Times(0), &Times(2), &options));
+        assert!(message.contains("neither is right here, by the oracle"), "{message}");
+
+        let lines = Options::default().cases(40).family(FamilyName::LineTies);
+        compare_lines(&Dda, &Bresenham, &lines).unwrap().check().unwrap();
+        let message = said(compare_lines(&Backwards, &Dda, &lines));
+        assert!(message.contains("both light the right pixels, in another order"), "{message}");
+    }
+
+    /// Draws everything so often.
+    struct Times(usize);
+    impl Rasterize for Times {
+        fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+            (0..self.0).for_each(|_| Scanline.cover(corners, bounds, &mut emit));
+        }
+    }
+
+    struct Backwards;
+    impl DrawLine for Backwards {
+        fn draw<V: Varying>(
+            &self,
+            line: &ScreenLine<V>,
+            bounds: PixelRect,
+            emit: impl FnMut(Fragment<V>),
+        ) {
+            let mut pixels = Vec::new();
+            Dda.draw(line, bounds, |pixel| pixels.push(pixel));
+            pixels.into_iter().rev().for_each(emit);
+        }
+    }
 
     #[test]
     fn a_message_says_all() {

@@ -31,7 +31,8 @@ use std::time::{Duration, Instant};
 
 use crate::cases::{Case, Family, FamilyName, Kind, Shape};
 use compare::{
-    CompareCases, Cover, CoverageOnly, LineComparer, ORACLE, TriangleComparer, UnsnappedComparer,
+    CompareCases, Cover, CoverageOnly, EachOther, LineComparer, ORACLE, OneOf, TriangleComparer,
+    UnsnappedComparer,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
@@ -279,8 +280,18 @@ pub struct Failure {
     pub case: Case,
     /// What the engine draws in it; nothing where it panics.
     pub drawn: Option<Coverage>,
+    /// What the engine draws by which it was judged; nothing where that was the oracle, or it panics.
+    pub other: Option<Coverage>,
     /// What the oracle draws in it.
     pub expected: Coverage,
+}
+
+impl Failure {
+    /// Which of two compared engines draws other pixels than the oracle; the first one where both do.
+    fn who_is_wrong(&self) -> &str {
+        let is_first_right = self.drawn.as_ref() == Some(&self.expected);
+        &self.pair[usize::from(is_first_right && self.pair[1] != ORACLE)]
+    }
 }
 
 impl fmt::Display for Failure {
@@ -521,6 +532,51 @@ pub fn judge_exact<E: RasterizeExact + Sync>(
     judge_alone(&UnsnappedComparer::new(&[(CANDIDATE, engine)]), options)
 }
 
+/// The names of two engines that are compared.
+const BOTH: [&str; 2] = ["first", "second"];
+
+/// Compares the coverage of any two rasterizers, such as a port and its original, without asking which of them is right. Where they
+/// differ, the message shows both beside the oracle, and says with which of them it agrees.
+///
+/// # Errors
+/// By these options no case was judged.
+///
+/// ```
+/// use rasterproof_core::raster::{edge_function::EdgeFunction, scanline::Scanline};
+/// use rasterproof_verify::comparison::{Options, compare_coverage};
+/// let verdict = compare_coverage(&Scanline, &EdgeFunction, &Options::default().cases(20))?;
+/// assert!(verdict.agrees());
+/// # Ok::<(), rasterproof_verify::comparison::NothingJudged>(())
+/// ```
+#[must_use = "the verdict may be that something is wrong"]
+pub fn compare_coverage<A: Rasterize + Sync, B: Rasterize + Sync>(
+    first: &A,
+    second: &B,
+    options: &Options,
+) -> Result<Verdict, NothingJudged> {
+    let covers: [&Cover<'_>; 2] =
+        [&|corners, bounds, emit| first.cover(corners, bounds, emit), &|corners, bounds, emit| {
+            second.cover(corners, bounds, emit)
+        }];
+    let [first, second] = covers.map(CoverageOnly);
+    let engines = [(BOTH[0], first, None), (BOTH[1], second, None)];
+    judge_alone(&EachOther(TriangleComparer::new(&engines, options.convention)), options)
+}
+
+/// Compares the pixels of any two line drawers, in drawing order, as [`compare_coverage`] compares rasterizers.
+///
+/// # Errors
+/// By these options no case was judged, or they declare a convention, which is one of triangles.
+#[must_use = "the verdict may be that something is wrong"]
+pub fn compare_lines<A: DrawLine + Sync, B: DrawLine + Sync>(
+    first: &A,
+    second: &B,
+    options: &Options,
+) -> Result<Verdict, NothingJudged> {
+    let engines = [(BOTH[0], OneOf::First(first)), (BOTH[1], OneOf::Second(second))];
+    judge_alone(&EachOther(LineComparer::new(&engines)), options)
+}
+
 fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict, NothingJudged> {
     NothingJudged::by(options, comparer.kind())?;
     if comparer.kind() != Kind::Triangles && options.convention != Convention::default() {
@@ -529,7 +585,8 @@ fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict
     let watch = Watch::begin();
     let mut verdict = drive(&[comparer], options, &|_| (), &watch).of_cases()?;
     if !verdict.agrees() {
-        verdict.cause = watch.during(|| comparer.cause(CANDIDATE));
+        let who = verdict.failures.first().map_or(CANDIDATE, Failure::who_is_wrong).to_owned();
+        verdict.cause = watch.during(|| comparer.cause(&who));
     }
     Ok(verdict)
 }
@@ -773,6 +830,7 @@ fn shrink_failures(
             pair: pairs[pair].clone(),
             what: comparer.findings(&case)[pair].describe(),
             drawn: comparer.coverage(&pairs[pair][0], &case),
+            other: comparer.coverage(&pairs[pair][1], &case),
             expected: expected(&case, options.convention),
             case,
         }

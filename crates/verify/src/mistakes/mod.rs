@@ -12,6 +12,7 @@ mod fills;
 mod lines;
 mod questions;
 mod triangles;
+pub mod values;
 mod weigh;
 
 use std::fmt;

@@ -76,7 +76,12 @@ pub fn text(
     }
     judge_text::incidents(&mut out, verdict, repeat);
     for failure in &verdict.failures {
-        judge_text::one_failure(&mut out, failure, &repeat(failure.family, failure.index));
+        judge_text::one_failure(
+            &mut out,
+            failure,
+            &["judged"],
+            &repeat(failure.family, failure.index),
+        );
     }
     if !verdict.complaints.is_empty() {
         out += "\nthe device said:\n";

@@ -21,7 +21,7 @@ pub fn mode(item: &Item, carries: Attributes, effects: &Effects) -> Mode {
 }
 
 fn is_asked_for(item: &Item) -> bool {
-    item.material.texture.as_ref().is_some_and(|texture| texture.anisotropy > 1)
+    item.material.textures().any(|texture| texture.anisotropy > 1)
 }
 
 /// Nothing of a texture that is read once, unless the user switches the effect on or off everywhere.
@@ -30,7 +30,7 @@ pub fn explain(account: &Account<'_>) -> Option<Decision> {
     let asked = account.effects.mode(Effect::Anisotropy);
     if !is_asked_for(item) {
         let is_on = mode(item, account.carries, account.effects) == Mode::Always;
-        let has_texture = item.material.texture.is_some();
+        let has_texture = item.material.textures().next().is_some();
         let reason =
             if has_texture { "the texture is read once" } else { "the material has no texture" };
         return (!asked.is_open()).then(|| account.decide_all(Effect::Anisotropy, is_on, reason));

@@ -4,9 +4,9 @@
 //! keep their order.
 
 use super::account::Account;
-use super::shadows;
+use super::{physical, shadows};
 use crate::effects::plan::{Attributes, Decision};
-use crate::effects::primitive::is_lit;
+use crate::effects::primitive::{eye, is_lit};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::shade::Light;
 use crate::scene::{Item, Scene, Shading};
@@ -23,7 +23,7 @@ fn uses(scene: &Scene, item: &Item, effect: Effect) -> bool {
     match effect {
         Effect::Colour => material.vertex_colours || material.shading == Shading::Gouraud,
         Effect::Light => is_lit(scene, item),
-        _ => material.texture.is_some() || material.has_opacity_map(),
+        _ => material.textures().next().is_some() || material.has_opacity_map(),
     }
 }
 
@@ -35,8 +35,15 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
         effects.pays(*effect, called_for || *effect == Effect::Light && has_highlights)
     };
     let bits = ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit);
-    let reads_map = shadows::mode(scene, item, Attributes(bits), effects) != Mode::Never;
-    Attributes(if reads_map { bits | Attributes::PLACE } else { bits })
+    let is_in = |mode: Mode, bit: u8| if mode == Mode::Never { 0 } else { bit };
+    let of = |effect| physical::mode(scene, item, Attributes(bits), effects, effect);
+    let reads_map = shadows::mode(scene, item, Attributes(bits), effects);
+    let has_place = eye(scene).w != 0.0;
+    let world = if has_place { Attributes::WORLD } else { 0 };
+    let more = is_in(reads_map, Attributes::PLACE)
+        | is_in(of(Effect::Reflection), world)
+        | is_in(of(Effect::NormalMaps), Attributes::TANGENT);
+    Attributes(bits | more)
 }
 
 /// Why an item does without.

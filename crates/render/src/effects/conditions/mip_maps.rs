@@ -25,7 +25,7 @@ pub fn mode(item: &Item, carries: Attributes, effects: &Effects) -> Mode {
 }
 
 fn has_mip_map(item: &Item) -> bool {
-    item.material.texture.as_ref().is_some_and(|texture| texture.has_mip_map())
+    item.material.textures().any(Texture::has_mip_map)
 }
 
 /// The footprint of a piece, and what it is made of. Where w is the same at all corners it is as if divided by,
@@ -59,11 +59,16 @@ pub fn is_near(item: &Prepared<'_>, piece: &Piece) -> bool {
 /// Whether a piece may read levels above 0, and whether it may have a footprint with a longer axis: what a rule leaves open
 /// of both, by one footprint.
 pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> [bool; 2] {
-    let Some(texture) = item.texture.filter(|_| is_near(item, piece)) else { return [true; 2] };
-    let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
-    let is_minified = !(rule.mip_maps.is_open() && footprint.is_magnified(inv_w, uv));
-    let is_stretched = !(rule.anisotropy.is_open() && footprint.is_round(inv_w, uv));
-    [is_minified, is_stretched]
+    if !is_near(item, piece) {
+        return [true; 2];
+    }
+    let mut may_be = [false; 2];
+    for texture in item.texture.into_iter().chain(item.item.material.maps()) {
+        let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
+        may_be[0] |= !(rule.mip_maps.is_open() && footprint.is_magnified(inv_w, uv));
+        may_be[1] |= !(rule.anisotropy.is_open() && footprint.is_round(inv_w, uv));
+    }
+    may_be
 }
 
 /// Nothing of a texture without a mip map, unless the user switches levels on or off everywhere.
@@ -72,7 +77,7 @@ pub fn explain(account: &Account<'_>) -> Option<Decision> {
     let asked = account.effects.mode(Effect::MipMaps);
     let is_on = mode(item, account.carries, account.effects) == Mode::Always;
     if !has_mip_map(item) {
-        let has_texture = item.material.texture.is_some();
+        let has_texture = item.material.textures().next().is_some();
         let reason =
             if has_texture { "the texture has no mip map" } else { "the material has no texture" };
         return (!asked.is_open()).then(|| account.decide_all(Effect::MipMaps, is_on, reason));

@@ -19,6 +19,7 @@ pub(super) mod interpolation;
 pub(super) mod layers;
 pub(super) mod mip_maps;
 pub(super) mod perspective;
+pub(super) mod physical;
 pub(super) mod samples;
 pub(super) mod second_buffer;
 pub(super) mod shadows;
@@ -33,6 +34,7 @@ use super::primitive::{Piece, Prepared, has_one_w};
 use super::{Effect, Effects, Mode};
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
+use crate::pipeline::physical::Map;
 use crate::scene::{Item, Scene};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
@@ -49,6 +51,13 @@ pub(super) struct Facts {
     pub opacity: Drawn,
     /// Whether a normal between those of the corners may have a highlight.
     pub is_shiny: bool,
+    /// Whether a normal between those of the corners may face the light.
+    pub is_reflecting: bool,
+    /// Whether a map may turn its normals.
+    pub is_bumpy: bool,
+    /// Whether a map may keep ambient light from it.
+    pub is_occluded: bool,
+    pub is_emitting: bool,
     /// Whether something may keep light from it.
     pub is_shadowed: bool,
     /// Whether the texture may be read at a level above 0.
@@ -94,6 +103,10 @@ impl Facts {
         fog: Share::Mixed,
         opacity: Drawn::Mixed,
         is_shiny: true,
+        is_reflecting: true,
+        is_bumpy: true,
+        is_occluded: true,
+        is_emitting: true,
         is_shadowed: true,
         is_minified: true,
         is_stretched: true,
@@ -126,7 +139,10 @@ impl Facts {
         if rule.where_it_varies {
             facts.varies = interpolation::differing(rule.interpolates, piece);
         }
-        let faces_away = rule.shadows.is_open() && shadows::piece_faces_away(item, piece);
+        physical::see(rule, item, piece, samples, &mut facts);
+        let faces_away = rule.shadows.is_open()
+            && !rule.normal_maps.pays(facts.is_bumpy)
+            && shadows::piece_faces_away(item, piece);
         if rule.specular.is_open() {
             // What faces away without a highlight needs no shadow map, which costs more than all of these.
             let is_checked = samples >= LEAST_SHINY || faces_away;
@@ -134,6 +150,12 @@ impl Facts {
         }
         if rule.shadows.is_open() {
             facts.is_shadowed = !faces_away || rule.specular.pays(facts.is_shiny);
+        }
+        // Every normal has the light of the first then, which is ambient.
+        let is_dark =
+            item.physical().is_some() && rule.reflection.is_open() && !facts.is_reflecting;
+        if is_dark && !rule.specular.pays(facts.is_shiny) && !rule.shadows.pays(facts.is_shadowed) {
+            facts.varies = facts.varies.without(Attributes(Attributes::NORMAL));
         }
         let has_uv = rule.interpolates.both(facts.varies).has(Attributes::UV);
         if !has_uv || samples < LEAST_TEXTURED {
@@ -147,7 +169,9 @@ impl Facts {
         if has_many && interpolation::may_be_plain(rule, facts.opacity) {
             let reads =
                 [rule.mip_maps.pays(facts.is_minified), rule.anisotropy.pays(facts.is_stretched)];
-            if interpolation::is_plain(rule, item, piece, reads) {
+            let maps = Map::ALL.into_iter().filter(|map| physical::reads(rule, &facts, *map));
+            let mut all = item.texture.into_iter().chain(maps.filter_map(|map| item.map(map)));
+            if all.all(|texture| interpolation::is_plain(texture, rule, item, piece, reads)) {
                 facts.varies = facts.varies.without(Attributes(Attributes::UV));
             }
         }
@@ -165,6 +189,10 @@ pub(super) fn rule(scene: &Scene, item: &Item, effects: &Effects) -> (Attributes
         perspective: perspective::mode(scene, effects),
         depth: depth::pays(scene, effects, true),
         specular: specular::mode(scene, item, carries, effects),
+        reflection: physical::mode(scene, item, carries, effects, Effect::Reflection),
+        normal_maps: physical::mode(scene, item, carries, effects, Effect::NormalMaps),
+        occlusion: physical::mode(scene, item, carries, effects, Effect::Occlusion),
+        emission: physical::mode(scene, item, carries, effects, Effect::Emission),
         shadows: shadows::mode(scene, item, carries, effects),
         mip_maps: mip_maps::mode(item, carries, effects),
         anisotropy: anisotropy::mode(item, carries, effects),
@@ -182,7 +210,15 @@ pub(super) fn plan(rule: &Rule, facts: &Facts) -> PiecePlan {
     let is_hidden = fog::hides(rule, facts);
     let specular = !is_hidden && rule.specular.pays(facts.is_shiny);
     let shadows = !is_hidden && rule.shadows.pays(facts.is_shadowed);
+    let paid = |mode: Mode, called_for: bool| !is_hidden && mode.pays(called_for);
+    let reflection = paid(rule.reflection, facts.is_reflecting);
+    let normal_maps = paid(rule.normal_maps, facts.is_bumpy);
     let mut interpolates = rule.interpolates.both(facts.varies);
+    for (is_needed, bit) in [(reflection, Attributes::WORLD), (normal_maps, Attributes::TANGENT)] {
+        if !is_needed {
+            interpolates = interpolates.without(Attributes(bit));
+        }
+    }
     if is_hidden {
         interpolates = Attributes::NONE;
     } else if !shadows {
@@ -196,6 +232,10 @@ pub(super) fn plan(rule: &Rule, facts: &Facts) -> PiecePlan {
         perspective: rule.perspective.pays(!interpolates.is_empty() && !facts.has_one_w),
         depth,
         specular,
+        reflection,
+        normal_maps,
+        occlusion: paid(rule.occlusion, facts.is_occluded),
+        emission: paid(rule.emission, facts.is_emitting),
         shadows,
         mip_maps: has_uv && rule.mip_maps.pays(facts.is_minified),
         anisotropy: has_uv && rule.anisotropy.pays(facts.is_stretched),
@@ -226,6 +266,7 @@ pub(super) fn explain(
     decisions.push(depth::explain(account, overlapping));
     decisions.extend(attributes::explain(account));
     decisions.extend(specular::explain(account));
+    decisions.extend(physical::explain(account));
     decisions.extend(shadows::explain(account));
     decisions.extend(mip_maps::explain(account));
     decisions.extend(anisotropy::explain(account));

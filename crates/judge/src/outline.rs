@@ -1,0 +1,86 @@
+//! The fill of a triangle against its own outline, where a program draws both.
+//!
+//! With corners at centres of pixels, the outline has in each column or row of an edge the pixel that is nearest to it. So a pixel
+//! inside of the outline has its centre in the triangle, and one outside of it has not: whatever belongs to the fill on the
+//! outline itself, nothing else is open.
+
+use super::ask::Answer;
+use super::check::picture_of;
+use super::finding::{Finding, mix};
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::{Corners, PixelPoint};
+use rasterproof_verify::comparison::Tally;
+
+/// The pixels whose centres are the corners; nothing where one lies elsewhere or outside the window.
+pub(super) fn ends(corners: &Corners, window: PixelRect) -> Option<[PixelPoint; 3]> {
+    let is_centre = |v: i32| v.rem_euclid(SUBPIXELS) == HALF_PIXEL;
+    let pixels =
+        corners.map(|p| PixelPoint::new(p.x.div_euclid(SUBPIXELS), p.y.div_euclid(SUBPIXELS)));
+    let is_right = corners.iter().all(|p| is_centre(p.x) && is_centre(p.y))
+        && pixels.iter().all(|p| window.contains(p.x, p.y));
+    is_right.then_some(pixels)
+}
+
+/// What was filled, and what of it the outline leaves: without what lies outside, with all that it encloses.
+pub(super) fn pictures(answers: &[Answer], window: PixelRect) -> Option<[Coverage; 2]> {
+    let (fill, sides) = answers.split_first()?;
+    let filled = picture_of(fill, window)?;
+    let mut outline = Frame::new(window, false);
+    for side in sides {
+        let drawn = picture_of(side, window)?;
+        for (y, row) in drawn.rows() {
+            outline.row_mut(y).iter_mut().zip(row).for_each(|(here, hits)| *here |= *hits > 0);
+        }
+    }
+    let outside = outside(&outline);
+    let mut mended = Coverage::new(window, 0);
+    for (y, row) in filled.rows() {
+        let open = outline.row(y).iter().zip(outside.row(y));
+        for ((mended, filled), (on, out)) in mended.row_mut(y).iter_mut().zip(row).zip(open) {
+            *mended = match (on, out) {
+                (true, _) => *filled,
+                (false, true) => 0,
+                (false, false) => 1,
+            };
+        }
+    }
+    Some([filled, mended])
+}
+
+/// The pixels from which the border of the window is reached without crossing the outline.
+fn outside(outline: &Frame<bool>) -> Frame<bool> {
+    let window = outline.bounds();
+    let mut outside = Frame::new(window, false);
+    let is_border = |x: i32, y: i32| {
+        x == window.x0 || y == window.y0 || x == window.x1 - 1 || y == window.y1 - 1
+    };
+    let all = (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)));
+    let mut reached: Vec<(i32, i32)> = all.filter(|&(x, y)| is_border(x, y)).collect();
+    while let Some((x, y)) = reached.pop() {
+        if !window.contains(x, y) {
+            continue;
+        }
+        let column = (x - window.x0) as usize;
+        let here = &mut outside.row_mut(y)[column];
+        if *here || outline.row(y)[column] {
+            continue;
+        }
+        *here = true;
+        reached.extend([(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]);
+    }
+    outside
+}
+
+/// Counts filled pixels outside of the outline, and pixels that it encloses and that are not filled.
+pub(super) fn compare(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
+    finding.shapes += 1;
+    let Some([filled, mended]) = pictures(answers, window) else { return };
+    finding.pixels += mended.covered();
+    finding.tally += Tally::between(&filled, &mended);
+    for ((y, a), (_, b)) in filled.rows().zip(mended.rows()) {
+        for (x, _) in a.iter().zip(b).enumerate().filter(|(_, (a, b))| a != b) {
+            [y as u64, x as u64].iter().for_each(|word| mix(&mut finding.mark, *word));
+        }
+    }
+}
