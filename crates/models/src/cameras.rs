@@ -20,10 +20,9 @@ pub struct Camera {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
     Perspective {
-        /// The vertical angle of view.
         angle_rad: f64,
     },
-    /// Without perspective.
+    /// A projection without perspective.
     Parallel {
         /// Half of what it sees from below to above.
         half_height: f64,
@@ -31,14 +30,12 @@ pub enum Lens {
 }
 
 impl Camera {
-    /// Moves it by a matrix.
     pub(crate) fn place(&mut self, matrix: DMat4) {
         self.eye = matrix.transform_point3(self.eye);
         self.ahead = matrix.transform_vector3(self.ahead);
         self.up = matrix.transform_vector3(self.up);
     }
 
-    /// Multiplies all lengths.
     pub(crate) fn scale(&mut self, factor: f64) {
         self.eye *= factor;
         self.near *= factor;

@@ -431,7 +431,7 @@ pub(crate) struct Surface {
 /// What is seen of the backs of faces, those that are clockwise as the eye sees them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sides {
-    /// Nothing.
+    /// Nothing: they are culled.
     Front,
     /// They are lit as the front is, by the same normals.
     Alike,

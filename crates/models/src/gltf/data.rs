@@ -9,7 +9,8 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 
-use super::document::{Accessor, Root};
+use super::document::{Accessor, Compressed, Root};
+use super::meshopt;
 use crate::textures::find;
 use crate::{outside, read_bytes};
 
@@ -69,6 +70,8 @@ pub(super) struct Data<'a> {
     buffers: Vec<Cow<'a, [u8]>>,
     /// For each buffer of the document its number among them.
     numbers: Vec<usize>,
+    /// The views that were compressed, by their numbers.
+    decoded: HashMap<usize, Vec<u8>>,
 }
 
 /// The elements of an accessor, one after the other.
@@ -108,7 +111,27 @@ impl<'a> Data<'a> {
             };
             buffers.push(bytes);
         }
-        Ok(Self { root, buffers, numbers })
+        let mut data = Self { root, buffers, numbers, decoded: HashMap::new() };
+        data.decode()?;
+        Ok(data)
+    }
+
+    /// Decodes the views that are compressed.
+    fn decode(&mut self) -> Result<(), String> {
+        let per_byte = limits::MODEL_CONTENTS_BYTES_PER_BYTE.saturating_mul(self.len());
+        let mut left_bytes = limits::MODEL_CONTENTS_BYTES.max(per_byte) as usize;
+        let mut decoded = HashMap::new();
+        for (number, view) in self.root.buffer_views.iter().enumerate() {
+            let Some(compressed) = &view.extensions.compressed else { continue };
+            let Compressed { buffer, byte_offset, byte_length, .. } = *compressed;
+            let failed = |cause: String| format!("bufferViews[{number}]: {cause}");
+            let bytes = self.bytes(number, buffer, byte_offset, byte_length)?;
+            let bytes = meshopt::decode(compressed, bytes, left_bytes).map_err(failed)?;
+            left_bytes = left_bytes.saturating_sub(bytes.len());
+            decoded.insert(number, bytes);
+        }
+        self.decoded = decoded;
+        Ok(())
     }
 
     /// The bytes of all buffers.
@@ -131,21 +154,33 @@ impl<'a> Data<'a> {
     pub(super) fn view(&self, number: usize) -> Result<(&[u8], Option<usize>), String> {
         let missing = || format!("bufferViews[{number}] is not there");
         let view = self.root.buffer_views.get(number).ok_or_else(missing)?;
-        let buffer = view.buffer;
+        let bytes = match self.decoded.get(&number) {
+            Some(bytes) => bytes,
+            None => self.bytes(number, view.buffer, view.byte_offset, view.byte_length)?,
+        };
+        Ok((bytes, view.byte_stride))
+    }
+
+    /// Bytes of a buffer, for a view of this number.
+    fn bytes(
+        &self,
+        number: usize,
+        buffer: usize,
+        start: u64,
+        length: u64,
+    ) -> Result<&[u8], String> {
         let all = self.numbers.get(buffer).map(|&number| &self.buffers[number]);
         let all = all.ok_or_else(|| format!("buffers[{buffer}] is not there"))?;
-        let start = view.byte_offset;
         let bytes = start
-            .checked_add(view.byte_length)
+            .checked_add(length)
             .and_then(|end| all.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
-        let bytes = bytes.ok_or_else(|| {
+        bytes.ok_or_else(|| {
             format!(
                 "bufferViews[{number}] has {} bytes from byte {start} on, and buffers[{buffer}] has {}: the buffer is cut off",
-                view.byte_length,
+                length,
                 all.len()
             )
-        })?;
-        Ok((bytes, view.byte_stride))
+        })
     }
 
     fn accessor(&self, number: usize) -> Result<&Accessor, String> {

@@ -397,6 +397,28 @@ pub(super) struct View {
     #[serde(default, deserialize_with = "or_default")]
     pub byte_offset: u64,
     pub byte_stride: Option<usize>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub extensions: ViewExtensions,
+}
+
+#[derive(Default, Deserialize)]
+pub(super) struct ViewExtensions {
+    #[serde(rename = "EXT_meshopt_compression")]
+    pub compressed: Option<Compressed>,
+}
+
+/// Where the compressed bytes of a view are, and what they become.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Compressed {
+    pub buffer: usize,
+    #[serde(default)]
+    pub byte_offset: u64,
+    pub byte_length: u64,
+    pub byte_stride: usize,
+    pub count: usize,
+    pub mode: String,
+    pub filter: Option<String>,
 }
 
 #[derive(Deserialize)]

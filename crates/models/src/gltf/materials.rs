@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2, DVec3};
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::highlight::Specular;
-use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
+use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::physical::{Map, Physical};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
@@ -79,7 +79,9 @@ impl<'a> Images<'a> {
     }
 }
 
-/// Describes a material, or what the format says of a primitive that names none.
+/// Describes a material, or that of a primitive that names none. It has the values that the format gives to what a material leaves
+/// out, but for metal: a file that says nothing of its surfaces does not ask for mirrors, and without anything to
+/// mirror, they would be dark.
 pub(super) fn describe(
     data: &Data<'_>,
     number: Option<usize>,
@@ -87,7 +89,8 @@ pub(super) fn describe(
     not_drawn: &mut BTreeMap<String, u64>,
     warnings: &mut Warnings,
 ) -> Option<Described> {
-    let missing = Material::default();
+    let mut missing = Material::default();
+    missing.pbr_metallic_roughness.metallic_factor = 0.0;
     let material = match number {
         Some(number) => data.root.materials.get(number)?,
         None => &missing,
@@ -128,12 +131,7 @@ pub(super) fn describe(
             count(key);
         }
     }
-    let threshold = f64::from(material.alpha_cutoff.unwrap_or(0.5));
-    let mode = match &*material.alpha_mode {
-        "MASK" => Some(OpacityMode::Test { threshold }),
-        "BLEND" => Some(OpacityMode::Blend),
-        _ => None,
-    };
+    let mode = alpha_mode(material);
     let numbered = || number.map_or(String::new(), |number| format!("materials[{number}]"));
     let name = material.name.as_deref().map(|name| text::name(name).to_owned());
     let name = name.unwrap_or_else(numbered);
@@ -184,6 +182,27 @@ pub(super) fn describe(
             sides: if material.double_sided { Sides::Both } else { Sides::Front },
         },
     })
+}
+
+/// What becomes of opacities; nothing where they have no effect.
+pub(super) fn alpha_mode(material: &Material) -> Option<OpacityMode> {
+    let threshold = f64::from(material.alpha_cutoff.unwrap_or(0.5));
+    match &*material.alpha_mode {
+        "MASK" => Some(OpacityMode::Test { threshold }),
+        "BLEND" => Some(OpacityMode::Blend),
+        _ => None,
+    }
+}
+
+/// A map of all opacities, one after the other.
+pub(super) fn opacities() -> Arc<OpacityMap> {
+    let all = Texture::grey(256, 1, (0..=u8::MAX).collect()).unwrap_or_else(Texture::white);
+    Arc::new(OpacityMap::new(all.with(Filter::Bilinear, Wrap::Clamp)))
+}
+
+/// Where an opacity is in that map: those between two texels too.
+pub(super) fn uv_of_opacity(opacity: f64) -> DVec2 {
+    DVec2::new((opacity * 255.0 + 0.5) / 256.0, 0.5)
 }
 
 fn colour_texture(material: &Material) -> Option<&Info> {

@@ -9,19 +9,22 @@ mod document;
 mod draco;
 mod first;
 mod materials;
+mod meshopt;
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::ClipPoint;
+use rasterproof_render::pipeline::opacity::{Opacity, OpacityMap};
 use rasterproof_render::pipeline::physical::Map;
 
 use crate::cameras::{Camera, Lens};
-use crate::contents::{Contents, FilePart, Numbers, Polygons};
+use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface};
 use crate::text::{self, without_mark};
 use crate::{BadFile, Warnings, bad};
 use data::Data;
@@ -45,8 +48,9 @@ const PART_BYTES: u64 = 256;
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 15] = [
+const READ: [&str; 16] = [
     draco::EXTENSION,
+    meshopt::EXTENSION,
     INSTANCES,
     LIGHTS,
     "KHR_materials_unlit",
@@ -69,8 +73,8 @@ const INSTANCES: &str = "EXT_mesh_gpu_instancing";
 /// The extension of nodes that are lights.
 const LIGHTS: &str = "KHR_lights_punctual";
 
-/// Extensions that hide where the triangles are.
-const COMPRESSED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+/// Extensions that hide where the triangles are, and are not read.
+const COMPRESSED: [&str; 1] = ["KHR_meshopt_compression"];
 
 /// Whether these bytes begin as a GLB.
 pub(crate) fn is_glb(bytes: &[u8]) -> bool {
@@ -115,6 +119,8 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         warnings: Warnings::default(),
         images: Images::new(path),
         described: HashMap::new(),
+        see_through: HashMap::new(),
+        opacities: None,
         json_bytes: json.len() as u64,
         corners: 0,
         left_bytes: 0,
@@ -200,6 +206,10 @@ struct Reader<'a> {
     images: Images<'a>,
     /// By the numbers of the materials that are used; nothing is that of primitives that name none.
     described: HashMap<Option<usize>, Option<UsedMaterial>>,
+    /// The surfaces of primitives whose vertices have opacities, by that of their material and the one opacity.
+    see_through: HashMap<(usize, u64), usize>,
+    /// The map of all opacities, where one is needed.
+    opacities: Option<Arc<OpacityMap>>,
     json_bytes: u64,
     /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
@@ -482,13 +492,13 @@ impl Reader<'_> {
                 _ => self.warn("skins", &format!("{place}: its joints are not as many as its positions; it is drawn without its skin")),
             }
         }
-        self.count_attributes(primitive, &vertices);
+        self.count_attributes(primitive);
         let colours = match vertices.read("COLOR_0") {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
         };
         let mut uvs = Vec::new();
-        let material = self.material(primitive.material, place);
+        let mut material = self.material(primitive.material, place);
         let surface = material.map(|(material, ..)| &self.contents.materials[material]);
         let physical = surface.and_then(|surface| surface.physical.clone());
         let colours = match physical {
@@ -518,6 +528,10 @@ impl Reader<'_> {
                 None => self.warn("textures", &format!("{place}: has a texture and no TEXCOORD_{set}; all of it has the colour of one texel")),
             }
         }
+        if let Some((number, uv_set, _)) = &mut material {
+            let used = (*number, uv_set.is_some());
+            *number = self.with_opacities(used, primitive, &vertices, &mut uvs);
+        }
         let numbers = |is_empty: bool| {
             if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
         };
@@ -540,15 +554,48 @@ impl Reader<'_> {
         self.contents.add(part)
     }
 
-    fn count_attributes(&mut self, primitive: &Primitive, vertices: &Vertices<'_>) {
+    /// The surface, by its number, of a primitive whose vertices have opacities, where those of its material have an effect. A
+    /// surface without a picture reads them from a map in which each lies at a coordinate of its own, so that what is
+    /// interpolated is the opacity. Others are multiplied by an opacity that is the same at all vertices.
+    fn with_opacities(
+        &mut self,
+        (number, has_picture): (usize, bool),
+        primitive: &Primitive,
+        vertices: &Vertices<'_>,
+        uvs: &mut Vec<DVec2>,
+    ) -> usize {
         let material = primitive.material.and_then(|at| self.data.root.materials.get(at));
-        let is_opaque =
-            material.is_none_or(|material| !["MASK", "BLEND"].contains(&&*material.alpha_mode));
-        // The opacity of a colour has an effect where that of the material has one.
-        if !is_opaque && let Some(Ok(colours)) = vertices.read::<4>("COLOR_0") {
-            let transparent = colours.iter().filter(|[.., alpha]| *alpha < 1.0).count();
-            self.count("transparent position", transparent as u64);
+        let Some(mode) = material.and_then(materials::alpha_mode) else { return number };
+        let Some(Ok(colours)) = vertices.read::<4>("COLOR_0") else { return number };
+        let opacities = || colours.iter().map(|[.., alpha]| alpha.clamp(0.0, 1.0));
+        let Some(first) = opacities().next().filter(|_| opacities().any(|alpha| alpha < 1.0))
+        else {
+            return number;
+        };
+        let surface = &self.contents.materials[number];
+        let opacity = surface.opacity.clone();
+        let mut opacity = opacity.unwrap_or(Opacity { factor: 1.0, map: None, mode });
+        let is_one = opacities().all(|alpha| alpha == first);
+        if is_one {
+            opacity.factor *= first;
+        } else if has_picture {
+            let transparent = opacities().filter(|alpha| *alpha < 1.0).count();
+            self.count("transparent position of textured primitive", transparent as u64);
+            return number;
+        } else {
+            *uvs = opacities().map(materials::uv_of_opacity).collect();
+            opacity.map = Some(self.opacities.get_or_insert_with(materials::opacities).clone());
         }
+        let key = (number, if is_one { first.to_bits() } else { u64::MAX });
+        let Contents { materials, .. } = &mut self.contents;
+        *self.see_through.entry(key).or_insert_with(|| {
+            let surface = Surface { opacity: Some(opacity), ..materials[number].clone() };
+            materials.push(surface);
+            materials.len() - 1
+        })
+    }
+
+    fn count_attributes(&mut self, primitive: &Primitive) {
         let mut not_defined = 0;
         for name in primitive.attributes.keys() {
             let set = name.split_once('_');

@@ -214,7 +214,7 @@ impl Assembler {
     }
 
     /// Emits the pieces of one triangle that are in the window and not culled. `varyings` gives
-    /// the varyings of its three corners, where it is told that a piece has those of the back; it is called only if the
+    /// the varyings of its three corners, with `true` those of the back; it is called only if the
     /// triangle is cut, or is in the window and not culled.
     pub fn assemble<V: Varying>(
         &self,
