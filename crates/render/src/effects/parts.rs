@@ -566,7 +566,7 @@ mod tests {
             watched: false,
         };
         let mut counts = [0; 2];
-        for index in 0..60 {
+        for index in 0..90 {
             let scene = random::with_effects(6, index);
             let (plan, mut assembled) =
                 planner::plan(&scene, &canvas, &Effects::PLANNED, &|_| None).unwrap();

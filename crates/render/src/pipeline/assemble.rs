@@ -331,7 +331,7 @@ mod tests {
     fn a_piece_has_the_varyings_of_the_side_that_is_seen() {
         let bounds = PixelRect::window(8, 8);
         let inside = [(0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 1.0), (0.0, 0.5, 0.0, 1.0)];
-        let crossing = [inside[0], inside[1], (0.0, 0.0, -3.0, 1.0)];
+        let crossing = [inside[0], inside[1], (0.0, 0.5, -3.0, 1.0)];
         for triangle in [inside, crossing] {
             for turned in [false, true] {
                 let [a, b, c] = triangle;
