@@ -782,7 +782,7 @@ fn fuzz_of_models() {
     if let Ok(numbers) = std::env::var(WORKER) {
         return work(range(&numbers));
     }
-    let numbers = range(&std::env::var("RASTERPROOF_FUZZ").unwrap_or_else(|_| "0,200".to_owned()));
+    let numbers = range(&std::env::var("RASTERPROOF_FUZZ").unwrap_or_else(|_| "0,120".to_owned()));
     let name = format!("hostile-models-{}", numbers.start);
     fuzz(numbers, &name);
 }
