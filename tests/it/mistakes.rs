@@ -285,6 +285,31 @@ const FILLS: &[(&str, Fill)] = &[
             }
         }
     }),
+    ("whole pixels between crossings", |c, w, out| {
+        // The last row is drawn, and a crossing loses its fraction by a cast.
+        let corners = c.map(|p| [p.x >> 8, p.y >> 8].map(f64::from));
+        let ys = corners.map(|p| p[1]);
+        let [top, bottom] = [
+            ys.iter().copied().fold(f64::MAX, f64::min),
+            ys.iter().copied().fold(f64::MIN, f64::max),
+        ];
+        for y in w.y0.max(top as i32)..w.y1.min(bottom as i32 + 1) {
+            let at = f64::from(y);
+            let mut crossings = Vec::new();
+            for (from, to) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j])) {
+                let crosses = (from[1] <= at) != (to[1] <= at);
+                let ends = at == bottom && from[1] != to[1] && at == from[1].max(to[1]);
+                if crosses || ends {
+                    let over = (at - from[1]) * (to[0] - from[0]) + from[0] * (to[1] - from[1]);
+                    crossings.push((over / (to[1] - from[1])) as i32);
+                }
+            }
+            crossings.sort_unstable();
+            for pair in crossings.chunks_exact(2) {
+                (pair[0].max(w.x0)..(pair[1] + 1).min(w.x1)).for_each(|x| light(out, x, y));
+            }
+        }
+    }),
     ("whole pixels by integer divisions", |c, w, out| {
         // The loop of libraries for small displays, with rounded corners.
         let mut p = c.map_array(|p| [(p.x + 128) >> 8, (p.y + 128) >> 8].map(i64::from));

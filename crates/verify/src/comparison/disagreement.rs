@@ -144,7 +144,8 @@ fn grids(drawn: &Coverage, failure: &Failure) -> String {
     let expected = &failure.expected;
     let drawn: Vec<&Coverage> = [drawn].into_iter().chain(&failure.other).collect();
     let titles: &[&str] = if drawn.len() == 2 { &["first", "second"] } else { &["drawn"] };
-    let width = expected.bounds().width().max(6) as usize;
+    let title = titles.iter().map(|title| title.len()).max().unwrap_or(0);
+    let width = (expected.bounds().width() as usize).max(title);
     let mut text = String::from("\n");
     let mut line = |cells: &mut dyn Iterator<Item = String>, last: &str| {
         let cells: String = cells.map(|cell| format!("  {cell:<width$} ")).collect();

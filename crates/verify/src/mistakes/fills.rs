@@ -625,3 +625,95 @@ pub(super) fn whole_pixels(corners: &Corners, window: PixelRect, p: i64) -> Mask
     }
     mask
 }
+
+/// How a polygon's crossing with a row becomes a pixel, of whole corners.
+pub(super) const CROSSINGS: [&str; 8] = [
+    "cut down",
+    "divided toward zero from the upper end",
+    "rounded to the nearest",
+    "cut toward zero, so that column 0 gets too much left of the window",
+    "rounded by adding a half and cutting toward zero",
+    "computed as a product that is divided by the height first, in 1/65536 px",
+    "computed in 1/32 px, cut toward zero from the end of a side that is named last",
+    "rounded to the nearest from float numbers of 32 bits",
+];
+
+/// What is drawn of the last row.
+pub(super) const LAST_ROWS: [&str; 4] = [
+    "the last row left out",
+    "the last row drawn",
+    "the last row and level sides drawn",
+    "level sides and the lower ends of the others drawn",
+];
+
+/// The fill of a polygon of many libraries: corners cut to whole pixels, each row from the pixel of a crossing to that of the
+/// next, both included; p is one of `CROSSINGS` and eight times one of `LAST_ROWS`.
+pub(super) fn crossings(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    let [kind, last] = [p % 8, p / 8];
+    let whole = points(corners).map_array(|c| c.map_array(|v| v.div_euclid(256)));
+    let heights = whole.map_array(|c| c[1]);
+    let (low, high) =
+        (heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2]));
+    let mut mask = Mask::default();
+    let mut fill = |y: i64, left: i64, right: i64| {
+        let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;
+        for x in clamp(left)..clamp(right + 1) {
+            mask.set(x, y as i32);
+        }
+    };
+    for y in low.max(0)..=high.min(i64::from(window.y1) - 1) {
+        let mut found = Vec::with_capacity(4);
+        for i in 0..3 {
+            let (named, next) = (whole[i], whole[(i + 1) % 3]);
+            let (from, to) = if named[1] <= next[1] { (named, next) } else { (next, named) };
+            if from[1] == to[1] {
+                if last >= 2 && y == from[1] {
+                    fill(y, from[0].min(to[0]), from[0].max(to[0]));
+                }
+                continue;
+            }
+            let is_last = matches!(last, 1 | 2) && y == high && from[1] < y && y <= to[1];
+            if (from[1] <= y && y < to[1]) || is_last {
+                found.push(crossing(kind, from, to, next, y));
+            } else if last == 3 && y == to[1] {
+                fill(y, to[0], to[0]);
+            }
+        }
+        found.sort_unstable();
+        for pair in found.chunks_exact(2) {
+            let (left, right) = (pair[0], pair[1]);
+            match kind {
+                5 => {
+                    let nearest = |v: i64| (v >> 16) + ((v & 32768) >> 15);
+                    let (left, right) = (nearest(left + 1), nearest(right - 1));
+                    fill(y, left.min(right), left.max(right));
+                }
+                _ => fill(y, left, right),
+            }
+        }
+    }
+    mask
+}
+
+/// The pixel of a crossing; of kind 5 it is in 1/65536 px.
+fn crossing(kind: i64, from: Point, to: Point, named: Point, y: i64) -> i64 {
+    let [dx, dy, ahead] = [to[0] - from[0], to[1] - from[1], y - from[1]];
+    let over = ahead * dx;
+    match kind {
+        0 => from[0] + over.div_euclid(dy),
+        1 => from[0] + over / dy,
+        2 => from[0] + (2 * over + dy).div_euclid(2 * dy),
+        3 => (from[0] * dy + over) / dy,
+        4 => (2 * (from[0] * dy + over) + dy) / (2 * dy),
+        5 => (65536 * ahead / dy) * dx + 65536 * from[0],
+        6 => {
+            let other = if named == from { to } else { from };
+            let [dx, dy] = [other[0] - named[0], other[1] - named[1]];
+            (32 * named[0] + 32 * dx * (y - named[1]) / dy + 16) / 32
+        }
+        _ => {
+            let slope = dx as f32 / dy as f32;
+            (from[0] as f32 + slope * ahead as f32).round() as i64
+        }
+    }
+}

@@ -509,6 +509,24 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         draws: Fill::Own(fills::whole_pixels),
     },
     Mistake {
+        name: "whole pixels between crossings",
+        sentence: |p| {
+            format!(
+                "cuts corners to whole pixels and fills each row from the pixel of a crossing to that of the next, {}, {}: the polygon of many libraries",
+                fills::CROSSINGS[(p % 8) as usize],
+                fills::LAST_ROWS[(p / 8) as usize]
+            )
+        },
+        repair: "keep the fraction of the corners, and draw the samples between the crossings: what lies on the right edge belongs to the neighbour",
+        page: "ch02-scanline",
+        refuted: "a corner whose fraction moves an edge",
+        parameters: Parameters::Fixed(&[
+            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
+            24, 25, 26, 27, 28, 29, 30, 31,
+        ]),
+        draws: Fill::Own(fills::crossings),
+    },
+    Mistake {
         name: "the whole box is filled",
         sentence: |p| {
             [
