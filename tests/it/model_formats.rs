@@ -612,6 +612,24 @@ fn surfaces_of_a_gltf_are_in_linear_light() {
     assert!(warning(&model).contains(missing), "{:?}", model.warnings);
     let surface = item.material.physical.as_ref().unwrap();
     assert!(surface.map(Map::Normal).is_none() && surface.emission == DVec3::ZERO);
+    // What is reflected without metal, by two extensions; a map of it is not read.
+    let reflected = |ior: Value, specular: Value| {
+        let (model, item) = read("reflected.glb", Shading::Phong, &|d| {
+            d["materials"][0]["extensions"]["KHR_materials_ior"] = ior.clone();
+            d["materials"][0]["extensions"]["KHR_materials_specular"] = specular.clone();
+            d["extensionsUsed"] = json!(["KHR_materials_ior", "KHR_materials_specular"]);
+        });
+        let surface = item.material.physical.as_ref().unwrap();
+        (surface.straight.to_array(), surface.grazing, model.not_drawn)
+    };
+    assert_eq!(reflected(json!({}), json!({})), ([0.04; 3], 1.0, String::new()));
+    assert_eq!(reflected(json!({ "ior": 3 }), json!({})), ([0.25; 3], 1.0, String::new()));
+    let coloured = json!({
+        "specularFactor": 0.5, "specularColorFactor": [2, 1, 8], "specularTexture": { "index": 0 },
+    });
+    let (straight, grazing, not_drawn) = reflected(json!({ "ior": 3 }), coloured);
+    assert_eq!((straight, grazing), ([0.25, 0.125, 0.5], 0.5));
+    assert_eq!(not_drawn, "map of what is reflected of 1 material");
     // With light of the corners, the colours are those of a picture.
     let (model, item) = read("surface.glb", Shading::Gouraud, &|_| ());
     assert_eq!(model.not_drawn, "metal and roughness, with Gouraud shading, of 1 material");

@@ -124,6 +124,10 @@ pub(super) struct Extensions {
     pub common: Option<IgnoredAny>,
     #[serde(rename = "KHR_materials_emissive_strength")]
     pub emissive: Option<EmissiveStrength>,
+    #[serde(rename = "KHR_materials_ior")]
+    pub refraction: Option<Refraction>,
+    #[serde(rename = "KHR_materials_specular")]
+    pub specular: Option<Specular>,
 }
 
 /// The accessors of where the copies of a mesh are.
@@ -285,6 +289,38 @@ pub(super) struct EmissiveStrength {
 impl Default for EmissiveStrength {
     fn default() -> Self {
         Self { emissive_strength: 1.0 }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(default)]
+pub(super) struct Refraction {
+    pub ior: f32,
+}
+
+impl Default for Refraction {
+    fn default() -> Self {
+        Self { ior: 1.5 }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Specular {
+    pub specular_factor: f32,
+    pub specular_color_factor: [f32; 3],
+    pub specular_texture: Option<IgnoredAny>,
+    pub specular_color_texture: Option<IgnoredAny>,
+}
+
+impl Default for Specular {
+    fn default() -> Self {
+        Self {
+            specular_factor: 1.0,
+            specular_color_factor: [1.0; 3],
+            specular_texture: None,
+            specular_color_texture: None,
+        }
     }
 }
 

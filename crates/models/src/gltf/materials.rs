@@ -254,6 +254,27 @@ fn set(info: &Info) -> u32 {
     transform(info).and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord)
 }
 
+/// What is reflected where there is no metal, from straight ahead and at grazing angles, as two extensions state it.
+fn reflected(material: &Material, count: &mut impl FnMut(&str)) -> (DVec3, f64) {
+    let extensions = &material.extensions;
+    let ior = extensions.refraction.as_ref().map(|of| f64::from(of.ior));
+    let straight = match ior {
+        // The one of the format.
+        None | Some(1.5) => 0.04,
+        // By the extension it stands for an infinite one.
+        Some(0.0) => 1.0,
+        Some(ior) => ((ior.max(1.0) - 1.0) / (ior.max(1.0) + 1.0)).powi(2),
+    };
+    let Some(of) = &extensions.specular else { return (DVec3::splat(straight), 1.0) };
+    if of.specular_texture.is_some() || of.specular_color_texture.is_some() {
+        count("map of what is reflected of material");
+    }
+    let colour =
+        DVec3::from_array(of.specular_color_factor.map(|channel| f64::from(channel).max(0.0)));
+    let part = f64::from(of.specular_factor).clamp(0.0, 1.0);
+    ((straight * colour).min(DVec3::ONE) * part, part)
+}
+
 /// All of a physical surface but its base colour.
 fn physical(
     data: &Data<'_>,
@@ -267,7 +288,10 @@ fn physical(
     let [r, g, b] = material.emissive_factor.map(|channel| f64::from(channel).max(0.0));
     let share = |number: f32| f64::from(number).clamp(0.0, 1.0);
     let info = |map: Map| maps(material)[map as usize].1;
+    let (straight, grazing) = reflected(material, count);
     let mut surface = Physical {
+        straight,
+        grazing,
         metal: share(pbr.metallic_factor),
         roughness: share(pbr.roughness_factor),
         emission: DVec3::new(r, g, b) * f64::from(strength).max(0.0),

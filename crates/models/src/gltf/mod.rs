@@ -48,7 +48,7 @@ const PART_BYTES: u64 = 256;
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 16] = [
+const READ: [&str; 18] = [
     draco::EXTENSION,
     meshopt::EXTENSION,
     INSTANCES,
@@ -56,6 +56,8 @@ const READ: [&str; 16] = [
     "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
     "KHR_texture_transform",
     "EXT_texture_webp",
     "KHR_mesh_quantization",

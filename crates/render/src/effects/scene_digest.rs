@@ -141,9 +141,11 @@ impl Words {
             self.numbers(&[specular.shininess]);
         }
         if let Some(physical) = physical {
-            let Physical { metal, roughness, emission, occlusion, bumps, maps } = &**physical;
+            let Physical { metal, roughness, emission, occlusion, bumps, straight, grazing, maps } =
+                &**physical;
             self.point(*emission);
-            self.numbers(&[*metal, *roughness, *occlusion, *bumps]);
+            self.point(*straight);
+            self.numbers(&[*metal, *roughness, *occlusion, *bumps, *grazing]);
             for map in maps {
                 self.whole(map.as_ref().map_or(0, |map| 1 + u64::from(map.has_mip_map())));
             }

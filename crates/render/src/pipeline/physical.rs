@@ -3,7 +3,8 @@
 //! With n, l, v the directions of the normal, to the light and to the eye, h halfway between l and v, all of length 1, the base
 //! colour b, metal m and a the square of the roughness, appendix B of the specification states
 //!
-//! - F = f0 + (1 - f0) (1 - v.h)^5 with f0 = 0.04 (1 - m) + b m (Schlick),
+//! - F = f0 + (f90 - f0) (1 - v.h)^5 with f0 = r (1 - m) + b m and f90 = s (1 - m) + m (Schlick), where r is 0.04 and s is 1 unless
+//!   `KHR_materials_ior` and `KHR_materials_specular` say what is reflected of what is no metal,
 //! - D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2) (Trowbridge and Reitz, GGX),
 //! - V = 1 / (2 (n.l sqrt((n.v)^2 (1 - a^2) + a^2) + n.v sqrt((n.l)^2 (1 - a^2) + a^2))) (Smith, height-correlated),
 //! - what is reflected = ((1 - F) b (1 - m) / pi + F V D) n.l for each unit of light.
@@ -65,6 +66,10 @@ pub struct Physical {
     pub occlusion: f64,
     /// What x and y of a normal map are multiplied by.
     pub bumps: f64,
+    /// The share of light from straight ahead that is reflected where there is no metal: r of the formulas.
+    pub straight: DVec3,
+    /// The same of light that grazes the surface: s of the formulas.
+    pub grazing: f64,
     pub maps: [Option<Arc<Texture>>; Map::ALL.len()],
 }
 
@@ -72,8 +77,16 @@ impl Default for Physical {
     /// A matt surface without metal, maps and emission.
     fn default() -> Self {
         let maps = [const { None }; Map::ALL.len()];
-        let emission = DVec3::ZERO;
-        Self { metal: 0.0, roughness: 1.0, emission, occlusion: 1.0, bumps: 1.0, maps }
+        Self {
+            metal: 0.0,
+            roughness: 1.0,
+            emission: DVec3::ZERO,
+            occlusion: 1.0,
+            bumps: 1.0,
+            straight: DVec3::splat(0.04),
+            grazing: 1.0,
+            maps,
+        }
     }
 }
 
@@ -151,7 +164,7 @@ impl Physical {
                     let DVec3 { y: roughness, z: metal, .. } = texel(Map::Metal);
                     let of = [self.metal * metal, self.roughness * roughness];
                     let to_eye = point.to_eye.normalize_or_zero();
-                    reflected(point.base, of, cosine, [normal, light.towards, to_eye])
+                    self.reflected(point.base, of, cosine, [normal, light.towards, to_eye])
                 } else {
                     point.base
                 };
@@ -170,21 +183,32 @@ impl Physical {
         let DVec3 { x, y, z } = texel * 2.0 - 1.0;
         (along * (x * self.bumps) + across * (y * self.bumps) + normal * z).normalize_or(normal)
     }
-}
 
-/// What is reflected to the eye of a light of pi with the cosine `nl`, by which the caller multiplies.
-fn reflected(base: DVec3, [metal, roughness]: [f64; 2], nl: f64, [n, l, v]: [DVec3; 3]) -> DVec3 {
-    let a = roughness.max(LEAST_ROUGHNESS).powi(2);
-    let h = (l + v).normalize_or_zero();
-    let [nv, nh, vh] = [n.dot(v), n.dot(h), v.dot(h)].map_array(|cosine: f64| cosine.max(0.0));
-    let f0 = DVec3::splat(0.04 * (1.0 - metal)) + base * metal;
-    let fresnel = f0 + (1.0 - f0) * (1.0 - vh).max(0.0).powi(5);
-    let matt = (1.0 - fresnel) * base * (1.0 - metal);
-    let (square, rest) = (a * a, 1.0 - a * a);
-    let smith = nl * (nv * nv * rest + square).sqrt() + nv * (nl * nl * rest + square).sqrt();
-    let spread = n.cross(h).length_squared() + square * nh * nh;
-    // Both pi cancel.
-    matt + fresnel * (square / (spread * spread) * (0.5 / smith))
+    /// What is reflected to the eye of a light of pi with the cosine `nl`, by which the caller multiplies.
+    fn reflected(
+        &self,
+        base: DVec3,
+        [metal, roughness]: [f64; 2],
+        nl: f64,
+        [n, l, v]: [DVec3; 3],
+    ) -> DVec3 {
+        let a = roughness.max(LEAST_ROUGHNESS).powi(2);
+        let h = (l + v).normalize_or_zero();
+        let [nv, nh, vh] = [n.dot(v), n.dot(h), v.dot(h)].map_array(|cosine: f64| cosine.max(0.0));
+        let f0 = self.straight * (1.0 - metal) + base * metal;
+        // Without rounding where it is 1.
+        let f90 = if self.grazing == 1.0 { 1.0 } else { self.grazing * (1.0 - metal) + metal };
+        let fresnel = f0 + (f90 - f0) * (1.0 - vh).max(0.0).powi(5);
+        let is_grey = self.straight == DVec3::splat(self.straight.x);
+        // What a coloured surface reflects must not leave its complement in the matt part.
+        let rest = if is_grey { 1.0 - fresnel } else { DVec3::splat(1.0 - fresnel.max_element()) };
+        let matt = rest * base * (1.0 - metal);
+        let (square, rest) = (a * a, 1.0 - a * a);
+        let smith = nl * (nv * nv * rest + square).sqrt() + nv * (nl * nl * rest + square).sqrt();
+        let spread = n.cross(h).length_squared() + square * nh * nh;
+        // Both pi cancel.
+        matt + fresnel * (square / (spread * spread) * (0.5 / smith))
+    }
 }
 
 #[cfg(test)]
@@ -219,20 +243,38 @@ mod tests {
         // All directions are the same: F = f0, D = 1 / (pi a^2), V = 1/4. With a = 1, pi F V D = f0 / 4.
         let matt = Physical::default();
         assert!(is_near(light(&matt, &point(0.5)), 0.5 * 0.25 + 0.5 * (0.96 * 0.5 + 0.04 / 4.0)));
+        // Of what reflects nothing, the matt part is whole.
+        let dull = Physical { straight: DVec3::ZERO, grazing: 0.0, ..Physical::default() };
+        assert!(is_near(light(&dull, &point(0.5)), 0.5 * 0.25 + 0.5 * 0.5));
         let metal = Physical { metal: 1.0, roughness: 0.5, ..Physical::default() };
         // a = 1/4, so D is sixteen times as large.
         assert!(is_near(light(&metal, &point(0.5)), 0.5 * 0.25 + 0.5 * (0.5 * 16.0 / 4.0)));
         // l and v at 60 degrees from n on either side: n.h = 1, v.h = 1/2, (1 - v.h)^5 = 1/32.
         let side = |x: f64| DVec3::new(x * 0.75f64.sqrt(), 0.0, 0.5);
-        let far = reflected(DVec3::splat(0.5), [0.0, 1.0], 0.5, [DVec3::Z, side(1.0), side(-1.0)]);
+        let far = Physical::default().reflected(
+            DVec3::splat(0.5),
+            [0.0, 1.0],
+            0.5,
+            [DVec3::Z, side(1.0), side(-1.0)],
+        );
         let fresnel = 0.04 + 0.96 / 32.0;
         assert!(is_near(far.x, (1.0 - fresnel) * 0.5 + fresnel * (0.5 / (0.5 + 0.5))), "{far}");
         // With a = 1/4: V = 1 / (2 (2 x 1/2 sqrt(1/4 (1 - 1/16) + 1/16))), D = 16 / pi.
-        let far = reflected(DVec3::ONE, [1.0, 0.5], 0.5, [DVec3::Z, side(1.0), side(-1.0)]);
+        let far = Physical::default().reflected(
+            DVec3::ONE,
+            [1.0, 0.5],
+            0.5,
+            [DVec3::Z, side(1.0), side(-1.0)],
+        );
         let smith = (0.25f64 * (1.0 - 1.0 / 16.0) + 1.0 / 16.0).sqrt();
         assert!(is_near(far.x, 16.0 * 0.5 / smith), "{far}");
         // h beside n: l in the direction of n, v at a right angle to it, so n.h = sqrt(1/2) and n.v = 0.
-        let aside = reflected(DVec3::ONE, [1.0, 0.5], 1.0, [DVec3::Z, DVec3::Z, DVec3::X]);
+        let aside = Physical::default().reflected(
+            DVec3::ONE,
+            [1.0, 0.5],
+            1.0,
+            [DVec3::Z, DVec3::Z, DVec3::X],
+        );
         let spread = 0.5f64 * (1.0 / 16.0 - 1.0) + 1.0;
         assert!(is_near(aside.x, 1.0 / 16.0 / (spread * spread) * (0.5 / 0.25)), "{aside}");
     }

@@ -141,6 +141,10 @@ fn make_physical(item: &mut Item, rng: &mut Rng) {
         bumps: 1.5 * rng.unit(),
         ..Physical::default()
     };
+    if rng.chance(3) {
+        surface.straight = DVec3::new(rng.unit(), rng.unit(), 0.04) * rng.unit();
+        surface.grazing = rng.unit();
+    }
     for kind in Map::ALL {
         if rng.chance(2) {
             let plain = if kind == Map::Emission { DVec3::ZERO } else { kind.missing() };
