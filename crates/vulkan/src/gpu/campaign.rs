@@ -100,9 +100,8 @@ pub fn judge_with(
     let open = declared.convention().rule(Tie::Unspecified);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
-    let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(shared)];
-    let mut found = run(&mut askers, &options, &truth, progress);
-    let first = &mut *askers[0];
+    let mut found = run(&mut [&mut shared], &options, &truth, progress);
+    let first = &mut shared;
     let is_news = |f: &Failing| !is_known(known, f, &options, &declared);
     let (news, old): (Vec<_>, Vec<_>) = found.failing.drain(..).partition(is_news);
     found.failing = news;
@@ -114,7 +113,7 @@ pub fn judge_with(
     let said = recognised.map(|r| r.said);
     let mut verdict = Verdict::new(declared, &options, windings, said, found, failures, complaints);
     let mut findings = of_rows(&mut verdict, &old, &stale);
-    drop(askers);
+    drop(shared);
     if options.only.is_none() {
         let cases = (options.cases * STAGE_SHARE).clamp(16, MOST_OF_A_STAGE);
         findings.extend(requirements::all(&mut lock(&gpu), options.seed, cases, known));
