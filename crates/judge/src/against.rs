@@ -1,4 +1,4 @@
-//! Two programs that are asked alike: where their answers differ, and which of the two the oracle agrees with.
+//! Two programs that get the same requests: where their answers differ, and which of the two the oracle agrees with.
 //!
 //! Both are sent the same requests, within what both declare that they can answer. Each is judged by the rule that it declares
 //! itself, so that a difference of conventions is not called a fault of either.
@@ -16,10 +16,10 @@ use super::verdict::Verdict;
 use super::windings::Windings;
 use super::{Options, Step, reach};
 
-/// Two programs as one that is asked: each answer is [`Answer::Two`].
+/// Two programs behind one [`Ask`]: each answer is [`Answer::Two`].
 struct Pair<'a> {
     sides: [&'a mut dyn Ask; 2],
-    /// What is asked of both, with the conventions of the first.
+    /// What both can answer, with the conventions of the first.
     declared: Declared,
 }
 
@@ -93,7 +93,7 @@ fn said_by(name: &str, what: Misbehaviour) -> Misbehaviour {
 /// Compares two programs on the cases of all families that both can be asked. Copies are pairs of the same two.
 ///
 /// # Panics
-/// If nobody is there to be asked.
+/// If `pairs` is empty.
 #[must_use]
 pub fn compare(
     pairs: &mut [[Box<dyn Ask>; 2]],
@@ -121,12 +121,7 @@ pub fn compare(
         .collect();
     pairs.iter_mut().for_each(|pair| pair.end_at(end));
     let mut askers: Vec<&mut dyn Ask> = pairs.iter_mut().map(|pair| pair as &mut dyn Ask).collect();
-    let mut options = options.clone();
-    if let Some(limit) = options.time_limit {
-        options.time_limit = Some((limit - limit / 10).saturating_sub(start.elapsed()));
-        options.patience = options.patience.min(limit / 10);
-    }
-    let options = &options;
+    let options = &options.for_families(start);
     let mut found = run::run(&mut askers, options, &truth, &|cases| progress(Step::Judged(cases)));
     progress(Step::Smaller);
     let pair = &mut pairs[0];

@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::ask::{Answer, Asked, Question};
 use super::declared::{self, Declared};
 use super::depth::Pile;
-use super::expected::{Expect, exact_values};
+use super::expected::{Expect, exact_values, value_bounds};
 use super::finding::{Finding, hits, mix};
 use super::pixels::{compare, length, masks_of, mesh_of, picks, picture_of, pixel_of, sequence};
 use super::{difference, mesh, near_plane, outline};
@@ -146,7 +146,7 @@ impl Check {
         checks
     }
 
-    /// The checks of a case of one program: each case is asked the first question, some of them others.
+    /// The checks of a case of one program: one that every case has, and others that some have.
     #[must_use]
     pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
         let mut checks = Vec::new();
@@ -439,11 +439,7 @@ fn values(
     truth: &Truth,
 ) {
     let Some(exact) = exact_values(triangle, &truth.declared) else { return };
-    let largest = |values: [f64; 3]| values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let v = &triangle.vertices;
-    // Where all are zero the result must be; the smallest number keeps the quotient defined.
-    let scale = |values| (truth.declared.tolerance * largest(values)).max(f64::MIN_POSITIVE);
-    let bounds = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)].map(scale);
+    let bounds = value_bounds(triangle, truth.declared.tolerance);
     for f in picks(fragments) {
         if expected.get(f.x_px, f.y_px).is_none_or(|hits| hits == 0) {
             continue;

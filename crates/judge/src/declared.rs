@@ -29,7 +29,7 @@ pub struct Declared {
     pub depth: bool,
     /// Answers N.
     pub clip: bool,
-    /// Answers A.
+    /// Answers A: clips corners that carry an attribute.
     pub clip_attributes: bool,
     /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
     pub grid: i32,

@@ -4,12 +4,13 @@ use glam::DVec2;
 
 use super::ask::Answer;
 use super::declared::Declared;
+use super::expected::value_bounds;
 use super::finding::{Finding, mix};
 use super::near_plane;
-use super::pixels::{hits_of, picks, sequence};
-use rasterproof_core::frame::{Coverage, Frame};
+use super::pixels::{hits_of, painted, picks, sequence};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_core::triangle::Fragment;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 
@@ -61,7 +62,8 @@ pub(super) fn difference(
     match (first, second) {
         (Answer::Samples(first), Answer::Samples(second))
         | (Answer::Seen(first), Answer::Seen(second)) => {
-            let [first, second] = [first, second].map(|runs| marks(runs, window));
+            let [first, second] = [first, second]
+                .map(|runs| painted(runs, window, None, |here, mark| *here = Some(mark)));
             for ((y, a), (_, b)) in first.rows().zip(second.rows()) {
                 for (x, (a, b)) in a.iter().zip(b).enumerate() {
                     let are_covered = a.is_some() && b.is_some();
@@ -99,18 +101,6 @@ fn pixels(finding: &mut Finding, first: &Coverage, second: &Coverage, is_mask: b
     }
 }
 
-/// What each pixel of the window is marked with last.
-fn marks(runs: &[(Span, u8)], window: PixelRect) -> Frame<Option<u8>> {
-    let mut marks = Frame::new(window, None);
-    for (run, mark) in runs {
-        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
-        if (window.y0..window.y1).contains(&run.y_px) && x0 < x1 {
-            marks.span_mut(run.y_px, x0, x1).fill(Some(*mark));
-        }
-    }
-    marks
-}
-
 /// Two right values lie within twice the tolerance of each other.
 fn values(
     finding: &mut Finding,
@@ -119,10 +109,7 @@ fn values(
     triangle: &Triangle,
     declared: &Declared,
 ) {
-    let v = &triangle.vertices;
-    let largest = |values: [f64; 3]| values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let bound = |values| (2.0 * declared.tolerance * largest(values)).max(f64::MIN_POSITIVE);
-    let bounds = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)].map(bound);
+    let bounds = value_bounds(triangle, 2.0 * declared.tolerance);
     for f in picks(first) {
         let Some(g) = second.iter().find(|g| (g.x_px, g.y_px) == (f.x_px, f.y_px)) else {
             continue;
@@ -153,15 +140,6 @@ fn corners(
     let near = |a: &ClipCorner, b: &ClipCorner| {
         a.iter().zip(b).zip(bounds).all(|((a, b), bound)| (a - b).abs() <= bound)
     };
-    let lacking = |of: &[ClipCorner], here: &[ClipCorner]| {
-        of.iter().filter(|corner| !here.iter().any(|other| near(corner, other))).count() as u64
-    };
-    let (missing, extra) = (lacking(second, first), lacking(first, second));
-    finding.tally.missing += missing;
-    finding.tally.extra += extra;
-    let is_same_way =
-        || near_plane::is_round(first.len(), second.len(), |i, j| near(&first[i], &second[j]));
-    if missing + extra == 0 && !is_same_way() {
-        finding.tally.order += 1;
-    }
+    finding.tally +=
+        near_plane::between(second.len(), first.len(), |i, j| near(&second[i], &first[j]));
 }

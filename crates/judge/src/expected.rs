@@ -85,3 +85,12 @@ pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTri
     let inv_w = v.map(|v| 1.0 / (1.0 / v.inv_w));
     ExactTriangle::new(&corners, v.map(|v| v.depth), inv_w, v.map(|v| v.varying.to_array()))
 }
+
+/// How far depth and both attributes may be off: the tolerance times the largest magnitude at the corners. Where all are zero
+/// the result must be; the smallest number keeps a quotient defined.
+pub(super) fn value_bounds(triangle: &Triangle, tolerance: f64) -> [f64; 3] {
+    let v = &triangle.vertices;
+    let largest = |values: [f64; 3]| values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)]
+        .map(|values| (tolerance * largest(values)).max(f64::MIN_POSITIVE))
+}

@@ -84,6 +84,18 @@ impl Default for Options {
     }
 }
 
+impl Options {
+    /// Of a limited time that began then, what is left for the families: a tenth of all is for the questions after them.
+    fn for_families(&self, start: Instant) -> Self {
+        let mut options = self.clone();
+        if let Some(limit) = self.time_limit {
+            options.time_limit = Some((limit - limit / 10).saturating_sub(start.elapsed()));
+            options.patience = options.patience.min(limit / 10);
+        }
+        options
+    }
+}
+
 /// What the judge does, for those who wait.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
@@ -135,12 +147,7 @@ pub fn judge(
             (Some(Said { sentences: vec![late], ..Said::default() }), None);
     }
     let before = first.incidents;
-    let mut options = options.clone();
-    if let Some(limit) = options.time_limit {
-        options.time_limit = Some((limit - limit / 10).saturating_sub(start.elapsed()));
-        options.patience = options.patience.min(limit / 10);
-    }
-    let options = &options;
+    let options = &options.for_families(start);
     let mut all: Vec<&mut dyn Ask> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
     let mut found = run::run(&mut all, options, &truth, &|cases| progress(Step::Judged(cases)));
     found.incidents.splice(0..0, before);

@@ -13,6 +13,7 @@ use super::finding::Finding;
 use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
+use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::oracle::values::{Exact, at_crossing};
 
 type Corner = [Exact; 5];
@@ -83,17 +84,18 @@ pub(super) fn compare(
     if answer.is_empty() && exact.len() < 3 {
         return;
     }
-    let lacks = |at: &&Corner| !answer.iter().any(|corner| near(at, corner));
-    let missing = exact.iter().filter(lacks).count() as u64;
-    let strays = |corner: &&ClipCorner| !exact.iter().any(|at| near(at, corner));
-    let extra = answer.iter().filter(strays).count() as u64;
-    finding.tally.missing += missing;
-    finding.tally.extra += extra;
-    if missing + extra == 0
-        && !is_round(exact.len(), answer.len(), |i, j| near(&exact[i], &answer[j]))
-    {
-        finding.tally.order += 1;
-    }
+    finding.tally += between(exact.len(), answer.len(), |i, j| near(&exact[i], &answer[j]));
+}
+
+/// Corners that an answer lacks, corners that it has alone, and whether the same corners run another way; `near` says of a corner
+/// that is wanted and one of the answer whether they are the same.
+pub(super) fn between(wanted: usize, answer: usize, near: impl Fn(usize, usize) -> bool) -> Tally {
+    let lacks = |i: &usize| !(0..answer).any(|j| near(*i, j));
+    let strays = |j: &usize| !(0..wanted).any(|i| near(i, *j));
+    let missing = (0..wanted).filter(lacks).count() as u64;
+    let extra = (0..answer).filter(strays).count() as u64;
+    let is_other_way = missing + extra == 0 && !is_round(wanted, answer, near);
+    Tally { missing, extra, order: u64::from(is_other_way), ..Tally::default() }
 }
 
 /// Whether both are the same corners on one way round: from a pair that is near, each step goes to

@@ -99,14 +99,24 @@ pub(super) fn picks(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Frag
 
 /// The bits of all runs at each pixel of the window.
 pub(super) fn masks_of(runs: &[(Span, u8)], window: PixelRect) -> Frame<u8> {
-    let mut masks = Frame::new(window, 0u8);
-    for (run, mask) in runs {
+    painted(runs, window, 0, |here, mask| *here |= mask)
+}
+
+/// Each pixel of the window after all runs that cover it, of which `paint` takes the mark into account.
+pub(super) fn painted<T: Copy>(
+    runs: &[(Span, u8)],
+    window: PixelRect,
+    empty: T,
+    paint: impl Fn(&mut T, u8),
+) -> Frame<T> {
+    let mut painted = Frame::new(window, empty);
+    for (run, mark) in runs {
         let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
         if (window.y0..window.y1).contains(&run.y_px) && x0 < x1 {
-            masks.span_mut(run.y_px, x0, x1).iter_mut().for_each(|m| *m |= mask);
+            painted.span_mut(run.y_px, x0, x1).iter_mut().for_each(|here| paint(here, *mark));
         }
     }
-    masks
+    painted
 }
 
 /// Compares the pixels of a line, and where they are the same ones their order.

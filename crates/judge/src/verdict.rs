@@ -126,7 +126,7 @@ impl Verdict {
         self.properties = self.judge();
     }
 
-    /// Who is right, over all rows.
+    /// How often each of two programs is right, summed over all rows.
     #[must_use]
     pub fn sides(&self) -> Sides {
         let sides = self.found.rows.iter().filter_map(|row| row.sides);

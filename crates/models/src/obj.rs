@@ -457,7 +457,7 @@ fn read_line(
     let mut with_comma = words.clone().filter(|word| memchr::memchr(b',', word).is_some());
     match kind {
         b"v" => match position(words, read) {
-            Ok(None) => return Ok(with_comma.next().map(comma)),
+            Ok(None) => return Ok(with_comma.next().map(text::comma)),
             Ok(Some(word)) => {
                 let (what, why) = ("the faces that use it are left out", not_finite(&word));
                 return Ok(Some(format!("{why}; {what}")));
@@ -475,7 +475,7 @@ fn read_line(
             if let (false, Some(word)) = (uv.is_finite(), values.not_finite) {
                 return Ok(Some(format!("{}; it is taken as 0 0", not_finite(&word))));
             }
-            return Ok(with_comma.next().map(comma));
+            return Ok(with_comma.next().map(text::comma));
         }
         b"vn" => {
             let values = numbers::<3>(words, 3)
@@ -485,7 +485,7 @@ fn read_line(
                 let what = "the normal of the face takes its place";
                 return Ok(Some(format!("{}; {what}", not_finite(&word))));
             }
-            return Ok(with_comma.next().map(comma));
+            return Ok(with_comma.next().map(text::comma));
         }
         b"f" | b"fo" => return face(words, number, read, state),
         b"o" => {
@@ -583,11 +583,6 @@ struct Values<const N: usize> {
 
 fn not_finite(word: &str) -> String {
     format!("'{word}' is not a finite number")
-}
-
-/// What is said of a number with a comma, which [`text::number`] reads.
-fn comma(word: &[u8]) -> String {
-    format!("the comma of '{}' is taken as a decimal point", short(word))
 }
 
 /// At least `least` numbers.

@@ -298,9 +298,7 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
                 if let (None, Some(word)) =
                     (&wrong, numbers.iter().find(|word| word.contains(&b',')))
                 {
-                    let text =
-                        format!("the comma of '{}' is taken as a decimal point", shown(word));
-                    warnings.add(path, Some(number), "lines", &text);
+                    warnings.add(path, Some(number), "lines", &crate::text::comma(word));
                 }
             } else if is("facet") && points.is_empty() {
                 open = Some(number);
@@ -373,7 +371,7 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
     Ok(contents)
 }
 
-/// Words that begin a statement.
+/// A text STL has these words beside numbers and the names of solids.
 const STATEMENTS: [&str; 8] =
     ["vertex", "facet", "endfacet", "endloop", "outer", "solid", "endsolid", "end"];
 

@@ -4,6 +4,7 @@ use memchr::memchr2;
 use rasterproof_host::error::FileError;
 use rasterproof_host::input::Pieces;
 use rasterproof_host::limits;
+use rasterproof_host::text::printable_short;
 
 use crate::PIECE_BYTES;
 
@@ -18,6 +19,12 @@ pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
 /// The beginning of a name, which all of its uses share where it is too long.
 pub(crate) fn name(name: &str) -> &str {
     &name[..name.floor_char_boundary(limits::NAME_BYTES)]
+}
+
+/// What is said of a number with a comma, which [`number`] reads.
+pub(crate) fn comma(word: &[u8]) -> String {
+    let word = printable_short(&String::from_utf8_lossy(word), 40);
+    format!("the comma of '{word}' is taken as a decimal point")
 }
 
 /// A number. What C libraries write where there is none, as `-nan(ind)` or `1.#QNAN`, is one that is not finite. Fortran writes

@@ -222,7 +222,7 @@ fn is_physical(material: &Material) -> bool {
     extensions.glossiness.is_none() && extensions.common.is_none() && extensions.unlit.is_none()
 }
 
-/// The maps of a physical surface.
+/// Each map of a surface in linear light, with the texture that the material names for it.
 fn maps(material: &Material) -> [(Map, Option<&Info>); Map::ALL.len()] {
     Map::ALL.map(|map| {
         let info = match map {

@@ -135,7 +135,7 @@ struct Coat<'a> {
     parts: Parts,
     /// The maps that are read in each fragment.
     maps: [Option<(&'a Texture, Option<Reading>)>; Map::ALL.len()],
-    /// What is read of the others.
+    /// The texels of maps that have one colour where the piece reads them.
     texels: [DVec3; Map::ALL.len()],
     eye: DVec4,
     /// Place and tangent, where they do not vary.

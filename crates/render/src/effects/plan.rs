@@ -99,7 +99,7 @@ pub enum Attribute {
     /// Texture coordinates.
     Uv,
     Place,
-    /// Where it is in the world.
+    /// The place in the world, from which the eye is seen.
     World,
     Tangent,
 }

@@ -213,10 +213,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "snap both coordinates to the same grid, once, for every triangle",
         page: "ch01",
         refuted: "a corner with such a fraction whose edges pass where they should",
-        parameters: Parameters::Fixed(&[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
-            24, 25, 26, 27, 28, 29, 30, 31,
-        ]),
+        parameters: Parameters::Fixed(&UP_TO_31),
         draws: Fill::Instead(|corners, _, p| {
             let (step, rounding) = (STEPS[(p / 2 % 4) as usize], p / 8);
             let cut = |v: i32| match rounding {
@@ -474,7 +471,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "compute each crossing from the corner, or keep the remainder of the division as Bresenham's algorithm does",
         page: "ch02-scanline",
         refuted: "a long edge whose last rows are where they should be",
-        parameters: Parameters::Fixed(&STEPPED),
+        parameters: Parameters::Fixed(&UP_TO_31),
         draws: Fill::Own(|corners, window, p| {
             let (slope, late, row) = stepped(p);
             fills::stepped(corners, window, slope, late, row)
@@ -502,10 +499,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "neighbours draw the pixels of a shared edge twice: keep the fraction of the corners and follow a fill rule",
         page: "ch02-scanline",
         refuted: "a corner whose fraction moves an edge",
-        parameters: Parameters::Fixed(&[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
-            24, 25, 26, 27, 28, 29, 30, 31,
-        ]),
+        parameters: Parameters::Fixed(&UP_TO_31),
         draws: Fill::Own(fills::whole_pixels),
     },
     Mistake {
@@ -520,10 +514,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "keep the fraction of the corners, and draw the samples between the crossings: what lies on the right edge belongs to the neighbour",
         page: "ch02-scanline",
         refuted: "a corner whose fraction moves an edge",
-        parameters: Parameters::Fixed(&[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
-            24, 25, 26, 27, 28, 29, 30, 31,
-        ]),
+        parameters: Parameters::Fixed(&UP_TO_31),
         draws: Fill::Own(fills::crossings),
     },
     Mistake {
@@ -677,7 +668,8 @@ const FLOATS: [i64; 28] = {
     all
 };
 
-const STEPPED: [i64; 32] = [
+/// All combinations of five bits.
+const UP_TO_31: [i64; 32] = [
     0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25,
     26, 27, 28, 29, 30, 31,
 ];
