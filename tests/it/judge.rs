@@ -713,7 +713,7 @@ fn judge_takes_a_declared_shape() {
 /// Of a program that fills and draws lines, the fill is what its own outline encloses, whatever the rule on edges is.
 #[test]
 fn judge_compares_fill_and_outline() {
-    let fill_by = |convention: Convention| {
+    let fill_with = |convention: Convention, wider: i32| {
         let mut oracle = inside("oracle");
         let declared = Declared::parse("HELLO 2 both coverage line").unwrap();
         let answer = move |questions: &[Question], most| {
@@ -721,7 +721,12 @@ fn judge_compares_fill_and_outline() {
             for (question, answer) in questions.iter().zip(&mut answers) {
                 if let Asked::Coverage(corners) = &question.of {
                     let window = PixelRect::window(question.width, question.height);
-                    *answer = Answer::Coverage(convention.expected(corners, window).must);
+                    let mut runs = convention.expected(corners, window).must;
+                    for run in &mut runs {
+                        run.x0_px = (run.x0_px - wider).clamp(0, window.x1);
+                        run.x1_px = (run.x1_px + wider).clamp(run.x0_px, window.x1);
+                    }
+                    *answer = Answer::Coverage(runs);
                 }
             }
             answers
@@ -730,13 +735,19 @@ fn judge_compares_fill_and_outline() {
             judged(Box::new(Answering(declared, answer)), &options(200, &["half-integer"]));
         let row = verdict.found.rows.iter().find(|row| row.name == "fill-and-outline").unwrap();
         assert_eq!(row.cases, 50);
-        row.wrong_cases
+        (row.wrong_cases, row.tally.missing, row.tally.extra)
     };
+    let fill_by = |convention: Convention| fill_with(convention, 0).0;
     for rule in [Rule::TopLeft, Rule::BottomRight, Rule::Strict] {
         assert_eq!(fill_by(Convention::default().rule(rule)), 0, "{rule:?}");
     }
     assert!(fill_by(Convention::default().sample(128, 384)) > 30);
     assert!(fill_by(Convention::default().winding(Winding::Clockwise)) == 0);
+    // What is filled outside counts, and what is left out inside, each without the other.
+    let (_, missing, extra) = fill_with(Convention::default(), 1);
+    assert!(missing == 0 && extra > 100, "{missing} {extra}");
+    let (_, missing, extra) = fill_with(Convention::default(), -1);
+    assert!(missing > 100 && extra == 0, "{missing} {extra}");
 }
 
 /// The near plane of Direct3D and Vulkan is declared.
