@@ -133,12 +133,12 @@ pub fn wrapped(text: &str, indent: &str) -> String {
     hanging(words, first, indent) + "\n"
 }
 
-/// The words in lines of at most 100 columns: the first begins with `first`, the others with `rest`.
+/// The words in lines of at most 80 columns: the first begins with `first`, the others with `rest`.
 pub fn hanging(words: &str, first: &str, rest: &str) -> String {
     let mut lines = vec![first.to_owned()];
     for (i, word) in words.split(' ').enumerate() {
         let line = lines.last_mut().expect("there is a first line");
-        if i > 0 && line.chars().count() + 1 + word.chars().count() > 100 {
+        if i > 0 && line.chars().count() + 1 + word.chars().count() > 80 {
             lines.push(format!("{rest}{word}"));
         } else {
             *line += if i == 0 { "" } else { " " };

@@ -48,7 +48,7 @@ impl Default for Known {
         Self {
             grid: 256,
             range_px: 1 << 22,
-            window_px: (SIDE_PX as u32, SIDE_PX as u32),
+            window_px: (4096, 4096),
             mask: false,
             declared: Convention::default(),
         }
