@@ -21,6 +21,11 @@ pub trait Ask {
     /// One answer for each question, in order: the hits of each pixel of its window, or None where
     /// the program refused or died.
     fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>>;
+
+    /// Whether nobody waits for a conclusion: the answers come later, and all is asked again.
+    fn is_abandoned(&self) -> bool {
+        false
+    }
 }
 
 impl<F: FnMut(&[Question]) -> Vec<Option<Coverage>>> Ask for F {
