@@ -182,23 +182,29 @@ pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
         let [least, most] = [of.into_iter().min(), of.into_iter().max()];
         i64::from(most.unwrap_or(0)) - i64::from(least.unwrap_or(0))
     };
+    let farthest =
+        |of: [i32; 3]| of.map_array(|v| i64::from(v).abs()).into_iter().max().unwrap_or(0);
     let [xs, ys] = [corners.map_array(|c| c.x), corners.map_array(|c| c.y)];
     match which {
-        0 => i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 16),
+        0 => i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32),
         1 => extent(xs),
         2 => extent(ys),
         3 => extent(xs).max(extent(ys)),
-        _ => xs.into_iter().chain(ys).map(|v| i64::from(v).abs()).max().unwrap_or(0),
+        4 => farthest(xs).max(farthest(ys)),
+        5 => farthest(xs),
+        _ => farthest(ys),
     }
 }
 
 /// What [`metric`] measures, and in which unit that is said.
-pub(super) const METRICS: [(&str, &str); 5] = [
+pub(super) const METRICS: [(&str, &str); 7] = [
     ("area", "square px"),
     ("width", "px"),
     ("height", "px"),
     ("longer side", "px"),
     ("farthest coordinate", "px"),
+    ("farthest x", "px"),
+    ("farthest y", "px"),
 ];
 
 /// `value / of` with three digits that count.

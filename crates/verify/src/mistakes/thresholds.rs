@@ -138,8 +138,7 @@ fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<Found> {
         if wrong_from - right_to <= 1 {
             break;
         }
-        let middle = ((right_to as f64) * (wrong_from as f64)).sqrt() as i64;
-        let middle = middle.clamp(right_to + 1, wrong_from - 1);
+        let middle = geometric_mean(right_to, wrong_from).clamp(right_to + 1, wrong_from - 1);
         match least(&probe(right_to + 1, middle)?) {
             Some(measure) => wrong_from = measure,
             None => right_to = middle,
@@ -166,13 +165,21 @@ fn count(seen: &[Seen]) -> Count {
     Count { drawn: wrong as u64, of: seen.len() as u64 }
 }
 
+fn geometric_mean(low: i64, high: i64) -> i64 {
+    ((low as f64 * high as f64).sqrt() as i64).clamp(low, high)
+}
+
 /// A measure between two, near the upper one every second time; all powers of two are as likely.
 fn between(room: &mut Room, from: i64, to: i64, number: usize) -> i64 {
     if number % 2 == 0 {
         return room.rng.int(from.max(to - to / 50), to);
     }
-    let power = (to as f64 / from as f64).ln() * room.rng.unit();
-    ((from as f64 * power.exp()) as i64).clamp(from, to)
+    let [mut low, mut high] = [from, to];
+    for _ in 0..8 {
+        let middle = geometric_mean(low, high);
+        *if room.rng.chance(2) { &mut low } else { &mut high } = middle;
+    }
+    room.rng.int(low, high)
 }
 
 /// The limits of a rasterizer that is expected to follow a convention.
@@ -252,7 +259,7 @@ pub(super) fn near(
         // Twice the area is the product of two sides.
         let side = if metric == 0 { (limit as f64).sqrt() as i64 } else { limit };
         let steps = (side / room.grain).max(1);
-        let axis = if metric == 4 { Axis::Reach } else { Axis::Size };
+        let axis = if metric >= 4 { Axis::Reach } else { Axis::Size };
         questions.extend((0..NEAR_A_LIMIT).map(|_| {
             let measure = room.rng.int(steps / 2 + 1, 2 * steps);
             triangle(&mut room, axis, measure, sample_of(expected)).question

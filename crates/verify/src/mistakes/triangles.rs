@@ -586,13 +586,15 @@ const STEPS: [i32; 4] = [256, 128, 64, 16];
 const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
 const CLIP_STEPS: [i64; 4] = [256, 64, 16, 4];
 
+const METRICS: i64 = fills::METRICS.len() as i64;
+
 /// A metric of the size, whether what lies below it is left out, and the limit: packed in a number.
 pub(super) fn packed_size(metric: usize, below: bool, limit: i64) -> i64 {
-    (limit * 5 + metric as i64) * 2 + i64::from(below)
+    (limit * METRICS + metric as i64) * 2 + i64::from(below)
 }
 
 pub(super) fn size(p: i64) -> (usize, bool, i64) {
-    ((p / 2 % 5) as usize, p % 2 == 1, p / 10)
+    ((p / 2 % METRICS) as usize, p % 2 == 1, p / (2 * METRICS))
 }
 
 type IsKind = fn(&Corners, PixelRect) -> bool;
