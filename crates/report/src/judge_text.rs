@@ -181,7 +181,7 @@ fn scores(out: &mut String, verdict: &Verdict) {
 }
 
 /// Why it is wrong, where that was looked for.
-pub(super) fn causes(out: &mut String, verdict: &Verdict) {
+pub fn causes(out: &mut String, verdict: &Verdict) {
     for why in &verdict.causes {
         let known = if why.why.is_known() { "probable cause" } else { "no cause recognised" };
         let _ = writeln!(out, "{known}, of the wrong {}:", why.whose());
