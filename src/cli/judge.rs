@@ -117,15 +117,6 @@ impl JudgeArguments {
         }
     }
 
-    /// The convention of what is judged is recognised, of more than one case.
-    fn scope(&self) -> Scope {
-        let families = adapt_case::families(&self.family);
-        let any = |lines| {
-            self.case.is_none() && families.iter().any(|f| adapt_case::is_lines(f) == lines)
-        };
-        Scope { triangles: any(false), lines: any(true), always: false }
-    }
-
     fn words(&self) -> Vec<String> {
         self.declare.iter().flat_map(|words| words.split_whitespace()).map(str::to_owned).collect()
     }
@@ -182,7 +173,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let options = arguments.options(baseline.as_ref());
     let total = cases_of(&options, &declared);
     let progress = Progress::new(streams.progress, "cases judged", Some(total));
-    let scope = arguments.scope();
+    let scope = Scope::of(&options);
     let recognise = |program: &mut dyn Ask| recognise(program, scope);
     let step = |step| progress.step(step);
     let mut verdict = if others.is_empty() {
@@ -192,24 +183,8 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         against::compare(&mut pairs, &options, &step)
     };
     drop(progress);
-    // Whoever draws nothing would agree.
-    let expects = verdict.windings.is_known() || verdict.found.rows.iter().any(|r| r.pixels > 0);
-    let is_empty = verdict.found.rows.is_empty() || (verdict.agrees() && !expects);
-    if let (true, true, Some(limit)) = (is_empty, verdict.found.out_of_time, arguments.seconds) {
-        return Err(usage(format!(
-            "nothing was judged within --seconds {}: the answers take too long; allow more seconds",
-            limit.as_secs_f64()
-        )));
-    }
-    if verdict.found.rows.is_empty() {
-        return Err(usage(
-            "no case was judged: the program does not draw what these families hold",
-        ));
-    }
-    if arguments.case.is_none() && verdict.agrees() && !expects {
-        return Err(usage(
-            "no pixel was expected: the range, the window or the families leave nothing to judge",
-        ));
+    if let Some(why) = verdict.judged_nothing(&options) {
+        return Err(usage(why));
     }
     if let Some(baseline) = &baseline {
         baseline.apply(&mut verdict);

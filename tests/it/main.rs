@@ -60,6 +60,7 @@ mod quiz;
 mod recorded;
 mod review;
 mod robustness;
+mod same_message;
 mod scenes;
 mod site;
 mod snapshots;

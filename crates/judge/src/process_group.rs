@@ -17,6 +17,7 @@ use std::time::{Duration, Instant};
 static LIVE: Mutex<Option<Vec<Live>>> = Mutex::new(Some(Vec::new()));
 
 /// How long a judge has to end what it has started.
+#[cfg(unix)]
 const TIME_TO_END: Duration = Duration::from_secs(2);
 
 #[derive(Clone, Copy)]
@@ -127,6 +128,7 @@ pub fn end_groups_on_ctrl_c() {
         if !std::thread::Builder::new().spawn(|| ()).is_ok_and(|thread| thread.join().is_ok()) {
             return;
         }
+        #[cfg(any(unix, windows))]
         let _ = ctrlc::set_handler(|| {
             let mut live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             live.take().into_iter().flatten().for_each(Live::end);

@@ -7,6 +7,7 @@
 use std::cell::RefCell;
 use std::fmt::Write as _;
 
+use super::Options;
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
 use super::check::{Check, Truth};
@@ -55,6 +56,18 @@ pub struct Scope {
     pub lines: bool,
     /// Also where it draws as it declares.
     pub always: bool,
+}
+
+impl Scope {
+    /// Of more than one case, what the families hold.
+    #[must_use]
+    pub fn of(options: &Options) -> Self {
+        let families = adapt_case::families(&options.families);
+        let any = |lines| {
+            options.only.is_none() && families.iter().any(|f| adapt_case::is_lines(f) == lines)
+        };
+        Self { triangles: any(false), lines: any(true), always: false }
+    }
 }
 
 /// The questions are the same in every run.

@@ -195,6 +195,29 @@ impl Verdict {
         !self.found.rows.is_empty() && self.properties.iter().all(|p| p.outcome.is_good())
     }
 
+    /// Why it says nothing, where no case was judged or nothing was expected: whoever draws nothing would agree.
+    #[must_use]
+    pub fn judged_nothing(&self, options: &Options) -> Option<String> {
+        let expects = self.windings.is_known() || self.found.rows.iter().any(|r| r.pixels > 0);
+        let is_blank = self.agrees() && !expects;
+        let is_empty = self.found.rows.is_empty();
+        let limit = options.time_limit.filter(|_| self.found.out_of_time);
+        match limit {
+            Some(limit) if is_empty || is_blank => Some(format!(
+                "nothing was judged within --seconds {}: the answers take too long; allow more seconds",
+                limit.as_secs_f64()
+            )),
+            _ if is_empty => Some(
+                "no case was judged: the program does not draw what these families hold".to_owned(),
+            ),
+            _ if is_blank && options.only.is_none() => Some(
+                "no pixel was expected: the range, the window or the families leave nothing to judge"
+                    .to_owned(),
+            ),
+            _ => None,
+        }
+    }
+
     /// Triangles or lines that were judged against an expected picture.
     pub fn shapes(&self, lines: bool) -> u64 {
         let is_lines = |row: &&Row| row.name.starts_with("line-") == lines;

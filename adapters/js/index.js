@@ -1,0 +1,213 @@
+// Judges a rasterizer written in JavaScript, pixel by pixel, against an exact oracle: docs/javascript.md.
+
+const address = new URL('./rasterproof.wasm', import.meta.url);
+const judge = await WebAssembly.compile(
+  address.protocol === 'file:' ? (await import('node:fs')).readFileSync(address) : await (await fetch(address)).arrayBuffer());
+
+/** What is drawn is wrong; the message is that of the judge. */
+export class AssertionError extends Error {
+  name = 'AssertionError';
+}
+
+class Exit {
+  constructor(status) { this.status = status; }
+}
+
+/**
+ * Runs the judge. It reads `header`, then what `answer` makes of the lines that it has written; both are called in this
+ * thread. What the module imports is the part of WASI that a Rust program with streams and a clock needs.
+ */
+function run(header, answer) {
+  const encoder = new TextEncoder(), decoder = new TextDecoder();
+  let input = encoder.encode(header), at = 0, requests = '', said = '', memory;
+  /** Calls `move` with the bytes of each piece of memory in a list, and stores how many were moved. */
+  const each = (list, count, moved, move) => {
+    const view = new DataView(memory.buffer);
+    let sum = 0;
+    for (let i = list; i < list + 8 * count; i += 8)
+      sum += move(new Uint8Array(memory.buffer, view.getUint32(i, true), view.getUint32(i + 4, true)));
+    view.setUint32(moved, sum, true);
+    return 0;
+  };
+  const system = {
+    fd_read(_, list, count, read) {
+      if (at === input.length) {
+        const lines = requests.split('\n').slice(0, -1);
+        [requests, at] = ['', 0];
+        input = encoder.encode(lines.map((line) => `${answer(line.split(' '))}\n`).join(''));
+      }
+      return each(list, count, read, (bytes) => {
+        const piece = input.subarray(at, at + bytes.length);
+        bytes.set(piece);
+        at += piece.length;
+        return piece.length;
+      });
+    },
+    fd_write: (stream, list, count, written) => each(list, count, written, (bytes) => {
+      if (stream === 1) requests += decoder.decode(bytes);
+      else said += decoder.decode(bytes);
+      return bytes.length;
+    }),
+    clock_time_get(_, precision, time) {
+      new DataView(memory.buffer).setBigUint64(time, BigInt(Math.round(performance.now() * 1e6)), true);
+      return 0;
+    },
+    environ_sizes_get: (count, size) => each(0, 0, count, null) || each(0, 0, size, null),
+    environ_get: () => 0,
+    // The memory as it is: nothing here has to be hard to guess.
+    random_get: () => 0,
+    proc_exit(status) { throw new Exit(status); },
+  };
+  // To all other questions: there is no such file.
+  const all = new Proxy(system, { get: (known, name) => known[name] ?? (() => 8) });
+  const instance = new WebAssembly.Instance(judge, { wasi_snapshot_preview1: all });
+  memory = instance.exports.memory;
+  try {
+    instance.exports._start();
+    return { status: 0, said };
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) return { status: 3, said: `${said}${error.stack}` };
+    if (!(error instanceof Exit)) throw error;
+    return { status: error.status, said };
+  }
+}
+
+const describe = (value) =>
+  value === null || typeof value !== 'object' ? String(value) : value.constructor?.name ?? 'an object without a name';
+
+/** What a function returned first, it has to go on returning. */
+function keep(judged, kind) {
+  judged.kind ??= kind;
+  if (judged.kind !== kind) throw new TypeError(`${judged.name} returned ${kind}; in an earlier call ${judged.kind}`);
+}
+
+/** Checks how often each pixel is drawn. */
+function checkMask(judged, mask, [width, height], expected) {
+  const size = width * height, { name } = judged;
+  const isBoolean = Array.isArray(mask) && mask.every((drawn) => typeof drawn === 'boolean');
+  if (!isBoolean && !(ArrayBuffer.isView(mask) && /^(Ui|I)nt/.test(mask.constructor.name)))
+    throw new TypeError(`${name} returned ${describe(mask)}; expected ${expected}`);
+  if (mask.length !== size)
+    throw new TypeError(`${name} returned ${mask.length} pixels; expected ${size}: ${width} * ${height}, row by row`);
+  if (/^Int/.test(mask.constructor.name) && mask.some((count) => count < 0))
+    throw new TypeError(`${name} returned a mask with ${mask.find((n) => n < 0)}; a pixel is drawn at least 0 times`);
+  keep(judged, isBoolean ? 'booleans' : 'counts');
+  return mask;
+}
+
+/** The rows of a list as text, their number first. */
+function rows(judged, list, columns) {
+  const wide = columns.split(' ').length;
+  for (const row of list)
+    if (row?.length !== wide || !Array.prototype.every.call(row, Number.isInteger))
+      throw new TypeError(`${judged.name} returned [${row}] in its list; expected integers with the columns ${columns}`);
+  keep(judged, 'a list');
+  return `${list.length} ${Array.from(list, (row) => Array.prototype.join.call(row, ' ')).join(' ')}`;
+}
+
+const isList = (value) => Array.isArray(value) && typeof value[0] !== 'boolean';
+
+function coverage(judged, value, window) {
+  if (isList(value)) return rows(judged, value, 'y x0 x1');
+  const mask = checkMask(judged, value, window, 'a Uint8Array that counts how often each pixel is drawn, booleans, or a list of spans');
+  const [width, height] = window, runs = [];
+  // A pixel that is drawn twice is in two runs.
+  for (let level = 1, most = 1; level <= most; level++)
+    for (let y = 0, i = 0; y < height; y++)
+      for (let x = 0, first = -1; x <= width; x++) {
+        const count = x < width ? mask[i++] : 0;
+        if (count > most) most = Number(count);
+        if (count >= level && first < 0) first = x;
+        if (!(count >= level) && first >= 0) {
+          runs.push(y, first, x);
+          first = -1;
+        }
+      }
+  return `${runs.length / 3} ${runs.join(' ')}`;
+}
+
+/** Calls `draw` for each pixel as often as it is drawn, and returns how many that were. */
+function drawn(mask, [width], draw) {
+  let all = 0;
+  for (let i = 0; i < mask.length; i++)
+    for (let n = Number(mask[i]); n > 0; n--, all++) draw(i % width, Math.floor(i / width), i);
+  return all;
+}
+
+function pixels(judged, value, window) {
+  if (isList(value)) return rows(judged, value, 'x y');
+  const mask = checkMask(judged, value, window, 'a list of pixels, a Uint8Array that counts how often each pixel is drawn, or booleans');
+  const out = [];
+  return `${drawn(mask, window, (x, y) => out.push(x, y))} ${out.join(' ')}`;
+}
+
+function fragments(judged, value, window) {
+  const both = '{ mask, values }: a Uint8Array, and a Float64Array with z a b of each pixel';
+  if (!value?.mask) throw new TypeError(`${judged.name} returned ${describe(value)}; expected ${both}`);
+  const mask = checkMask(judged, value.mask, window, both), { values } = value;
+  if (!ArrayBuffer.isView(values) || !/^Float/.test(values.constructor.name))
+    throw new TypeError(`${judged.name} returned values of type ${describe(values)}; expected ${both}`);
+  if (values.length !== 3 * mask.length)
+    throw new TypeError(`${judged.name} returned ${values.length} values; expected ${3 * mask.length}: z a b of each pixel`);
+  const out = [];
+  return `${drawn(mask, window, (x, y, i) => out.push(x, y, ...values.subarray(3 * i, 3 * i + 3)))} ${out.join(' ')}`;
+}
+
+const OPTIONS = {
+  cases: (n) => Number.isSafeInteger(n) && n > 0,
+  seed: (n) => Number.isSafeInteger(n) && n >= 0,
+  case: (n) => Number.isSafeInteger(n) && n >= 0,
+  seconds: (n) => typeof n === 'number' && n > 0 && n <= 1e6,
+  declare: (words) => typeof words === 'string' && !/[^ -&(-~]/.test(words),
+  family: (names) => typeof names === 'string' || (Array.isArray(names) && names.every((name) => typeof name === 'string')),
+};
+
+/** The options as lines, a value each; each is checked. */
+function lines(call, given) {
+  const all = [];
+  for (const [option, value] of Object.entries({ cases: 100, ...given })) {
+    if (value === undefined) continue;
+    if (!Object.hasOwn(OPTIONS, option))
+      throw new TypeError(`${call} has no option ${option}; expected ${Object.keys(OPTIONS).join(', ')}`);
+    if (option === 'cases' && !OPTIONS.cases(value))
+      throw new RangeError(`no case would be judged: cases is ${describe(value)}; expected at least 1`);
+    if (!OPTIONS[option](value)) throw new TypeError(`${call} cannot take ${describe(value)} for ${option}`);
+    all.push(...[value].flat().map((one) => `${option} ${one}`));
+  }
+  return all;
+}
+
+/**
+ * What judges functions of one kind: the letters of request and answer, what is declared, numbers of each corner, the
+ * check of what is returned, and a first question.
+ */
+const judges = (call, [request, reply], capability, wide, write, probe) => {
+  const ask = (judged, numbers, window) => {
+    // A position of a line names the pixel that contains it.
+    const all = numbers.map((word) => (request === 'L' ? Math.floor(word) : Number(word)));
+    const corners = Array.from({ length: all.length / wide }, (_, i) => all.slice(wide * i, wide * i + wide));
+    return write(judged, judged.fn(corners, window), window);
+  };
+  return function assert(fn, options = {}) {
+    if (typeof fn !== 'function') throw new TypeError(`${call} takes a function; got ${describe(fn)}`);
+    const judged = { fn, name: fn.name || 'function', kind: undefined };
+    const header = lines(call, options);
+    // What it returns for one case, in a window that is no square, says what can be seen in its answers.
+    ask(judged, probe, [8, 6]);
+    const masked = { booleans: ' mask', counts: '' }[judged.kind];
+    const words = masked === undefined ? '' : `${masked}${request === 'L' ? ' line-set' : ''}`;
+    const hello = `HELLO 2 ${judged.name.replace(/[^!-~]+/g, '-')} ${capability} batch=1024${words}`;
+    const { status, said } = run(`${[`call ${call}(${judged.name}`, ...header, hello].join('\n')}\n`, ([verb, id, width, height, ...numbers]) =>
+      verb === request ? `${reply} ${id} ${ask(judged, numbers, [Number(width), Number(height)])}` : `E ${id} unsupported`);
+    if (status === 0) return;
+    const error = status === 1 ? new AssertionError(said.trim()) : new Error(`rasterproof gave no verdict:\n${said.trim()}`);
+    // The first line of the trace is that of the test.
+    Error.captureStackTrace?.(error, assert);
+    throw error;
+  };
+};
+
+export const assertRasterizer = judges('assertRasterizer', 'TC', 'coverage', 2, coverage, [1, 1, 6, 1, 1, 6]);
+export const assertLines = judges('assertLines', 'LP', 'line', 2, pixels, [1, 1, 6, 4]);
+export const assertValues = judges('assertValues', 'IF', 'attributes', 6, fragments,
+  [1, 1, 0, 1, 0, 0, 6, 1, 0, 1, 1, 0, 1, 6, 1, 1, 0, 1]);
