@@ -838,7 +838,8 @@ fn mistakes_of_stages_are_named() {
             move |question, answer| carrying(question, answer, attribute, true),
             &["near-plane"],
         );
-        assert_eq!(zero, said);
+        let cause = |said: &str| said.split(" This explains").next().map(str::to_owned);
+        assert_eq!(cause(&zero), cause(&said));
     }
     let linear = |kept: ClipCorner, lost: ClipCorner, t: f64| kept[4] + (lost[4] - kept[4]) * t;
     assert_eq!(
