@@ -614,8 +614,11 @@ fn lights_of_a_file_are_those_of_the_picture() {
     run.prints("AGREES").shows("1 light of the file, and nothing keeps it from anything;");
     let run = folder.check("render m.gltf --size 32x24 --shading gouraud -o o.png", 0);
     run.shows("light of the file, without metal and roughness, of 1 primitive");
-    made(json!({ "type": "area" }), 2.0, ahead);
-    folder.check("render m.gltf --size 32x24 -o o.png", 0).shows("not drawn: 1 light");
+    for unknown in [json!({ "type": "area" }), json!({ "type": "point", "color": "red" }), json!(7)]
+    {
+        made(unknown, 2.0, ahead);
+        folder.check("render m.gltf --size 32x24 -o o.png", 0).shows("not drawn: 1 light");
+    }
 }
 
 /// A square of one unit, seen by cameras that stand two units before it and behind it.

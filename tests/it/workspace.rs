@@ -122,7 +122,7 @@ fn an_effect_is_named_in_few_files() {
     let folder = root().join("crates/render/src/effects");
     let texts: Vec<_> = files(&folder, ".rs").iter().map(read).collect();
     assert!(texts.len() > 30, "{} files", texts.len());
-    for effect in ["emission", "occlusion", "reflection"] {
+    for effect in ["emission", "occlusion", "reflection", "punctual"] {
         let code = |text: &&String| {
             let mut lines =
                 without_tests(text).lines().filter(|line| !line.trim_start().starts_with("//"));

@@ -72,7 +72,7 @@ pub(super) struct Root {
     #[serde(default, deserialize_with = "or_default")]
     pub animations: Vec<Value>,
     #[serde(default, deserialize_with = "or_default")]
-    pub extensions: RootExtensions,
+    pub extensions: Value,
     #[serde(default, deserialize_with = "or_default")]
     pub extensions_used: Vec<String>,
     #[serde(default, deserialize_with = "or_default")]
@@ -113,7 +113,7 @@ pub(super) struct Node {
 #[serde(default)]
 pub(super) struct Extensions {
     #[serde(rename = "KHR_lights_punctual")]
-    pub light: Option<UsedLight>,
+    pub light: Option<Value>,
     #[serde(rename = "EXT_mesh_gpu_instancing")]
     pub instances: Option<Instances>,
     #[serde(rename = "KHR_draco_mesh_compression")]
@@ -132,24 +132,7 @@ pub(super) struct Extensions {
     pub specular: Option<Specular>,
 }
 
-#[derive(Default, Deserialize)]
-pub(super) struct RootExtensions {
-    #[serde(rename = "KHR_lights_punctual", default, deserialize_with = "or_default")]
-    pub punctual: Lights,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Lights {
-    pub lights: Vec<Light>,
-}
-
-/// The light of a node, by its number.
-#[derive(Deserialize)]
-pub(super) struct UsedLight {
-    pub light: usize,
-}
-
+/// A light of `KHR_lights_punctual`; one that cannot be read is counted as not drawn.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Light {

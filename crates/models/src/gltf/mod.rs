@@ -24,6 +24,7 @@ use rasterproof_render::pipeline::assemble::ClipPoint;
 use rasterproof_render::pipeline::opacity::{Opacity, OpacityMap};
 use rasterproof_render::pipeline::physical::Map;
 use rasterproof_render::pipeline::punctual::{Kind, PunctualLight};
+use serde::Deserialize as _;
 use serde_json::Value;
 
 use crate::cameras::{Camera, Lens};
@@ -32,7 +33,7 @@ use crate::text::{self, without_mark};
 use crate::{BadFile, Pose, Warnings, bad};
 use data::Data;
 use document::{
-    Instances, LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
+    Instances, LINE_LOOP, LINE_STRIP, LINES, Light, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
     TRIANGLE_STRIP, TRIANGLES,
 };
 pub(crate) use materials::encoded;
@@ -325,8 +326,11 @@ impl Reader<'_> {
     /// Adds the light of a node, where it has one.
     fn light(&mut self, node: &Node, world: DMat4) {
         let Some(used) = &node.extensions.light else { return };
-        let light = self.data.root.extensions.punctual.lights.get(used.light);
-        let kind = light.and_then(|light| {
+        let number = used["light"].as_f64().filter(|number| *number >= 0.0);
+        let lights = &self.data.root.extensions[LIGHTS]["lights"];
+        let light = number.and_then(|number| lights.get(number as usize));
+        let light = light.and_then(|light| Light::deserialize(light).ok());
+        let kind = light.as_ref().and_then(|light| {
             let range = light.range.filter(|range| *range > 0.0).map_or(f64::INFINITY, f64::from);
             let [inner, outer] = Kind::ANGLES_RAD;
             match light.kind.as_str() {

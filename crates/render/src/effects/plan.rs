@@ -21,8 +21,8 @@ use crate::pipeline::target::{Antialias, Target};
 use rasterproof_core::grid::PixelRect;
 
 /// The form of plans that this program writes and reads. It changes when a word of a plan gets another
-/// meaning.
-pub const VERSION: u32 = 1;
+/// meaning, as the digest of a scene did.
+pub const VERSION: u32 = 2;
 
 /// What is drawn into, as far as a plan depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

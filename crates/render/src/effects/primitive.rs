@@ -83,6 +83,11 @@ pub(super) fn punctual<'a>(scene: &'a Scene, item: &Item) -> &'a [PunctualLight]
     if item.material.physical.is_some() { &scene.punctual } else { &[] }
 }
 
+/// Whether it matters where in the world a fragment is: from there something is seen, or lit, in a direction of its own.
+pub(super) fn has_places(scene: &Scene) -> bool {
+    eye(scene).w != 0.0 || scene.punctual.iter().any(|light| light.at.w != 0.0)
+}
+
 /// The light of an item. Where there are punctual lights, nothing of it depends on a direction.
 pub(super) fn light(scene: &Scene, item: &Item) -> Light {
     match punctual(scene, item) {

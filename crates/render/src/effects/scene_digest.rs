@@ -77,6 +77,7 @@ mod tests {
     use crate::pipeline::fog::{Fog, Growth};
     use crate::pipeline::opacity::{AlphaMode, Opacity};
     use crate::pipeline::physical::Physical;
+    use crate::pipeline::punctual::{Kind, PunctualLight};
     use crate::scene::{Hidden, Item, Material, Shading, Shadows, shapes};
 
     #[test]
@@ -91,7 +92,7 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 16] = [
+        let changes: [(&str, Change); 18] = [
             ("in shadow", |scene| scene.shadows = Some(Shadows::default())),
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
@@ -111,6 +112,14 @@ mod tests {
                 let mode = AlphaMode::Test { threshold: 0.5 };
                 let opacity = Opacity { factor: 1.0, map: None, mode };
                 scene.items[0].material.opacity = Some(opacity);
+            }),
+            ("a light of its own", |scene| {
+                let light = PunctualLight::new(Kind::Directional, DVec3::ONE, 1.0);
+                scene.punctual.push(light);
+            }),
+            ("tangents", |scene| {
+                let mesh = std::sync::Arc::unwrap_or_clone(scene.items[0].mesh.clone());
+                scene.items[0].mesh = std::sync::Arc::new(shapes::with_tangents(mesh));
             }),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
             ("lit from both sides", |scene| scene.items[0].two_sided = true),

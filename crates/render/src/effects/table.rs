@@ -106,7 +106,8 @@ effects! {
 /// Gives the effects of single fragments to a macro, in the order of [`Effect::ALL`].
 ///
 /// Each row: the field in a plan, a rule and the facts, what in it pays, the effect, where a planned rule says so, and the condition
-/// in `conditions`. A fragment pays by what its piece is: `if` a fact is true or not known, or `by` a function of the rule and all facts.
+/// in `conditions`. The fragments of a piece pay where a `fact` of it is true or not known, or as much as a function says `by` the
+/// rule and all facts.
 macro_rules! fragment_effects {
     ($for_each:ident) => {
         $for_each! {
@@ -118,7 +119,7 @@ macro_rules! fragment_effects {
                 physical::REFLECTION, fact is_reflecting;
             /// Whether punctual lights are added.
             punctual: bool = true => Punctual, "where the light may arrive and a normal may face it.",
-                punctual::CONDITION, fact is_reached;
+                physical::PUNCTUAL, fact is_reached;
             /// Whether normals are turned by a map.
             normal_maps: bool = true => NormalMaps, "where the map is not known to be flat.",
                 physical::NORMAL_MAPS, fact is_bumpy;

@@ -22,6 +22,8 @@ pub struct Asked<'a> {
 /// When single fragments pay for an effect, and which reasons a plan gives.
 pub struct Condition {
     pub effect: Effect,
+    /// The attributes, as bits, that are interpolated for effects alone that name them here.
+    pub needs: u8,
     /// Whether anything of an item can pay for it, even where it is switched on everywhere.
     pub is_possible: fn(&Asked<'_>) -> bool,
     pub is_asked_for: fn(&Asked<'_>) -> bool,

@@ -23,6 +23,7 @@ fn is_tested(item: &Item) -> bool {
 /// Without a threshold there is nothing to be tested.
 pub const CONDITION: Condition = Condition {
     effect: Effect::AlphaTest,
+    needs: 0,
     is_possible: |asked| is_tested(asked.item),
     is_asked_for: |asked| is_tested(asked.item),
     missing: |_| None,

@@ -12,6 +12,7 @@ use crate::effects::plan::Attributes;
 /// Without texture coordinates there is no footprint.
 pub const CONDITION: Condition = Condition {
     effect: Effect::Anisotropy,
+    needs: 0,
     is_possible: |asked| asked.carries.has(Attributes::UV),
     is_asked_for: |asked| asked.item.material.textures().any(|texture| texture.anisotropy > 1),
     missing: |asked| {

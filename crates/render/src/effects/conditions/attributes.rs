@@ -3,10 +3,9 @@
 //! Left out where the material does not use it: the factor left out is exactly 1, and the others
 //! keep their order.
 
-use super::account::{Account, Asked, Condition};
-use super::{physical, punctual, shadows};
+use super::account::{Account, Asked};
 use crate::effects::plan::{Attributes, Decision};
-use crate::effects::primitive::{eye, is_lit};
+use crate::effects::primitive::{has_places, is_lit};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::shade::Light;
 use crate::scene::{Item, Scene, Shading};
@@ -36,17 +35,9 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
     };
     let bits = ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit);
     let asked = Asked { scene, item, carries: Attributes(bits), effects };
-    let is_in = |condition: &Condition, bit: u8| match condition.mode(&asked) {
-        Mode::Never => 0,
-        _ => bit,
-    };
-    let has_place = eye(scene).w != 0.0;
-    let world = if has_place { Attributes::WORLD } else { 0 };
-    let more = is_in(&shadows::CONDITION, Attributes::PLACE)
-        | is_in(&physical::REFLECTION, world)
-        | is_in(&punctual::CONDITION, Attributes::WORLD)
-        | is_in(&physical::NORMAL_MAPS, Attributes::TANGENT);
-    Attributes(bits | more)
+    let in_use = super::ALL.iter().filter(|condition| condition.mode(&asked) != Mode::Never);
+    let needed = in_use.fold(bits, |bits, condition| bits | condition.needs);
+    if has_places(scene) { Attributes(needed) } else { Attributes(needed & !Attributes::WORLD) }
 }
 
 /// Why an item does without.

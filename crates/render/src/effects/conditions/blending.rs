@@ -23,6 +23,7 @@ pub fn is_blended(item: &Item) -> bool {
 /// Only a material that blends has something to be mixed.
 pub const CONDITION: Condition = Condition {
     effect: Effect::Blending,
+    needs: 0,
     is_possible: |asked| is_blended(asked.item),
     is_asked_for: |asked| is_blended(asked.item),
     missing: |_| None,

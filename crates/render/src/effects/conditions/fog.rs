@@ -18,6 +18,7 @@ use rasterproof_core::arrays::MapArray as _;
 
 pub const CONDITION: Condition = Condition {
     effect: Effect::Fog,
+    needs: 0,
     is_possible: |_| true,
     is_asked_for: |asked| asked.scene.fog.is_some(),
     missing: |_| Some(("the scene has no fog", false)),

@@ -22,6 +22,7 @@ fn is_asked_for(asked: &Asked<'_>) -> bool {
 
 pub const CONDITION: Condition = Condition {
     effect: Effect::Layers,
+    needs: 0,
     is_possible: is_asked_for,
     is_asked_for,
     missing: |_| None,

@@ -16,6 +16,7 @@ use rasterproof_core::arrays::MapArray as _;
 /// Without texture coordinates there is no level.
 pub const CONDITION: Condition = Condition {
     effect: Effect::MipMaps,
+    needs: 0,
     is_possible: |asked| asked.carries.has(Attributes::UV),
     is_asked_for: |asked| asked.item.material.textures().any(Texture::has_mip_map),
     missing: |asked| {

@@ -1,5 +1,5 @@
-//! When an effect may be left out: one file for each effect, with the condition, what it has to know of a piece, and the
-//! reason to read.
+//! When an effect may be left out: one file for each effect, or for those of one kind of surface, with the condition, what it has to
+//! know of a piece, and the reason to read.
 //!
 //! The rule of an item, the facts of a piece, the plan of the piece and the account are made of the one list in `table.rs`.
 //! A condition reads rules and facts; never a triangle, an engine or a pixel.
@@ -20,7 +20,6 @@ pub(super) mod layers;
 pub(super) mod mip_maps;
 pub(super) mod perspective;
 pub(super) mod physical;
-pub(super) mod punctual;
 pub(super) mod samples;
 pub(super) mod second_buffer;
 pub(super) mod shadows;
@@ -77,7 +76,7 @@ macro_rules! conditions {
         }
 
         /// The conditions of the effects of single fragments.
-        const ALL: &[&Condition] = &[$(&$condition,)+];
+        pub(super) const ALL: &[&Condition] = &[$(&$condition,)+];
 
         /// The attributes that an item carries, and what it asks for: without looking at its triangles.
         pub(super) fn rule(scene: &Scene, item: &Item, effects: &Effects) -> (Attributes, Rule) {
@@ -92,6 +91,15 @@ macro_rules! conditions {
                 $($field: $condition.mode(&asked),)+
             };
             (carries, rule)
+        }
+
+        /// Attributes that only some of these effects need.
+        const NEEDED: u8 = $($condition.needs)|+;
+
+        /// Those that the effects of a piece need.
+        #[inline]
+        fn needed(plan: &PiecePlan) -> u8 {
+            $((if plan.$field == $paid { $condition.needs } else { 0 }))|+
         }
 
         /// What the fragments of a piece pay for by its facts, before effects are put together.
@@ -206,15 +214,7 @@ pub(super) fn plan(rule: &Rule, facts: &Facts) -> PiecePlan {
     let mut plan = paid(rule, facts, is_hidden);
     if !is_hidden {
         plan.interpolates = rule.interpolates.both(facts.varies);
-        for (is_needed, bit) in [
-            (plan.reflection || plan.punctual, Attributes::WORLD),
-            (plan.normal_maps, Attributes::TANGENT),
-            (plan.shadows, Attributes::PLACE),
-        ] {
-            if !is_needed {
-                plan.interpolates = plan.interpolates.without(Attributes(bit));
-            }
-        }
+        plan.interpolates = plan.interpolates.without(Attributes(NEEDED & !needed(&plan)));
     }
     let has_uv = plan.interpolates.has(Attributes::UV);
     plan.mip_maps &= has_uv;

@@ -23,6 +23,7 @@ use rasterproof_core::arrays::MapArray as _;
 /// Without a map or normals there is no shadow.
 pub const CONDITION: Condition = Condition {
     effect: Effect::Shadows,
+    needs: Attributes::PLACE,
     is_possible: |asked| asked.scene.shadows.is_some() && asked.carries.has(Attributes::NORMAL),
     is_asked_for: |asked| asked.scene.shadows.is_some() && has_light(asked.scene, asked.item),
     missing: |asked| {

@@ -17,6 +17,7 @@ use rasterproof_core::arrays::MapArray as _;
 /// Without normals there is no highlight.
 pub const CONDITION: Condition = Condition {
     effect: Effect::Specular,
+    needs: 0,
     is_possible: |asked| asked.carries.has(Attributes::NORMAL),
     is_asked_for: |asked| is_shiny(asked.scene, asked.item),
     missing: |asked| {
