@@ -342,6 +342,58 @@ const FILLS: &[(&str, Fill)] = &[
             }
         }
     }),
+    // In 16 bits, corners too.
+    ("whole pixels by integer divisions", |c, _, out| {
+        let mut p = c.map_array(|p| [p.x.div_euclid(256) as i16, p.y.div_euclid(256) as i16]);
+        p.sort_by_key(|p| p[1]);
+        let [[x0, y0], [x1, y1], [x2, y2]] = p;
+        let mut row = |y: i16, a: i16, b: i16| {
+            (a.min(b).max(0)..=a.max(b).min(64)).for_each(|x| light(out, x.into(), y.into()));
+        };
+        if y0 == y2 {
+            return row(y0, x0.min(x1).min(x2), x0.max(x1).max(x2));
+        }
+        let at = |x: i16, dx: i16, ahead: i16, dy: i16| {
+            x.wrapping_add(dx.wrapping_mul(ahead).wrapping_div(dy))
+        };
+        for y in y0.max(0)..=y2.min(64) {
+            let long = at(x0, x2.wrapping_sub(x0), y.wrapping_sub(y0), y2.wrapping_sub(y0));
+            if y < y1 || y1 == y2 {
+                let short = if y1 == y0 {
+                    x1
+                } else {
+                    at(x0, x1.wrapping_sub(x0), y.wrapping_sub(y0), y1.wrapping_sub(y0))
+                };
+                row(y, short, long);
+            } else {
+                row(y, at(x1, x2.wrapping_sub(x1), y.wrapping_sub(y1), y2.wrapping_sub(y1)), long);
+            }
+        }
+    }),
+    ("each axis is rounded in its own way", |c, w, out| {
+        // x up and y toward zero, to 1/16 px.
+        let to =
+            |p: SubpixelPoint| SubpixelPoint::new((p.x + 15).div_euclid(16) * 16, p.y / 16 * 16);
+        right(c.map_array(to), w, out);
+    }),
+    ("edges are moved", |c, _, out| {
+        // 1/8 px out, at right angles.
+        let wide = c.map_array(|p| [f64::from(p.x), f64::from(p.y)]);
+        tested(c, out, exactly, |i, e, _| {
+            // The edges of a triangle that turns the other way come in the other order.
+            let lengths = [0, 1, 2].map(|k: usize| {
+                let [p, q] = [wide[k], wide[(k + 1) % 3]];
+                (q[0] - p[0]).hypot(q[1] - p[1])
+            });
+            let along = if area(c) > 0 { i } else { 2 - i };
+            e as f64 + lengths[along] * 32.0 > 0.0
+        });
+    }),
+    ("weights are cut", |c, _, out| {
+        // 8 bits, cut toward zero.
+        let whole = area(c).abs();
+        tested(c, out, exactly, |_, e, _| i128::from(e) * 256 / i128::from(whole.max(1)) >= 0);
+    }),
     ("the whole box is filled", |c, w, out| {
         let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
         for y in w.y0..w.y1 {

@@ -34,22 +34,44 @@ pub(super) fn by_edges(
     base: &Convention,
     test: &dyn Fn(usize, i128, bool) -> bool,
 ) -> Mask {
+    if area2(corners) == 0 {
+        return Mask::default();
+    }
+    let owns = owned(corners, base);
+    by_all_edges(corners, window, base, &|values| {
+        values.iter().zip(owns).enumerate().all(|(i, (value, owns))| test(i, *value, owns))
+    })
+}
+
+/// Which edges of a triangle with an area own the samples that lie on them.
+fn owned(corners: &Corners, base: &Convention) -> [bool; 3] {
+    let (points, sign) = (points(corners), area2(corners).signum() as i64);
+    [0, 1, 2].map_array(|i: usize| {
+        let [p, q] = [points[i], points[(i + 1) % 3]];
+        base.ties.edges[facing(sign * (p[1] - q[1]), sign * (q[0] - p[0]))]
+    })
+}
+
+/// The samples whose three edge functions, positive inside, pass a test.
+pub(super) fn by_all_edges(
+    corners: &Corners,
+    window: PixelRect,
+    base: &Convention,
+    test: &dyn Fn([i128; 3]) -> bool,
+) -> Mask {
     let points = points(corners);
     let sign = area2(corners).signum() as i64;
     if sign == 0 {
         return Mask::default();
     }
-    let edges = [0, 1, 2].map(|i| {
+    let edges = [0, 1, 2].map_array(|i: usize| {
         let [p, q] = [points[i], points[(i + 1) % 3]];
-        let (a, b) = (sign * (p[1] - q[1]), sign * (q[0] - p[0]));
-        (p, a, b, base.ties.edges[facing(a, b)])
+        (p, sign * (p[1] - q[1]), sign * (q[0] - p[0]))
     });
     each_sample(window, super::sample_of(base), &|at| {
-        edges.iter().enumerate().all(|(i, &(p, a, b, owns))| {
-            let value =
-                i128::from(a) * i128::from(at[0] - p[0]) + i128::from(b) * i128::from(at[1] - p[1]);
-            test(i, value, owns)
-        })
+        test(edges.map_array(|(p, a, b)| {
+            i128::from(a) * i128::from(at[0] - p[0]) + i128::from(b) * i128::from(at[1] - p[1])
+        }))
     })
 }
 
@@ -59,13 +81,14 @@ fn wrap(v: i128, bits: i64) -> i128 {
     v << shift >> shift
 }
 
-/// Edge functions of coordinates with so many bits of fraction, in words of so many bits.
+/// Edge functions of coordinates with so many bits of fraction, in words of so many bits; the winding may be known otherwise.
 pub(super) fn wrapping(
     corners: &Corners,
     window: PixelRect,
     base: &Convention,
     fraction: i64,
     bits: i64,
+    knows_winding: bool,
 ) -> Mask {
     let cut = |v: i64| i128::from((v + (256 >> fraction) / 2).div_euclid(256 >> fraction));
     let points = points(corners).map_array(|p| p.map_array(cut));
@@ -74,7 +97,7 @@ pub(super) fn wrapping(
         word(word((b[0] - a[0]) * (c[1] - a[1])) - word((b[1] - a[1]) * (c[0] - a[0])))
     };
     let [a, b, c] = points;
-    let area = cross(a, b, c);
+    let area = if knows_winding { area2(corners) } else { cross(a, b, c) };
     if area == 0 {
         return Mask::default();
     }
@@ -309,7 +332,7 @@ pub(super) fn tiles(mask: &mut Mask, _: &Corners, window: PixelRect, p: i64) {
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 9] = [
+pub(super) const FORMULAS: [&str; 11] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -319,6 +342,8 @@ pub(super) const FORMULAS: [&str; 9] = [
     "the edge function with corners relative to the sample",
     "the products of the edge function, of differences that are exact",
     "the edge function with a fused multiplication and addition",
+    "barycentric weights from corners relative to the sample, divided by the area first",
+    "barycentric weights from corners relative to the sample, of which the third is 1 minus the others",
 ];
 
 /// One of `FORMULAS`, with a rounding to f32 after every operation or without. Of corners that turn the other way, two are
@@ -355,6 +380,10 @@ pub(super) fn float(
             _ => r(r(dx * y) - second),
         }
     };
+    let relative = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
+        let [p, q] = [p, q].map_array(|p| [r(p[0] - at[0]), r(p[1] - at[1])]);
+        r(r(p[0] * q[1]) - r(p[1] * q[0]))
+    };
     let corners = ordered.map_array(px);
     let sides = [[0, 1], [1, 2], [2, 0]];
     let owns = sides.map_array(|[i, j]| {
@@ -363,7 +392,7 @@ pub(super) fn float(
         base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))]
     });
     // Weights that are divided by the area have its sign already.
-    let sign = if (3..6).contains(&formula) { 1.0 } else { sign };
+    let sign = if matches!(formula, 3..6 | 9 | 10) { 1.0 } else { sign };
     let passes = |value: f64, owns: bool| sign * value > 0.0 || (value == 0.0 && owns);
     let [a, b, c] = corners;
     let area = edge(a, b, c);
@@ -403,19 +432,17 @@ pub(super) fn float(
                 r(r(r(a * at[0]) + r(b * at[1])) + c)
             }),
             3 => sides.map_array(|[i, j]| r(edge(corners[i], corners[j], at) / area)),
-            4 | 5 => {
-                let weight = |i: usize, j: usize| {
-                    let value = edge(corners[i], corners[j], at);
-                    if formula == 4 { r(value / area) } else { r(value * reciprocal) }
+            4 | 5 | 10 => {
+                let weight = |i: usize, j: usize| match formula {
+                    4 => r(edge(corners[i], corners[j], at) / area),
+                    5 => r(edge(corners[i], corners[j], at) * reciprocal),
+                    _ => r(relative(corners[i], corners[j], at) / area),
                 };
                 let [u, v] = [weight(1, 2), weight(2, 0)];
                 [r(r(1.0 - u) - v), u, v]
             }
-            _ => sides.map_array(|[i, j]| {
-                let [p, q] =
-                    [corners[i], corners[j]].map_array(|p| [r(p[0] - at[0]), r(p[1] - at[1])]);
-                r(r(p[0] * q[1]) - r(p[1] * q[0]))
-            }),
+            9 => sides.map_array(|[i, j]| r(relative(corners[i], corners[j], at) / area)),
+            _ => sides.map_array(|[i, j]| relative(corners[i], corners[j], at)),
         };
         (0..3).all(|i| passes(values[i], owns[i]))
     })
@@ -430,6 +457,8 @@ pub(super) enum Slope {
     Fixed,
     /// 1/65536 px, the slope cut down.
     FixedDown,
+    /// 1/65536 px, both the first crossing and the slope cut toward zero.
+    FixedStart,
     /// 1/256 px, the slope cut toward zero.
     Coarse,
     /// Not added: computed for each row in single precision.
@@ -441,11 +470,12 @@ pub(super) enum Slope {
 }
 
 impl Slope {
-    pub(super) const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 9] = [
         Self::Single,
         Self::Double,
         Self::Fixed,
         Self::FixedDown,
+        Self::FixedStart,
         Self::Coarse,
         Self::Computed,
         Self::Between,
@@ -458,6 +488,7 @@ impl Slope {
             Self::Double => "in floats of 64 bits",
             Self::Fixed => "in 1/65536 px, cut toward zero",
             Self::FixedDown => "in 1/65536 px, cut down",
+            Self::FixedStart => "in 1/65536 px, from an exact first crossing, both cut toward zero",
             Self::Coarse => "in 1/256 px, cut toward zero",
             Self::Computed => "(or computes it for each row) in floats of 32 bits",
             Self::Between => {
@@ -515,15 +546,24 @@ impl Walk {
                 let slope = px(dx) / px(dy);
                 (px(from[0]) + slope * px(ahead), slope)
             }
-            Slope::Fixed | Slope::FixedDown | Slope::Coarse => {
+            Slope::Fixed | Slope::FixedDown | Slope::FixedStart | Slope::Coarse => {
                 let unit: i64 = if matches!(of, Slope::Coarse) { 256 } else { 65536 };
                 let scaled = i128::from(dx) * i128::from(unit);
                 let slope = match of {
                     Slope::FixedDown => scaled.div_euclid(i128::from(dy)),
                     _ => scaled / i128::from(dy),
                 };
-                let x = i128::from(from[0]) * i128::from(unit / 256)
-                    + ((slope * i128::from(ahead)) >> 8);
+                let x = match of {
+                    Slope::FixedStart => {
+                        let exact = i128::from(from[0]) * i128::from(dy)
+                            + i128::from(dx) * i128::from(ahead);
+                        exact * i128::from(unit / 256) / i128::from(dy)
+                    }
+                    _ => {
+                        i128::from(from[0]) * i128::from(unit / 256)
+                            + ((slope * i128::from(ahead)) >> 8)
+                    }
+                };
                 (x as f64 / unit as f64, slope as f64 / unit as f64)
             }
         };
@@ -573,6 +613,7 @@ pub(super) fn stepped(
     slope: Slope,
     late: bool,
     row: Row,
+    restarts: bool,
 ) -> Mask {
     let [top, middle, bottom] = sorted(corners);
     let mut mask = Mask::default();
@@ -584,6 +625,9 @@ pub(super) fn stepped(
     for [from, to] in [[top, middle], [middle, bottom]] {
         let part = rows(from[1], to[1]);
         let mut short = Walk::new(slope, from, to, part.start, late);
+        if restarts {
+            long = Walk::new(slope, top, bottom, part.start, late);
+        }
         for y in part {
             if y >= i64::from(window.y1) {
                 return mask;
@@ -607,11 +651,13 @@ pub(super) fn stepped(
     mask
 }
 
-/// The loop over whole pixels: bit 0 rounds corners, bit 1 divides down, bit 2 wraps products in 16 bits, and the rest is
-/// what goes wrong at the ends.
+/// The loop over whole pixels: bit 0 rounds corners, bit 1 divides down, bit 2 wraps products in 16 bits, bits 3 and 4 are
+/// what goes wrong at the ends, and bit 5 wraps corners in 16 bits.
 pub(super) fn whole_pixels(corners: &Corners, window: PixelRect, p: i64) -> Mask {
     let [rounds, down, short] = [0, 1, 2].map(|bit| p >> bit & 1 == 1);
+    let (ends, is_wrapped) = (p >> 3 & 3, p >> 5 == 1);
     let whole = |v: i64| if rounds { (v + 128).div_euclid(256) } else { v.div_euclid(256) };
+    let whole = |v: i64| if is_wrapped { wrap(whole(v).into(), 16) as i64 } else { whole(v) };
     let mut points = points(corners).map_array(|c| c.map_array(whole));
     for (i, j) in [(0, 1), (1, 2), (0, 1)] {
         if points[i][1] > points[j][1] {
@@ -621,7 +667,7 @@ pub(super) fn whole_pixels(corners: &Corners, window: PixelRect, p: i64) -> Mask
     let [[x0, y0], [x1, y1], [x2, y2]] = points;
     let mut mask = Mask::default();
     let mut fill = |y: i64, a: i64, b: i64| {
-        let (left, right) = (a.min(b), a.max(b) + i64::from(p >> 3 != 3));
+        let (left, right) = (a.min(b), a.max(b) + i64::from(ends != 3));
         if (0..i64::from(window.y1)).contains(&y) {
             let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;
             for x in clamp(left)..clamp(right) {
@@ -644,9 +690,9 @@ pub(super) fn whole_pixels(corners: &Corners, window: PixelRect, p: i64) -> Mask
         fill(y, at(x0, x1 - x0, y - y0, y1 - y0), at(x0, x2 - x0, y - y0, y2 - y0));
     }
     if y1 < y2 {
-        let from_the_top = p >> 3 == 1 && y1 == y0;
+        let from_the_top = ends == 1 && y1 == y0;
         let first = if from_the_top { 0 } else { y1 };
-        let end = if p >> 3 == 2 { y2 - 1 } else { y2 };
+        let end = if ends == 2 { y2 - 1 } else { y2 };
         for y in seen(first, end) {
             fill(y, at(x1, x2 - x1, y - y1, y2 - y1), at(x0, x2 - x0, y - y0, y2 - y0));
         }

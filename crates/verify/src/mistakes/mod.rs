@@ -25,7 +25,7 @@ use crate::convention::{
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use triangles::{BY_WINDING, Fill};
 use weigh::{LEAST_WRONG, weigh};
@@ -300,7 +300,9 @@ pub fn of_triangles(
         program.hypothesis(&answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
     }));
     let seen = || answered.iter().map(common::Seen::triangle).collect();
-    let found = conclude(hypotheses, &is_wrong, &seen);
+    let is_near =
+        |i: usize| fills::metric(&answered[i].question.corners, 4) <= i64::from(NEAR_PX) * 256;
+    let found = conclude(hypotheses, &is_wrong, &is_near, &seen);
     with_limits(found, is_wrong.len(), thresholds::of_triangles(ask, known, expected, goes_on))
 }
 
@@ -385,7 +387,9 @@ pub fn of_lines(
         programs.iter().map(|program| program.hypothesis(&answered, |q, pixels| drawn(q, pixels))),
     );
     let seen = || answered.iter().map(common::Seen::line).collect();
-    let found = conclude(hypotheses, &is_wrong, &seen);
+    let is_near =
+        |i: usize| answered[i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
+    let found = conclude(hypotheses, &is_wrong, &is_near, &seen);
     with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected, goes_on))
 }
 
@@ -417,25 +421,38 @@ fn says<D>(mistake: &Mistake<D>, p: i64) -> Explanation {
 /// Weighs hypotheses about answers of any kind. `is_wrong` says of each answer whether it is; nothing where none is.
 #[must_use]
 pub fn of_answers(hypotheses: Vec<Hypothesis<'_>>, is_wrong: &[bool]) -> Option<Mistakes> {
-    conclude(hypotheses, is_wrong, &Vec::new)
+    conclude(hypotheses, is_wrong, &|_| false, &Vec::new)
 }
 
+/// `is_near` says of which answers it is known that numbers cannot have been too large.
 fn conclude(
     hypotheses: Vec<Hypothesis<'_>>,
     is_wrong: &[bool],
+    is_near: &dyn Fn(usize) -> bool,
     seen: &dyn Fn() -> Vec<common::Seen>,
 ) -> Option<Mistakes> {
     let wrong = is_wrong.iter().filter(|wrong| **wrong).count();
     if wrong == 0 {
         return None;
     }
-    let (causes, lead) = weigh(hypotheses, is_wrong);
+    let all: Vec<usize> = (0..is_wrong.len()).collect();
+    let (mut causes, lead) = weigh(&hypotheses, is_wrong, &all);
+    if causes.is_empty() {
+        // A mistake may be there beside another one that large numbers show.
+        let near: Vec<usize> = all.into_iter().filter(|&i| is_near(i)).collect();
+        causes = weigh(&hypotheses, is_wrong, &near).0;
+        for cause in &mut causes {
+            cause.does += &format!(
+                " (seen where all coordinates are below {NEAR_PX} px; beyond, more goes wrong)"
+            );
+        }
+    }
     let common = if causes.is_empty() { common::sentences(&seen()) } else { Vec::new() };
     // A lead that explains little leads nowhere.
     let leads = |weight: &Explanation| {
         2 * weight.wrong.drawn >= weight.wrong.of && 10 * weight.right.drawn >= 9 * weight.right.of
     };
-    let lead = lead.filter(|lead| leads(lead) && wrong >= LEAST_WRONG);
+    let lead = lead.filter(|lead| causes.is_empty() && leads(lead) && wrong >= LEAST_WRONG);
     Some(Mistakes {
         causes,
         lead,
@@ -444,6 +461,9 @@ fn conclude(
         wrong: Count { drawn: wrong as u64, of: is_wrong.len() as u64 },
     })
 }
+
+/// Coordinates, in pixels, that words of 16 bits hold with 8 bits below the pixel.
+const NEAR_PX: i32 = 127;
 
 /// Limits may be found where all other answers are right.
 fn with_limits(
@@ -491,7 +511,12 @@ fn fill(
             change(&mut mask, corners, window, p);
             mask
         }
-        Fill::Ruled(draw) | Fill::Sampled(draw) => draw(corners, window, base, p),
+        Fill::Ruled(draw) | Fill::Sampled(draw) => {
+            // Corners reach their grid first.
+            let on_grid = |v: i32| base.quantum.apply(v) as i32;
+            let corners = corners.map_array(|c| SubpixelPoint::new(on_grid(c.x), on_grid(c.y)));
+            draw(&corners, window, base, p)
+        }
         Fill::Own(draw) => draw(corners, window, p),
     };
     Some([drawn, twice])

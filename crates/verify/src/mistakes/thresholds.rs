@@ -501,19 +501,18 @@ fn threshold(axis: Axis, shapes: &str, per_px: i64, found: Found) -> Threshold {
 fn hint(axis: Axis, per_px: i64, right_to: i64, wrong_from: i64) -> Option<String> {
     // The first shape that is wrong is not exactly at the limit.
     let [least, most] = [right_to as f64 * 0.99, wrong_from as f64 * 1.01];
-    let is_in_steps = axis.is_in_steps() && per_px > 1;
-    let mut units = vec![(1, "pixels".to_owned())];
-    if is_in_steps {
-        units = vec![(1, format!("steps of 1/{per_px} px")), (per_px, "pixels".to_owned())];
-    }
+    // Programs may keep fewer bits below the pixel than they are asked with.
+    let grids: &[i64] = if axis.is_in_steps() { &[256, 64, 16, 1] } else { &[1] };
+    let grids = grids.iter().filter(|grid| **grid <= per_px);
     if axis == Axis::Slope {
-        units.clear();
+        return None;
     }
-    for (scale, unit) in units {
-        let holds = |measure: f64| (least..=most).contains(&(measure * scale as f64));
-        for (bits, word) in WORDS {
-            let limit = 2f64.powi(bits);
-            let what = if bits < 32 && holds(limit) {
+    for (bits, word) in WORDS {
+        let limit = 2f64.powi(bits);
+        for &grid in grids.clone() {
+            let scale = if axis.is_in_steps() { per_px / grid } else { 1 };
+            let holds = |measure: f64| (least..=most).contains(&(measure * scale as f64));
+            let what = if bits < 24 && holds(limit) {
                 axis.name()
             } else if axis == Axis::Size && bits >= 15 && holds(limit.sqrt()) {
                 "product of two sides"
@@ -522,21 +521,25 @@ fn hint(axis: Axis, per_px: i64, right_to: i64, wrong_from: i64) -> Option<Strin
             } else {
                 continue;
             };
+            let unit = match grid {
+                1 => "pixels".to_owned(),
+                _ => format!("steps of 1/{grid} px"),
+            };
             return Some(format!("There the {what} in {unit} passes 2^{bits}, the end of {word}."));
         }
     }
     None
 }
 
-/// Where words end, as powers of two.
+/// Where words end, as powers of two, the likeliest first.
 const WORDS: [(i32, &str); 7] = [
-    (7, "a signed word of 8 bits"),
-    (8, "a word of 8 bits"),
-    (15, "a signed word of 16 bits"),
-    (16, "a word of 16 bits"),
-    (24, "what an f32 holds exactly"),
     (31, "a signed word of 32 bits"),
     (32, "a word of 32 bits"),
+    (15, "a signed word of 16 bits"),
+    (16, "a word of 16 bits"),
+    (7, "a signed word of 8 bits"),
+    (8, "a word of 8 bits"),
+    (24, "what an f32 holds exactly"),
 ];
 
 #[cfg(test)]

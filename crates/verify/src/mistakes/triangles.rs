@@ -160,7 +160,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "product overflows",
         sentence: |p| {
-            let (fraction, bits) = (p / 100, p % 100);
+            let (fraction, bits) = (p / 100 % 10, p % 100);
             let from = 1_i64 << ((bits - 1) / 2 - fraction).max(0);
             format!(
                 "computes the edge function of coordinates with {fraction} bits of fraction in {bits} bits: the products wrap around from about {from} px on"
@@ -169,9 +169,11 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "multiply in words of twice the length, or limit the coordinates",
         page: "stability",
         refuted: "a triangle whose products do not fit and that is drawn rightly",
-        parameters: Parameters::Fixed(&[832, 432, 32, 16, 416, 632]),
+        parameters: Parameters::Fixed(&[
+            832, 432, 32, 16, 416, 632, 1832, 1432, 1032, 1016, 1416, 1632,
+        ]),
         draws: Fill::Ruled(|corners, window, base, p| {
-            fills::wrapping(corners, window, base, p / 100, p % 100)
+            fills::wrapping(corners, window, base, p / 100 % 10, p % 100, p >= 1000)
         }),
     },
     Mistake {
@@ -231,6 +233,94 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 }
             };
             vec![corners.map_array(to)]
+        }),
+    },
+    Mistake {
+        name: "each axis is rounded in its own way",
+        sentence: |p| {
+            let (step, x, y) = own_rounding(p);
+            let grid = if step == 256 {
+                "whole pixels".to_owned()
+            } else {
+                format!("1/{} px", 256 / step)
+            };
+            format!("moves corners to {grid}, x {} and y {}", ROUNDINGS[x].0, ROUNDINGS[y].0)
+        },
+        repair: "round both coordinates in the same way, best to the nearest",
+        page: "ch01",
+        refuted: "a corner that both ways move elsewhere and whose edges pass where they should",
+        parameters: Parameters::Fixed(&OWN_ROUNDINGS),
+        draws: Fill::Instead(|corners, _, p| {
+            let (step, x, y) = own_rounding(p);
+            let to = |c: SubpixelPoint| {
+                SubpixelPoint::new(ROUNDINGS[x].1(c.x, step), ROUNDINGS[y].1(c.y, step))
+            };
+            vec![corners.map_array(to)]
+        }),
+    },
+    Mistake {
+        name: "edges are moved",
+        sentence: |p| {
+            let (norm, outward, size) = (p % 2, p / 2 % 2, OFFSETS[(p / 4) as usize]);
+            let along = ["in x and y together", "at right angles"][norm as usize];
+            let (way, what) = [("in", "lost"), ("out", "drawn")][outward as usize];
+            format!(
+                "moves every edge {way} by {} px {along}, so that a strip along it is {what}",
+                fills::decimal(size, 256)
+            )
+        },
+        repair: "leave the edges where the corners put them: what neighbours share is drawn by one of them then",
+        page: "ch02-edge-functions",
+        refuted: "a sample in that strip that is drawn rightly",
+        parameters: Parameters::Fixed(&UP_TO_31),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            let (norm, outward, size) = (p % 2, p / 2 % 2 == 1, OFFSETS[(p / 4) as usize]);
+            let lengths = [0, 1, 2].map_array(|i| {
+                let [a, b] = [corners[i], corners[(i + 1) % 3]];
+                let dx = (f64::from(b.x) - f64::from(a.x)).abs();
+                let dy = (f64::from(b.y) - f64::from(a.y)).abs();
+                if norm == 0 { dx + dy } else { (dx * dx + dy * dy).sqrt() }
+            });
+            fills::by_edges(corners, window, base, &|edge, value, owns| {
+                let by = lengths[edge] * size as f64;
+                let value = value as f64 + if outward { by } else { -by };
+                value > 0.0 || (value == 0.0 && owns)
+            })
+        }),
+    },
+    Mistake {
+        name: "weights are cut",
+        sentence: |p| {
+            let bits = WEIGHT_BITS[(p / 8) as usize];
+            let cut = ["toward zero", "down"][(p % 2) as usize];
+            format!(
+                "divides the edge functions by the area into weights of {bits} bits, cut {cut}{}: a strip along edges is drawn or lost",
+                if p / 2 % 4 == 0 { "" } else { ", one of them being what is left of 1" }
+            )
+        },
+        repair: "test the edge functions before they are divided",
+        page: "ch02-edge-functions",
+        refuted: "a sample whose weight is below a step and that is drawn rightly",
+        parameters: Parameters::Fixed(&UP_TO_63),
+        draws: Fill::Sampled(|corners, window, base, p| {
+            let bits = WEIGHT_BITS[(p / 8) as usize];
+            let area = area2(corners);
+            let whole = area.abs().max(1);
+            let cut = |value: i128| match p % 2 {
+                0 => (value << bits) / whole,
+                _ => (value << bits).div_euclid(whole),
+            };
+            // Which one is left over, or another one where two corners are exchanged first.
+            let rest = [None, Some(2), Some(0), Some(if area > 0 { 2 } else { 0 })];
+            let rest = rest[(p / 2 % 4) as usize];
+            fills::by_all_edges(corners, window, base, &|values| {
+                let mut weights = values.map_array(cut);
+                if let Some(rest) = rest {
+                    weights[rest] = 0;
+                    weights[rest] = (1 << bits) - weights.iter().sum::<i128>();
+                }
+                weights.iter().all(|weight| *weight >= 0)
+            })
         }),
     },
     Mistake {
@@ -460,21 +550,22 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "crossings are stepped",
         sentence: |p| {
-            let (slope, late, row) = stepped(p);
+            let (slope, late, row, restarts) = stepped(p);
             format!(
-                "adds the slope of an edge row by row {}{}, and {}",
+                "adds the slope of an edge row by row {}{}{}, and {}",
                 slope.about(),
                 if late { ", beginning at the corner and not at the first row" } else { "" },
+                if restarts { ", begins anew at the middle corner" } else { "" },
                 row.about()
             )
         },
         repair: "compute each crossing from the corner, or keep the remainder of the division as Bresenham's algorithm does",
         page: "ch02-scanline",
         refuted: "a long edge whose last rows are where they should be",
-        parameters: Parameters::Fixed(&UP_TO_31),
+        parameters: Parameters::Fixed(&STEPPED),
         draws: Fill::Own(|corners, window, p| {
-            let (slope, late, row) = stepped(p);
-            fills::stepped(corners, window, slope, late, row)
+            let (slope, late, row, restarts) = stepped(p);
+            fills::stepped(corners, window, slope, late, row, restarts)
         }),
     },
     Mistake {
@@ -488,18 +579,21 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             if p & 4 != 0 {
                 words += "; the products wrap around in 16 bits";
             }
+            if p & 32 != 0 {
+                words += "; the corners wrap around in 16 bits";
+            }
             words += [
                 "",
                 "; a flat top is filled from row 0 of the window on",
                 "; the last row is missing",
                 "; the right end is not drawn",
-            ][(p >> 3) as usize];
+            ][(p >> 3 & 3) as usize];
             words
         },
         repair: "neighbours draw the pixels of a shared edge twice: keep the fraction of the corners and follow a fill rule",
         page: "ch02-scanline",
         refuted: "a corner whose fraction moves an edge",
-        parameters: Parameters::Fixed(&UP_TO_31),
+        parameters: Parameters::Fixed(&UP_TO_63),
         draws: Fill::Own(fills::whole_pixels),
     },
     Mistake {
@@ -582,6 +676,26 @@ fn pair(p: i64) -> (usize, usize) {
     ((p / 6) as usize, (p % 6) as usize)
 }
 
+/// Ways to bring a coordinate to a step.
+type Round = fn(i32, i32) -> i32;
+const ROUNDINGS: [(&str, Round); 4] = [
+    ("down", |v, step| v.div_euclid(step) * step),
+    ("up", |v, step| -((-i64::from(v)).div_euclid(step.into()) * i64::from(step)) as i32),
+    ("to the nearest", |v, step| v.saturating_add(step / 2).div_euclid(step) * step),
+    ("toward zero", |v, step| v / step * step),
+];
+
+/// A step and two ways that differ.
+fn own_rounding(p: i64) -> (i32, usize, usize) {
+    let (x, y) = ((p % 4) as usize, (p / 4 % 3) as usize);
+    (STEPS[(p / 12) as usize], x, if y >= x { y + 1 } else { y })
+}
+const OWN_ROUNDINGS: [i64; 48] = up_to();
+/// How far an edge may be moved, in subpixels.
+const OFFSETS: [i64; 8] = [1, 2, 8, 16, 32, 64, 128, 256];
+/// Bits of weights in whole numbers.
+const WEIGHT_BITS: [u32; 8] = [4, 7, 8, 10, 12, 14, 15, 16];
+
 const STEPS: [i32; 4] = [256, 128, 64, 16];
 const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
 const CLIP_STEPS: [i64; 4] = [256, 64, 16, 4];
@@ -660,25 +774,27 @@ fn suffix(number: i64) -> &'static str {
 }
 
 /// A formula, whether corners are exchanged where they turn the other way, and the precision.
-const FLOATS: [i64; 36] = {
-    let mut all = [0; 36];
+const FLOATS: [i64; 44] = up_to();
+
+const UP_TO_31: [i64; 32] = up_to();
+const STEPPED: [i64; 72] = up_to();
+
+/// All numbers below one.
+const fn up_to<const N: usize>() -> [i64; N] {
+    let mut all = [0; N];
     let mut i = 0;
-    while i < 36 {
+    while i < N {
         all[i] = i as i64;
         i += 1;
     }
     all
-};
+}
 
-/// All combinations of five bits.
-const UP_TO_31: [i64; 32] = [
-    0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25,
-    26, 27, 28, 29, 30, 31,
-];
+const UP_TO_63: [i64; 64] = up_to();
 
-fn stepped(p: i64) -> (Slope, bool, Row) {
-    let slope = Slope::ALL[(p % 8) as usize];
-    (slope, p / 8 % 2 == 1, Row::ALL[(p / 16) as usize])
+fn stepped(p: i64) -> (Slope, bool, Row, bool) {
+    let [slope, late, row, restarts] = [p % 9, p / 9 % 2, p / 18 % 2, p / 36];
+    (Slope::ALL[slope as usize], late == 1, Row::ALL[row as usize], restarts == 1)
 }
 
 impl Convention {

@@ -55,12 +55,14 @@ const TRIED: usize = 24;
 pub(super) const LEAST_WRONG: usize = 6;
 
 /// The hypotheses that explain at least 99 % of the wrong answers and of the right ones, the best ones and of these the
-/// first of each name; or the nearest one. Both with their weight on every second answer, where they were chosen by the others.
+/// first of each name; or the nearest one. Both with their weight on every second answer, where they were chosen by the others;
+/// of the answers with the numbers in `among`.
 pub(super) fn weigh(
-    hypotheses: Vec<Hypothesis<'_>>,
+    hypotheses: &[Hypothesis<'_>],
     is_wrong: &[bool],
+    among: &[usize],
 ) -> (Vec<Explanation>, Option<Explanation>) {
-    let all = |wrong: bool| (0..is_wrong.len()).filter(move |&i| is_wrong[i] == wrong);
+    let all = |wrong: bool| among.iter().copied().filter(move |&i| is_wrong[i] == wrong);
     if all(true).count() < LEAST_WRONG {
         return (Vec::new(), None);
     }
@@ -74,21 +76,21 @@ pub(super) fn weigh(
         |wrong: bool| fitted.iter().copied().filter(move |&i| is_wrong[i] == wrong).take(FEW);
     let few: Vec<usize> = some(true).chain(some(false)).collect();
     let mut scored: Vec<_> = hypotheses
-        .into_iter()
-        .map(|hypothesis| (first_look(&hypothesis, &few, is_wrong), hypothesis))
+        .iter()
+        .map(|hypothesis| (first_look(hypothesis, &few, is_wrong), hypothesis))
         .collect();
     scored.sort_by_key(|(missed, _)| *missed);
     scored.truncate(KEPT);
     let mut scored: Vec<_> = scored
         .into_iter()
-        .map(|(_, hypothesis)| (Weight::of(&hypothesis, &fitted, is_wrong).missed(), hypothesis))
+        .map(|(_, hypothesis)| (Weight::of(hypothesis, &fitted, is_wrong).missed(), hypothesis))
         .collect();
     scored.sort_by_key(|(missed, _)| *missed);
     scored.truncate(TRIED);
     let mut tried: Vec<_> = scored
         .into_iter()
         .map(|(missed, hypothesis)| {
-            let weight = Weight::of(&hypothesis, &fresh, is_wrong);
+            let weight = Weight::of(hypothesis, &fresh, is_wrong);
             (missed + weight.missed(), weight, hypothesis)
         })
         .collect();
