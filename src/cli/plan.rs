@@ -186,6 +186,7 @@ impl Savings {
                 number("wrong without", "pixels that change when it is left out everywhere", 14),
             ],
             rows: self.effects.iter().map(row).collect(),
+            ..Table::default()
         }
     }
 

@@ -83,6 +83,7 @@ pub(super) fn table(decisions: &[Decision]) -> Table {
             Column::words("reason"),
         ],
         rows: grouped(decisions).into_iter().map(row).collect(),
+        ..Table::default()
     }
 }
 

@@ -32,7 +32,6 @@ use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
 use rasterproof_study::ties::classify;
-use rasterproof_study::view::Sampled;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
 
@@ -239,7 +238,7 @@ fn by_rounding(scene: &Scene, target: &Target) -> Result<ByRounding, Failure> {
     if scene.hidden == Hidden::Painter {
         return Ok(ByRounding::default());
     }
-    let classes = classify(scene, &Sampled::of(scene, target).map_err(usage)?);
+    let classes = classify(scene, target).map_err(usage)?;
     let first = classes.first.map(|pair| pair.pixel.into());
     Ok(ByRounding { pixels: classes.by_rounding, first })
 }

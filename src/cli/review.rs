@@ -404,7 +404,7 @@ fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
     if !rows.is_empty() {
         let columns = ["snapshot", "what", "accept", "without cargo-insta"].map(Column::words);
         let caption = "Snapshots that wait".to_owned();
-        report.tables.push(Table { caption, columns: columns.to_vec(), rows });
+        report.tables.push(Table { caption, columns: columns.to_vec(), rows, ..Table::default() });
     }
     report
 }

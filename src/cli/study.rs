@@ -16,10 +16,11 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::board::number;
 use rasterproof_report::study::{
-    self as report, Subject, costs, costs_json, hard_cases, hard_cases_json, needs_json, ties_json,
+    self as report, Subject, costs, costs_json, hard_cases, hard_cases_json,
 };
 use rasterproof_report::summary::{thousands, word};
 use rasterproof_report::table::{Column, Table};
+use rasterproof_report::text::{self, WIDTH};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::hard::{self, HardCases, Kind};
@@ -133,7 +134,7 @@ pub(super) fn cost(
         writeln!(out, "{}", costs_json(&subject, &groups))?;
     } else {
         writeln!(out, "{}\n", head(&studied))?;
-        out.write_all(costs(&subject, &groups).as_bytes())?;
+        out.write_all(text::tables(&costs(&subject, &groups), WIDTH).as_bytes())?;
     }
     Ok(exit::AGREES)
 }
@@ -179,41 +180,30 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
             .map(|name| typed.as_command(name, path, &VIEW_OPTIONS).line()),
     };
     let found = report::Found { hard: &studied.hard, needs: &needs, costs: &groups, not_drawn };
-    let answers = report::answers(&subject, &found, commands);
+    let mut report = report::report(&subject, &found, head(&studied), commands, typed.line());
+    if let Some(loading_s) = maker.loading_s() {
+        let read =
+            format!("read in {:.1} ms, which is no part of the times above", loading_s * 1e3);
+        report.notes.push(read);
+    }
     let out = &mut *streams.output;
     if arguments.json {
-        let json = serde_json::json!({
+        let mut json = serde_json::json!({
             "scene": studied.scene.name,
             "triangles": studied.scene.triangles(),
             "pieces": pieces.len(),
             "loading_s": maker.loading_s(),
-            "hard_cases": hard_cases_json(&subject, &studied.hard),
-            "answers": answers,
-            "decided": ties_json(&studied.hard.classes),
-            "effects": needs_json(&needs, not_drawn),
-            "costs": costs_json(&subject, &groups),
         });
+        if let (Some(json), Some(data)) = (json.as_object_mut(), report.data.as_object()) {
+            json.extend(data.clone());
+        }
         writeln!(out, "{json}")?;
     } else {
-        writeln!(out, "{}\n", head(&studied))?;
-        writeln!(out, "{}", report::answers_text(&answers))?;
-        if arguments.all {
-            if let Some(loading_s) = maker.loading_s() {
-                let loading_ms = loading_s * 1e3;
-                writeln!(out, "read in {loading_ms:.1} ms, which is no part of the times below\n")?;
-            }
-            out.write_all(hard_cases(&subject, &studied.hard, &groups).as_bytes())?;
-            writeln!(out, "{}", report::ties(&subject, &studied.hard.classes))?;
-            writeln!(out, "{}", report::needs(&needs, not_drawn))?;
-            out.write_all(costs(&subject, &groups).as_bytes())?;
-        } else {
-            out.write_all(report::first_screen(&subject, &found).as_bytes())?;
-        }
+        out.write_all(text::text(&report, arguments.all).as_bytes())?;
     }
     out.flush()?;
     if let Some(output) = page {
-        let page = report::page(&subject, &found, answers, &typed.line());
-        write_page(&output, page, streams);
+        write_page(&output, report, streams);
     }
     Ok(exit::AGREES)
 }
@@ -370,7 +360,8 @@ pub(super) fn verify(
         return Ok(status);
     }
     writeln!(out, "{}\n", head(&studied))?;
-    writeln!(out, "{}", hard_cases(&subject, &studied.hard, &[]))?;
+    let hard = hard_cases(&subject, &studied.hard, &[]);
+    write!(out, "{}", text::tables(&[hard], WIDTH))?;
     for (name, fault) in &faults {
         let Some(Fault { what, triangle }) = fault else {
             writeln!(out, "{name} against the oracle: agrees")?;

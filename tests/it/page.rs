@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use image::{Rgb, RgbImage};
 use rasterproof_host::limits::PAGE_BYTES;
 use rasterproof_report::html::{
-    Figure, Outcome, PictureLayer, PictureView, Report, TextDiff, page,
+    Answer, Figure, Outcome, PictureLayer, PictureView, Report, TextDiff, page,
 };
 use rasterproof_report::panels::Sheet;
 use rasterproof_report::table::{Column, Row, Table};
@@ -708,6 +708,7 @@ pub fn every_section() -> Report {
     Report {
         title: hostile(),
         outcome: Some(Outcome { good: true, word: hostile(), sentence: hostile() }),
+        answers: vec![Answer { about: HOSTILE, sentence: hostile(), command: hostile() }],
         command: hostile(),
         notes: vec![hostile()],
         tables: vec![Table {
@@ -718,6 +719,7 @@ pub fn every_section() -> Report {
                 search: Some(hostile()),
                 ..Row::default()
             }],
+            notes: vec![hostile()],
         }],
         frames: vec![PictureView {
             name: hostile(),
@@ -736,6 +738,7 @@ pub fn every_section() -> Report {
             caption: format!("plan {}", hostile()),
             columns: ["effect", "reason"].map(Column::words).to_vec(),
             rows: vec![vec![hostile(), hostile()].into()],
+            notes: Vec::new(),
         }),
         diffs: vec![TextDiff {
             name: hostile(),

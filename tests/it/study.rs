@@ -211,7 +211,8 @@ fn a_comparison_of_nothing_says_that_nothing_was_compared() {
     let show = format!("course show --model flat.obj --size 32x24 --out . {program}");
     folder.check(show, 0).prints("NOT COMPARED");
     assert!(folder.text("course-model.html").contains("NOT COMPARED"));
-    folder.check("study flat.obj --size 32x24 --quick", 0).prints("NOT COMPARED");
+    let study = folder.check("study flat.obj --size 32x24 --once", 0);
+    study.prints("NOT COMPARED").prints("so nothing was compared").omits("wrong here");
     not_compared(&format!("plan {culled} --rounds 1 --whole --report"));
     assert!(folder.text("plan.html").contains("NOT COMPARED"));
     let compared = folder.check(format!("render {culled} --json"), 0).json();
@@ -458,7 +459,7 @@ fn faces_are_those_of_the_file() {
 fn render_and_study_count_the_same_pixels() {
     let folder = Folder::new("study-rounding");
     let ties = root().join("tests/data/ties.obj");
-    let lod = root().join("tests/data/lod-border.obj");
+    let lod = root().join("tests/data/models/lod-border.obj");
     for (model, view) in [
         (&ties, "--size 160x120 --yaw 0 --pitch 45"),
         (&ties, "--size 64x48 --aa msaa4"),
@@ -513,7 +514,7 @@ fn pixels_that_rounding_decides_are_a_hard_case() {
 #[test]
 fn gaps_between_levels_of_detail_are_found_with_their_pixels() {
     let folder = Folder::new("study-gaps");
-    let model = std::fs::read_to_string(root().join("tests/data/lod-border.obj")).unwrap();
+    let model = std::fs::read_to_string(root().join("tests/data/models/lod-border.obj")).unwrap();
     folder.put("m.mtl", "newmtl ground\nKd 0 0.6 0\nnewmtl gap\nKd 1 0 0\nKa 1 0 0\n");
     let model = format!("mtllib m.mtl\nusemtl ground\n{model}");
     folder.put("m.obj", &model);
@@ -549,7 +550,10 @@ fn gaps_between_levels_of_detail_are_found_with_their_pixels() {
 #[test]
 fn effects_are_called_for_where_they_change_a_pixel() {
     let folder = Folder::new("study-states");
-    folder.put("m.obj", std::fs::read_to_string(root().join("tests/data/lod-border.obj")).unwrap());
+    folder.put(
+        "m.obj",
+        std::fs::read_to_string(root().join("tests/data/models/lod-border.obj")).unwrap(),
+    );
     let json = folder.check("study m.obj --once --json", 0).json();
     let effects = json["effects"]["effects"].as_array().unwrap();
     for effect in effects {
@@ -561,8 +565,8 @@ fn effects_are_called_for_where_they_change_a_pixel() {
         effects.iter().filter(is_safe).map(|e| e["effect"].as_str().unwrap()).collect();
     assert!(safe.contains(&"depth"), "{safe:?}");
     let text = folder.check("study m.obj --once --all", 0).out;
-    let (_, lists) = text.split_once("effects called for").unwrap();
-    let (called, rest) = lists.split_once("effects paid for to be safe").unwrap();
+    let (_, lists) = text.split_once("Effects called for").unwrap();
+    let (called, rest) = lists.split_once("Effects paid for to be safe").unwrap();
     for name in safe {
         let is_line = |line: &str| line.trim().starts_with(&format!("{name} "));
         assert!(!called.lines().any(is_line) && rest.lines().any(is_line), "{name}: {text}");
@@ -606,7 +610,7 @@ fn numbers_in(text: &str) -> Vec<f64> {
 #[test]
 fn a_study_answers_in_three_sentences_that_other_commands_confirm() {
     let folder = Folder::new("study-answers");
-    let lod = std::fs::read_to_string(root().join("tests/data/lod-border.obj")).unwrap();
+    let lod = std::fs::read_to_string(root().join("tests/data/models/lod-border.obj")).unwrap();
     folder.put("m.obj", lod);
     folder.put("m.gltf", panes(true));
     for words in ["m.obj", "m.obj --pitch 5", "m.gltf --size 200x150"] {

@@ -143,7 +143,7 @@ fn table(families: &[&FamilyReport]) -> Table {
         (cells, f.pairs.iter().any(|p| p.wrong_cases > 0) || f.oracle_faults > 0)
     };
     let caption = format!("Wrong pixels: {shapes}, by family and pair, worst first");
-    Table { caption, columns, rows: rows(families, row) }
+    Table { caption, columns, rows: rows(families, row), ..Table::default() }
 }
 
 fn wrong(tally: Tally, panics: u64) -> String {
@@ -224,6 +224,7 @@ pub fn refused() -> Table {
         caption: "Inputs that are refused, with the reason given".to_owned(),
         columns: ["case", "input", "answer"].map(Column::words).to_vec(),
         rows: rows.collect(),
+        ..Table::default()
     }
 }
 

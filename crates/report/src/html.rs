@@ -35,8 +35,12 @@ pub struct Report {
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
+    /// The subject in a line or two, which begins the text in a terminal.
+    pub about: String,
     /// What the reader wants to know, shown below the verdict.
     pub answers: Vec<Answer>,
+    /// The tables of the text in a terminal that is not asked for all of them.
+    pub first_screen: Vec<Table>,
     pub command: String,
     /// Decides the generated cases, where there are any.
     pub seed: Option<u64>,
@@ -47,6 +51,8 @@ pub struct Report {
     pub cases: Vec<CaseView>,
     pub frames: Vec<PictureView>,
     pub figures: Vec<Figure>,
+    /// The same for machines, where it is made of this value.
+    pub data: serde_json::Value,
     /// The effects of a plan, and why each is paid for or not.
     pub plan: Option<Table>,
     pub diffs: Vec<TextDiff>,
@@ -369,8 +375,19 @@ fn notes(notes: &[String], left_out: &[String]) -> String {
 }
 
 fn table(table: &Table) -> String {
+    let mut out = format!("<h3 class=\"caption\">{}</h3>", escape(&table.caption));
+    if !table.rows.is_empty() {
+        out += &rows(table);
+    }
+    for note in &table.notes {
+        let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(note));
+    }
+    out
+}
+
+fn rows(table: &Table) -> String {
     let mut out = format!(
-        "<h3 class=\"caption\">{0}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" \
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" \
          aria-label=\"{0}\"><table class=\"counts\" aria-label=\"{0}\">\n<thead><tr>",
         escape(&table.caption)
     );
@@ -513,7 +530,7 @@ mod tests {
         let row = |i: usize| Row::from(vec![format!("{i}"), "x".repeat(200)]);
         let columns = ["a", "b"].map(Column::words).to_vec();
         let rows = (0..20_000).map(row).collect();
-        let table = Table { caption: "many".to_owned(), columns, rows };
+        let table = Table { caption: "many".to_owned(), columns, rows, ..Table::default() };
         let diff = |i: usize| TextDiff {
             name: format!("text {i}"),
             new: "x\n".repeat(100),

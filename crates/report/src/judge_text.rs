@@ -419,5 +419,6 @@ fn properties(verdict: &Verdict) -> Table {
         caption: "Properties, those that fail first".to_owned(),
         columns: ["property", "", "what it says", "found"].map(Column::words).to_vec(),
         rows: bad.into_iter().chain(good).map(row).collect(),
+        ..Table::default()
     }
 }

@@ -24,3 +24,4 @@ pub mod specimens;
 pub mod study;
 pub mod summary;
 pub mod table;
+pub mod text;

@@ -58,6 +58,7 @@ fn of_specimens(reports: &[&SpecimenReport]) -> Table {
         caption: "Published algorithms and how often each is wrong, worst first".to_owned(),
         columns,
         rows: reports.iter().map(row).collect(),
+        ..Table::default()
     }
 }
 

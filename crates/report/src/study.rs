@@ -1,4 +1,4 @@
-//! A study of a model as text and as JSON.
+//! A study of a model as a report.
 
 use std::fmt::Write as _;
 
@@ -18,9 +18,8 @@ use super::canvas::{self, Drawing};
 use super::chapter::Chapter;
 use super::cost_plots;
 use super::html::{Answer, Figure, Outcome, PictureLayer, PictureView, Report};
-use super::lettering;
 use super::summary::{count, thousands};
-use super::table::{Column, Table};
+use super::table::{Column, Row, Table};
 
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
@@ -66,17 +65,6 @@ fn compared_in(costs: &[Group]) -> Option<String> {
         let [some, all] = [some, all].map(thousands);
         format!("values were compared in {some} of the {all} px of these faces")
     })
-}
-
-pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> String {
-    let mut out = match found.cases.len() {
-        0 => "hard cases: none\n".to_owned(),
-        _ => hard_table(subject, found, costs).text([2, 4]),
-    };
-    for line in about_hard_cases(found, costs) {
-        let _ = writeln!(out, "{line}");
-    }
-    out
 }
 
 /// What is said of all hard cases together, a line each.
@@ -136,7 +124,7 @@ fn ms(ns: f64) -> String {
 }
 
 /// The three questions of a study, each answered in a sentence or two, and the commands that say more.
-pub fn answers(subject: &Subject<'_>, found: &Found<'_>, commands: [String; 3]) -> Vec<Answer> {
+fn answers(subject: &Subject<'_>, found: &Found<'_>, commands: [String; 3]) -> Vec<Answer> {
     let sentences = [accuracy(found.costs), stability(subject, found.hard), effects(found)];
     let questions = ["accuracy", "hard cases", "effects"];
     let all = questions.into_iter().zip(sentences).zip(commands);
@@ -147,6 +135,9 @@ pub fn answers(subject: &Subject<'_>, found: &Found<'_>, commands: [String; 3]) 
 /// What exact coverage costs, and what is wrong.
 fn accuracy(groups: &[Group]) -> String {
     let is_of_coverage = |group: &&Group| group.title.starts_with(COVERAGE);
+    if groups.iter().filter(is_of_coverage).all(|group| group.timed[1] == 0) {
+        return "No pixel is covered in this view, so nothing was compared.".to_owned();
+    }
     let all = groups.iter().filter(is_of_coverage).flat_map(|group| {
         let timed = group.choices.iter().filter(|choice| choice.refused.is_none());
         timed.filter_map(move |choice| Some((group, choice, choice.time?.median)))
@@ -270,44 +261,18 @@ fn effects(found: &Found<'_>) -> String {
 
 const FRAMES: &str = "Whole frames";
 
-/// Columns of a terminal that a first screen has.
-const SCREEN: usize = 80;
-
 /// Rows of a table of cases or effects on a first screen, which has 40.
 const MOST_ROWS: usize = 4;
 
-/// Answers as text: below each the command that says more.
-pub fn answers_text(answers: &[Answer]) -> String {
-    let mut out = String::new();
-    for Answer { about, sentence, command } in answers {
-        let room = SCREEN - 14;
-        let lines = lettering::lines(sentence, room, |line| line.chars().count());
-        for (number, line) in lines.iter().enumerate() {
-            let head = if number == 0 { about } else { "" };
-            let _ = writeln!(out, "{head:<12}{line}");
-        }
-        if !command.is_empty() {
-            let _ = writeln!(out, "{:<12}$ {command}", "");
-        }
-    }
-    out
-}
-
-/// The first screen below the answers: what is seen, what is called for, and the cheapest exact choices.
-pub fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> String {
-    let mut out = String::new();
-    let mut add = |mut table: Table, most: usize, others: &str| {
-        let left_out = table.rows.len().saturating_sub(most);
-        table.rows.truncate(most);
-        if !table.rows.is_empty() {
-            let _ = write!(out, "{}", table.text([2, 4]));
-        }
-        if left_out > 0 {
-            let _ = writeln!(out, "  and {left_out} more");
-        }
-        let others = lettering::lines(others, SCREEN - 2, |line| line.chars().count());
-        let _ = writeln!(out, "{}", others.join("\n  "));
-        out += if others.is_empty() { "" } else { "\n" };
+/// What is seen, what is called for, and the cheapest exact choices: a table for each question.
+fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> Vec<Table> {
+    let short = |columns: Vec<Column>, mut rows: Vec<Row>, note: &str| {
+        let left_out = rows.len().saturating_sub(MOST_ROWS);
+        rows.truncate(MOST_ROWS);
+        let more = (left_out > 0).then(|| format!("and {left_out} more"));
+        let note = (!note.is_empty()).then(|| note.to_owned());
+        let notes = more.into_iter().chain(note).collect();
+        Table { columns, rows, notes, ..Table::default() }
     };
     let mut seen: Vec<_> = found.hard.in_view().collect();
     seen.sort_by_key(|case| std::cmp::Reverse(case.pixels));
@@ -331,11 +296,7 @@ pub fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> String {
         0 => String::new(),
         _ => format!("only in the mesh: {}", hidden.join(", ")),
     };
-    add(
-        Table { columns, rows: seen.iter().map(row).collect(), ..Table::default() },
-        MOST_ROWS,
-        &hidden,
-    );
+    let seen = short(columns, seen.iter().map(row).collect(), &hidden);
     let of = |state: State| found.needs.needs.iter().filter(move |need| need.state() == state);
     let row = |need: &Need| {
         let time = takes(found.needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
@@ -354,7 +315,7 @@ pub fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> String {
         _ => format!("paid for to be safe, though no pixel changes here: {}", safe.join(", ")),
     };
     let rows = called.into_iter().map(row).collect();
-    add(Table { columns, rows, ..Table::default() }, MOST_ROWS, &safe);
+    let called = short(columns, rows, &safe);
     let row = |group: &Group| {
         let measure = group.measures.len() - 1;
         let mut cells = vec![group.title.to_owned()];
@@ -378,26 +339,8 @@ pub fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> String {
     ];
     let rows = found.costs.iter().map(row).collect();
     let more = "times: against the cheapest of all. More: --all; with pictures: --report";
-    add(Table { columns, rows, ..Table::default() }, usize::MAX, more);
-    out.truncate(out.trim_end().len());
-    out + "\n"
-}
-
-/// What each choice costs, by group; and what to choose.
-pub fn costs(subject: &Subject<'_>, groups: &[Group]) -> String {
-    let mut out = String::new();
-    for group in groups {
-        let table = cost_table(group);
-        let _ = write!(out, "{}\n{}", table.caption, table.text([2, 4]));
-        for measure in &group.measures {
-            let _ = writeln!(out, "  {}: {}", measure.short, measure.title);
-        }
-        for line in advice(subject, group) {
-            let _ = writeln!(out, "  {line}");
-        }
-        out.push('\n');
-    }
-    out
+    let costs = Table { columns, rows, notes: vec![more.to_owned()], ..Table::default() };
+    vec![seen, called, costs]
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
@@ -435,7 +378,7 @@ pub fn advice(subject: &Subject<'_>, group: &Group) -> Vec<String> {
                 if let Some(triangle) = triangle {
                     let _ = write!(line, ": {}", subject.place(triangle));
                     lines.push(line);
-                    lines.push(format!("  {}", subject.command(triangle)));
+                    lines.push(subject.command(triangle));
                 } else {
                     lines.push(line);
                 }
@@ -471,11 +414,11 @@ fn compared(group: &Group, measure: usize) -> Vec<String> {
     }
     let mut lines = vec![format!("cheapest exact ({short}): {}", names(&[best.choice]))];
     if !best.equal.is_empty() {
-        lines.push(format!("  equally fast within 3%: {}", names(&best.equal)));
+        lines.push(format!("equally fast within 3%: {}", names(&best.equal)));
     }
     if !best.undecided.is_empty() {
         let (rounds, others) = (best.rounds, names(&best.undecided));
-        lines.push(format!("  undecided after {rounds} rounds, within 3% or not: {others}"));
+        lines.push(format!("undecided after {rounds} rounds, within 3% or not: {others}"));
     }
     lines
 }
@@ -529,18 +472,18 @@ pub fn costs_json(subject: &Subject<'_>, groups: &[Group]) -> Value {
     groups.iter().map(group).collect()
 }
 
-/// How it is decided which surface is seen, as text.
-pub fn ties(subject: &Subject<'_>, classes: &Classes) -> String {
+/// How it is decided which surface is seen, in a sentence or two.
+fn ties(subject: &Subject<'_>, classes: &Classes) -> String {
     let [decided, by_rounding, equal, by_order] =
         [classes.decided, classes.by_rounding, classes.equal, classes.by_order].map(thousands);
     let mut out = format!(
-        "which surface is seen, before corners are snapped: decided in {decided} px, by rounding\n  \
-         alone in {by_rounding} px, in {equal} of them between equal depths; by the order of faces that are\n  \
-         drawn twice in {by_order} px (see docs/ties.md)\n"
+        "which surface is seen, before corners are snapped (see docs/ties.md): decided in {decided} px; by \
+         rounding alone in {by_rounding} px, in {equal} of them between equal depths; by the order of faces that \
+         are drawn twice in {by_order} px"
     );
     if let Some(TiedPair { pixel: [x, y], triangles }) = classes.first {
         let [a, b] = triangles.map(|triangle| subject.place(triangle));
-        let _ = writeln!(out, "  by rounding first at {x},{y}: {a} and {b}");
+        let _ = write!(out, "; by rounding first at {x},{y}: {a} and {b}");
     }
     out
 }
@@ -573,27 +516,6 @@ fn by_whom(need: &Need) -> String {
 fn reasons(need: &Need) -> String {
     let reasons: Vec<_> = need.reasons.iter().map(|(reason, _)| reason.as_str()).collect();
     reasons.join("; ")
-}
-
-/// What a scene calls for, as text; `not_drawn` is what its file asks for besides.
-pub fn needs(needs: &Needs, not_drawn: &str) -> String {
-    let mut out = String::new();
-    for state in [State::CalledFor, State::ToBeSafe] {
-        let table = needs_table(needs, state);
-        if !table.rows.is_empty() {
-            out += &table.text([2, 4]);
-        }
-    }
-    for need in needs.needs.iter().filter(|need| need.state() == State::NotCalledFor) {
-        let _ = writeln!(out, "not called for: {}: {}", need.effect.name(), reasons(need));
-    }
-    if !not_drawn.is_empty() {
-        let _ = writeln!(out, "called for and not supported: {not_drawn}");
-    }
-    for line in effects_advice(needs) {
-        let _ = writeln!(out, "{line}");
-    }
-    out
 }
 
 /// What follows from the effects, a sentence each.
@@ -745,44 +667,42 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
     marked
 }
 
+/// Everything that was found. `about` says of what, `commands` say more about each question, and `command` repeats it.
 #[must_use]
-pub fn page(
+pub fn report(
     subject: &Subject<'_>,
     found: &Found<'_>,
-    answers: Vec<Answer>,
-    command: &str,
+    about: String,
+    commands: [String; 3],
+    command: String,
 ) -> Report {
     let classes = &found.hard.classes;
     let in_view = found.hard.in_view().count();
     let sentence = match in_view {
         0 => "No hard case is seen in this view.".to_owned(),
         1 => "One kind of hard case is seen in this view.".to_owned(),
-        kinds => {
-            format!("{kinds} kinds of hard cases are seen in this view.")
-        }
+        kinds => format!("{kinds} kinds of hard cases are seen in this view."),
     };
-    let mut tables = Vec::new();
-    if !found.hard.cases.is_empty() {
-        tables.push(hard_table(subject, found.hard, found.costs));
-    }
+    let mut hard = hard_cases(subject, found.hard, found.costs);
+    hard.notes.push(ties(subject, classes));
+    let mut tables = vec![hard];
     tables.extend(State::ALL.map(|state| needs_table(found.needs, state)));
-    tables.retain(|table| !table.rows.is_empty());
-    let mut notes = vec![
-        ties(subject, classes).replace('\n', " "),
-        "A face is shown by the command beside it; the same judgements alone: verify and cost with \
-         the file."
-            .to_owned(),
-    ];
-    notes.extend(about_hard_cases(found.hard, found.costs));
-    notes.extend(effects_advice(found.needs));
-    if !found.not_drawn.is_empty() {
-        notes.push(format!("Called for and not supported: {}.", found.not_drawn));
+    tables.retain(|table| !table.rows.is_empty() || !table.notes.is_empty());
+    if let Some(effects) = tables.last_mut() {
+        effects.notes.extend(effects_advice(found.needs));
+        if !found.not_drawn.is_empty() {
+            effects.notes.push(format!("called for and not supported: {}", found.not_drawn));
+        }
     }
-    for group in found.costs {
-        tables.push(cost_table(group));
-        let advice = advice(subject, group);
-        notes.push(format!("{}: {}.", group.title, advice.join("; ")));
-    }
+    tables.extend(costs(subject, found.costs));
+    let answers = answers(subject, found, commands);
+    let data = json!({
+        "answers": answers,
+        "hard_cases": hard_cases_json(subject, found.hard),
+        "decided": ties_json(classes),
+        "effects": needs_json(found.needs, found.not_drawn),
+        "costs": costs_json(subject, found.costs),
+    });
     let picture = super::frame_comparison::rgb(&found.hard.picture);
     let marked = marked(found.hard, &picture);
     let decided = RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
@@ -801,11 +721,13 @@ pub fn page(
             word: if in_view == 0 { "CLEAN" } else { "HARD CASES" }.to_owned(),
             sentence,
         }),
+        about,
         answers,
-        command: command.to_owned(),
-        notes,
+        first_screen: first_screen(subject, found),
+        command: command.clone(),
         tables,
         figures: figures(found),
+        data,
         frames: vec![PictureView {
             name: subject.scene.name.clone(),
             about:
@@ -813,7 +735,7 @@ pub fn page(
                     which surface is seen, in orange, where it does between equal depths, in violet, \
                     and where the order of faces drawn twice does, in blue."
                     .to_owned(),
-            command: command.to_owned(),
+            command,
             chapter: Chapter { title: "a study of your own model", path: "study.md" },
             layers: vec![
                 PictureLayer::new("picture", &picture),
@@ -825,7 +747,8 @@ pub fn page(
     }
 }
 
-fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Table {
+/// The hard cases with what is said of them, and the rungs that are wrong on them where costs were measured.
+pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Table {
     let row = |case: &HardCase| {
         let (mut place, command) = match case.triangles.first() {
             Some(&triangle) => (subject.place(triangle), subject.command(triangle)),
@@ -836,7 +759,7 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
         }
         let wrong = match wrong_on(found, case.kind, costs).as_slice() {
             [] => String::new(),
-            rungs => format!("wrong on such triangles:\n  {}", rungs.join("\n  ")),
+            choices => format!("wrong on such triangles:\n  {}", choices.join("\n  ")),
         };
         let [in_view, others, pixels] =
             [case.in_view, case.count - case.in_view, case.pixels].map(thousands);
@@ -844,19 +767,17 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
         vec![kind, in_view, others, pixels, about, place, command, wrong].into()
     };
     Table {
-        caption: match compared_in(costs) {
-            Some(words) => format!("Hard cases; {words}"),
-            None => "Hard cases".to_owned(),
-        },
+        caption: if found.cases.is_empty() { "Hard cases: none" } else { "Hard cases" }.to_owned(),
+        notes: about_hard_cases(found, costs),
         columns: vec![
-            Column::words("kind").short("hard cases").least(32),
+            Column::words("kind").least(32),
             Column::numbers("in view", "how many are seen").least(11),
             Column::numbers("only in the mesh", "how many are culled, hidden or outside").least(17),
             Column::numbers("pixels", "pixels of the picture in which they are seen").least(11),
             Column::words("what one sees"),
             Column::words("where"),
             Column::words("command"),
-            Column::words("rungs"),
+            Column::words("wrong choices"),
         ],
         rows: found.cases.iter().map(row).collect(),
     }
@@ -873,10 +794,10 @@ fn needs_table(needs: &Needs, state: State) -> Table {
         vec![name, pixels, wrong, time, who, reasons(need)].into()
     };
     let is_here = |need: &&Need| need.state() == state;
-    let caption = format!("effects {}", state.name());
     Table {
+        caption: format!("Effects {}", state.name()),
         columns: vec![
-            Column::words("effect").short(&*caption).least(28),
+            Column::words("effect").least(28),
             Column::numbers("pixels", "pixels that pay for it").least(11),
             Column::numbers("wrong without", "pixels that change when it is switched off")
                 .least(17),
@@ -884,12 +805,17 @@ fn needs_table(needs: &Needs, state: State) -> Table {
             Column::words("by"),
             Column::words("why"),
         ],
-        caption: caption.replacen('e', "E", 1),
         rows: needs.needs.iter().filter(is_here).map(row).collect(),
+        ..Table::default()
     }
 }
 
-fn cost_table(group: &Group) -> Table {
+/// What each choice costs, a table for each group, with what to choose.
+pub fn costs(subject: &Subject<'_>, groups: &[Group]) -> Vec<Table> {
+    groups.iter().map(|group| cost_table(subject, group)).collect()
+}
+
+fn cost_table(subject: &Subject<'_>, group: &Group) -> Table {
     let least = group.cheapest(&|_| true).and_then(|best| group.choices[best].time);
     let row = |choice: &Choice| {
         let mut cells = vec![choice.name.clone()];
@@ -924,5 +850,8 @@ fn cost_table(group: &Group) -> Table {
     ]);
     let [items, pixels] = group.timed.map(thousands);
     let caption = format!("{}, ms for {items} triangles and {pixels} pixels", group.title);
-    Table { caption, columns, rows: group.choices.iter().map(row).collect() }
+    let measures = group.measures.iter();
+    let mut notes: Vec<_> = measures.map(|m| format!("{}: {}", m.short, m.title)).collect();
+    notes.extend(advice(subject, group));
+    Table { caption, columns, rows: group.choices.iter().map(row).collect(), notes }
 }

@@ -8,6 +8,8 @@ pub struct Table {
     pub caption: String,
     pub columns: Vec<Column>,
     pub rows: Vec<Row>,
+    /// What is said below it, a line each.
+    pub notes: Vec<String>,
 }
 
 #[derive(Clone, Debug, Default)]

@@ -167,11 +167,13 @@ pub fn find(
 ) -> Result<HardCases, BadScene> {
     let pieces = sampled.at_centres();
     let window = target.size();
+    let planes = sampled.planes.iter();
+    let planes = planes.map(|pieces| Surfaces::of(scene, pieces, sampled.window));
     let mut search = Search {
         scene,
         pieces,
         sampled,
-        surfaces: Surfaces::of(scene, sampled),
+        surfaces: planes.collect(),
         marks: vec![0; scene.triangles()],
         is_seen: vec![false; scene.triangles()],
         seen_at: Frame::new(window, NOTHING),

@@ -12,10 +12,12 @@ use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::opacity::AlphaMode;
+use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::Scene;
 
-use crate::view::{NOTHING, Piece, Sampled};
+use crate::view::{NOTHING, Piece, each_plane};
 
 /// How it is decided which surface is seen at a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -116,32 +118,28 @@ pub(crate) struct Surfaces<'a> {
 const NONE: (f64, u32) = (f64::INFINITY, NOTHING);
 
 impl<'a> Surfaces<'a> {
-    /// One for each plane of samples.
-    pub fn of(scene: &Scene, sampled: &'a Sampled) -> Vec<Self> {
+    pub fn of(scene: &Scene, pieces: &'a [Piece], window: PixelRect) -> Self {
         let blends = |piece: &Piece| {
             let opacity = scene.items[piece.item as usize].material.opacity.as_ref();
             opacity.is_some_and(|opacity| opacity.mode == AlphaMode::Blend)
         };
-        let of_plane = |pieces: &'a Vec<Piece>| {
-            let mut surfaces = Self {
-                pieces,
-                window: sampled.window,
-                planes: pieces.iter().map(DepthPlane::of).collect(),
-                blends: pieces.iter().map(blends).collect(),
-                nearest: Frame::new(sampled.window, NONE),
-            };
-            let mut nearest = Frame::new(sampled.window, NONE);
-            surfaces.each(&mut |number, plane, x, y| {
-                let [z, ..] = plane.at(x, y);
-                let held = &mut nearest.span_mut(y, x, x + 1)[0];
-                if z < held.0 && !surfaces.blends[number as usize] {
-                    *held = (z, number);
-                }
-            });
-            surfaces.nearest = nearest;
-            surfaces
+        let mut surfaces = Self {
+            pieces,
+            window,
+            planes: pieces.iter().map(DepthPlane::of).collect(),
+            blends: pieces.iter().map(blends).collect(),
+            nearest: Frame::new(window, NONE),
         };
-        sampled.planes.iter().map(of_plane).collect()
+        let mut nearest = Frame::new(window, NONE);
+        surfaces.each(&mut |number, plane, x, y| {
+            let [z, ..] = plane.at(x, y);
+            let held = &mut nearest.span_mut(y, x, x + 1)[0];
+            if z < held.0 && !surfaces.blends[number as usize] {
+                *held = (z, number);
+            }
+        });
+        surfaces.nearest = nearest;
+        surfaces
     }
 
     /// Calls `see` with each sample of each piece.
@@ -202,16 +200,20 @@ impl<'a> Surfaces<'a> {
     }
 }
 
-/// How it is decided at the samples of each pixel which surface is seen.
-pub fn classify(scene: &Scene, sampled: &Sampled) -> Classes {
-    let mut classes = Classes::new(sampled.size);
-    for surfaces in Surfaces::of(scene, sampled) {
+/// How it is decided at the samples of each pixel of a picture which surface is seen. One plane of samples after the other
+/// is held.
+pub fn classify(scene: &Scene, target: &Target) -> Result<Classes, BadScene> {
+    let scale = target.antialias().scale() as i32;
+    let mut classes = Classes::new(target.size());
+    each_plane(scene, target, &mut |pieces| {
+        let surfaces = Surfaces::of(scene, pieces, target.bounds());
         surfaces.seen(&mut |sample, [piece, front], class| {
-            let triangles = [front, piece].map_array(|one| surfaces.pieces[one as usize].face);
-            classes.add(TiedPair { pixel: sampled.pixel(sample), triangles }, class);
+            let pixel = sample.map_array(|at| at.div_euclid(scale));
+            let triangles = [front, piece].map_array(|one| pieces[one as usize].face);
+            classes.add(TiedPair { pixel, triangles }, class);
         });
-    }
-    classes.counted()
+    })?;
+    Ok(classes.counted())
 }
 
 impl Classes {
@@ -249,7 +251,7 @@ mod tests {
     use super::*;
     use glam::{DMat4, DVec2, DVec3};
     use rasterproof_render::pipeline::depth::DepthFormat;
-    use rasterproof_render::pipeline::target::{Antialias, Target};
+    use rasterproof_render::pipeline::target::Antialias;
     use rasterproof_render::pipeline::transform::perspective;
     use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 
@@ -278,7 +280,7 @@ mod tests {
         scene.view = DMat4::IDENTITY;
         scene.items = vec![square(false, 0.0), second];
         let target = Target::new(200, 200, Antialias::None, DepthFormat::Unorm32).unwrap();
-        classify(&scene, &Sampled::of(&scene, &target).unwrap())
+        classify(&scene, &target).unwrap()
     }
 
     /// In one plane depths are equal, whatever the diagonals, and rounding decides unless it is the same triangles twice;

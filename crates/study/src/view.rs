@@ -196,6 +196,23 @@ impl Sampled {
     }
 }
 
+/// Calls `see` with the pieces at each plane of samples of a picture, as [`Sampled`] has them, one plane after the other.
+pub(crate) fn each_plane(
+    scene: &Scene,
+    target: &Target,
+    see: &mut dyn FnMut(&[Piece]),
+) -> Result<(), BadScene> {
+    if target.antialias() != Antialias::Multisample4 {
+        see(&pieces(scene, target.bounds())?);
+        return Ok(());
+    }
+    let at_centres = pieces(scene, target.size())?;
+    for sample in SAMPLES {
+        see(&at_centres.iter().filter_map(|piece| moved(piece, sample)).collect::<Vec<_>>());
+    }
+    Ok(())
+}
+
 /// A piece moved so that a sample falls on the centre; none beyond the domain of the engines.
 fn moved(piece: &Piece, sample: (i32, i32)) -> Option<Piece> {
     let triangle = multisample::moved(&piece.triangle, sample)?;

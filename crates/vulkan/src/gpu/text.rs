@@ -187,6 +187,7 @@ pub fn page(
         caption: "What was judged, and by which rule of the specification".to_owned(),
         columns: ["property", "", "rule", "found"].map(Column::words).to_vec(),
         rows: stand.findings.iter().map(row).collect(),
+        ..Table::default()
     };
     let good = stand.agrees();
     let mut page = judge_text::page(&stand.verdict, repeat_all, repeat);
