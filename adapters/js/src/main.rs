@@ -12,8 +12,9 @@ use rasterproof_judge::ask::{Answer, Ask, Breach, Question};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
-use rasterproof_judge::{Options, adapt_case, judge};
-use rasterproof_report::judge_text;
+use rasterproof_judge::{Options, adapt_case, judge, polygons};
+use rasterproof_report::{judge_text, polygons_text};
+use rasterproof_verify::partition::Family;
 
 /// Who called the module.
 struct Host {
@@ -86,7 +87,10 @@ impl Job {
                 self.options.time_limit = Some(seconds);
             }
             "family" => {
-                adapt_case::families(&[]).iter().find(|family| family.name == value)?;
+                let families = adapt_case::families(&[]);
+                let names = families.iter().map(|family| family.name);
+                let polygons = Family::ALL.into_iter().map(Family::name);
+                names.chain(polygons).find(|name| *name == value)?;
                 self.options.families.push(value.to_owned());
             }
             "call" => self.call = value.to_owned(),
@@ -106,18 +110,24 @@ impl Job {
     }
 
     fn judge(self, declared: Declared) -> Result<(bool, String), String> {
-        let scope = Scope::of(&self.options);
-        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(Host { declared })];
-        let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
-        if let Some(why) = verdict.judged_nothing(&self.options) {
-            return Err(why);
-        }
         let one = |family: &str, index| self.line(&format!("family: '{family}', case: {index}"));
         let families = match self.options.families.as_slice() {
             [] => String::new(),
             names => format!("family: ['{}'], ", names.join("', '")),
         };
         let all = self.line(&format!("{families}cases: {}", self.options.cases));
+        let mut host = Host { declared };
+        if host.declared.partition {
+            let report = polygons::judge(&mut host, &self.options)?;
+            let text = polygons_text::text(&host.declared, &report, &all, &one, false);
+            return Ok((report.sum().wrong == 0, text));
+        }
+        let scope = Scope::of(&self.options);
+        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(host)];
+        let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
+        if let Some(why) = verdict.judged_nothing(&self.options) {
+            return Err(why);
+        }
         let text = judge_text::text(&verdict, &all, &one, (false, false));
         Ok((verdict.agrees(), text.replace("--declare '", "declare: '")))
     }
