@@ -21,4 +21,4 @@ function triangles(contours) {
   return Array.from({ length: corners.length / 3 }, (_, i) => corners.slice(3 * i, 3 * i + 3));
 }
 
-test('libtess', () => assertPartition(triangles, { declare: 't-junctions triangles=any' }));
+test('libtess', () => assertPartition(triangles, { declare: 't-junctions degenerate triangles=any' }));

@@ -1,0 +1,17 @@
+"""Shapely, by GEOS; polygons that are not valid there are not taken: `pip install shapely`."""
+import numpy as np
+import shapely
+
+
+def triangles(contours):
+    if min(len(contour) for contour in contours) < 3:
+        return None
+    polygon = shapely.Polygon(contours[0], contours[1:])
+    if not polygon.is_valid:
+        return None
+    parts = shapely.constrained_delaunay_triangles(polygon).geoms
+    return np.array([shapely.get_coordinates(part)[:3] for part in parts])
+
+
+def test_constrained_delaunay_triangles(rasterproof):
+    rasterproof.assert_partition(triangles, declare="t-junctions triangles=any")
