@@ -5,18 +5,19 @@ use rasterproof_host::text::printable_short;
 use rasterproof_models::{Camera, Lens};
 use rasterproof_render::pipeline::transform::{NoProjection, look_along, parallel, perspective};
 
-/// Cameras of a file that a note lists.
+/// A note lists so many cameras or animations.
 const MOST_LISTED: usize = 8;
 
-/// The cameras by number and name: `1 'front', 2`.
-pub(super) fn listed(cameras: &[Camera]) -> String {
-    let one = |(number, camera): (usize, &Camera)| match camera.name.as_str() {
+/// Cameras or animations by number and name: `1 'front', 2`.
+pub(super) fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    let count = names.len();
+    let one = |(number, name): (usize, &str)| match name {
         "" => format!("{}", number + 1),
         name => format!("{} '{}'", number + 1, printable_short(name, 40)),
     };
-    let mut list: Vec<String> = cameras.iter().enumerate().take(MOST_LISTED).map(one).collect();
-    if cameras.len() > MOST_LISTED {
-        list.push(format!("... {}", cameras.len()));
+    let mut list: Vec<String> = names.enumerate().take(MOST_LISTED).map(one).collect();
+    if count > MOST_LISTED {
+        list.push(format!("... {count}"));
     }
     list.join(", ")
 }
@@ -29,7 +30,10 @@ pub(super) fn find<'a>(cameras: &'a [Camera], wanted: &str) -> Result<&'a Camera
     numbered.or_else(named).ok_or_else(|| {
         let has = match cameras {
             [] => "has no cameras".to_owned(),
-            _ => format!("has the cameras {}", listed(cameras)),
+            _ => format!(
+                "has the cameras {}",
+                listed(cameras.iter().map(|camera| camera.name.as_str()))
+            ),
         };
         format!("--camera {}: the model {has}", printable_short(wanted, 40))
     })

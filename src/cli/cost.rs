@@ -208,8 +208,10 @@ const PRICE: &str = "cost-price";
 
 /// The plots with their names; the one picture that answers the question comes last.
 fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
-    let mut plots: Vec<(String, Drawing)> =
-        boards.iter().map(|board| (plot_name(board.ladder), cost_plots::pareto(board))).collect();
+    let mut plots: Vec<(String, Drawing)> = boards
+        .iter()
+        .map(|board| (plot_name(board.ladder), cost_plots::pareto(board, 2)))
+        .collect();
     if boards.iter().any(|board| board.ladder == Ladder::Scanline) {
         plots.push((PRICE.to_owned(), cost_plots::price(boards)));
     }
@@ -227,7 +229,7 @@ fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) 
         narrow: boards
             .iter()
             .find(|board| *name == plot_name(board.ladder))
-            .map(|board| canvas::svg(&cost_plots::pareto_narrow(board))),
+            .map(|board| canvas::svg(&cost_plots::pareto(board, 1))),
     };
     Report {
         title: "What accuracy costs in time".to_owned(),

@@ -19,7 +19,7 @@ use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn};
-use rasterproof_render::effects::depth_ties::{ByRounding, Cause, TiedPieces};
+use rasterproof_render::effects::depth_ties::{ByRounding, TiedPieces};
 use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
 use rasterproof_render::effects::render::{PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -27,10 +27,12 @@ use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
-use rasterproof_render::scene::Scene;
+use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
+use rasterproof_study::ties::classify;
+use rasterproof_study::view::Sampled;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
 
@@ -141,7 +143,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let comparison = compare(&scene, &drawings, arguments.plan.is_some())?;
     let by_rounding = match arguments.wireframe {
         true => None,
-        false => Some(by_rounding(&scene, &drawings[0].target, Cause::Snapping)?),
+        false => Some(by_rounding(&scene, &drawings[0].target)?),
     };
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
@@ -172,7 +174,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         let files = [drawn_in, difference_in];
         let mut text =
             describe(&scene, &drawings, &times, comparison.as_ref(), files, maker.why_empty());
-        text += &rounding_text(by_rounding.unwrap_or_default(), SNAPPED);
+        text += &rounding_text(by_rounding.unwrap_or_default(), ROUNDING);
         streams.output.write_all(text.as_bytes())?;
     }
     streams.output.flush()?;
@@ -232,16 +234,23 @@ fn compare(
     Ok(Some(comparison))
 }
 
-fn by_rounding(scene: &Scene, target: &Target, cause: Cause) -> Result<ByRounding, Failure> {
-    let tied = TiedPieces::new(scene, target).map_err(usage)?;
-    Ok(tied.by_rounding(cause))
+/// Pixels in which rounding alone decides which surface is seen, as `study` counts them.
+fn by_rounding(scene: &Scene, target: &Target) -> Result<ByRounding, Failure> {
+    if scene.hidden == Hidden::Painter {
+        return Ok(ByRounding::default());
+    }
+    let classes = classify(scene, &Sampled::of(scene, target).map_err(usage)?);
+    let first = classes.first.map(|pair| pair.pixel.into());
+    Ok(ByRounding { pixels: classes.by_rounding, first })
 }
 
-/// How far the corners that are snapped alike reach, in words.
-const SNAPPED: &str = "snapped corners move a depth";
+/// What decides which surface is seen, and how far it reaches, in words: for every rasterizer, and for tiles.
+const ROUNDING: [&str; 2] = ["rounding alone", "snapped corners move a depth"];
+const ROUNDING_IN_TILES: [&str; 2] =
+    ["rounding to f32 or snapping", "snapping and f32 move a depth"];
 
-/// The same in words, as two lines; nothing where nothing is. `reach` says how far rounding reaches.
-fn rounding(found: ByRounding, reach: &str) -> Option<[String; 2]> {
+/// The same in words, as two lines; nothing where nothing is.
+fn rounding(found: ByRounding, [what, reach]: [&str; 2]) -> Option<[String; 2]> {
     let (x, y) = found.first?;
     let pixels = match found.pixels {
         1 => "1 pixel has".to_owned(),
@@ -249,12 +258,12 @@ fn rounding(found: ByRounding, reach: &str) -> Option<[String; 2]> {
     };
     Some([
         format!("{pixels} two surfaces nearer to each other than {reach};"),
-        format!("rounding alone decides which one is seen; the first is at {x}, {y}"),
+        format!("{what} decides which one is seen; the first is at {x}, {y}"),
     ])
 }
 
-fn rounding_text(found: ByRounding, reach: &str) -> String {
-    rounding(found, reach).map_or(String::new(), |[first, second]| {
+fn rounding_text(found: ByRounding, words: [&str; 2]) -> String {
+    rounding(found, words).map_or(String::new(), |[first, second]| {
         format!("ROUNDING: {first}\n  {second} (see docs/ties.md)\n")
     })
 }
@@ -269,7 +278,7 @@ fn report_page(
 ) -> Report {
     let command = typed.line();
     let decided =
-        by_rounding.and_then(|found| rounding(found, SNAPPED)).map(|lines| lines.join(" "));
+        by_rounding.and_then(|found| rounding(found, ROUNDING)).map(|lines| lines.join(" "));
     let outcome = comparison.map(|c| {
         let open = [undecided(c), far_texture(c), decided].into_iter().flatten();
         let open: String = open.map(|words| format!(" {words}.")).collect();
@@ -575,9 +584,8 @@ fn draw_in_tiles(
         let pixels = u64::from(size.width()) * u64::from(size.height());
         writeln!(streams.output, "  {differing} of {pixels} pixels differ from those of scanline")?;
     }
-    let found = by_rounding(scene, &target, Cause::PlanesInF32)?;
-    let reach = "snapping and f32 move a depth";
-    streams.output.write_all(rounding_text(found, reach).as_bytes())?;
+    let found = TiedPieces::new(scene, &target).map_err(usage)?.by_planes_in_f32();
+    streams.output.write_all(rounding_text(found, ROUNDING_IN_TILES).as_bytes())?;
     Ok(exit::AGREES)
 }
 

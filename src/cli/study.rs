@@ -21,9 +21,9 @@ use rasterproof_report::study::{
 use rasterproof_report::summary::{thousands, word};
 use rasterproof_report::table::{Column, Table};
 use rasterproof_study::cost::{self, Effort, Group};
+use rasterproof_study::effects;
 use rasterproof_study::hard::{self, HardCases, Kind};
 use rasterproof_study::view::{Piece, Sampled};
-use rasterproof_study::{effects, ties};
 use rasterproof_study::{face_of, faces, triangle_of};
 use rasterproof_verify::cases::{Case, Shape};
 
@@ -44,6 +44,9 @@ pub struct StudyArguments {
     /// Fewer rounds and smaller samples for the times
     #[arg(long)]
     quick: bool,
+    /// All that was found, not the first screen of it alone
+    #[arg(long)]
+    all: bool,
     #[command(flatten)]
     once: OnceArgument,
     /// Look at the model from so many sides, a line for each
@@ -158,7 +161,6 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let groups = measure(&studied, &what.view, effort, streams.progress)?;
     let mut target = what.view.target()?;
     let window = target.size();
-    let classes = ties::classify(&studied.sampled);
     let pieces = studied.sampled.at_centres();
     let seen = cost::exactly_seen(pieces, window);
     let visible = (pieces, &seen);
@@ -171,6 +173,13 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     };
     let subject = studied.subject(&inspect);
     let not_drawn = maker.not_drawn();
+    let commands = match what.source() {
+        Ok(_) => Default::default(),
+        Err(path) => ["cost", "verify", "plan"]
+            .map(|name| typed.as_command(name, path, &VIEW_OPTIONS).line()),
+    };
+    let found = report::Found { hard: &studied.hard, needs: &needs, costs: &groups, not_drawn };
+    let answers = report::answers(&subject, &found, commands);
     let out = &mut *streams.output;
     if arguments.json {
         let json = serde_json::json!({
@@ -179,33 +188,31 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
             "pieces": pieces.len(),
             "loading_s": maker.loading_s(),
             "hard_cases": hard_cases_json(&subject, &studied.hard),
-            "decided": ties_json(&classes),
+            "answers": answers,
+            "decided": ties_json(&studied.hard.classes),
             "effects": needs_json(&needs, not_drawn),
             "costs": costs_json(&subject, &groups),
         });
         writeln!(out, "{json}")?;
     } else {
-        writeln!(out, "{}", head(&studied))?;
-        if let Some(loading_s) = maker.loading_s() {
-            let loading_ms = loading_s * 1e3;
-            writeln!(out, "read in {loading_ms:.1} ms, which is no part of the times below")?;
+        writeln!(out, "{}\n", head(&studied))?;
+        writeln!(out, "{}", report::answers_text(&answers))?;
+        if arguments.all {
+            if let Some(loading_s) = maker.loading_s() {
+                let loading_ms = loading_s * 1e3;
+                writeln!(out, "read in {loading_ms:.1} ms, which is no part of the times below\n")?;
+            }
+            out.write_all(hard_cases(&subject, &studied.hard, &groups).as_bytes())?;
+            writeln!(out, "{}", report::ties(&subject, &studied.hard.classes))?;
+            writeln!(out, "{}", report::needs(&needs, not_drawn))?;
+            out.write_all(costs(&subject, &groups).as_bytes())?;
+        } else {
+            out.write_all(report::first_screen(&subject, &found).as_bytes())?;
         }
-        writeln!(out)?;
-        out.write_all(hard_cases(&subject, &studied.hard, &groups).as_bytes())?;
-        writeln!(out, "{}", report::ties(&subject, &classes))?;
-        writeln!(out, "{}", report::needs(&needs, not_drawn))?;
-        out.write_all(costs(&subject, &groups).as_bytes())?;
     }
     out.flush()?;
     if let Some(output) = page {
-        let found = report::Found {
-            hard: &studied.hard,
-            classes: &classes,
-            needs: &needs,
-            costs: &groups,
-            not_drawn,
-        };
-        let page = report::page(&subject, &found, &typed.line());
+        let page = report::page(&subject, &found, answers, &typed.line());
         write_page(&output, page, streams);
     }
     Ok(exit::AGREES)
@@ -226,14 +233,11 @@ fn all_around(
         let turn = f64::from(number) / f64::from(views);
         let studied = Studied::new(maker.scene(turn), maker.origins(), view)?;
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
-        let classes = ties::classify(&studied.sampled);
-        let pixels = |kind: Kind| {
-            let found = studied.hard.cases.iter().find(|case| case.kind == kind);
-            found.map_or(0, |case| case.pixels)
-        };
+        let classes = &studied.hard.classes;
+        let pixels = |kind: Kind| studied.hard.of(kind).map_or(0, |case| case.pixels);
         lines.push(serde_json::json!({
             "turn": 360.0 * turn,
-            "kinds": studied.hard.cases.len(),
+            "kinds": studied.hard.in_view().count(),
             "slivers": pixels(Kind::Sliver),
             "order": pixels(Kind::Order),
             "by_rounding": classes.by_rounding,

@@ -16,12 +16,13 @@ use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable, printable_path};
-use rasterproof_models::{Model, Normals, Options, Origin, Up};
+use rasterproof_models::{Model, Normals, Options, Origin, Pose, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity};
+use rasterproof_render::pipeline::punctual::PunctualLight;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::shadow;
 use rasterproof_render::pipeline::target::{Antialias, Target, check_size};
@@ -112,6 +113,12 @@ pub struct ViewArguments {
     /// Look through a camera of the model's file, by its number, from 1, or its name
     #[arg(long, value_name = "NUMBER|NAME", conflicts_with_all = ["yaw", "pitch", "zoom", "fov"])]
     camera: Option<String>,
+    /// Draw the model as an animation of its file has it after so many seconds; without it the model is at rest
+    #[arg(long, value_name = "SECONDS")]
+    time: Option<f64>,
+    /// The number of that animation, from 1 [default: 1]
+    #[arg(long, value_name = "NUMBER", requires = "time", value_parser = clap::value_parser!(u32).range(1..))]
+    animation: Option<u32>,
     /// Turn the model by this many degrees, to the right [default: 30]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     yaw: Option<f64>,
@@ -467,7 +474,14 @@ impl ViewArguments {
         let shading = self.shading.unwrap_or(Shading::Phong);
         let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
         let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));
-        let numbers = [("--yaw", yaw), ("--pitch", pitch), ("--zoom", zoom), ("--fov", fov)];
+        let time = self.time.unwrap_or(0.0);
+        let numbers = [
+            ("--yaw", yaw),
+            ("--pitch", pitch),
+            ("--zoom", zoom),
+            ("--fov", fov),
+            ("--time", time),
+        ];
         if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
             return Err(usage(format!("{name} {value} is not a finite number")));
         }
@@ -480,19 +494,43 @@ impl ViewArguments {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
         }
         let normals = self.normals.unwrap_or_default();
-        let options = Options { shading, normals, up: self.up };
+        let animation = self.animation.unwrap_or(1) as usize - 1;
+        let pose = self.time.map(|time_s| Pose { animation, time_s });
+        let options = Options { shading, normals, up: self.up, pose };
         let progress = Progress::new(streams.progress, "models read", None);
         let start = Instant::now();
         let mut model = rasterproof_models::load(path, options).map_err(usage)?;
         let loading = start.elapsed();
         drop(progress);
         report_model(&model, self.up.is_some(), streams.errors)?;
+        if self.time.is_some() && model.animations.is_empty() {
+            return Err(usage("--time: the model has no animations".to_owned()));
+        }
+        if self.time.is_none() && !model.animations.is_empty() {
+            let names = model.animations.iter().map(String::as_str);
+            let (count, list) = (model.animations.len(), cameras::listed(names));
+            let s = if count == 1 { "" } else { "s" };
+            writeln!(
+                streams.errors,
+                "the file has {count} animation{s}: {list}; --time 0.5 shows the first after half a second"
+            )?;
+        }
         if self.camera.is_none() && !model.cameras.is_empty() {
-            let (count, cameras) = (model.cameras.len(), cameras::listed(&model.cameras));
+            let names = model.cameras.iter().map(|camera| camera.name.as_str());
+            let (count, cameras) = (model.cameras.len(), cameras::listed(names));
             let s = if count == 1 { "" } else { "s" };
             writeln!(
                 streams.errors,
                 "the file has {count} camera{s}: {cameras}; --camera 1 looks through the first"
+            )?;
+        }
+        if !model.lights.is_empty() {
+            let (count, s) = (model.lights.len(), if model.lights.len() == 1 { "" } else { "s" });
+            let shadows =
+                if self.shadows.is_some() { ", and nothing keeps it from anything" } else { "" };
+            writeln!(
+                streams.errors,
+                "the light is that of {count} light{s} of the file{shadows}; ambient light is that of the view"
             )?;
         }
         let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
@@ -529,6 +567,8 @@ impl ViewArguments {
             ambient: 0.25,
             diffuse: 0.75,
         };
+        let placed = |light: &PunctualLight| light.placed(about(centre, turn));
+        scene.punctual = model.lights.iter().map(placed).collect();
         for item in &mut scene.items {
             item.model = about(centre, turn);
             if self.two_sided {

@@ -150,7 +150,7 @@ fn cost_from_the_command_line() {
 #[test]
 fn cost_plots_name_every_rung() {
     let board = timed(1);
-    let drawings = [cost_plots::pareto(&board), cost_plots::pareto_narrow(&board)];
+    let drawings = [cost_plots::pareto(&board, 2), cost_plots::pareto(&board, 1)];
     assert!(drawings[1].size[0] <= 400.0, "{:?}", drawings[1].size);
     for drawing in drawings {
         let svg = canvas::svg(&drawing);
@@ -179,7 +179,7 @@ fn cost_json_is_read_back() {
     assert_eq!(json::cost(&back), text);
     for (a, b) in recorded.boards.iter().zip(&back.boards) {
         assert_eq!(board::text(a, true), board::text(b, true));
-        assert_eq!(canvas::svg(&cost_plots::pareto(a)), canvas::svg(&cost_plots::pareto(b)));
+        assert_eq!(canvas::svg(&cost_plots::pareto(a, 2)), canvas::svg(&cost_plots::pareto(b, 2)));
     }
 }
 

@@ -22,8 +22,9 @@ use rasterproof_verify::cases::unsnapped::FAMILIES;
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::exact_coverage;
 
+use crate::pages::{read, root};
 use crate::scenes::{still, target_of};
-use crate::snapshots::{check_picture, check_sheet};
+use crate::snapshots::{check_picture, check_sheet, each};
 
 const PAPER: Rgb<u8> = Rgb([250, 250, 247]);
 const WIDTH: u32 = 480;
@@ -115,6 +116,39 @@ fn picture_of_what_is_paid_for() {
         },
     );
     check_picture("effects-map", &picture::stack(&sheets));
+}
+
+/// Each effect beyond the book in a scene that asks for it, with and without it.
+#[test]
+fn pictures_of_what_files_ask_for() {
+    let scenes = [
+        (Effect::Specular, "highlights"),
+        (Effect::Reflection, "metal"),
+        (Effect::Punctual, "lights"),
+        (Effect::NormalMaps, "surfaces"),
+        (Effect::Occlusion, "surfaces"),
+        (Effect::Emission, "surfaces"),
+        (Effect::Shadows, "shadows"),
+        (Effect::MipMaps, "mip-maps"),
+        (Effect::Anisotropy, "anisotropy"),
+        (Effect::Fog, "fog"),
+        (Effect::AlphaTest, "cut-outs"),
+        (Effect::Blending, "panes"),
+        (Effect::Layers, "layers"),
+    ];
+    let page = read(root().join("docs/asks.md"));
+    each(scenes, |(effect, scene)| {
+        let without = Effects::PLANNED.with(effect, Mode::Never);
+        let [with, without] = [Effects::PLANNED, without].map(|effects| {
+            let mut target = target_of(192, 144, Antialias::None);
+            let drawn = Drawer::Scanline.render(&still(scene), &effects, &mut target);
+            frame_comparison::rgb(&drawn.unwrap().picture)
+        });
+        assert_ne!(with, without, "{scene}");
+        let name = format!("asks-{}", effect.name());
+        assert!(page.contains(&format!("snapshots/{name}.snap.png")), "{name}");
+        check_picture(&name, &beside(&[("with", &with), ("without", &without)]));
+    });
 }
 
 /// Corners off the lattice: what snapping first changes, and what floats without a filter get wrong.

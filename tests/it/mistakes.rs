@@ -671,12 +671,13 @@ type Change = dyn Fn(&judge::ask::Question, Answer) -> Answer + Send;
 /// A right program but for the answers that `changed` gives.
 struct Wrong {
     right: Inside,
+    declared: judge::declared::Declared,
     changed: Box<Change>,
 }
 
 impl judge::ask::Ask for Wrong {
     fn declared(&self) -> &judge::declared::Declared {
-        self.right.declared()
+        &self.declared
     }
 
     fn ask(&mut self, questions: &[judge::ask::Question], most_deaths: u64) -> Vec<Answer> {
@@ -694,7 +695,18 @@ fn judged(
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
 ) -> String {
+    judged_as("", changed, families)
+}
+
+/// The same of a program that declares more.
+fn judged_as(
+    words: &str,
+    changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
+    families: &[&str],
+) -> String {
     let right = Inside::new(engines::find("scanline").unwrap());
+    let mut declared = judge::ask::Ask::declared(&right).clone();
+    words.split_whitespace().for_each(|word| declared.hear(word));
     let options = judge::Options {
         cases: 100,
         families: families.iter().map(|name| (*name).to_owned()).collect(),
@@ -702,7 +714,8 @@ fn judged(
         ..judge::Options::default()
     };
     let mut askers =
-        [Box::new(Wrong { right, changed: Box::new(changed) }) as Box<dyn judge::ask::Ask>];
+        [Box::new(Wrong { right, declared, changed: Box::new(changed) })
+            as Box<dyn judge::ask::Ask>];
     let verdict = judge::judge(&mut askers, &options, &|_| None, &|_| ());
     let said = verdict.causes.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
     said.collect::<Vec<_>>().join("\n")
@@ -813,14 +826,24 @@ fn mistakes_of_stages_are_named() {
             "divides attributes from the wrong end",
         ),
     ] {
-        let said =
-            judged(move |question, answer| carrying(question, answer, attribute), &["near-plane"]);
+        let said = judged(
+            move |question, answer| carrying(question, answer, attribute, false),
+            &["near-plane"],
+        );
         assert!(said.contains(&format!("attributes of clipped corners: It {wanted}")), "{said}");
         assert!(!said.contains("near plane: "), "verb N is answered rightly: {said}");
+        // The same where the near plane is declared to be z = 0.
+        let zero = judged_as(
+            "near=zero",
+            move |question, answer| carrying(question, answer, attribute, true),
+            &["near-plane"],
+        );
+        let cause = |said: &str| said.split(" This explains").next().map(str::to_owned);
+        assert_eq!(cause(&zero), cause(&said));
     }
     let linear = |kept: ClipCorner, lost: ClipCorner, t: f64| kept[4] + (lost[4] - kept[4]) * t;
     assert_eq!(
-        judged(move |question, answer| carrying(question, answer, linear), &["near-plane"]),
+        judged(move |question, answer| carrying(question, answer, linear, false), &["near-plane"]),
         ""
     );
     // A right program has no cause.
@@ -858,10 +881,12 @@ fn carrying(
     question: &judge::ask::Question,
     answer: Answer,
     attribute: fn(ClipCorner, ClipCorner, f64) -> f64,
+    is_zero: bool,
 ) -> Answer {
-    let Asked::Carried(triangle) = &question.of else { return answer };
-    let corners = clip_corners(triangle);
-    let side = |c: &ClipCorner| c[2] + c[3];
+    let Some(triangle) = judge::near_plane::asked(&question.of) else { return answer };
+    let carries = matches!(question.of, Asked::Carried(_));
+    let corners = clip_corners(&triangle);
+    let side = |c: &ClipCorner| c[2] + if is_zero { 0.0 } else { c[3] };
     let mut left = Vec::new();
     for i in 0..3 {
         let (from, to) = (corners[i], corners[(i + 1) % 3]);
@@ -872,11 +897,11 @@ fn carrying(
             let (kept, lost) = if side(&from) >= 0.0 { (from, to) } else { (to, from) };
             let t = side(&kept) / (side(&kept) - side(&lost));
             let mut new = [0, 1, 2, 3, 4].map(|k| kept[k] + (lost[k] - kept[k]) * t);
-            new[4] = attribute(kept, lost, t);
+            new[4] = if carries { attribute(kept, lost, t) } else { 0.0 };
             left.push(new);
         }
     }
-    Answer::Carried(left)
+    if carries { Answer::Carried(left) } else { Answer::Polygon(left) }
 }
 
 /// Every planted fault of a rasterizer or a line drawer is named: by its own name, by a mistake that predicts the same

@@ -147,7 +147,7 @@ fn fuzz(cases: u64, name: &str) {
         folder.put("m.mtl", mutated(mtl, &mut rng));
         let normals = [Normals::File, Normals::Flat, Normals::Smooth][below(&mut rng, 3)];
         let up = [None, Some(Up::Z)][below(&mut rng, 2)];
-        let options = Options { shading: Shading::Phong, normals, up };
+        let options = Options { shading: Shading::Phong, normals, up, ..Options::default() };
         let load = || rasterproof_models::load(&folder.join("m.obj"), options);
         let is_read = std::panic::catch_unwind(|| is_read(&load()));
         let Ok(is_read) = is_read else {

@@ -3,7 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DVec2, DVec3};
-use rasterproof_models::{BadFile, Camera, Format, Lens, Model, Options, Up};
+use rasterproof_models::{BadFile, Camera, Format, Lens, Model, Options, Pose, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::pipeline::physical::Map;
@@ -714,7 +714,7 @@ fn what_is_not_drawn_of_vertices_and_nodes_is_counted() {
         bytes.extend([255, 0, 0, 255, 255, 0, 0, 254, 255, 0, 0, 0, 255, 0, 0, 255]);
         glb((json, bytes))
     };
-    let always = "1 animation, joints beyond the first four of 1 primitive, 1 light, \
+    let always = "joints beyond the first four of 1 primitive, 1 light, \
                   other colours of 1 primitive";
     for mode in ["OPAQUE", "BLEND", "MASK"] {
         let (model, [item]) = items("counted.glb", &file(mode));
@@ -871,6 +871,85 @@ fn a_gltf_is_drawn_in_its_rest_pose() {
     assert_eq!((model.warnings.len(), model.not_drawn.as_str()), (0, "1 morph target"));
     let found: Vec<_> = item.mesh.positions.iter().map(|position| position.to_array()).collect();
     assert_eq!(found, [[1.0, 0.0, 0.0], [2.0, 0.0, -4.0], [1.0, 5.0, -4.0], [1.0, 0.0, -3.0]]);
+}
+
+/// A node at moments of its animation, by each way of interpolating, computed by hand.
+#[test]
+fn an_animation_brings_nodes_to_where_they_are() {
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let lists: [&[f32]; 5] = [
+        &[1.0, 2.0, 4.0],
+        &[0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 4.0, 0.0],
+        // A quarter about z.
+        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, half, half, 0.0, 0.0, half, half],
+        // Leaves with the slope 2, arrives with 0; of three numbers the middle one is the value.
+        &[0.0, 1.0, 2.0, 0.0, 3.0, 0.0, 0.0, 3.0, 0.0].map(|number| [number; 3]).concat(),
+        &[1.0],
+    ];
+    let whole = lists.concat().into_iter().flat_map(f32::to_le_bytes);
+    let (json, mut bytes) = document(|d| {
+        let mut start = 72;
+        for (list, (width, form)) in
+            lists.iter().zip([(1, "SCALAR"), (3, "VEC3"), (4, "VEC4"), (3, "VEC3"), (1, "SCALAR")])
+        {
+            let length = 4 * list.len();
+            let view = json!({ "buffer": 0, "byteOffset": start, "byteLength": length });
+            d["bufferViews"].as_array_mut().unwrap().push(view);
+            start += length;
+            let view = d["bufferViews"].as_array().unwrap().len() - 1;
+            let accessor = json!({ "bufferView": view, "componentType": 5126, "count": list.len() / width, "type": form });
+            d["accessors"].as_array_mut().unwrap().push(accessor);
+        }
+        let of = |path: &str, output: u32, way: &str| {
+            json!({ "name": format!("{path} {way}"),
+                "channels": [{ "sampler": 0, "target": { "node": 0, "path": path } }],
+                "samplers": [{ "input": 2, "output": output, "interpolation": way }] })
+        };
+        d["nodes"][0]["matrix"] = json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 7, 7, 1]);
+        d["animations"] = json!([
+            of("translation", 3, "LINEAR"), of("translation", 3, "STEP"), of("rotation", 4, "LINEAR"),
+            of("scale", 5, "CUBICSPLINE"), of("translation", 6, "LINEAR"), { "name": "empty" },
+        ]);
+    });
+    bytes.extend(whole);
+    let folder = folder();
+    let path = folder.put("moved.glb", glb((json, bytes)));
+    let at = |animation: usize, time_s: f64| {
+        let pose = Some(Pose { animation, time_s });
+        rasterproof_models::load(&path, Options { pose, ..Options::default() })
+    };
+    // The origin, and one unit along x.
+    for (animation, time, origin, x) in [
+        (0, 0.0, [0.0, 0.0], [1.0, 0.0]),
+        (0, 1.5, [1.0, 0.0], [2.0, 0.0]),
+        (0, 2.0, [2.0, 0.0], [3.0, 0.0]),
+        (0, 3.5, [2.0, 3.0], [3.0, 3.0]),
+        (0, 9.0, [2.0, 4.0], [3.0, 4.0]),
+        (1, 1.9, [0.0, 0.0], [1.0, 0.0]),
+        (1, 2.0, [2.0, 0.0], [3.0, 0.0]),
+        (2, 1.5, [0.0, 0.0], [half.into(), half.into()]),
+        (2, 3.0, [0.0, 0.0], [0.0, 1.0]),
+        // Halfway: 1/2 + 2/8 + 3/2.
+        (3, 1.5, [0.0, 0.0], [2.25, 0.0]),
+    ] {
+        let model = at(animation, time).unwrap();
+        let found = [0, 1].map(|i| model.items[0].mesh.positions[i]);
+        for (found, [x, y]) in found.into_iter().zip([origin, x]) {
+            assert!(found.distance(DVec3::new(x, y, 0.0)) < 1e-6, "{animation} {time}: {found}");
+        }
+        assert_eq!(model.not_drawn, "");
+        assert_eq!((model.animations.len(), &*model.animations[1]), (6, "translation STEP"));
+    }
+    let still = rasterproof_models::load(&path, Options::default()).unwrap();
+    assert_eq!(still.items[0].mesh.positions[0].to_array(), [7.0, 7.0, -7.0]);
+    for (animation, cause) in [
+        (4, "animations[4]: accessors[6] has 1 numbers where 3 are needed"),
+        (5, "animations[5]: missing field `channels`"),
+        (6, "has the animations 1 to 6, and not 7"),
+    ] {
+        let error = at(animation, 1.0).unwrap_err().to_string();
+        assert!(error.contains(cause), "{error}");
+    }
 }
 
 #[test]

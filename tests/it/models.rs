@@ -368,7 +368,7 @@ fn missing_normals_are_flat_or_smooth_as_the_file_says() {
     let squares = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nS\nf 1 2 3 4\nusemtl x\nf 2 5 6 3\n";
     let first = |lines: &str, normals: Normals| {
         let path = folder.put("m.obj", squares.replace("S\n", lines));
-        let options = Options { shading: Shading::Phong, normals, up: None };
+        let options = Options { shading: Shading::Phong, normals, ..Options::default() };
         let model = rasterproof_models::load(&path, options).unwrap();
         model.items[0].mesh.triangles.at(0)[1].normal
     };
@@ -541,6 +541,84 @@ fn a_double_sided_material_is_lit_on_either_side() {
     assert!(front == back);
     let lit = front.pixels().filter(|pixel| pixel.0[0] > 100).count();
     assert!(lit > 500, "{lit} pixels are bright");
+}
+
+/// A square of one unit in the light of its file, computed by hand in its middle; others of its lights reach it nowhere.
+#[test]
+fn lights_of_a_file_are_those_of_the_picture() {
+    let folder = Folder::new("models-lights");
+    let text = include_str!("../data/models/double-sided-front.gltf");
+    let pi = std::f64::consts::PI;
+    let made = |light: serde_json::Value, z: f64, turn: [f64; 4]| {
+        let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
+        document["cameras"] = json!([
+            { "type": "orthographic", "orthographic": { "xmag": 1, "ymag": 1, "znear": 0.5, "zfar": 3 } },
+        ]);
+        let place = [0.5, 0.5, z];
+        let nodes = document["nodes"].as_array_mut().unwrap();
+        nodes.push(json!({ "camera": 0, "translation": [0.5, 0.5, 2] }));
+        nodes.push(json!({
+            "translation": place, "rotation": turn, "extensions": { "KHR_lights_punctual": { "light": 0 } },
+        }));
+        document["scenes"][0]["nodes"] = json!([0, 1, 2]);
+        // Nothing is reflected but what a matt surface reflects.
+        document["materials"][0]["extensions"] =
+            json!({ "KHR_materials_specular": { "specularFactor": 0 } });
+        document["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_materials_specular"]);
+        document["extensions"] = json!({ "KHR_lights_punctual": { "lights": [light] } });
+        folder.put("m.gltf", document.to_string());
+        drawn(&folder, "m.gltf --camera 1")
+    };
+    let ahead = [0.0, 0.0, 0.0, 1.0];
+    // Half of a right angle, and a sixth of it, about y.
+    let turned = |degrees: f64| {
+        let half = degrees.to_radians() / 2.0;
+        [0.0, half.sin(), 0.0, half.cos()]
+    };
+    let ambient = 0.25;
+    let cases = [
+        (json!({ "type": "directional", "intensity": pi / 2.0 }), 1.0, turned(60.0), 0.25),
+        (json!({ "type": "directional", "intensity": 100 }), 1.0, turned(180.0), 0.0),
+        (json!({ "type": "point", "intensity": 2.0 * pi }), 2.0, ahead, 0.5),
+        (json!({ "type": "point", "intensity": 2.0 * pi }), -2.0, ahead, 0.0),
+        // (2 / 4)^4 is a sixteenth.
+        (
+            json!({ "type": "point", "intensity": 2.0 * pi, "range": 4 }),
+            2.0,
+            ahead,
+            0.5 * 15.0 / 16.0,
+        ),
+        (json!({ "type": "point", "intensity": 2.0 * pi, "range": 1.5 }), 2.0, ahead, 0.0),
+        (json!({ "type": "spot", "intensity": 2.0 * pi }), 2.0, ahead, 0.5),
+        (json!({ "type": "spot", "intensity": 2.0 * pi }), 2.0, turned(60.0), 0.0),
+    ];
+    for (light, z, turn, arriving) in cases {
+        let (picture, said) = made(light.clone(), z, turn);
+        assert!(said.contains("the light is that of 1 light of the file; ambient"), "{said}");
+        assert!(!said.contains("not drawn"), "{said}");
+        let linear: f64 = ambient + arriving;
+        let expected = 255.0 * (1.055 * linear.powf(1.0 / 2.4) - 0.055);
+        let [r, g, b] = picture.get_pixel(48, 36).0;
+        // A pixel lies beside the middle.
+        assert!(
+            (f64::from(r) - expected).abs() < 1.0 && r == g && g == b,
+            "{light}: {r}, {expected}"
+        );
+    }
+    // Colours have red first, and other surfaces are lit by the view.
+    let red = json!({ "type": "point", "intensity": 3, "color": [1, 0, 0] });
+    let (picture, _) = made(red.clone(), 2.0, ahead);
+    let [r, g, b] = picture.get_pixel(48, 36).0;
+    assert!(r > g && g == b, "{r} {g} {b}");
+    let run = folder.check("render m.gltf --size 32x24 --shadows 64 -o o.png", 0);
+    run.prints("AGREES").shows("1 light of the file, and nothing keeps it from anything;");
+    let run = folder.check("render m.gltf --size 32x24 --shading gouraud -o o.png", 0);
+    run.shows("light of the file, without metal and roughness, of 1 primitive");
+    for unknown in [json!({ "type": "area" }), json!({ "type": "point", "color": "red" }), json!(7)]
+    {
+        made(unknown, 2.0, ahead);
+        folder.check("render m.gltf --size 32x24 -o o.png", 0).shows("not drawn: 1 light");
+    }
 }
 
 /// A square of one unit, seen by cameras that stand two units before it and behind it.
@@ -730,7 +808,7 @@ fn text_outside_the_folder_is_not_quoted() {
         "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
             {"bufferView":0,"componentType":5125,"count":12,"type":"SCALAR"}],
         "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
-        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"animations":[{}]}"#;
+        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]},{"nodes":[]}]}"#;
     for image in [r#"{"uri":"../secret.png"}"#, r#"{"bufferView":0}"#] {
         check("in/picture.gltf", gltf.replace("IMAGE", image).as_bytes(), unreadable);
     }

@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 
 use rasterproof::assert_partition;
 use rasterproof::partition::{
-    Coordinates, Family, FaultKind, Options, Polygon, Triangle, judge_partition, judge_partitions,
+    Coordinates, Family, FaultKind, Options, Polygon, Triangle, Winding, judge_partition,
+    judge_partitions,
 };
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
@@ -162,6 +163,82 @@ fn partition_with_a_filled_hole_is_reported() {
     for part in ["outside", "vec![vec![[", "family(Family::Touching)", "Coordinates::Integer"] {
         assert!(message.contains(part), "{part}: {message}");
     }
+}
+
+/// Wrong tessellators and what is said of each; one whose mistake nobody knows gets none.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn mistakes_of_tessellators_are_named() {
+    type Make<'a> = &'a (dyn Fn(&Polygon) -> Vec<Triangle> + Sync);
+    let first = |polygon: &Polygon| spade(&Polygon::new(polygon.contours[..1].to_vec()));
+    let each = |polygon: &Polygon| -> Vec<Triangle> {
+        let alone = |contour: &Vec<_>| spade(&Polygon::new(vec![contour.clone()]));
+        polygon.contours.iter().flat_map(alone).collect()
+    };
+    let fan = |polygon: &Polygon| -> Vec<Triangle> {
+        let fan =
+            |c: &Vec<[f64; 2]>| (2..c.len()).map(|i| [c[0], c[i - 1], c[i]]).collect::<Vec<_>>();
+        polygon.contours.iter().flat_map(fan).collect()
+    };
+    let hull = |polygon: &Polygon| -> Vec<Triangle> {
+        let mut mesh = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+        for &[x, y] in polygon.contours.iter().flatten() {
+            mesh.insert(Point2::new(x, y)).unwrap();
+        }
+        let corners = |corner: Point2<f64>| [corner.x, corner.y];
+        mesh.inner_faces().map(|face| face.positions().map(corners)).collect()
+    };
+    let holes_lost = |polygon: &Polygon| {
+        if polygon.contours.len() > 1 { Vec::new() } else { spade(polygon) }
+    };
+    // Vertices on straight edges go, and edges become longer.
+    let straight_lost = |polygon: &Polygon| {
+        let turns = |[a, b, c]: [[f64; 2]; 3]| {
+            let value = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+            value != 0.0
+        };
+        let kept = |c: &Vec<[f64; 2]>| {
+            let n = c.len();
+            let is_kept = |i: &usize| turns([c[(i + n - 1) % n], c[*i], c[(i + 1) % n]]);
+            (0..n).filter(is_kept).map(|i| c[i]).collect()
+        };
+        spade(&Polygon::new(polygon.contours.iter().map(kept).collect()))
+    };
+    let rounds = |polygon: &Polygon| {
+        let round = |p: &[f64; 2]| p.map(|v| (v / 16.0).round() * 16.0);
+        let contours = polygon.contours.iter().map(|c| c.iter().map(round).collect());
+        spade(&Polygon::new(contours.collect()))
+    };
+    let last_lost = |polygon: &Polygon| {
+        let mut all = spade(polygon);
+        all.pop();
+        all
+    };
+    let options = Options::default().cases(60).coordinates(Coordinates::Integer);
+    let wound = options.clone().winding(Winding::Clockwise);
+    let straight = options.clone().family(Family::Collinear);
+    let all: [(Make<'_>, &Options, &str); 9] = [
+        (&first, &options, "probable cause: It fills the first contour and ignores the others"),
+        (&each, &options, "probable cause: It fills every contour by itself"),
+        (&fan, &options, "probable cause: It draws a fan around the first vertex"),
+        (&hull, &options, "probable cause: It fills the convex hull"),
+        (
+            &holes_lost,
+            &options,
+            "probable cause: It makes no triangles of polygons of more than one contour",
+        ),
+        (&spade, &wound, "probable cause: It winds all triangles the other way"),
+        (&straight_lost, &straight, "probable cause: It leaves out vertices on straight edges"),
+        (&rounds, &options, "no cause was recognised: "),
+        (&last_lost, &options, "no cause was recognised: "),
+    ];
+    for (make, options, said) in all {
+        let report = judge_partitions(&make, options).unwrap();
+        assert!(report.check().is_err(), "{said}");
+        let message = report.check().unwrap_err().to_string();
+        assert!(message.contains(said), "{said}: {message}");
+    }
+    assert!(judge_partitions(&spade, &options).unwrap().cause.is_none());
 }
 
 /// Rows of the pages are the sums of what the adapters counted.

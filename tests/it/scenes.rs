@@ -21,6 +21,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::physical::{Map, Physical};
 use rasterproof_render::pipeline::present::DoubleBuffer;
+use rasterproof_render::pipeline::punctual::{Kind, PunctualLight};
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
@@ -250,6 +251,7 @@ pub fn as_they_come(interpolates: &Value) -> Value {
         "depth": true,
         "specular": "planned",
         "reflection": "planned",
+        "punctual": "planned",
         "normal_maps": "planned",
         "occlusion": "planned",
         "emission": "planned",
@@ -678,6 +680,16 @@ fn counterexamples() -> Vec<Counterexample> {
             let mut mesh = screen_with(|corner| corner.normal = DVec3::X);
             mesh.triangles.change(0, |corners| corners[1].normal = DVec3::new(1.0, 0.0, -by));
             reflecting(mesh, Physical { metal: 1.0, ..Physical::default() })
+        }),
+        make(Effect::Punctual, none, |by| {
+            // All normals are at a right angle to a direction, and one turns towards it.
+            let mut mesh = screen_with(|corner| corner.normal = DVec3::X);
+            mesh.triangles.change(0, |corners| corners[1].normal = DVec3::new(1.0, 0.0, -by));
+            let sun = PunctualLight::new(Kind::Directional, DVec3::ONE, 3.0);
+            Scene {
+                punctual: vec![PunctualLight { at: -DVec4::Z, ..sun }],
+                ..reflecting(mesh, Physical::default())
+            }
         }),
         make(Effect::NormalMaps, none, |by| {
             // The right side reads beyond the flat one of two texels.

@@ -6,7 +6,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn};
-use rasterproof_render::effects::depth_ties::{Cause, TiedPieces};
+use rasterproof_render::effects::depth_ties::TiedPieces;
 use rasterproof_render::effects::{Effects, render};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
@@ -14,6 +14,8 @@ use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::perspective;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene, chapters};
 use rasterproof_report::frame_comparison::{self, Comparison};
+use rasterproof_study::ties::classify;
+use rasterproof_study::view::Sampled;
 use rayon::prelude::*;
 
 use crate::pages::{page, root};
@@ -366,11 +368,14 @@ fn covered(picture: &Frame<Colour>) -> u64 {
     picture.rows().flat_map(|(_, row)| row).filter(|colour| **colour != background).count() as u64
 }
 
-fn by_rounding(scene: &Scene, cause: Cause, antialias: Antialias) -> u64 {
+/// Pixels that rounding decides: by snapping alone, which every rasterizer does, and in tiles.
+fn by_rounding(scene: &Scene, antialias: Antialias) -> [u64; 2] {
     let target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
-    let found = TiedPieces::new(scene, &target).unwrap().by_rounding(cause);
-    assert_eq!(found.first.is_some(), found.pixels > 0);
-    found.pixels
+    let classes = classify(scene, &Sampled::of(scene, &target).unwrap());
+    assert_eq!(classes.first.is_some(), classes.by_rounding > 0);
+    let tiles = TiedPieces::new(scene, &target).unwrap().by_planes_in_f32();
+    assert_eq!(tiles.first.is_some(), tiles.pixels > 0);
+    [classes.by_rounding, tiles.pixels]
 }
 
 /// Two surfaces in one plane are found in every view and with every kind of samples; two that lie apart,
@@ -384,16 +389,14 @@ fn surfaces_in_one_plane_are_found_before_snapping() {
             first.items.truncate(1);
             let target = Target::new(160, 120, Antialias::None, DepthFormat::F64).unwrap();
             let covered = covered(&draw(&first, Engine::Scanline, target).0);
-            for cause in [Cause::Snapping, Cause::PlanesInF32] {
-                let name = format!("{cause:?} {antialias:?} {pitch}");
-                let found = by_rounding(&scene, cause, antialias);
-                // All of the square; the bound of a plane in f32 holds any difference of zero.
-                assert!(found >= covered, "{name}: {found} of {covered}");
-                assert_eq!(by_rounding(&squares(pitch, 0.05), cause, antialias), 0, "{name}");
-                let mut twice = scene.clone();
-                twice.items[1].mesh = twice.items[0].mesh.clone();
-                assert_eq!(by_rounding(&twice, cause, antialias), 0, "{name}");
-            }
+            let name = format!("{antialias:?} {pitch}");
+            // All of the square; the bound of a plane in f32 holds any difference of zero.
+            let found = by_rounding(&scene, antialias);
+            assert!(found.iter().all(|found| *found >= covered), "{name}: {found:?} of {covered}");
+            assert_eq!(by_rounding(&squares(pitch, 0.05), antialias), [0, 0], "{name}");
+            let mut twice = scene.clone();
+            twice.items[1].mesh = twice.items[0].mesh.clone();
+            assert_eq!(by_rounding(&twice, antialias), [0, 0], "{name}");
         }
     }
 }
@@ -411,8 +414,7 @@ fn tiles_leave_open_what_snapping_does() {
             item.model *= turn;
         }
         for antialias in SMOOTHINGS {
-            let [snapped, tiles] = [Cause::Snapping, Cause::PlanesInF32]
-                .map(|cause| by_rounding(&scene, cause, antialias));
+            let [snapped, tiles] = by_rounding(&scene, antialias);
             assert!(
                 snapped > 1_000 && tiles >= snapped,
                 "{pitch} {antialias:?}: {tiles} of {snapped}"
@@ -427,12 +429,12 @@ fn surfaces_that_cross_are_open_beside_their_line() {
     let mut scene = squares(10.0, 0.0);
     let tilt = rasterproof_core::angle::turn_x(70.0_f64.to_radians());
     scene.items[1].model = DMat4::from_translation(DVec3::Z * 4.0) * tilt;
-    let found = by_rounding(&scene, Cause::Snapping, Antialias::None);
+    let [found, _] = by_rounding(&scene, Antialias::None);
     // The line is horizontal and at most 160 px long.
     assert!(found <= 160, "{found}");
     for name in ["cube", "sphere", "facets"] {
         let scene = chapters::scene(name, 4.0 / 3.0, 0.0).unwrap();
-        assert_eq!(by_rounding(&scene, Cause::Snapping, Antialias::None), 0, "{name}");
+        assert_eq!(by_rounding(&scene, Antialias::None)[0], 0, "{name}");
     }
 }
 

@@ -115,6 +115,24 @@ fn features(edges: &str) -> BTreeSet<String> {
 }
 
 /// Where the tests ask more of a crate than the program does, all that depends on it is compiled twice.
+/// Below `effects`, an effect of single fragments is named by its row in the table, its condition and the kernel, and at most by two
+/// files more.
+#[test]
+fn an_effect_is_named_in_few_files() {
+    let folder = root().join("crates/render/src/effects");
+    let texts: Vec<_> = files(&folder, ".rs").iter().map(read).collect();
+    assert!(texts.len() > 30, "{} files", texts.len());
+    for effect in ["emission", "occlusion", "reflection", "punctual"] {
+        let code = |text: &&String| {
+            let mut lines =
+                without_tests(text).lines().filter(|line| !line.trim_start().starts_with("//"));
+            lines.any(|line| line.to_lowercase().contains(effect))
+        };
+        let naming = texts.iter().filter(code).count();
+        assert!((3..=5).contains(&naming), "{naming} files name {effect}");
+    }
+}
+
 #[test]
 fn everything_is_compiled_once() {
     let (program, tests) = (features("no-dev"), features("all"));

@@ -194,12 +194,22 @@ fn firefox_is_judged() {
 fn a_finding_is_shown(browser: &mut Browser, page: &std::path::Path) {
     let options = json!({ "names": ["webgpu", "webgl2"], "only": [["coverage", 0]], "bits": 4 });
     rows(browser, Some("nudged"), &options);
+    let cause = browser.text("[data-api=webgl2] .cause");
+    assert!(
+        cause.contains("probable cause: It samples at (0.4375, 0.4375) of the pixel"),
+        "{cause}"
+    );
     browser
         .eval("document.querySelector('[data-api=webgl2] [data-check=coverage] button').click()");
     let report = browser.text("#report");
-    for part in
-        ["Renderer: ANGLE", "exactly one of the polygons", "gl_VertexID", "Drawn", "planted"]
-    {
+    for part in [
+        "Renderer: ANGLE",
+        "exactly one of the polygons",
+        "It samples at",
+        "gl_VertexID",
+        "Drawn",
+        "planted",
+    ] {
         assert!(report.contains(part), "{part}: {report}");
     }
     let address = browser.eval("document.querySelector('#finding a').hash");

@@ -9,6 +9,7 @@ use std::rc::Rc;
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
 use super::check::{Check, Truth};
+use super::declared::Declared;
 use super::in_process::Inside;
 use super::near_plane::{asked, bounds, is_round};
 use super::pixels::{masks_of, picks};
@@ -99,7 +100,7 @@ pub fn mistakes(
         Check::Values => of_values(&all, tolerance),
         Check::Samples => of_samples(&all),
         Check::Depth => of_depth(&all),
-        Check::Near | Check::Carried => of_near(&all, tolerance),
+        Check::Near | Check::Carried => of_near(&all, &truth.declared),
         _ => Vec::new(),
     };
     for known in programs {
@@ -455,13 +456,13 @@ struct NearMistake {
     does: &'static str,
     repair: &'static str,
     refuted: &'static str,
-    clip: fn([ClipCorner; 3]) -> Vec<ClipCorner>,
+    clip: fn([ClipCorner; 3], Plane) -> Vec<ClipCorner>,
 }
 
 /// Sutherland and Hodgman with a distance, and a way to make a corner from a kept and a lost one.
 fn clip(
     corners: [ClipCorner; 3],
-    distance: fn(ClipCorner) -> f64,
+    distance: impl Fn(ClipCorner) -> f64,
     new: impl Fn(ClipCorner, ClipCorner, f64) -> ClipCorner,
 ) -> Vec<ClipCorner> {
     let mut left = Vec::new();
@@ -480,9 +481,8 @@ fn clip(
     left
 }
 
-fn near_plane([_, _, z, w, _]: ClipCorner) -> f64 {
-    z + w
-}
+/// How far a corner lies before the near plane: z + w, or z where the plane is z = 0.
+type Plane = fn(ClipCorner) -> f64;
 
 fn between(from: ClipCorner, to: ClipCorner, t: f64) -> ClipCorner {
     [0, 1, 2, 3, 4].map(|k| from[k] + (to[k] - from[k]) * t)
@@ -491,70 +491,70 @@ fn between(from: ClipCorner, to: ClipCorner, t: f64) -> ClipCorner {
 const NEAR: &[NearMistake] = &[
     NearMistake {
         does: "does not clip",
-        repair: "clip at z = -w before the division",
+        repair: "clip at the near plane before the division",
         refuted: "a corner behind that is cut off",
-        clip: |c| c.to_vec(),
+        clip: |c, _| c.to_vec(),
     },
     NearMistake {
         does: "drops a triangle with any corner behind the near plane",
         repair: "keep the part before the plane",
         refuted: "a triangle that is cut",
-        clip: |c| if c.iter().all(|p| near_plane(*p) >= 0.0) { c.to_vec() } else { Vec::new() },
+        clip: |c, near| if c.iter().all(|p| near(*p) >= 0.0) { c.to_vec() } else { Vec::new() },
     },
     NearMistake {
         does: "drops triangles that lie wholly behind and clips no others",
         repair: "cut what crosses the plane",
         refuted: "a triangle that is cut",
-        clip: |c| if c.iter().any(|p| near_plane(*p) >= 0.0) { c.to_vec() } else { Vec::new() },
+        clip: |c, near| if c.iter().any(|p| near(*p) >= 0.0) { c.to_vec() } else { Vec::new() },
     },
     NearMistake {
         does: "clips at w = 0 and not at the near plane",
-        repair: "clip at z = -w",
+        repair: "clip at the near plane",
         refuted: "a corner between both planes that is cut off",
-        clip: |c| clip(c, |[_, _, _, w, _]| w, between),
+        clip: |c, _| clip(c, |[_, _, _, w, _]| w, between),
     },
     NearMistake {
         does: "clips at z = 0, as Direct3D and Vulkan have it",
         repair: "clip at z = -w, as OpenGL has it",
         refuted: "a corner between both planes that is kept",
-        clip: |c| clip(c, |[_, _, z, _, _]| z, between),
+        clip: |c, _| clip(c, |[_, _, z, _, _]| z, between),
     },
     NearMistake {
         does: "clips at z = -w, as OpenGL has it",
         repair: "clip at z = 0, as Direct3D and Vulkan have it",
         refuted: "a corner between both planes that is cut off",
-        clip: |c| clip(c, near_plane, between),
+        clip: |c, _| clip(c, |[_, _, z, w, _]| z + w, between),
     },
     NearMistake {
         does: "clips at z = w, the far plane",
-        repair: "clip at z = -w",
+        repair: "clip at the near plane",
         refuted: "a corner beyond the far plane that is kept",
-        clip: |c| clip(c, |[_, _, z, w, _]| w - z, between),
+        clip: |c, _| clip(c, |[_, _, z, w, _]| w - z, between),
     },
     NearMistake {
         does: "keeps the part behind the near plane",
         repair: "turn the comparison round",
         refuted: "a corner before the plane that is kept",
-        clip: |c| clip(c, |p| -near_plane(p), between),
+        clip: |c, near| clip(c, |p| -near(p), between),
     },
     NearMistake {
         does: "divides an edge from the wrong end: t is 1 - t",
         repair: "t counts from the end whose distance is the numerator",
         refuted: "a new corner that lies in the plane",
-        clip: |c| clip(c, near_plane, |kept, lost, t| between(kept, lost, 1.0 - t)),
+        clip: |c, near| clip(c, near, |kept, lost, t| between(kept, lost, 1.0 - t)),
     },
     NearMistake {
         does: "puts the new corner in the middle of the edge",
         repair: "divide the edge as the distances of its ends do",
         refuted: "a new corner that lies in the plane",
-        clip: |c| clip(c, near_plane, |kept, lost, _| between(kept, lost, 0.5)),
+        clip: |c, near| clip(c, near, |kept, lost, _| between(kept, lost, 0.5)),
     },
     NearMistake {
         does: "keeps the old w at a new corner",
         repair: "interpolate w as x, y and z",
         refuted: "a new corner with a w of its own",
-        clip: |c| {
-            clip(c, near_plane, |kept, lost, t| {
+        clip: |c, near| {
+            clip(c, near, |kept, lost, t| {
                 let new = between(kept, lost, t);
                 [new[0], new[1], new[2], kept[3], new[4]]
             })
@@ -564,8 +564,8 @@ const NEAR: &[NearMistake] = &[
         does: "keeps the old x and y at a new corner",
         repair: "interpolate x and y as z and w",
         refuted: "a new corner with a position of its own",
-        clip: |c| {
-            clip(c, near_plane, |kept, lost, t| {
+        clip: |c, near| {
+            clip(c, near, |kept, lost, t| {
                 let new = between(kept, lost, t);
                 [kept[0], kept[1], new[2], new[3], new[4]]
             })
@@ -575,8 +575,8 @@ const NEAR: &[NearMistake] = &[
         does: "keeps at most three corners, so that a quadrilateral loses one",
         repair: "a triangle that is cut can have four corners",
         refuted: "an answer with four corners",
-        clip: |c| {
-            let mut left = clip(c, near_plane, between);
+        clip: |c, near| {
+            let mut left = clip(c, near, between);
             left.truncate(3);
             left
         },
@@ -585,38 +585,38 @@ const NEAR: &[NearMistake] = &[
         does: "moves corners behind the plane onto it (clamps z) and cuts nothing",
         repair: "divide the edges",
         refuted: "a new corner on an edge",
-        clip: |c| c.map(|[x, y, z, w, a]| [x, y, z.max(-w), w, a]).to_vec(),
+        clip: |c, near| c.map(|p @ [x, y, z, w, a]| [x, y, z - near(p).min(0.0), w, a]).to_vec(),
     },
     NearMistake {
         does: "keeps the attribute of the corner that stays at a new corner",
         repair: "interpolate attributes as x, y, z and w",
         refuted: "a new corner with an attribute of its own",
-        clip: |c| carried(c, |kept, _, _| kept[4]),
+        clip: |c, near| carried(c, near, |kept, _, _| kept[4]),
     },
     NearMistake {
         does: "keeps the attribute of the corner that is cut off at a new corner",
         repair: "interpolate attributes as x, y, z and w",
         refuted: "a new corner with an attribute of its own",
-        clip: |c| carried(c, |_, lost, _| lost[4]),
+        clip: |c, near| carried(c, near, |_, lost, _| lost[4]),
     },
     NearMistake {
         does: "divides attributes from the wrong end: t is 1 - t",
         repair: "use the same t for attributes as for x, y, z and w",
         refuted: "a new corner with the attribute of its place",
-        clip: |c| carried(c, |kept, lost, t| lost[4] + (kept[4] - lost[4]) * t),
+        clip: |c, near| carried(c, near, |kept, lost, t| lost[4] + (kept[4] - lost[4]) * t),
     },
     NearMistake {
         does: "gives a new corner the mean of both attributes",
         repair: "divide attributes as the distances of the ends do",
         refuted: "a new corner with the attribute of its place",
-        clip: |c| carried(c, |kept, lost, _| (kept[4] + lost[4]) / 2.0),
+        clip: |c, near| carried(c, near, |kept, lost, _| (kept[4] + lost[4]) / 2.0),
     },
     NearMistake {
         does: "interpolates attributes at a new corner with a correction for perspective",
         repair: "attributes are linear in clip space, before the division by w: interpolate them as x, y, z and w",
         refuted: "a new corner between unequal w with the attribute of its place",
-        clip: |c| {
-            carried(c, |kept, lost, t| {
+        clip: |c, near| {
+            carried(c, near, |kept, lost, t| {
                 let (k, l) = ((1.0 - t) / kept[3], t / lost[3]);
                 (k * kept[4] + l * lost[4]) / (k + l)
             })
@@ -626,22 +626,28 @@ const NEAR: &[NearMistake] = &[
         does: "gives a new corner the attribute 0",
         repair: "interpolate attributes as x, y, z and w",
         refuted: "a new corner with an attribute",
-        clip: |c| carried(c, |_, _, _| 0.0),
+        clip: |c, near| carried(c, near, |_, _, _| 0.0),
     },
 ];
 
 /// Right corners, with another attribute at new ones.
 fn carried(
     corners: [ClipCorner; 3],
+    near: Plane,
     attribute: fn(ClipCorner, ClipCorner, f64) -> f64,
 ) -> Vec<ClipCorner> {
-    clip(corners, near_plane, |kept, lost, t| {
+    clip(corners, near, |kept, lost, t| {
         let [x, y, z, w, _] = between(kept, lost, t);
         [x, y, z, w, attribute(kept, lost, t)]
     })
 }
 
-fn of_near(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
+fn of_near<'a>(all: &'a [Answered], declared: &Declared) -> Vec<Hypothesis<'a>> {
+    let tolerance = declared.tolerance;
+    let near: Plane = match declared.near_is_zero {
+        true => |[_, _, z, _, _]| z,
+        false => |[_, _, z, w, _]| z + w,
+    };
     let of = |mistake: &'static NearMistake| {
         let NearMistake { does, repair, refuted, clip } = mistake;
         let says = Explanation::new("the near plane", (*does).to_owned(), repair, "ch07", refuted);
@@ -650,7 +656,7 @@ fn of_near(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
                 return true;
             };
             let corners = clip_corners(&triangle);
-            same_polygon(&clip(corners), polygon, &corners, tolerance)
+            same_polygon(&clip(corners, near), polygon, &corners, tolerance)
         })
     };
     NEAR.iter().map(of).collect()

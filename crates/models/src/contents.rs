@@ -10,6 +10,7 @@ use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
 use rasterproof_render::pipeline::physical::Physical;
+use rasterproof_render::pipeline::punctual::PunctualLight;
 use rasterproof_render::pipeline::texture::Texture;
 
 /// What a reader counts of faces with fewer than three corners, which show nothing.
@@ -26,6 +27,9 @@ const MOST_PARTS: usize = 1 << 16;
 pub(crate) struct Contents {
     pub parts: Vec<FilePart>,
     pub cameras: Vec<Camera>,
+    pub lights: Vec<PunctualLight>,
+    /// The names of its animations, empty where they have none.
+    pub animations: Vec<String>,
     /// The bytes of other files with vertices.
     pub other_bytes: u64,
     /// Of the parts that others are merged into their places in the list, by what has to be equal.

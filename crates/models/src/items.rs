@@ -12,6 +12,7 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Drawn;
 use rasterproof_render::pipeline::physical::Map;
+use rasterproof_render::pipeline::punctual::PunctualLight;
 use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::scene;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
@@ -45,6 +46,11 @@ pub(crate) fn model(
     }
     let mut cameras = std::mem::take(&mut contents.cameras);
     cameras.iter_mut().for_each(|camera| camera.place(turn));
+    let mut lights = std::mem::take(&mut contents.lights);
+    let mut change = |by: &dyn Fn(PunctualLight) -> PunctualLight| {
+        lights.iter_mut().for_each(|light| *light = by(*light));
+    };
+    change(&|light| light.placed(turn));
     let left_out = broken::leave_out(path, &mut contents, &mut warnings);
     if let Some(power) = to_usual_size(&mut contents.parts) {
         let what = if power > 0 { "small" } else { "large" };
@@ -55,9 +61,11 @@ pub(crate) fn model(
         warnings.add_as_it_is(path, "sizes", &format!("{}: {text}", printable_path(path)));
         let steps = half_powers(power);
         cameras.iter_mut().for_each(|camera| steps.iter().for_each(|step| camera.scale(*step)));
+        change(&|light| steps.iter().fold(light, |light, step| light.scaled(*step)));
     }
     let mirror = DMat4::from_scale(mirrored(DVec3::ONE));
     cameras.iter_mut().for_each(|camera| camera.place(mirror));
+    change(&|light| light.placed(mirror));
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
     let mut first_face = 1;
@@ -102,6 +110,13 @@ pub(crate) fn model(
         let key = "metal and roughness, with Gouraud shading, of material".to_owned();
         contents.not_drawn.insert(key, physical as u64);
     }
+    let matt =
+        |item: &&Item| item.material.physical.is_none() && item.material.shading != Shading::Unlit;
+    let matt = items.iter().filter(matt).count() as u64;
+    if !lights.is_empty() && matt > 0 {
+        let key = "light of the file, without metal and roughness, of primitive".to_owned();
+        contents.not_drawn.insert(key, matt);
+    }
     let not_drawn = counted(&contents.not_drawn);
     let mut why_empty = clear_materials(path, &items, &origins, &mut warnings);
     if items.is_empty() {
@@ -113,11 +128,23 @@ pub(crate) fn model(
         warnings.add(path, None, "faces", &format!("{why}, so the picture is empty"));
         why_empty = why.to_owned();
     }
-    let file_bytes = contents.other_bytes;
+    let (file_bytes, animations) = (contents.other_bytes, contents.animations);
     let mut all = contents.warnings;
     all.extend(warnings.finish());
     let warnings = all;
-    Ok(Model { items, origins, cameras, format, up, file_bytes, not_drawn, why_empty, warnings })
+    Ok(Model {
+        items,
+        origins,
+        cameras,
+        lights,
+        animations,
+        format,
+        up,
+        file_bytes,
+        not_drawn,
+        why_empty,
+        warnings,
+    })
 }
 
 /// Says which materials are fully transparent, and returns why the picture is empty where all of them are.

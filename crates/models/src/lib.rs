@@ -28,6 +28,7 @@ use rasterproof_host::error::FileError;
 use rasterproof_host::input::Pieces;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_host::{input, limits};
+use rasterproof_render::pipeline::punctual::PunctualLight;
 use rasterproof_render::scene::{Item, Shading};
 
 use ahead::Ahead;
@@ -90,6 +91,15 @@ pub struct Options {
     pub normals: Normals,
     /// The axis that points up; by default the one that is usual for the format.
     pub up: Option<Up>,
+    /// The moment of an animation at which a model stands; by default it is at rest.
+    pub pose: Option<Pose>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Pose {
+    /// The number of the animation, from 0.
+    pub animation: usize,
+    pub time_s: f64,
 }
 
 impl Options {
@@ -106,6 +116,10 @@ pub struct Model {
     pub origins: Vec<Origin>,
     /// The cameras of the file that stand in what is drawn of it.
     pub cameras: Vec<Camera>,
+    /// The lights of the file in what is drawn of it.
+    pub lights: Vec<PunctualLight>,
+    /// The names of the file's animations; empty where one has none.
+    pub animations: Vec<String>,
     pub format: Format,
     /// The axis of the file that points up in the picture.
     pub up: Up,
@@ -192,7 +206,7 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
         Format::Gltf | Format::Glb => {
             let mut file = Ahead::new(bytes, file);
             file.read_all().map_err(failed)?;
-            gltf::read(path, &file.bytes)?
+            gltf::read(path, &file.bytes, options.pose)?
         }
     };
     let mut model = items::model(path, contents, format, options)?;

@@ -1,18 +1,22 @@
-//! Plots of boards: error against time for each class of scenes, and the price of exactness.
+//! Plots of what accuracy costs: error against time, and the price of exactness.
 //!
-//! In a Pareto plot each panel is a class. Both axes are logarithmic; the shelf below holds the rungs
-//! without any error, each in a row of its own. Labels stand beside their dots and never overlap.
+//! A panel is a class of scenes, or a part of the work on a model. Both axes are logarithmic; the shelf below holds the
+//! choices without any error, each in a row of its own. A line joins what is best at each price. Labels stand beside their
+//! dots and never overlap.
 
 use super::board::number;
 use super::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
 use super::lettering;
+use super::summary::thousands;
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced, prices};
+use rasterproof_study::cost::Group;
 
 const WIDTH: f64 = 800.0;
 const SHELF: Ink = [233, 245, 236];
 const GOOD: Ink = [20, 110, 50];
 const OTHER: Ink = [31, 84, 170];
 const CRACKED: Ink = [205, 30, 30];
+const FRONTIER: Ink = [190, 160, 90];
 
 const ROW: f64 = 13.0;
 /// Height of the part of a panel where errors are not zero.
@@ -34,46 +38,124 @@ struct Dot {
     /// Good against the snapped vertices only.
     hollow: bool,
     cracked: bool,
+    /// Whether it is the cheapest exact one.
+    best: bool,
 }
 
-/// Error against time, a panel for each class of scenes, two in a row; the first measure that ranks
-/// is the error. The line through a dot spans the quartiles of its time.
-pub fn pareto(board: &Board) -> Drawing {
-    pareto_in(board, 2)
+struct Panel {
+    head: String,
+    /// What the axes show.
+    up: String,
+    right: String,
+    /// An error that is drawn as a line, since many dots would have it.
+    snapping: Option<f64>,
+    dots: Vec<Dot>,
 }
 
-/// The same with one panel in a row, for narrow pages.
-pub fn pareto_narrow(board: &Board) -> Drawing {
-    pareto_in(board, 1)
+/// Error against time, a panel for each class of scenes, as many in a row as are said: two, or one for narrow pages. The
+/// first measure that ranks is the error. The line through a dot spans the quartiles of its time.
+pub fn pareto(board: &Board, in_row: usize) -> Drawing {
+    let panel = |column: usize| Panel {
+        head: format!("{}: {}", board.columns[column].name, board.columns[column].about),
+        up: board.measures[0].title.to_string(),
+        right: "time in ns for each pixel".to_owned(),
+        snapping: snapping(board, column),
+        dots: dots(board, column),
+    };
+    let title = format!("{}: error against time", board.ladder.title());
+    drawn(&title, legend(board), board.columns_run().map(panel).collect(), in_row)
 }
 
-fn pareto_in(board: &Board, in_row: usize) -> Drawing {
+/// The same of a model, a panel for each part of the work.
+pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
+    let panel = |group: &Group| {
+        let best = group.best.iter().flatten().map(|best| best.choice).collect::<Vec<_>>();
+        let dot = |(number, choice): (usize, &rasterproof_study::cost::Choice)| {
+            let time = choice.time.filter(|_| choice.refused.is_none())?;
+            let first = choice.errors.first().copied().flatten()?;
+            let is_exact = |measure: usize| group.is_exact(choice, measure);
+            // As on a board: what is exact once corners are snapped stands on the shelf.
+            let hollow = !is_exact(0) && group.measures.len() > 1 && is_exact(1);
+            Some(Dot {
+                label: choice.name.clone(),
+                time: time.median / 1e6,
+                quartiles: [time.low / 1e6, time.high / 1e6],
+                error: (first > 0.0 && !hollow).then_some(first),
+                good: hollow || is_exact(0),
+                hollow,
+                cracked: false,
+                best: best.contains(&number),
+            })
+        };
+        Panel {
+            head: group.title.to_owned(),
+            up: group.measures[0].title.to_owned(),
+            right: "time in ms".to_owned(),
+            snapping: None,
+            dots: group.choices.iter().enumerate().filter_map(dot).collect(),
+        }
+    };
+    let legend = "green: exact here, as a ring once corners are snapped; blue: wrong\n\
+                  a circle around it: the cheapest exact choice\n\
+                  line: the least error at each price; bars: the middle half of the times";
+    drawn("Error against time", legend, groups.iter().map(panel).collect(), in_row)
+}
+
+/// Bars of effects: the milliseconds that each takes, or saves where it is left out, and the pixels that are wrong without
+/// it.
+pub fn effects(rows: &[(&str, Option<f64>, bool, u64)], width: f64) -> Drawing {
+    let title = "Effects: time, and pixels that are wrong without";
+    let legend = "left: ms, blue taken by what is paid for, green saved by what is left out";
+    let lines: Vec<_> =
+        [title, legend].iter().flat_map(|line| wrapped(line, width - 24.0)).collect();
+    let head = 26.0 + 16.0 * lines.len() as f64;
+    let mut drawing = Drawing::new(title, [width, head + 20.0 * rows.len() as f64 + 12.0]);
+    for (line, text) in lines.iter().enumerate() {
+        drawing.text([12.0, 16.0 + 16.0 * line as f64], text, if line == 0 { INK } else { SOFT });
+    }
+    let names = rows.iter().map(|(name, ..)| canvas::width(name)).fold(0.0, f64::max) + 24.0;
+    let room = (width - names) / 2.0;
+    let bar = room - canvas::width("1,234,567 px") - 8.0;
+    let most_ms = rows.iter().filter_map(|row| row.1).fold(1e-9, f64::max);
+    let most_px = rows.iter().map(|row| row.3).max().unwrap_or(1).max(1) as f64;
+    for (number, (name, ms, is_saved, wrong)) in rows.iter().enumerate() {
+        let y = head + 20.0 * number as f64;
+        drawing.text([12.0, y], name, INK);
+        let mut draw = |x: f64, length: f64, text: &str, ink: Ink| {
+            drawing.filled_box([x, y - 6.0], [length.max(1.0), 12.0], ink);
+            drawing.text([x + length + 6.0, y], text, SOFT);
+        };
+        let ink = if *is_saved { GOOD } else { OTHER };
+        match ms {
+            Some(ms) => draw(names, bar * ms / most_ms, &super::board::number(*ms, 8), ink),
+            None => draw(names, 0.0, "noise", SOFT),
+        }
+        let pixels = *wrong as f64;
+        draw(names + room, bar * pixels / most_px, &format!("{} px", thousands(*wrong)), CRACKED);
+    }
+    drawing
+}
+
+fn drawn(title: &str, legend: &str, mut panels: Vec<Panel>, in_row: usize) -> Drawing {
     let width = WIDTH / 2.0 * in_row as f64;
     // A class that nothing ran on has nothing to show.
-    let panels: Vec<(usize, Vec<Dot>)> = board
-        .columns_run()
-        .map(|column| (column, dots(board, column)))
-        .filter(|(_, dots)| !dots.is_empty())
-        .collect();
-    let on_shelf = |dots: &Vec<Dot>| dots.iter().filter(|d| d.error.is_none()).count();
-    let shelf = panels.iter().map(|(_, dots)| on_shelf(dots)).max().unwrap_or(0) as f64 * ROW;
+    panels.retain(|panel| !panel.dots.is_empty());
+    let on_shelf = |panel: &Panel| panel.dots.iter().filter(|d| d.error.is_none()).count();
+    let shelf = panels.iter().map(on_shelf).max().unwrap_or(0) as f64 * ROW;
     let shelf = if shelf > 0.0 { shelf + 8.0 } else { 0.0 };
     let panel_height = HEAD + SCATTER + shelf + FOOT;
-    let title = format!("{}: error against time", board.ladder.title());
-    let legend: Vec<String> =
-        legend(board).lines().flat_map(|line| wrapped(line, width - 24.0)).collect();
-    let titles = wrapped(&title, width - 24.0);
+    let legend: Vec<String> = legend.lines().flat_map(|line| wrapped(line, width - 24.0)).collect();
+    let titles = wrapped(title, width - 24.0);
     let head = 10.0 + 16.0 * (titles.len() + legend.len()) as f64 + 12.0;
     let rows = panels.len().div_ceil(in_row) as f64;
-    let mut drawing = Drawing::new(&title, [width, head + rows * panel_height]);
+    let mut drawing = Drawing::new(title, [width, head + rows * panel_height]);
     let lines = titles.iter().map(|text| (text, INK)).chain(legend.iter().map(|l| (l, SOFT)));
     for (line, (text, ink)) in lines.enumerate() {
         drawing.text([12.0, 16.0 + 16.0 * line as f64], text, ink);
     }
-    for (i, (column, dots)) in panels.iter().enumerate() {
+    for (i, panel) in panels.iter().enumerate() {
         let left = (i % in_row) as f64 * WIDTH / 2.0;
-        let at = [left, head + (i / in_row) as f64 * panel_height];
-        panel(&mut drawing, at, shelf, board, *column, dots);
+        draw_panel(&mut drawing, [left, head + (i / in_row) as f64 * panel_height], shelf, panel);
     }
     drawing
 }
@@ -120,7 +202,8 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
         let label = if snapped { format!("{} (snapped)", info.name) } else { label };
         let error = above.filter(|_| !snapped);
         let (good, hollow) = (good || snapped, snapped);
-        dots.push(Dot { label, time, quartiles, error, good, hollow, cracked });
+        let best = board.best(column, 0).and_then(|best| best.good) == Some(rung);
+        dots.push(Dot { label, time, quartiles, error, good, hollow, cracked, best });
     }
     dots
 }
@@ -162,32 +245,24 @@ fn tick(value: f64) -> String {
     if (0.001..99_999.0).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
 }
 
-fn panel(
-    drawing: &mut Drawing,
-    [left, top]: [f64; 2],
-    shelf: f64,
-    board: &Board,
-    column: usize,
-    dots: &[Dot],
-) {
+fn draw_panel(drawing: &mut Drawing, [left, top]: [f64; 2], shelf: f64, panel: &Panel) {
     let (x0, x1) = (left + AXIS + 6.0, left + WIDTH / 2.0 - 10.0);
     let (y0, y1) = (top + HEAD, top + HEAD + SCATTER);
     let bottom = y1 + shelf;
-    let info = &board.columns[column];
-    let head = format!("{}: {}", info.name, info.about);
-    for (line, text) in wrapped(&head, x1 - left - 14.0).iter().take(2).enumerate() {
+    let dots = &panel.dots;
+    for (line, text) in wrapped(&panel.head, x1 - left - 14.0).iter().take(2).enumerate() {
         drawing.text([left + 12.0, top + 14.0 + 14.0 * line as f64], text, INK);
     }
-    let up = wrapped(&format!("up: {}", board.measures[0].title), x1 - left - 14.0);
+    let up = wrapped(&format!("up: {}", panel.up), x1 - left - 14.0);
     for (text, line) in up.iter().rev().take(2).zip([12.0, 26.0]) {
         drawing.text([left + 12.0, y0 - line], text, SOFT);
     }
-    let right = "right: time in ns for each pixel";
-    drawing.text_before([x1, y1 + shelf + 24.0], right, SOFT);
+    let right = format!("right: {}", panel.right);
+    drawing.text_before([x1, y1 + shelf + 24.0], &right, SOFT);
     drawing.filled_box([x0, y1], [x1 - x0, shelf], SHELF);
     let times = dots.iter().flat_map(|d| [d.quartiles[0], d.time, d.quartiles[1]]);
     let time = Axis::new(times.filter(|t| *t > 0.0), 0.12, [x0, x1]);
-    let snapping = snapping(board, column);
+    let snapping = panel.snapping;
     let error = Axis::new(dots.iter().filter_map(|d| d.error).chain(snapping), 0.4, [y1, y0]);
     for value in time.ticks(5) {
         let x = time.place(value);
@@ -210,6 +285,7 @@ fn panel(
     drawing.line([x0, y1], [x1, y1], SOFT);
     drawing.line([x0, bottom], [x1, bottom], SOFT);
     drawing.line([x0, y0], [x0, bottom], SOFT);
+    frontier(drawing, dots, [&time, &error], y1);
     shelved(drawing, dots, &time, [x0, x1], y1);
     let mut taken = Vec::new();
     if let Some(value) = snapping {
@@ -244,11 +320,37 @@ fn mark(drawing: &mut Drawing, at: [f64; 2], dot: &Dot) -> Ink {
         true => drawing.ring(at, RADIUS - 0.5, ink),
         false => drawing.disc(at, RADIUS, ink),
     }
+    if dot.best {
+        drawing.ring(at, RADIUS + 3.0, ink);
+    }
     if dot.cracked {
         drawing.ring(at, RADIUS + 3.0, CRACKED);
         return CRACKED;
     }
     ink
+}
+
+/// Joins the choices to which none is as fast and more accurate: from each there is a step to the next.
+fn frontier(drawing: &mut Drawing, dots: &[Dot], [time, error]: [&Axis; 2], shelf: f64) {
+    let mut all: Vec<&Dot> = dots.iter().filter(|dot| dot.time > 0.0).collect();
+    all.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let mut before: Option<&Dot> = None;
+    for dot in all {
+        let of = |dot: &Dot| dot.error.unwrap_or(0.0);
+        if before.is_some_and(|before| of(dot) >= of(before)) {
+            continue;
+        }
+        if let Some(from) =
+            before.and_then(|before| Some([time.place(before.time), error.place(before.error?)]))
+        {
+            // The first on the shelf is the fastest there.
+            let y = dot.error.map_or(shelf + 10.0, |value| error.place(value));
+            let corner = [time.place(dot.time), from[1]];
+            drawing.wide_line(from, corner, FRONTIER);
+            drawing.wide_line(corner, [corner[0], y], FRONTIER);
+        }
+        before = Some(dot);
+    }
 }
 
 /// The rungs without error, one below the other, the fastest first.

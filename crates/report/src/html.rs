@@ -35,6 +35,8 @@ pub struct Report {
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
+    /// What the reader wants to know, shown below the verdict.
+    pub answers: Vec<Answer>,
     pub command: String,
     /// Decides the generated cases, where there are any.
     pub seed: Option<u64>,
@@ -50,6 +52,16 @@ pub struct Report {
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
+}
+
+/// The answer to a question that a command is called for.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Answer {
+    /// The question in a word or two.
+    pub about: &'static str,
+    pub sentence: String,
+    /// The command that says more, or nothing.
+    pub command: String,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -203,8 +215,8 @@ pub fn page(report: &Report) -> String {
     let run = run(report, left_out);
     let sections = [
         ("Plan", plan),
-        ("Summary", tables),
         ("Plots", figures.concat()),
+        ("Summary", tables),
         ("Texts", diffs.concat()),
         ("Run", run),
     ];
@@ -276,6 +288,11 @@ fn head(report: &Report) -> String {
             out,
             "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{sentence}</span></p>"
         );
+    }
+    for Answer { about, sentence, command: more } in &report.answers {
+        let (about, sentence) = (escape(about), escape(sentence));
+        let _ = writeln!(out, "<p class=\"answer\"><strong>{about}:</strong> {sentence}</p>");
+        out += &command(more);
     }
     out
 }

@@ -133,12 +133,12 @@ pub fn wrapped(text: &str, indent: &str) -> String {
     hanging(words, first, indent) + "\n"
 }
 
-/// The words in lines of at most 100 columns: the first begins with `first`, the others with `rest`.
+/// The words in lines of at most 80 columns: the first begins with `first`, the others with `rest`.
 pub fn hanging(words: &str, first: &str, rest: &str) -> String {
     let mut lines = vec![first.to_owned()];
     for (i, word) in words.split(' ').enumerate() {
         let line = lines.last_mut().expect("there is a first line");
-        if i > 0 && line.chars().count() + 1 + word.chars().count() > 100 {
+        if i > 0 && line.chars().count() + 1 + word.chars().count() > 80 {
             lines.push(format!("{rest}{word}"));
         } else {
             *line += if i == 0 { "" } else { " " };
@@ -181,7 +181,7 @@ fn scores(out: &mut String, verdict: &Verdict) {
 }
 
 /// Why it is wrong, where that was looked for.
-pub(super) fn causes(out: &mut String, verdict: &Verdict) {
+pub fn causes(out: &mut String, verdict: &Verdict) {
     for why in &verdict.causes {
         let known = if why.why.is_known() { "probable cause" } else { "no cause recognised" };
         let _ = writeln!(out, "{known}, of the wrong {}:", why.whose());

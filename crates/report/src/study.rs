@@ -7,16 +7,19 @@ use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
 use rasterproof_render::scene::Scene;
 use rasterproof_study::cost::{Choice, Group};
-use rasterproof_study::effects::{Fineness, Need, Needs};
+use rasterproof_study::effects::{Fineness, Need, Needs, State};
 use rasterproof_study::hard::{HardCase, HardCases, Kind};
 use rasterproof_study::ties::{Class, Classes, TiedPair};
 use rasterproof_study::{face_of, triangle_of};
 use serde_json::{Value, json};
 
 use super::board::number;
+use super::canvas::{self, Drawing};
 use super::chapter::Chapter;
-use super::html::{Outcome, PictureLayer, PictureView, Report};
-use super::summary::thousands;
+use super::cost_plots;
+use super::html::{Answer, Figure, Outcome, PictureLayer, PictureView, Report};
+use super::lettering;
+use super::summary::{count, thousands};
 use super::table::{Column, Table};
 
 #[derive(Clone, Copy)]
@@ -70,29 +73,32 @@ pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> 
         0 => "hard cases: none\n".to_owned(),
         _ => hard_table(subject, found, costs).text([2, 4]),
     };
-    let missing: Vec<&str> = Kind::ALL
-        .into_iter()
-        .filter(|kind| found.cases.iter().all(|case| case.kind != *kind))
-        .map(Kind::name)
-        .collect();
-    if let Some(line) = compared_in(costs) {
+    for line in about_hard_cases(found, costs) {
         let _ = writeln!(out, "{line}");
     }
+    out
+}
+
+/// What is said of all hard cases together, a line each.
+fn about_hard_cases(found: &HardCases, costs: &[Group]) -> Vec<String> {
+    let mut lines: Vec<String> = compared_in(costs).into_iter().collect();
+    let missing: Vec<&str> =
+        Kind::ALL.into_iter().filter(|kind| found.of(*kind).is_none()).map(Kind::name).collect();
     if !missing.is_empty() && !found.cases.is_empty() {
-        let _ = writeln!(out, "none: {}", missing.join(", "));
+        lines.push(format!("none: {}", missing.join(", ")));
     }
     if found.is_cut_short {
-        out +=
-            "the model is so large that overlaps and T-junctions were looked for in a part of it\n";
+        let what = "overlaps and T-junctions were looked for in a part of it";
+        lines.push(format!("the model is so large that {what}"));
     }
     if let Some([near, far]) = found.w {
-        let _ = writeln!(out, "w in the window: {near:.3e} to {far:.3e}");
+        lines.push(format!("w in the window: {near:.3e} to {far:.3e}"));
     }
     if found.f32_pixels > 0 {
         let pixels = thousands(found.f32_pixels);
-        let _ = writeln!(out, "positions rounded to f32 change {pixels} px of the picture");
+        lines.push(format!("positions rounded to f32 change {pixels} px of the picture"));
     }
-    out
+    lines
 }
 
 pub fn hard_cases_json(subject: &Subject<'_>, found: &HardCases) -> Value {
@@ -111,6 +117,7 @@ pub fn hard_cases_json(subject: &Subject<'_>, found: &HardCases) -> Value {
         json!({
             "kind": case.kind.name(),
             "count": case.count,
+            "in_view": case.in_view,
             "pixels": case.pixels,
             "note": case.note,
             "faces": case.triangles.iter().map(face).collect::<Vec<_>>(),
@@ -128,19 +135,265 @@ fn ms(ns: f64) -> String {
     number(ns / 1e6, 9)
 }
 
+/// The three questions of a study, each answered in a sentence or two, and the commands that say more.
+pub fn answers(subject: &Subject<'_>, found: &Found<'_>, commands: [String; 3]) -> Vec<Answer> {
+    let sentences = [accuracy(found.costs), stability(subject, found.hard), effects(found)];
+    let questions = ["accuracy", "hard cases", "effects"];
+    let all = questions.into_iter().zip(sentences).zip(commands);
+    let answer = |((about, sentence), command)| Answer { about, sentence, command };
+    all.map(answer).collect()
+}
+
+/// What exact coverage costs, and what is wrong.
+fn accuracy(groups: &[Group]) -> String {
+    let is_of_coverage = |group: &&Group| group.title.starts_with(COVERAGE);
+    let all = groups.iter().filter(is_of_coverage).flat_map(|group| {
+        let timed = group.choices.iter().filter(|choice| choice.refused.is_none());
+        timed.filter_map(move |choice| Some((group, choice, choice.time?.median)))
+    });
+    let all: Vec<(&Group, &Choice, f64)> = all.collect();
+    let name = |(group, choice, _): &(&Group, &Choice, f64)| {
+        format!("{} by {}", choice.name, group.title.trim_start_matches(COVERAGE))
+    };
+    let wrong = |choice: &Choice| choice.errors.iter().flatten().copied().fold(f64::MAX, f64::min);
+    let least = |of: &dyn Fn(&Choice) -> bool| {
+        let of = all.iter().filter(|(_, choice, _)| of(choice));
+        of.min_by(|a, b| a.2.total_cmp(&b.2))
+    };
+    let certain = least(&|choice| choice.promises.is_some() && wrong(choice) == 0.0);
+    let (Some(cheapest), Some(certain)) = (least(&|_| true), certain) else {
+        return "No choice of coverage that is exact for every model takes these triangles."
+            .to_owned();
+    };
+    let times = certain.2 / cheapest.2;
+    let unit = cheapest.0.measures[0].unit.unwrap_or("px");
+    let snapped = match certain.1.promises {
+        Some(1) => ", once its corners are snapped",
+        _ => "",
+    };
+    let exact = format!("{}, exact for every model{snapped}", name(certain));
+    let mut sentence = match times {
+        ..=1.03 => {
+            format!("Exact coverage costs nothing here: {exact}, is the cheapest choice.")
+        }
+        _ => {
+            let is = match wrong(cheapest.1) {
+                0.0 => "happens to be exact here".to_owned(),
+                wrong => format!("is wrong in {} {unit}", thousands(wrong as u64)),
+            };
+            let (other, times) = (name(cheapest), number(times, 6));
+            format!(
+                "Exact coverage takes {times} times as long as the cheapest choice: {exact}, against \
+                 {other}, which {is}."
+            )
+        }
+    };
+    let are_wrong: Vec<_> = all.iter().filter(|one| wrong(one.1) > 0.0).collect();
+    let worst = are_wrong.iter().max_by(|a, b| wrong(a.1).total_cmp(&wrong(b.1)));
+    let _ = match worst {
+        None => write!(sentence, " None of the {} choices is wrong here.", all.len()),
+        Some(worst) => write!(
+            sentence,
+            " Of {} choices {} wrong here, {} in {} {unit}.",
+            all.len(),
+            count(are_wrong.len() as u64, "is", "are"),
+            name(worst),
+            thousands(wrong(worst.1) as u64)
+        ),
+    };
+    sentence
+}
+
+const COVERAGE: &str = "Coverage by ";
+
+/// What rounding decides in this view, and which hard cases are seen besides.
+fn stability(subject: &Subject<'_>, found: &HardCases) -> String {
+    let classes = &found.classes;
+    let mut sentence = match classes.first {
+        Some(TiedPair { pixel: [x, y], triangles }) => {
+            let [a, b] = triangles.map(|one| face_of(subject.scene, subject.origins, one));
+            format!(
+                "{} px {} decided by rounding alone, the first at {x},{y}, between face {a} and face {b}.",
+                thousands(classes.by_rounding),
+                if classes.by_rounding == 1 { "is" } else { "are" }
+            )
+        }
+        None => "No pixel is decided by rounding alone.".to_owned(),
+    };
+    let others: Vec<_> = found.in_view().filter(|case| case.kind != Kind::Rounding).collect();
+    let most = others.iter().max_by_key(|case| case.pixels);
+    let _ = match most {
+        None => write!(sentence, " No other hard case is seen in this view."),
+        Some(most) => {
+            let (name, pixels) = (most.kind.name(), thousands(most.pixels));
+            match others.len() {
+                1 => write!(
+                    sentence,
+                    " The only others seen in this view are {name}, in {pixels} px."
+                ),
+                kinds => write!(
+                    sentence,
+                    " {kinds} other kinds are seen in this view, in most pixels {name}, in {pixels}."
+                ),
+            }
+        }
+    };
+    let hidden = found.cases.len() - found.in_view().count();
+    if hidden > 0 {
+        let kinds = count(hidden as u64, "kind is", "kinds are");
+        let _ = write!(sentence, " {kinds} only in the mesh: culled, hidden or outside here.");
+    }
+    sentence
+}
+
+/// What the view calls for, and what it costs to pay for everything.
+fn effects(found: &Found<'_>) -> String {
+    let all = &found.needs.needs;
+    let called: Vec<_> = all.iter().filter(|need| need.state() == State::CalledFor).collect();
+    let mut sentence = format!("{} of {} effects are called for.", called.len(), all.len());
+    let of_pixels = called.iter().filter(|need| need.pixels.is_some());
+    if let Some(most) = of_pixels.max_by_key(|need| need.wrong) {
+        let (name, wrong) = (most.effect.name(), thousands(most.wrong));
+        let _ = write!(sentence, " Without {name}, {wrong} px are wrong.");
+    }
+    let frames = found.costs.iter().find(|group| group.title == FRAMES);
+    let time = |name: &str| {
+        let choice = frames?.choices.iter().find(|choice| choice.name == name)?;
+        Some(choice.time?.median)
+    };
+    if let Some((every, planned)) = time("scanline all").zip(time("scanline planned")) {
+        let times = number(every / planned, 6);
+        let _ = write!(sentence, " Paying for all {} takes {times} times as long.", all.len());
+    }
+    sentence
+}
+
+const FRAMES: &str = "Whole frames";
+
+/// Columns of a terminal that a first screen has.
+const SCREEN: usize = 80;
+
+/// Rows of a table of cases or effects on a first screen, which has 40.
+const MOST_ROWS: usize = 4;
+
+/// Answers as text: below each the command that says more.
+pub fn answers_text(answers: &[Answer]) -> String {
+    let mut out = String::new();
+    for Answer { about, sentence, command } in answers {
+        let room = SCREEN - 14;
+        let lines = lettering::lines(sentence, room, |line| line.chars().count());
+        for (number, line) in lines.iter().enumerate() {
+            let head = if number == 0 { about } else { "" };
+            let _ = writeln!(out, "{head:<12}{line}");
+        }
+        if !command.is_empty() {
+            let _ = writeln!(out, "{:<12}$ {command}", "");
+        }
+    }
+    out
+}
+
+/// The first screen below the answers: what is seen, what is called for, and the cheapest exact choices.
+pub fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> String {
+    let mut out = String::new();
+    let mut add = |mut table: Table, most: usize, others: &str| {
+        let left_out = table.rows.len().saturating_sub(most);
+        table.rows.truncate(most);
+        if !table.rows.is_empty() {
+            let _ = write!(out, "{}", table.text([2, 4]));
+        }
+        if left_out > 0 {
+            let _ = writeln!(out, "  and {left_out} more");
+        }
+        let others = lettering::lines(others, SCREEN - 2, |line| line.chars().count());
+        let _ = writeln!(out, "{}", others.join("\n  "));
+        out += if others.is_empty() { "" } else { "\n" };
+    };
+    let mut seen: Vec<_> = found.hard.in_view().collect();
+    seen.sort_by_key(|case| std::cmp::Reverse(case.pixels));
+    let row = |case: &&HardCase| {
+        let face = case.triangles.first();
+        let face =
+            face.map(|one| format!("face {}", face_of(subject.scene, subject.origins, *one)));
+        let [number, pixels] = [case.in_view, case.pixels].map(thousands);
+        vec![case.kind.name().to_owned(), number, pixels, face.unwrap_or_default()].into()
+    };
+    let columns = vec![
+        Column::words("hard cases in this view").least(32),
+        Column::numbers("number", "").least(11),
+        Column::numbers("px", "").least(11),
+        Column::words("first or worst").least(14),
+    ];
+    let hidden = found.hard.cases.iter().filter(|case| case.in_view == 0);
+    let hidden: Vec<_> =
+        hidden.map(|case| format!("{} {}", thousands(case.count), case.kind.name())).collect();
+    let hidden = match hidden.len() {
+        0 => String::new(),
+        _ => format!("only in the mesh: {}", hidden.join(", ")),
+    };
+    add(
+        Table { columns, rows: seen.iter().map(row).collect(), ..Table::default() },
+        MOST_ROWS,
+        &hidden,
+    );
+    let of = |state: State| found.needs.needs.iter().filter(move |need| need.state() == state);
+    let row = |need: &Need| {
+        let time = takes(found.needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
+        vec![need.effect.name().to_owned(), thousands(need.wrong), time].into()
+    };
+    let columns = vec![
+        Column::words("effects called for").least(32),
+        Column::numbers("px wrong without", "").least(17),
+        Column::numbers("takes ms", "").least(11),
+    ];
+    let mut called: Vec<_> = of(State::CalledFor).collect();
+    called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
+    let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name()).collect();
+    let safe = match safe.len() {
+        0 => String::new(),
+        _ => format!("paid for to be safe, though no pixel changes here: {}", safe.join(", ")),
+    };
+    let rows = called.into_iter().map(row).collect();
+    add(Table { columns, rows, ..Table::default() }, MOST_ROWS, &safe);
+    let row = |group: &Group| {
+        let measure = group.measures.len() - 1;
+        let mut cells = vec![group.title.to_owned()];
+        cells.push(group.cheapest_exact(measure).map_or("none".to_owned(), |best| {
+            let others = if tied(group, measure).is_empty() { "" } else { " or others" };
+            format!("{}{others}", group.choices[best].name)
+        }));
+        let time = |choice: Option<usize>| group.choices[choice?].time;
+        let best = time(group.cheapest_exact(measure)).map(|time| time.median);
+        let least = time(group.cheapest(&|_| true)).map(|time| time.median);
+        cells.push(best.map_or("-".to_owned(), ms));
+        let times = best.zip(least).map(|(best, least)| number(best / least, 6));
+        cells.push(times.unwrap_or("-".to_owned()));
+        cells.into()
+    };
+    let columns = vec![
+        Column::words("what exactness costs").least(26),
+        Column::words("cheapest exact").least(33),
+        Column::numbers("ms", "").least(7),
+        Column::numbers("times", "").least(7),
+    ];
+    let rows = found.costs.iter().map(row).collect();
+    let more = "times: against the cheapest of all. More: --all; with pictures: --report";
+    add(Table { columns, rows, ..Table::default() }, usize::MAX, more);
+    out.truncate(out.trim_end().len());
+    out + "\n"
+}
+
 /// What each choice costs, by group; and what to choose.
 pub fn costs(subject: &Subject<'_>, groups: &[Group]) -> String {
     let mut out = String::new();
     for group in groups {
         let table = cost_table(group);
         let _ = write!(out, "{}\n{}", table.caption, table.text([2, 4]));
+        for measure in &group.measures {
+            let _ = writeln!(out, "  {}: {}", measure.short, measure.title);
+        }
         for line in advice(subject, group) {
             let _ = writeln!(out, "  {line}");
-        }
-        if group.not_judged > 0 {
-            let count = thousands(group.not_judged);
-            let why = "single precision does not hold a value or 1/w of a corner";
-            let _ = writeln!(out, "  not judged: {count} pieces, since {why}");
         }
         out.push('\n');
     }
@@ -157,7 +410,6 @@ pub fn advice(subject: &Subject<'_>, group: &Group) -> Vec<String> {
             continue;
         };
         let choice = &group.choices[best];
-        lines.push(format!("cheapest exact ({}): {}", measure.short, choice.name));
         lines.extend(compared(group, number));
         limit = limit.min(choice.time.map_or(f64::INFINITY, |time| time.median));
     }
@@ -168,9 +420,9 @@ pub fn advice(subject: &Subject<'_>, group: &Group) -> Vec<String> {
         let is_wrong = errors.all(|(i, error)| error.is_some_and(|error| error > goal(i)));
         match (choice.margin, choice.first_wrong) {
             (Some(margin), _) if !is_wrong && choice.refused.is_none() => {
-                let luck = if margin < 1.0 { ", so it was lucky" } else { "" };
+                let luck = if margin < 1.0 { ": it might have been wrong" } else { "" };
                 lines.push(format!(
-                    "{} is exact here; the smallest margin is {} times its error bound{luck}",
+                    "{} is exact here; the nearest decision is {} times its error bound away from 0{luck}",
                     choice.name,
                     number(margin, 9)
                 ));
@@ -191,16 +443,33 @@ pub fn advice(subject: &Subject<'_>, group: &Group) -> Vec<String> {
             _ => {}
         }
     }
+    if group.not_judged > 0 {
+        let count = thousands(group.not_judged);
+        let why = "single precision does not hold a value or 1/w of a corner";
+        lines.push(format!("not judged: {count} pieces, since {why}"));
+    }
     lines
 }
 
-/// Which choices are as fast as the cheapest exact one, and which may be; nothing where it is the only one.
+/// Choices that are as fast as the cheapest exact one, as far as that could be told.
+fn tied(group: &Group, measure: usize) -> Vec<usize> {
+    let best = group.best.get(measure).and_then(Option::as_ref);
+    best.map_or(Vec::new(), |best| [&*best.equal, &*best.undecided].concat())
+}
+
+/// The cheapest exact choice, or that there is no difference between those that are exact.
 fn compared(group: &Group, measure: usize) -> Vec<String> {
     let Some(Some(best)) = group.best.get(measure) else { return Vec::new() };
     let names = |all: &[usize]| {
         all.iter().map(|one| &*group.choices[*one].name).collect::<Vec<_>>().join(", ")
     };
-    let mut lines = Vec::new();
+    let (tied, short) = (tied(group, measure), group.measures[measure].short);
+    let exact = |choice: &&Choice| choice.time.is_some() && group.is_exact(choice, measure);
+    if !tied.is_empty() && group.choices.iter().filter(exact).count() == tied.len() + 1 {
+        let all = names(&[&[best.choice], &*tied].concat());
+        return vec![format!("no difference between the exact choices ({short}): {all}")];
+    }
+    let mut lines = vec![format!("cheapest exact ({short}): {}", names(&[best.choice]))];
     if !best.equal.is_empty() {
         lines.push(format!("  equally fast within 3%: {}", names(&best.equal)));
     }
@@ -262,17 +531,16 @@ pub fn costs_json(subject: &Subject<'_>, groups: &[Group]) -> Value {
 
 /// How it is decided which surface is seen, as text.
 pub fn ties(subject: &Subject<'_>, classes: &Classes) -> String {
-    let [decided, by_rounding, equal] =
-        [classes.decided, classes.by_rounding, classes.equal].map(thousands);
+    let [decided, by_rounding, equal, by_order] =
+        [classes.decided, classes.by_rounding, classes.equal, classes.by_order].map(thousands);
     let mut out = format!(
-        "which surface is seen, before corners are snapped: decided in {decided} px,\n  \
-         by rounding alone in {by_rounding} px, equal in {equal} px (see docs/ties.md)\n"
+        "which surface is seen, before corners are snapped: decided in {decided} px, by rounding\n  \
+         alone in {by_rounding} px, in {equal} of them between equal depths; by the order of faces that are\n  \
+         drawn twice in {by_order} px (see docs/ties.md)\n"
     );
-    for (what, pair) in [("by rounding", classes.first_by_rounding), ("equal", classes.first_equal)]
-    {
-        let Some(TiedPair { pixel: [x, y], triangles }) = pair else { continue };
+    if let Some(TiedPair { pixel: [x, y], triangles }) = classes.first {
         let [a, b] = triangles.map(|triangle| subject.place(triangle));
-        let _ = writeln!(out, "  {what} first at {x},{y}: {a} and {b}");
+        let _ = writeln!(out, "  by rounding first at {x},{y}: {a} and {b}");
     }
     out
 }
@@ -280,7 +548,7 @@ pub fn ties(subject: &Subject<'_>, classes: &Classes) -> String {
 /// Milliseconds that an effect takes of a planned frame; none within the noise.
 fn takes(needs: &Needs, need: &Need) -> Option<f64> {
     let (planned, without) = (needs.planned, need.otherwise);
-    (need.is_called_for && planned.low > without.high)
+    (need.is_paid_for && planned.low > without.high)
         .then(|| (planned.median - without.median) / 1e6)
 }
 
@@ -309,12 +577,15 @@ fn reasons(need: &Need) -> String {
 
 /// What a scene calls for, as text; `not_drawn` is what its file asks for besides.
 pub fn needs(needs: &Needs, not_drawn: &str) -> String {
-    let mut out = needs_table(needs, true).text([2, 4]);
-    for need in needs.needs.iter().filter(|need| !need.is_called_for) {
-        let _ = writeln!(out, "not called for: {}: {}", need.effect.name(), reasons(need));
-        if need.wrong > 0 {
-            let _ = writeln!(out, "    but {} px change without it", thousands(need.wrong));
+    let mut out = String::new();
+    for state in [State::CalledFor, State::ToBeSafe] {
+        let table = needs_table(needs, state);
+        if !table.rows.is_empty() {
+            out += &table.text([2, 4]);
         }
+    }
+    for need in needs.needs.iter().filter(|need| need.state() == State::NotCalledFor) {
+        let _ = writeln!(out, "not called for: {}: {}", need.effect.name(), reasons(need));
     }
     if !not_drawn.is_empty() {
         let _ = writeln!(out, "called for and not supported: {not_drawn}");
@@ -331,7 +602,7 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     let idle: Vec<_> = needs
         .needs
         .iter()
-        .filter(|need| !need.is_called_for && need.otherwise.low > needs.planned.high)
+        .filter(|need| !need.is_paid_for && need.otherwise.low > needs.planned.high)
         .map(|need| {
             let more = need.otherwise.median / needs.planned.median - 1.0;
             format!("{} {:.0}%", need.effect.name(), 100.0 * more)
@@ -369,7 +640,8 @@ pub fn needs_json(needs: &Needs, not_drawn: &str) -> Value {
     let one = |need: &Need| {
         json!({
             "effect": need.effect.name(),
-            "called_for": need.is_called_for,
+            "called_for": need.state() == State::CalledFor,
+            "paid_for": need.is_paid_for,
             "materials": need.materials,
             "reasons": need.reasons,
             "pixels": need.pixels,
@@ -398,46 +670,110 @@ pub fn ties_json(classes: &Classes) -> Value {
         "decided": classes.decided,
         "by_rounding": classes.by_rounding,
         "equal": classes.equal,
+        "by_order": classes.by_order,
     })
 }
 
 pub struct Found<'a> {
     pub hard: &'a HardCases,
-    pub classes: &'a Classes,
     pub needs: &'a Needs,
     pub costs: &'a [Group],
     pub not_drawn: &'a str,
 }
 
-#[must_use]
-pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
-    let cases = &found.hard.cases;
-    let sentence = match cases.len() {
-        0 => "No hard case was found in this view.".to_owned(),
-        1 => "One kind of hard case was found.".to_owned(),
-        count => format!("{count} kinds of hard cases were found."),
+/// Plots of a study: error against time, and effects.
+fn figures(found: &Found<'_>) -> Vec<Figure> {
+    let bar = |need: &Need| {
+        let (planned, without) = (found.needs.planned, need.otherwise);
+        let saved = !need.is_paid_for && without.low > planned.high;
+        let ms = match saved {
+            true => Some((without.median - planned.median) / 1e6),
+            false => takes(found.needs, need),
+        };
+        (need.effect.name(), ms, saved, need.wrong)
     };
-    let called_for = found.needs.needs.iter().filter(|need| need.is_called_for).count();
-    let frame = found.costs.last().and_then(|frames| {
-        let choice = &frames.choices[frames.cheapest_exact(0)?];
-        Some(format!(" The cheapest exact frame: {}, {} ms.", choice.name, ms(choice.time?.median)))
-    });
-    let sentence = format!(
-        "{sentence} Of {} effects {called_for} are called for.{}",
-        found.needs.needs.len(),
-        frame.unwrap_or_default()
-    );
+    let bars: Vec<_> = found.needs.needs.iter().map(bar).collect();
+    let bars: Vec<_> = bars.into_iter().filter(|(_, ms, _, px)| ms.is_some() || *px > 0).collect();
+    let figure = |caption: &str, [wide, narrow]: [Drawing; 2]| Figure {
+        caption: caption.to_owned(),
+        svg: canvas::svg(&wide),
+        narrow: Some(canvas::svg(&narrow)),
+    };
+    vec![
+        figure(
+            "Error against time of each choice on the triangles of this view",
+            [2, 1].map(|in_row| cost_plots::pareto_of_model(found.costs, in_row)),
+        ),
+        figure(
+            "What each effect takes or saves, and the pixels that are wrong without it",
+            [800.0, 400.0].map(|width| cost_plots::effects(&bars, width)),
+        ),
+    ]
+}
+
+/// Pixels of a mark around a pixel that stands alone, which would not be seen otherwise.
+const MARK_PX: i32 = 5;
+
+/// The picture, dark, with the pixels in which hard cases are seen in red, and a ring around those that stand alone.
+fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
+    const RED: Rgb<u8> = Rgb([230, 60, 40]);
+    let mut marked = picture.clone();
+    for pixel in marked.pixels_mut() {
+        *pixel = Rgb(pixel.0.map(|channel| channel / 2));
+    }
+    for (x, y) in (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (x, y))) {
+        let [x_px, y_px] = [x as i32, y as i32];
+        if !hard.touches(x_px, y_px) {
+            continue;
+        }
+        marked.put_pixel(x, y, RED);
+        let around =
+            (-MARK_PX..=MARK_PX).flat_map(|dy| (-MARK_PX..=MARK_PX).map(move |dx| (dx, dy)));
+        let near = around.clone().filter(|(dx, dy)| hard.touches(x_px + dx, y_px + dy)).count();
+        if near > MARK_PX as usize {
+            continue;
+        }
+        for (dx, dy) in around.filter(|(dx, dy)| (17..=26).contains(&(dx * dx + dy * dy))) {
+            let at = [x_px + dx, y_px + dy].map(u32::try_from);
+            if let [Ok(x), Ok(y)] = at
+                && let Some(pixel) = marked.get_pixel_mut_checked(x, y)
+            {
+                *pixel = Rgb([250, 220, 60]);
+            }
+        }
+    }
+    marked
+}
+
+#[must_use]
+pub fn page(
+    subject: &Subject<'_>,
+    found: &Found<'_>,
+    answers: Vec<Answer>,
+    command: &str,
+) -> Report {
+    let classes = &found.hard.classes;
+    let in_view = found.hard.in_view().count();
+    let sentence = match in_view {
+        0 => "No hard case is seen in this view.".to_owned(),
+        1 => "One kind of hard case is seen in this view.".to_owned(),
+        kinds => {
+            format!("{kinds} kinds of hard cases are seen in this view.")
+        }
+    };
     let mut tables = Vec::new();
-    if !cases.is_empty() {
+    if !found.hard.cases.is_empty() {
         tables.push(hard_table(subject, found.hard, found.costs));
     }
-    tables.extend([true, false].map(|is_called_for| needs_table(found.needs, is_called_for)));
+    tables.extend(State::ALL.map(|state| needs_table(found.needs, state)));
+    tables.retain(|table| !table.rows.is_empty());
     let mut notes = vec![
-        ties(subject, found.classes).replace('\n', " "),
+        ties(subject, classes).replace('\n', " "),
         "A face is shown by the command beside it; the same judgements alone: verify and cost with \
          the file."
             .to_owned(),
     ];
+    notes.extend(about_hard_cases(found.hard, found.costs));
     notes.extend(effects_advice(found.needs));
     if !found.not_drawn.is_empty() {
         notes.push(format!("Called for and not supported: {}.", found.not_drawn));
@@ -448,16 +784,12 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
         notes.push(format!("{}: {}.", group.title, advice.join("; ")));
     }
     let picture = super::frame_comparison::rgb(&found.hard.picture);
-    let marked = RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
-        match found.hard.touches(x as i32, y as i32) {
-            true => Rgb([230, 60, 40]),
-            false => Rgb(picture.get_pixel(x, y).0.map(|channel| channel / 2)),
-        }
-    });
+    let marked = marked(found.hard, &picture);
     let decided = RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
-        match found.classes.map.get(x as i32, y as i32).unwrap_or_default() {
+        match classes.map.get(x as i32, y as i32).unwrap_or_default() {
             Class::Empty => Rgb([18, 18, 24]),
             Class::Decided => Rgb([120, 130, 140]),
+            Class::ByOrder => Rgb([40, 140, 220]),
             Class::ByRounding => Rgb([240, 150, 40]),
             Class::Equal => Rgb([190, 80, 220]),
         }
@@ -465,18 +797,21 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
     Report {
         title: format!("A study of {}", subject.scene.name),
         outcome: Some(Outcome {
-            good: cases.is_empty(),
-            word: if cases.is_empty() { "CLEAN" } else { "HARD CASES" }.to_owned(),
+            good: in_view == 0,
+            word: if in_view == 0 { "CLEAN" } else { "HARD CASES" }.to_owned(),
             sentence,
         }),
+        answers,
         command: command.to_owned(),
         notes,
         tables,
+        figures: figures(found),
         frames: vec![PictureView {
             name: subject.scene.name.clone(),
             about:
-                "The picture; pixels that hard cases touch, in red; where rounding alone decides \
-                    which surface is seen, in orange, and where depths are equal, in violet."
+                "The picture; pixels in which hard cases are seen, in red; where rounding alone decides \
+                    which surface is seen, in orange, where it does between equal depths, in violet, \
+                    and where the order of faces drawn twice does, in blue."
                     .to_owned(),
             command: command.to_owned(),
             chapter: Chapter { title: "a study of your own model", path: "study.md" },
@@ -503,9 +838,10 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
             [] => String::new(),
             rungs => format!("wrong on such triangles:\n  {}", rungs.join("\n  ")),
         };
-        let [count, pixels] = [case.count, case.pixels].map(thousands);
+        let [in_view, others, pixels] =
+            [case.in_view, case.count - case.in_view, case.pixels].map(thousands);
         let (kind, about) = (case.kind.name().to_owned(), case.kind.about().to_owned());
-        vec![kind, count, pixels, about, place, command, wrong].into()
+        vec![kind, in_view, others, pixels, about, place, command, wrong].into()
     };
     Table {
         caption: match compared_in(costs) {
@@ -514,8 +850,9 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
         },
         columns: vec![
             Column::words("kind").short("hard cases").least(32),
-            Column::numbers("count", "how many there are").least(11),
-            Column::numbers("pixels", "pixels of the picture that they touch").least(13),
+            Column::numbers("in view", "how many are seen").least(11),
+            Column::numbers("only in the mesh", "how many are culled, hidden or outside").least(17),
+            Column::numbers("pixels", "pixels of the picture in which they are seen").least(11),
             Column::words("what one sees"),
             Column::words("where"),
             Column::words("command"),
@@ -525,8 +862,8 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
     }
 }
 
-/// The effects that are called for, or those that are not.
-fn needs_table(needs: &Needs, is_called_for: bool) -> Table {
+/// The effects of a state.
+fn needs_table(needs: &Needs, state: State) -> Table {
     let row = |need: &Need| {
         let time = takes(needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
         let pixels = need.pixels.map_or("-".to_owned(), thousands);
@@ -535,19 +872,19 @@ fn needs_table(needs: &Needs, is_called_for: bool) -> Table {
         let who = if who.is_empty() { who } else { format!("by {who}") };
         vec![name, pixels, wrong, time, who, reasons(need)].into()
     };
-    let is_here = |need: &&Need| need.is_called_for == is_called_for;
-    let not = if is_called_for { "" } else { "not " };
+    let is_here = |need: &&Need| need.state() == state;
+    let caption = format!("effects {}", state.name());
     Table {
-        caption: format!("Effects {not}called for"),
         columns: vec![
-            Column::words("effect").short("effects called for").least(18),
-            Column::numbers("pixels", "pixels that pay for it").least(13),
+            Column::words("effect").short(&*caption).least(28),
+            Column::numbers("pixels", "pixels that pay for it").least(11),
             Column::numbers("wrong without", "pixels that change when it is switched off")
                 .least(17),
             Column::numbers("takes ms", "what it takes of a planned frame").least(11),
             Column::words("by"),
             Column::words("why"),
         ],
+        caption: caption.replacen('e', "E", 1),
         rows: needs.needs.iter().filter(is_here).map(row).collect(),
     }
 }
@@ -565,13 +902,13 @@ fn cost_table(group: &Group) -> Table {
         cells.extend(choice.errors.iter().map(|error| or_none(*error, 9)));
         cells.extend(match choice.time.zip(least) {
             Some((time, least)) => {
-                let [low, median, high] =
-                    [time.low, time.median, time.high].map(|ns| number(ns / 1e6, 7));
+                let [low, median, high] = [time.low, time.median, time.high].map(ms);
                 [median, format!("{low}-{high}"), number(time.median / least.median, 6)]
             }
             None => Default::default(),
         });
         cells.push(or_none(choice.bytes.map(|bytes| bytes as f64 / 1e6), 7));
+        cells.push(choice.about.clone());
         cells.into()
     };
     let mut columns = vec![Column::words("choice").short("").least(23)];
@@ -583,6 +920,7 @@ fn cost_table(group: &Group) -> Table {
         Column::numbers("quartiles", quartiles).least(13),
         Column::numbers("times", "times the cheapest").least(6),
         Column::numbers("MB", bytes).least(6),
+        Column::words("how"),
     ]);
     let [items, pixels] = group.timed.map(thousands);
     let caption = format!("{}, ms for {items} triangles and {pixels} pixels", group.title);

@@ -115,6 +115,11 @@ pub fn thousands(n: u64) -> String {
     groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
 }
 
+/// A number with what is counted: `1 kind`, `2 kinds`.
+pub fn count(number: u64, one: &str, several: &str) -> String {
+    format!("{} {}", thousands(number), if number == 1 { one } else { several })
+}
+
 pub fn word(agrees: bool) -> &'static str {
     if agrees { "AGREES" } else { "DISAGREES" }
 }

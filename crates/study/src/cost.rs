@@ -51,6 +51,8 @@ pub struct Choice {
     /// Memory at the peak, see [`crate::memory`].
     pub bytes: Option<u64>,
     pub refused: Option<String>,
+    /// The measure by which it is exact for every model, not for this one alone.
+    pub promises: Option<usize>,
 }
 
 impl Choice {
@@ -352,6 +354,7 @@ fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) 
         choice.wrong = of_rung().flat_map(|wrong| &wrong.triangles).copied().collect();
         merge(&mut choice.wrong);
         choice.refused = of_rung().find_map(|wrong| wrong.refused.clone());
+        choice.promises = rungs[number].rung.promises.first().copied();
         choice.bytes = Some(memory::coverage(&choice.name, window, sample.pieces));
         let unit = match (ladder, &*choice.name) {
             (Ladder::EdgeFunction, "f32 direct") => f64::from(f32::EPSILON) / 2.0,
@@ -379,7 +382,11 @@ fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) 
         true => ["wrong samples, corners as they are", "wrong samples, corners snapped"],
     };
     let unit = Some(sampled.unit());
-    let measures = [(titles[0], "as given"), (titles[1], "snapped")];
+    let shorts = match sampled.is_antialiased() {
+        false => ["px as given", "px snapped"],
+        true => ["samples as given", "samples snapped"],
+    };
+    let measures = [(titles[0], shorts[0]), (titles[1], shorts[1])];
     let measures = measures.map(|(title, short)| Measure { title, short, unit, goal: Some(0.0) });
     let mut group = Group::new(ladder.title(), &measures, [sample.pieces, sample.pixels]);
     group.choices = choices;
@@ -583,7 +590,7 @@ fn ladder(
         }],
         _ => &[Measure {
             title: "root mean square distance from the exact share of a pixel on an edge",
-            short: "rms",
+            short: "rms of a px",
             unit: None,
             goal: Some(0.0),
         }],
@@ -667,7 +674,7 @@ fn depth(sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
             false => "pixels that show another piece than exact depths do",
             true => "samples that show another piece than exact depths do",
         },
-        short: "wrong",
+        short: if sampled.is_antialiased() { "wrong samples" } else { "wrong px" },
         unit: Some(sampled.unit()),
         goal: Some(0.0),
     };
@@ -717,16 +724,19 @@ fn is_nearer(piece: &Piece, other: &Piece, x_px: i32, y_px: i32) -> bool {
 
 /// Whole frames: each rasterizer by each planner, and tiles, against the one with everything switched on.
 fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group, BadScene> {
-    const PLANNERS: [(&str, Effects); 3] =
-        [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
+    const PLANNERS: [(&str, Effects, &str); 3] = [
+        ("all", Effects::ALWAYS, "every effect is computed everywhere"),
+        ("usual", Effects::USUAL, "what a usual renderer leaves out is left out"),
+        ("planned", Effects::PLANNED, "what changes no pixel, by a proof, is left out"),
+    ];
     let window = target.size();
     let mut choices = Vec::new();
     let mut pictures: Vec<Frame<Colour>> = Vec::new();
     let mut once = Duration::ZERO;
     let mut draws: Vec<(Drawer, Effects)> = Vec::new();
     for drawer in Drawer::ALL {
-        for (name, effects) in PLANNERS {
-            let mut choice = Choice::new(&format!("{} {name}", drawer.name()), "");
+        for (name, effects, about) in PLANNERS {
+            let mut choice = Choice::new(&format!("{} {name}", drawer.name()), about);
             let start = Instant::now();
             let rendered = drawer.render(scene, &effects, target)?;
             once += start.elapsed();

@@ -16,22 +16,44 @@ use rasterproof_render::scene::Scene;
 
 use crate::view::{NOTHING, Piece};
 
+rasterproof_core::named! {
+    /// Whether a scene needs an effect in a view.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum State {
+        CalledFor = "called for",
+        /// The plan cannot know beforehand that no pixel would change without it.
+        ToBeSafe = "paid for to be safe",
+        NotCalledFor = "not called for",
+    }
+}
+
 #[derive(Clone, Debug)]
 pub struct Need {
     pub effect: Effect,
-    /// The materials that call for it, with the pixels where each is seen and pays for it.
+    /// The materials that ask for it, with the pixels where each is seen and pays for it.
     pub materials: Vec<(String, u64)>,
     /// Whether it is planned for anything at all.
-    pub is_called_for: bool,
+    pub is_paid_for: bool,
     /// What the plan says of it, with how many items it says it; that nothing asks for it where it says nothing.
     pub reasons: Vec<(String, u64)>,
     /// Pixels that pay for it; none for an effect that is not one of pixels.
     pub pixels: Option<u64>,
     /// Pixels that change when it is switched off.
     pub wrong: u64,
-    /// Nanoseconds of a planned frame with this effect switched off where it is called for, and on everywhere where it is
+    /// Nanoseconds of a planned frame with this effect switched off where it is paid for, and on everywhere where it is
     /// not.
     pub otherwise: Spread,
+}
+
+impl Need {
+    #[must_use]
+    pub fn state(&self) -> State {
+        match (self.is_paid_for, self.wrong) {
+            (_, 1..) => State::CalledFor,
+            (true, 0) => State::ToBeSafe,
+            (false, 0) => State::NotCalledFor,
+        }
+    }
 }
 
 /// A textured material, and how fine its texture is in the picture.
@@ -79,10 +101,10 @@ pub fn survey(
         let decisions = rendered.plan.decisions.iter().filter(|d| d.effect == effect);
         let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
         let mut called = vec![false; scene.items.len()];
-        let mut is_called_for = false;
+        let mut is_paid_for = false;
         for decision in decisions {
             let is_on = decision.on + decision.open > 0;
-            is_called_for |= is_on;
+            is_paid_for |= is_on;
             *reasons.entry(decision.reason.clone()).or_default() += 1;
             if let Some(item) = decision.item {
                 called[item] = is_on;
@@ -116,7 +138,7 @@ pub fn survey(
         needs.push(Need {
             effect,
             materials,
-            is_called_for,
+            is_paid_for,
             reasons: reasons.into_iter().collect(),
             pixels: is_of_pixels.then_some(pixels),
             wrong: differing(&picture, &rendered.picture, 0).count() as u64,
@@ -141,7 +163,7 @@ pub fn survey(
 fn names(scene: &Scene, origins: &[Origin]) -> Vec<String> {
     let name = |item: usize| match origins.get(item) {
         Some(origin) if !origin.material.is_empty() => origin.material.clone(),
-        Some(_) => "no material".to_owned(),
+        Some(_) => "faces without a material".to_owned(),
         None => format!("item {item}"),
     };
     (0..scene.items.len()).map(name).collect()
@@ -176,7 +198,7 @@ pub(crate) fn differing<'a>(
 fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, timing: Timing) -> Spread {
     let mut all = vec![Effects::PLANNED];
     for need in &*needs {
-        let mode = if need.is_called_for { Mode::Never } else { Mode::Always };
+        let mode = if need.is_paid_for { Mode::Never } else { Mode::Always };
         all.push(Effects::PLANNED.with(need.effect, mode));
     }
     let target = RefCell::new(target);

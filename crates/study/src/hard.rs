@@ -1,8 +1,9 @@
 //! The hard cases of a scene in a view: how often, where, and in how many pixels.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use glam::{DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _};
 use rasterproof_core::frame::Frame;
@@ -17,14 +18,17 @@ use rasterproof_render::effects::Effects;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Viewport;
-use rasterproof_render::pipeline::clip::outcode;
+use rasterproof_render::pipeline::clip::{clip, outcode};
+use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Colour, Target};
-use rasterproof_render::scene::{Mesh, Scene};
+use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 
 use crate::effects::differing;
 use crate::face_of;
 use crate::shape::{Edge, SLIVER, Shape};
-use crate::view::{Piece, Sampled, pieces, seen};
+use crate::ties::{Class, Classes, Surfaces, TiedPair};
+use crate::view::{NOTHING, Piece, Sampled, pieces};
+use crate::work::Work;
 
 rasterproof_core::named! {
     /// A kind of hard case. Its name is what is counted, in the plural.
@@ -36,9 +40,11 @@ rasterproof_core::named! {
         Duplicate = "duplicate faces",
         Overlap = "coplanar overlaps",
         TJunction = "T-junctions",
+        Gap = "gaps between borders",
         Border = "open borders",
         Crowded = "edges of more than two faces",
         OnEdge = "samples on edges",
+        Rounding = "pixels decided by rounding",
         Order = "pixels by drawing order",
         WideW = "wide ranges of w",
         SinglePrecision = "positions lost by f32",
@@ -61,10 +67,12 @@ impl Kind {
                 "faces in one plane: rounding decides who is seen, hatching and flicker"
             }
             Self::TJunction => "a corner within the edge of another face: pixels of background",
+            Self::Gap => "seams of other corners on either side: one sees through in these pixels",
             Self::Border => "edges of one face: a hole, or the inside seen from behind",
             Self::Crowded => "no inside and outside there: culling and shadow volumes fail",
             Self::OnEdge => "snapped, the fill rule alone decides: other rules leave holes",
-            Self::Order => "equal depths in this format: another order, another picture",
+            Self::Rounding => "two surfaces closer than rounding moves them: either may be seen",
+            Self::Order => "another order of the faces, another picture",
             Self::WideW => "over 4096 within a triangle: 1/w in f32 may be a visible step off",
             Self::SinglePrecision => "as f32 a corner moves by over 1/256 px: shapes are distorted",
             Self::FarTexture => "as f32 they miss half a texel: textures in blocks",
@@ -76,15 +84,23 @@ impl Kind {
     }
 }
 
+/// Kinds that are seen wherever a triangle of theirs is.
+const OF_TRIANGLES: [Kind; 5] =
+    [Kind::Sliver, Kind::Concave, Kind::WideW, Kind::SinglePrecision, Kind::FarTexture];
+
 #[derive(Clone, Debug)]
 pub struct HardCase {
     pub kind: Kind,
+    /// How many there are, seen or not.
     pub count: u64,
-    /// Pixels of the picture that the faces cover, hidden or not; of edges the pixels along them.
+    /// How many of them are seen in this view: those that are culled, hidden or outside are not.
+    pub in_view: u64,
+    /// Pixels of the picture in which they are seen.
     pub pixels: u64,
     /// Something about the worst one.
     pub note: String,
-    /// Triangles by their numbers, from 0 in drawing order, worst or first ones first; at most three.
+    /// Triangles by their numbers, from 0 in drawing order, worst or first ones first; at most three. They are seen where any
+    /// are.
     pub triangles: Vec<u32>,
 }
 
@@ -93,9 +109,11 @@ pub struct HardCase {
 pub struct HardCases {
     /// Those that occur, in the order of [`Kind::ALL`].
     pub cases: Vec<HardCase>,
-    /// For each pixel which kinds touch it, as bits.
+    /// For each pixel which kinds are seen there, as bits.
     touched: Frame<u16>,
     pub picture: Frame<Colour>,
+    /// How it is decided which surface is seen at each pixel.
+    pub classes: Classes,
     /// For each triangle of the scene which kinds it is of, as bits.
     marks: Vec<u16>,
     /// The smallest and the largest w in the window.
@@ -107,7 +125,17 @@ pub struct HardCases {
 }
 
 impl HardCases {
-    /// Whether a hard case touches a pixel.
+    /// Those of which some are seen.
+    pub fn in_view(&self) -> impl Iterator<Item = &HardCase> {
+        self.cases.iter().filter(|case| case.in_view > 0)
+    }
+
+    #[must_use]
+    pub fn of(&self, kind: Kind) -> Option<&HardCase> {
+        self.cases.iter().find(|case| case.kind == kind)
+    }
+
+    /// Whether a hard case is seen in a pixel.
     #[must_use]
     pub fn touches(&self, x_px: i32, y_px: i32) -> bool {
         self.touched.get(x_px, y_px).is_some_and(|bits| bits != 0)
@@ -138,36 +166,35 @@ pub fn find(
     target: &mut Target,
 ) -> Result<HardCases, BadScene> {
     let pieces = sampled.at_centres();
+    let window = target.size();
     let mut search = Search {
         scene,
         pieces,
         sampled,
-        window: target.size(),
+        surfaces: Surfaces::of(scene, sampled),
         marks: vec![0; scene.triangles()],
+        is_seen: vec![false; scene.triangles()],
+        seen_at: Frame::new(window, NOTHING),
+        touched: Frame::new(window, 0),
         found: Vec::new(),
-        lines: Vec::new(),
     };
     let drawn = || {
-        let on_edges = search.samples_on_edges();
+        let classes = search.look();
+        search.samples_on_edges();
         search.wide_w();
         search.far_textures();
         let picture = draw(scene, target)?;
-        let order = search.drawing_order(&picture, target)?;
+        search.drawing_order(&picture, target)?;
         let f32_pixels = search.single_precision(&picture, target)?;
-        Ok((on_edges, picture, order, f32_pixels))
+        Ok((classes, picture, f32_pixels))
     };
-    let (shape, drawn) = parallel::join(|| Shape::of(scene), drawn);
-    let (on_edges, picture, order, f32_pixels) = drawn?;
-    search.shape(&shape, origins);
-    let mut touched = search.touched()?;
-    for (kind, frame) in [(Kind::OnEdge, &on_edges), (Kind::Order, &order)] {
-        for (y, row) in frame.rows() {
-            for (pixel, _) in touched.row_mut(y).iter_mut().zip(row).filter(|(_, is)| **is) {
-                *pixel |= kind.bit();
-            }
-        }
-    }
-    let Search { marks, mut found, .. } = search;
+    let (shape, drawn) = parallel::join(|| Shape::of(scene, origins), drawn);
+    let (classes, picture, f32_pixels) = drawn?;
+    search.triangles(&shape, origins);
+    search.pairs(&shape, origins);
+    search.lines(&shape);
+    search.gaps(&shape, target)?;
+    let Search { marks, mut found, touched, .. } = search;
     for case in &mut found {
         let pixels = touched.rows().flat_map(|(_, row)| row);
         case.pixels = pixels.filter(|&&bits| bits & case.kind.bit() != 0).count() as u64;
@@ -177,112 +204,303 @@ pub fn find(
     let w = (!pieces.is_empty())
         .then(|| [all_w().fold(f64::MAX, f64::min), all_w().fold(0.0, f64::max)]);
     let is_cut_short = shape.is_cut_short;
-    Ok(HardCases { cases: found, touched, picture, marks, w, f32_pixels, is_cut_short })
+    Ok(HardCases { cases: found, touched, picture, classes, marks, w, f32_pixels, is_cut_short })
 }
 
 fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
     Ok(Drawer::Scanline.render(scene, &Effects::PLANNED, target)?.picture)
 }
 
+/// The same scene with all triangles in the opposite order.
+fn turned(scene: &Scene) -> Scene {
+    let mut turned = scene.clone();
+    turned.items.reverse();
+    for item in &mut turned.items {
+        let mut mesh = Mesh::clone(&item.mesh);
+        mesh.triangles.reverse();
+        item.mesh = mesh.into();
+    }
+    turned
+}
+
+/// Samples of what blends up to which a scene is drawn with layers, which are 48 bytes each.
+const MOST_BLENDED: u64 = 1 << 22;
+
+/// Layers that are enough for most scenes.
+const LAYERS: Option<NonZeroU32> = NonZeroU32::new(64);
+
 struct Search<'a> {
     scene: &'a Scene,
     pieces: &'a [Piece],
     sampled: &'a Sampled,
-    window: PixelRect,
+    surfaces: Vec<Surfaces<'a>>,
     marks: Vec<u16>,
+    /// For each triangle whether it is seen at a sample.
+    is_seen: Vec<bool>,
+    /// Which triangle is seen in each pixel.
+    seen_at: Frame<u32>,
+    touched: Frame<u16>,
     found: Vec<HardCase>,
-    lines: Vec<(Kind, Edge)>,
+}
+
+/// What was found of a kind.
+struct Noted {
+    kind: Kind,
+    count: u64,
+    in_view: u64,
+    /// The first triangles that are not seen, and that are.
+    first: [Vec<u32>; 2],
+}
+
+impl Noted {
+    fn new(kind: Kind) -> Self {
+        Self { kind, count: 0, in_view: 0, first: Default::default() }
+    }
+
+    /// Adds one with its triangles; the worst or first ones first.
+    fn add(&mut self, marks: &mut [u16], triangles: &[u32], in_view: bool) {
+        self.count += 1;
+        self.in_view += u64::from(in_view);
+        let first = &mut self.first[usize::from(in_view)];
+        for triangle in triangles {
+            marks[*triangle as usize] |= self.kind.bit();
+            if first.len() < 3 && !first.contains(triangle) {
+                first.push(*triangle);
+            }
+        }
+    }
 }
 
 impl Search<'_> {
-    /// Notes what was found of a kind: how many, and the faces concerned, worst or first ones first.
-    fn note(&mut self, kind: Kind, count: usize, note: String, faces: impl Iterator<Item = u32>) {
-        if count == 0 {
-            return;
+    fn note(&mut self, noted: Noted, note: String) {
+        let Noted { kind, count, in_view, first: [hidden, seen] } = noted;
+        let triangles = if in_view > 0 { seen } else { hidden };
+        if count > 0 {
+            self.found.push(HardCase { kind, count, in_view, pixels: 0, note, triangles });
         }
-        let mut first = Vec::new();
-        for face in faces {
-            self.marks[face as usize] |= kind.bit();
-            if first.len() < 3 && !first.contains(&face) {
-                first.push(face);
-            }
-        }
-        self.found.push(HardCase { kind, count: count as u64, pixels: 0, note, triangles: first });
     }
 
-    /// Notes faces with how bad each is, in any order; `note` gets that of the worst one.
+    /// Notes triangles, the worst ones first.
+    fn note_triangles(&mut self, kind: Kind, all: &mut dyn Iterator<Item = u32>, note: String) {
+        let mut noted = Noted::new(kind);
+        for triangle in all {
+            noted.add(&mut self.marks, &[triangle], self.is_seen[triangle as usize]);
+        }
+        self.note(noted, note);
+    }
+
+    /// Notes triangles with how bad each is, in any order; `note` gets that of the worst one.
     fn note_worst(&mut self, kind: Kind, mut found: Vec<(f64, u32)>, note: fn(&str) -> String) {
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
         let worst = found.first().map_or(0.0, |(worst, _)| *worst);
-        self.note(kind, found.len(), note(&short(worst)), found.iter().map(|(_, face)| *face));
+        let all = &mut found.iter().map(|(_, triangle)| *triangle);
+        self.note_triangles(kind, all, note(&short(worst)));
     }
 
-    fn shape(&mut self, shape: &Shape, origins: &[Origin]) {
-        self.note(Kind::NoArea, shape.no_area.len(), String::new(), shape.no_area.iter().copied());
+    /// Finds out which triangles are seen, and how it is decided.
+    fn look(&mut self) -> Classes {
+        let mut classes = Classes::new(self.sampled.size);
+        let mut noted = Noted::new(Kind::Rounding);
+        for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
+            surfaces.seen(&mut |sample, [piece, front], class| {
+                let pixel @ [x, y] = self.sampled.pixel(sample);
+                let [piece, front] = [piece, front].map_array(|one| pieces[one as usize].face);
+                classes.add(TiedPair { pixel, triangles: [front, piece] }, class);
+                self.is_seen[piece as usize] = true;
+                self.seen_at.span_mut(y, x, x + 1)[0] = front;
+                if class >= Class::ByRounding {
+                    for triangle in [front, piece] {
+                        self.marks[triangle as usize] |= Kind::Rounding.bit();
+                    }
+                    self.touched.span_mut(y, x, x + 1)[0] |= Kind::Rounding.bit();
+                }
+            });
+        }
+        let classes = classes.counted();
+        if let Some(TiedPair { pixel: [x, y], triangles }) = classes.first {
+            noted.add(&mut self.marks, &triangles, true);
+            (noted.count, noted.in_view) = (classes.by_rounding, classes.by_rounding);
+            self.note(noted, format!("the first at {x},{y}"));
+        }
+        classes
+    }
+
+    fn triangles(&mut self, shape: &Shape, origins: &[Origin]) {
+        // What has no area is drawn nowhere.
+        let mut noted = Noted::new(Kind::NoArea);
+        shape.no_area.iter().for_each(|one| noted.add(&mut self.marks, &[*one], false));
+        self.note(noted, String::new());
         let worst = shape.slivers.first().map_or(SLIVER, |(aspect, _)| *aspect);
         let note = format!("the longest one is {} times as long as high", short(worst));
-        self.note(Kind::Sliver, shape.slivers.len(), note, shape.slivers.iter().map(|(_, f)| *f));
-        let (mut concave, mut polygons) = (Vec::new(), 0);
+        self.note_triangles(Kind::Sliver, &mut shape.slivers.iter().map(|(_, one)| *one), note);
+        let mut concave = Vec::new();
         let mut first = 0;
         for (item, origin) in self.scene.items.iter().zip(origins) {
             concave.extend(origin.concave.iter().map(|number| first + number));
-            let faces = origin.concave.iter().map(|&number| origin.face(number as usize));
-            let mut faces: Vec<_> = faces.collect();
-            faces.dedup();
-            polygons += faces.len();
             first += item.mesh.triangles.len() as u32;
         }
-        self.note(Kind::Concave, polygons, String::new(), concave.iter().copied());
-        let scene = self.scene;
-        let same = |pairs: &[[u32; 2]], what: &str| match pairs.first() {
-            Some([_, other]) => {
-                let face = face_of(scene, origins, *other);
-                format!("the first one {what} face {face}")
-            }
-            None => String::new(),
-        };
-        let later = shape.duplicates.iter().map(|[face, _]| *face);
-        self.note(
-            Kind::Duplicate,
-            shape.duplicates.len(),
-            same(&shape.duplicates, "has the corners of"),
-            later,
-        );
-        let both = shape.overlaps.iter().flatten().copied();
-        self.note(Kind::Overlap, shape.overlaps.len(), same(&shape.overlaps, "overlaps"), both);
-        let faces = |edges: &[Edge]| edges.iter().map(|edge| edge.face).collect::<Vec<_>>();
-        let t = faces(&shape.t_junctions);
-        self.note(Kind::TJunction, t.len(), String::new(), t.into_iter());
-        let borders = faces(&shape.borders);
-        self.note(Kind::Border, borders.len(), String::new(), borders.into_iter());
-        let most = shape.crowded.first().map_or(0, |(count, _)| *count);
-        let crowded = shape.crowded.iter().map(|(_, edge)| edge.face);
-        let note = format!("the most crowded one has {most}");
-        self.note(Kind::Crowded, shape.crowded.len(), note, crowded);
-        let crowded = shape.crowded.iter().map(|(_, edge)| (Kind::Crowded, *edge));
-        self.lines.extend(crowded);
-        self.lines.extend(shape.borders.iter().map(|edge| (Kind::Border, *edge)));
-        self.lines.extend(shape.t_junctions.iter().map(|edge| (Kind::TJunction, *edge)));
+        let mut noted = Noted::new(Kind::Concave);
+        let face = |triangle: &u32| shape.face_of[*triangle as usize];
+        for of_face in concave.chunk_by(|a, b| face(a) == face(b)) {
+            let in_view = of_face.iter().any(|one| self.is_seen[*one as usize]);
+            noted.add(&mut self.marks, of_face, in_view);
+        }
+        self.note(noted, String::new());
+        // Nothing of a triangle alone is found after this.
+        let bits = OF_TRIANGLES.iter().fold(0, |bits, kind| bits | kind.bit());
+        for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
+            surfaces.seen(&mut |sample, [piece, _], _| {
+                let [x, y] = self.sampled.pixel(sample);
+                let marks = self.marks[pieces[piece as usize].face as usize];
+                self.touched.span_mut(y, x, x + 1)[0] |= marks & bits;
+            });
+        }
     }
 
-    /// Pixels with a sample on an edge of a piece after snapping.
-    fn samples_on_edges(&mut self) -> Frame<bool> {
-        let mut on_edge = Frame::new(self.window, false);
-        let mut faces = Vec::new();
-        let mut count = 0;
-        for piece in self.sampled.all() {
-            let before = count;
-            samples_on_boundary(piece.corners(), self.sampled.window, &mut |x, y| {
-                count += 1;
-                let [x_px, y_px] = self.sampled.pixel([x, y]);
-                on_edge.span_mut(y_px, x_px, x_px + 1)[0] = true;
+    /// Notes pairs of faces, which are seen where both compete for a sample.
+    fn pairs(&mut self, shape: &Shape, origins: &[Origin]) {
+        let kinds = [(Kind::Duplicate, &shape.duplicates), (Kind::Overlap, &shape.overlaps)];
+        let mut is_seen = kinds.map(|(_, pairs)| vec![false; pairs.len()]);
+        for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
+            surfaces.seen(&mut |sample, [piece, front], class| {
+                if class < Class::ByOrder {
+                    return;
+                }
+                let face = |piece: u32| shape.face_of[pieces[piece as usize].face as usize];
+                let pair = [face(piece).max(face(front)), face(piece).min(face(front))];
+                let [x, y] = self.sampled.pixel(sample);
+                for ((kind, pairs), is_seen) in kinds.iter().zip(&mut is_seen) {
+                    if let Ok(place) = pairs.binary_search(&pair) {
+                        is_seen[place] = true;
+                        self.touched.span_mut(y, x, x + 1)[0] |= kind.bit();
+                    }
+                }
             });
-            if count > before {
-                faces.push(piece.face);
+        }
+        for ((kind, pairs), is_seen) in kinds.into_iter().zip(&is_seen) {
+            let what = if kind == Kind::Duplicate { "has the corners of" } else { "overlaps" };
+            let first = is_seen.iter().position(|is| *is).unwrap_or(0);
+            let note = pairs.get(first).map_or(String::new(), |[_, other]| {
+                format!("it {what} face {}", face_of(self.scene, origins, *other))
+            });
+            let mut noted = Noted::new(kind);
+            for (pair, is_seen) in pairs.iter().zip(is_seen) {
+                let of = if kind == Kind::Duplicate { &pair[..1] } else { &pair[..] };
+                for face in of {
+                    let rest = shape.face_of[*face as usize..].iter();
+                    let last = *face + rest.take_while(|of| *of == face).count() as u32;
+                    (*face..last).for_each(|one| self.marks[one as usize] |= kind.bit());
+                }
+                noted.add(&mut self.marks, of, *is_seen);
+            }
+            self.note(noted, note);
+        }
+    }
+
+    /// Notes edges, which are seen where a triangle of theirs is seen beside them.
+    fn lines(&mut self, shape: &Shape) {
+        let most = shape.crowded.first().map_or(0, |edge| edge.triangles.len());
+        let crowded = format!("the most crowded one has {most}");
+        let place = Place::new(self.scene, self.sampled.size);
+        for (kind, edges, note) in [
+            (Kind::TJunction, &shape.t_junctions, String::new()),
+            (Kind::Border, &shape.borders, String::new()),
+            (Kind::Crowded, &shape.crowded, crowded),
+        ] {
+            let mut noted = Noted::new(kind);
+            for edge in edges {
+                let mut in_view = false;
+                if let Some(line) = place.line(edge) {
+                    Bresenham.draw(&line, self.sampled.size, |f| {
+                        let beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [dx, dy]));
+                        let mut seen = beside
+                            .filter_map(|[dx, dy]| self.seen_at.get(f.x_px + dx, f.y_px + dy));
+                        if seen.any(|triangle| edge.triangles.contains(&triangle)) {
+                            in_view = true;
+                            self.touched.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] |= kind.bit();
+                        }
+                    });
+                }
+                noted.add(&mut self.marks, &edge.triangles, in_view);
+            }
+            self.note(noted, note);
+        }
+    }
+
+    /// Notes gaps, which are seen in the pixels that closing them would cover: each is closed by triangles around its first
+    /// corner, and a sample lies within where an odd number of them covers it.
+    fn gaps(&mut self, shape: &Shape, target: &Target) -> Result<(), BadScene> {
+        let corner = |position| Corner {
+            position,
+            colour: DVec3::ONE,
+            normal: DVec3::ZERO,
+            uv: DVec2::ZERO,
+        };
+        let mut positions = Vec::new();
+        let (mut triangles, mut of) = (Vec::new(), Vec::new());
+        for (number, gap) in shape.gaps.iter().enumerate() {
+            let first = positions.len() as u32;
+            positions.extend_from_slice(&gap.polygon);
+            for last in first + 2..positions.len() as u32 {
+                triangles.push([first, last - 1, last].map(corner));
+                of.push(number);
             }
         }
-        self.note(Kind::OnEdge, count, String::new(), faces.into_iter());
-        on_edge
+        let mesh = Mesh { positions: positions.into(), triangles: triangles.into_iter().collect() };
+        let mut closing = self.scene.clone();
+        let model = Place::new(self.scene, self.sampled.size).model;
+        closing.items = vec![Item { model, ..Item::new(mesh, Material::default()) }];
+        let closing = Sampled::of(&closing, target)?;
+        let mut in_view = vec![false; shape.gaps.len()];
+        for (surfaces, pieces) in self.surfaces.iter().zip(&closing.planes) {
+            let of_piece = |piece: &Piece| of[piece.face as usize];
+            for gap in pieces.chunk_by(|a, b| of_piece(a) == of_piece(b)) {
+                let mut samples = Vec::new();
+                for piece in gap {
+                    Scanline.cover(piece.corners(), closing.window, |span| {
+                        for x in span.x0_px..span.x1_px {
+                            let sample = [x, span.y_px];
+                            let before = surfaces.before(piece, sample);
+                            let is_open = before.is_none_or(|[by, off]| by < -off);
+                            samples.push((sample, is_open));
+                        }
+                    });
+                }
+                samples.sort_unstable();
+                for same in samples.chunk_by(|a, b| a.0 == b.0) {
+                    if same.len() % 2 == 1 && same.iter().all(|(_, is_open)| *is_open) {
+                        in_view[of_piece(&gap[0])] = true;
+                        let [x, y] = self.sampled.pixel(same[0].0);
+                        self.touched.span_mut(y, x, x + 1)[0] |= Kind::Gap.bit();
+                    }
+                }
+            }
+        }
+        let mut noted = Noted::new(Kind::Gap);
+        for (gap, in_view) in shape.gaps.iter().zip(in_view) {
+            noted.add(&mut self.marks, &gap.triangles, in_view);
+        }
+        self.note(noted, String::new());
+        Ok(())
+    }
+
+    /// Pixels with a sample on an edge of a piece after snapping; seen where the piece is not hidden.
+    fn samples_on_edges(&mut self) {
+        let mut noted = Noted::new(Kind::OnEdge);
+        for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
+            for piece in pieces {
+                samples_on_boundary(piece.corners(), self.sampled.window, &mut |x, y| {
+                    let before = surfaces.before(piece, [x, y]);
+                    let is_seen = before.is_none_or(|[by, off]| by <= off);
+                    noted.add(&mut self.marks, &[piece.face], is_seen);
+                    if is_seen {
+                        let [x, y] = self.sampled.pixel([x, y]);
+                        self.touched.span_mut(y, x, x + 1)[0] |= Kind::OnEdge.bit();
+                    }
+                });
+            }
+        }
+        self.note(noted, String::new());
     }
 
     fn wide_w(&mut self) {
@@ -295,7 +513,7 @@ impl Search<'_> {
         self.note_worst(Kind::WideW, wide.collect(), note);
     }
 
-    /// Faces of textured materials with a coordinate whose rounding to f32 may be half a texel.
+    /// Triangles of textured materials with a coordinate whose rounding to f32 may be half a texel.
     fn far_textures(&mut self) {
         let mut far: Vec<(f64, u32)> = Vec::new();
         let mut face = 0;
@@ -321,48 +539,64 @@ impl Search<'_> {
         self.note_worst(Kind::FarTexture, far, note);
     }
 
-    /// Pixels that have another colour when all triangles are drawn in the opposite order.
+    /// Pixels that have another colour when all triangles are drawn in the opposite order, and why: what no longer does with
+    /// layers is mixed in another order, and what no longer does with depths in f64 has equal depths in the format alone.
     fn drawing_order(
         &mut self,
         picture: &Frame<Colour>,
         target: &mut Target,
-    ) -> Result<Frame<bool>, BadScene> {
-        let mut turned = self.scene.clone();
-        turned.items.reverse();
-        for item in &mut turned.items {
-            let mut mesh = Mesh::clone(&item.mesh);
-            mesh.triangles.reverse();
-            item.mesh = mesh.into();
+    ) -> Result<(), BadScene> {
+        let mut other = turned(self.scene);
+        let turned = draw(&other, target)?;
+        let mut pixels: Vec<_> = differing(picture, &turned, 0).collect();
+        pixels.sort_unstable();
+        if pixels.is_empty() {
+            return Ok(());
         }
-        let other = draw(&turned, target)?;
-        let mut differs = Frame::new(self.window, false);
-        let mut count = 0;
-        for (x, y) in differing(picture, &other, 0) {
-            differs.span_mut(y, x, x + 1)[0] = true;
-            count += 1;
+        let differs = |scene: &Scene, other: &Scene, target: &mut Target| {
+            let [a, b] = [draw(scene, target)?, draw(other, target)?];
+            let differs = |&&(x, y): &&(i32, i32)| a.get(x, y) != b.get(x, y);
+            Ok(pixels.iter().filter(differs).copied().collect::<Vec<_>>())
+        };
+        let mut scene = self.scene.clone();
+        let mut left = pixels.clone();
+        let blended = Work::of(self.scene, self.sampled.window).blended;
+        if self.scene.layers.is_none() && (1..=MOST_BLENDED).contains(&blended) {
+            (scene.layers, other.layers) = (LAYERS, LAYERS);
+            left = differs(&scene, &other, target)?;
         }
-        if count > 0 {
-            let mut faces = Vec::new();
-            for pieces in &self.sampled.planes {
-                let order = &mut (0..pieces.len());
-                let seen = seen(pieces, self.sampled.window, target.format, order);
-                for (y, row) in seen.rows() {
-                    for (x, id) in (seen.bounds().x0..).zip(row) {
-                        let [x_px, y_px] = self.sampled.pixel([x, y]);
-                        if differs.get(x_px, y_px) == Some(true) {
-                            faces.extend(pieces.get(*id as usize).map(|piece| piece.face));
-                        }
-                    }
-                }
-            }
-            faces.sort_unstable();
-            faces.dedup();
-            self.note(Kind::Order, count, String::new(), faces.into_iter());
+        let blending = pixels.len() - left.len();
+        let format = std::mem::replace(&mut target.format, DepthFormat::F64);
+        let exact = differs(&scene, &other, target);
+        target.format = format;
+        let equal = exact?.iter().filter(|pixel| left.binary_search(pixel).is_ok()).count();
+        let in_format = left.len() - equal;
+        let name = format.name();
+        let causes = [
+            (blending, "by blending: --layers mixes by depth".to_owned()),
+            (equal, "by equal depths: faces in one place, to be mended in the model".to_owned()),
+            (
+                in_format,
+                format!("by depths that are equal in {name}: --depth f64 tells them apart"),
+            ),
+        ];
+        let causes = causes.into_iter().filter(|(count, _)| *count > 0);
+        let causes: Vec<_> = causes.map(|(count, why)| format!("{count} px {why}")).collect();
+        let mut faces = Vec::new();
+        for &(x, y) in &pixels {
+            self.touched.span_mut(y, x, x + 1)[0] |= Kind::Order.bit();
+            faces.extend(self.seen_at.get(x, y).filter(|face| *face != NOTHING));
         }
-        Ok(differs)
+        faces.sort_unstable();
+        faces.dedup();
+        let mut noted = Noted::new(Kind::Order);
+        faces.iter().for_each(|face| noted.add(&mut self.marks, &[*face], true));
+        (noted.count, noted.in_view) = (pixels.len() as u64, pixels.len() as u64);
+        self.note(noted, causes.join("; "));
+        Ok(())
     }
 
-    /// Faces of which a corner moves by more than a subpixel when positions are rounded to f32; returns how many
+    /// Triangles of which a corner moves by more than a subpixel when positions are rounded to f32; returns how many
     /// pixels then change.
     fn single_precision(
         &mut self,
@@ -384,7 +618,7 @@ impl Search<'_> {
         if !is_rounded {
             return Ok(0);
         }
-        let moved = pieces(&rounded, self.window)?;
+        let moved = pieces(&rounded, self.sampled.size)?;
         let mut after = moved.as_slice();
         let mut far: Vec<(f64, u32)> = Vec::new();
         for before in self.pieces.chunk_by(|a, b| a.face == b.face) {
@@ -407,53 +641,50 @@ impl Search<'_> {
         self.note_worst(Kind::SinglePrecision, far, note);
         Ok(differing(picture, &draw(&rounded, target)?, 0).count() as u64)
     }
+}
 
-    /// For each pixel the kinds of the faces that cover its centre, and of the edges that pass through it.
-    fn touched(&self) -> Result<Frame<u16>, BadScene> {
-        let along = Kind::TJunction.bit() | Kind::Border.bit() | Kind::Crowded.bit();
-        let apart = along | Kind::OnEdge.bit() | Kind::Order.bit();
-        let mut touched = Frame::new(self.window, 0);
-        for piece in self.sampled.all() {
-            let bits = self.marks[piece.face as usize] & !apart;
-            if bits != 0 {
-                Scanline.cover(piece.corners(), self.sampled.window, |span| {
-                    let [first, y_px] = self.sampled.pixel([span.x0_px, span.y_px]);
-                    let [last, _] = self.sampled.pixel([span.x1_px - 1, span.y_px]);
-                    let pixels = touched.span_mut(y_px, first, last + 1);
-                    pixels.iter_mut().for_each(|pixel| *pixel |= bits);
-                });
-            }
-        }
-        let viewport = Viewport::new(self.window);
-        let matrices: Vec<_> = self
-            .scene
-            .items
-            .iter()
-            .map(|item| self.scene.projection * self.scene.view * item.model)
-            .collect();
-        let Some(first) = matrices.first() else { return Ok(touched) };
-        // Where items are moved differently, the ends are in the world.
-        let in_world = matrices.iter().any(|matrix| matrix != first);
-        let matrix = if in_world { self.scene.projection * self.scene.view } else { *first };
-        let place = |point: DVec3| {
-            let position: DVec4 = matrix * point.extend(1.0);
-            let vertex = ClipVertex { position, varying: () };
-            let is_inside = position.is_finite() && outcode(&vertex) == 0;
-            let at = if is_inside { viewport.place(&vertex).ok() } else { None }?.position;
-            let pixel = |sub: i32| sub.div_euclid(SUBPIXELS);
-            Some(LineEnd {
-                pixel: PixelPoint::new(pixel(at.x), pixel(at.y)),
-                depth: 0.0,
-                varying: 0.0,
-            })
+/// Where the points of a shape are in the picture.
+struct Place {
+    /// Moves a point to the world: where items are moved differently, points are there already.
+    model: DMat4,
+    matrix: DMat4,
+    viewport: Viewport,
+}
+
+impl Place {
+    fn new(scene: &Scene, window: PixelRect) -> Self {
+        let mut models = scene.items.iter().map(|item| item.model);
+        let first = models.next().unwrap_or(DMat4::IDENTITY);
+        let model = if models.all(|model| model == first) { first } else { DMat4::IDENTITY };
+        let matrix = scene.projection * scene.view * model;
+        Self { model, matrix, viewport: Viewport::new(window) }
+    }
+
+    /// The part of an edge that is in the window.
+    fn line(&self, edge: &Edge) -> Option<ScreenLine<f64>> {
+        let vertex = |point: DVec3| {
+            let position = self.matrix * point.extend(1.0);
+            ClipVertex { position, varying: 0.0 }
         };
-        for (kind, edge) in &self.lines {
-            let [Some(a), Some(b)] = edge.ends.map_array(place) else { continue };
-            Bresenham.draw(&ScreenLine { ends: [a, b] }, self.window, |f| {
-                touched.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] |= kind.bit();
-            });
+        let [a, b] = edge.ends.map_array(vertex);
+        if !a.position.is_finite() || !b.position.is_finite() {
+            return None;
         }
-        Ok(touched)
+        let [outside_a, outside_b] = [outcode(&a), outcode(&b)];
+        if outside_a & outside_b != 0 {
+            return None;
+        }
+        // A triangle with two corners in one place is cut as its edge is.
+        let (polygon, _) = clip(&[a, b, b], outside_a | outside_b);
+        let pixel = |sub: i32| sub.div_euclid(SUBPIXELS);
+        let placed = polygon.vertices().filter_map(|vertex| self.viewport.place(vertex).ok());
+        let pixels = placed.map(|at| [pixel(at.position.x), pixel(at.position.y)]);
+        let (least, most) = pixels.fold((None, None), |(least, most), at| {
+            (Some(at).min(least.or(Some(at))), Some(at).max(most))
+        });
+        let end =
+            |[x, y]: [i32; 2]| LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 };
+        Some(ScreenLine { ends: [end(least?), end(most?)] })
     }
 }
 

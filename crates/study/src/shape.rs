@@ -1,13 +1,17 @@
 //! Hard cases that a mesh has wherever it is seen from.
 //!
-//! Corners at one position are one vertex, whichever material or object they belong to. Whether a triangle has an
-//! area is decided exactly. What lies on something else does so within a [`GRAIN`] of the size of the model, since
+//! Corners at one position are one vertex, whichever material or object they belong to. Edges, duplicates and overlaps
+//! are those of the faces of the file, which readers cut into triangles. Whether a triangle has an area is decided
+//! exactly. What lies on something else does so within a [`GRAIN`] of the size of the model, since
 //! files round their positions.
 
 use glam::DVec3;
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_models::Origin;
 use rasterproof_render::scene::Scene;
 use robust::{Coord, orient2d};
+
+use crate::faces;
 
 /// Share of the diagonal of the model within which positions count as the same plane or line: files commonly have
 /// six digits.
@@ -25,14 +29,29 @@ const COMPARISONS_OF_PAIR: u64 = 32;
 /// Overlaps, and T-junctions, after which the search for them stops: half of all pairs of faces may be some.
 const MOST_FOUND: usize = 1 << 20;
 
-/// An edge, or a vertex on an edge, with the faces concerned.
-#[derive(Clone, Copy, Debug)]
+/// A border and a chain of borders between the same two vertices lie beside each other where no vertex of the chain is
+/// farther from the border than this share of its length.
+const BESIDE: f64 = 0.25;
+
+/// Edges of a chain that is looked for beside a border: a level of detail rarely has more of them on one of another.
+const MOST_OF_CHAIN: usize = 64;
+
+/// An edge, or a vertex on an edge, with the triangles concerned.
+#[derive(Clone, Debug)]
 pub(crate) struct Edge {
     pub ends: [DVec3; 2],
-    pub face: u32,
+    pub triangles: Vec<u32>,
 }
 
-/// What was found in a mesh. Faces are numbers of triangles in the scene, worst or first ones first.
+/// A border and the chain of borders beside it, as a polygon with the border as its last side.
+#[derive(Clone, Debug)]
+pub(crate) struct Gap {
+    pub polygon: Vec<DVec3>,
+    pub triangles: Vec<u32>,
+}
+
+/// What was found in a mesh. Triangles and faces are numbers of triangles in the scene, a face that of its first one; worst
+/// or first ones first.
 #[derive(Debug, Default)]
 pub(crate) struct Shape {
     /// With the longest side over the height.
@@ -41,96 +60,179 @@ pub(crate) struct Shape {
     /// Faces that have the corners of an earlier one, and that one.
     pub duplicates: Vec<[u32; 2]>,
     pub borders: Vec<Edge>,
-    /// Edges of more than two faces, with the number of faces.
-    pub crowded: Vec<(usize, Edge)>,
+    /// Edges of more than two faces.
+    pub crowded: Vec<Edge>,
     /// Vertices in the middle of the edge of another face, with that face.
     pub t_junctions: Vec<Edge>,
+    pub gaps: Vec<Gap>,
+    /// Pairs of faces, the later one first, sorted.
     pub overlaps: Vec<[u32; 2]>,
+    /// For each triangle that of its face.
+    pub face_of: Vec<u32>,
     /// Whether the search for overlaps and T-junctions was given up.
     pub is_cut_short: bool,
 }
 
 /// A triangle of the scene, welded.
-struct Face {
+struct Triangle {
     vertices: [u32; 3],
     number: u32,
+    face: u32,
 }
 
+/// A border as vertices, with its triangle.
+type Border = ([u32; 2], u32);
+
 impl Shape {
-    pub fn of(scene: &Scene) -> Self {
-        let (points, faces) = weld(scene);
-        let at = |face: &Face| face.vertices.map_array(|v| points[v as usize]);
-        let mut shape = Self::default();
-        let mut solid = Vec::with_capacity(faces.len());
-        for face in faces {
-            let corners = at(&face);
-            if has_no_area(corners) {
-                shape.no_area.push(face.number);
-                continue;
+    pub fn of(scene: &Scene, origins: &[Origin]) -> Self {
+        let mut shape = Self { face_of: first_triangles(scene, origins), ..Self::default() };
+        let (points, mut triangles) = weld(scene, &shape.face_of);
+        let at = |triangle: &Triangle| triangle.vertices.map_array(|v| points[v as usize]);
+        let mut is_solid = Vec::with_capacity(triangles.len());
+        for triangle in &triangles {
+            let corners = at(triangle);
+            let has_area = !has_no_area(corners);
+            is_solid.push(has_area);
+            if !has_area {
+                shape.no_area.push(triangle.number);
+            } else if aspect(corners) > SLIVER {
+                shape.slivers.push((aspect(corners), triangle.number));
             }
-            let aspect = aspect(corners);
-            if aspect > SLIVER {
-                shape.slivers.push((aspect, face.number));
-            }
-            solid.push(face);
         }
         shape.slivers.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let faces = shape.without_duplicates(solid);
+        // What has no area is no face, but it may be a part of one.
+        let mut is_face = vec![false; triangles.len()];
+        for triangle in triangles.iter().filter(|triangle| is_solid[triangle.number as usize]) {
+            is_face[triangle.face as usize] = true;
+        }
+        triangles.retain(|triangle| is_face[triangle.face as usize]);
+        shape.find_duplicates(&triangles);
+        let is_later = |triangle: &Triangle| {
+            shape.duplicates.binary_search_by_key(&triangle.face, |[later, _]| *later).is_ok()
+        };
+        triangles.retain(|triangle| !is_later(triangle));
         let size = size(&points);
-        let border = shape.edges(&points, &faces);
+        let border = shape.edges(&points, &triangles);
         shape.find_t_junctions(&points, &border, GRAIN * size);
-        let corners: Vec<[DVec3; 3]> = faces.iter().map(at).collect();
-        shape.find_overlaps(&faces, &corners, GRAIN * size);
+        let in_gaps = shape.find_gaps(&points, (&triangles, &border), GRAIN * size);
+        let rest = border.iter().filter(|(ends, _)| in_gaps.binary_search(ends).is_err());
+        shape.borders =
+            rest.map(|(ends, triangle)| edge(&points, *ends, vec![*triangle])).collect();
+        shape.borders.sort_by_key(|edge| edge.triangles[0]);
+        triangles.retain(|triangle| is_solid[triangle.number as usize]);
+        let corners: Vec<[DVec3; 3]> = triangles.iter().map(at).collect();
+        shape.find_overlaps(&triangles, &corners, GRAIN * size);
         shape
     }
 
-    fn without_duplicates(&mut self, faces: Vec<Face>) -> Vec<Face> {
-        let sorted = |face: &Face| {
-            let mut vertices = face.vertices;
-            vertices.sort_unstable();
-            vertices
-        };
-        let mut keys: Vec<([u32; 3], u32)> =
-            faces.iter().map(|face| (sorted(face), face.number)).collect();
-        keys.sort_unstable();
-        for same in keys.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+    /// Finds faces with the vertices of an earlier face.
+    fn find_duplicates(&mut self, triangles: &[Triangle]) {
+        let mut vertices: Vec<u32> = Vec::with_capacity(3 * triangles.len());
+        let mut of_faces: Vec<(std::ops::Range<usize>, u32)> = Vec::new();
+        for face in triangles.chunk_by(|a, b| a.face == b.face) {
+            let first = vertices.len();
+            vertices.extend(face.iter().flat_map(|triangle| triangle.vertices));
+            vertices[first..].sort_unstable();
+            let mut end = first;
+            for i in first..vertices.len() {
+                if i == first || vertices[i] != vertices[i - 1] {
+                    vertices[end] = vertices[i];
+                    end += 1;
+                }
+            }
+            vertices.truncate(end);
+            of_faces.push((first..end, face[0].face));
+        }
+        let of = |face: &(std::ops::Range<usize>, u32)| &vertices[face.0.clone()];
+        of_faces.sort_unstable_by(|a, b| of(a).cmp(of(b)).then(a.1.cmp(&b.1)));
+        for same in of_faces.chunk_by(|a, b| of(a) == of(b)).filter(|same| same.len() > 1) {
             self.duplicates.extend(same[1..].iter().map(|(_, later)| [*later, same[0].1]));
         }
         self.duplicates.sort_unstable();
-        let is_later =
-            |face: &Face| self.duplicates.binary_search_by_key(&face.number, |[d, _]| *d).is_ok();
-        faces.into_iter().filter(|face| !is_later(face)).collect()
     }
 
-    /// Finds edges that have not two faces; returns the borders as vertices.
-    fn edges(&mut self, points: &[DVec3], faces: &[Face]) -> Vec<([u32; 2], u32)> {
-        let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * faces.len());
-        for face in faces {
-            let [a, b, c] = face.vertices;
-            let edge = |a: u32, b: u32| ([a.min(b), a.max(b)], face.number);
-            edges.extend([edge(a, b), edge(b, c), edge(c, a)]);
+    /// Finds edges that have not two faces; returns the borders.
+    fn edges(&mut self, points: &[DVec3], triangles: &[Triangle]) -> Vec<Border> {
+        let mut edges: Vec<([u32; 2], u32, u32)> = Vec::with_capacity(3 * triangles.len());
+        for Triangle { vertices: [a, b, c], number, face } in triangles {
+            for [a, b] in [[a, b], [b, c], [c, a]] {
+                if a != b {
+                    edges.push(([*a.min(b), *a.max(b)], *face, *number));
+                }
+            }
         }
         edges.sort_unstable();
         let mut border = Vec::new();
         for same in edges.chunk_by(|a, b| a.0 == b.0) {
-            let (ends, face) = same[0];
-            let edge = Edge { ends: ends.map_array(|v| points[v as usize]), face };
-            match same.len() {
-                1 => {
-                    border.push((ends, face));
-                    self.borders.push(edge);
-                }
-                2 => {}
-                count => self.crowded.push((count, edge)),
+            // Where a face was cut, its triangles have the edge twice.
+            let of_faces = same.chunk_by(|a, b| a.1 == b.1).filter(|face| face.len() % 2 == 1);
+            let of: Vec<u32> = of_faces.map(|face| face[0].2).collect();
+            match of[..] {
+                [only] => border.push((same[0].0, only)),
+                [] | [_, _] => {}
+                _ => self.crowded.push(edge(points, same[0].0, of)),
             }
         }
-        self.crowded.sort_by_key(|(count, edge)| (std::cmp::Reverse(*count), edge.face));
-        self.borders.sort_by_key(|edge| edge.face);
+        self.crowded.sort_by_key(|e| (std::cmp::Reverse(e.triangles.len()), e.triangles[0]));
         border
     }
 
+    /// Finds borders with a chain of borders beside them that begins and ends where they do: the seam of two levels of
+    /// detail. Returns all of their edges, sorted.
+    fn find_gaps(
+        &mut self,
+        points: &[DVec3],
+        (triangles, border): (&[Triangle], &[Border]),
+        grain: f64,
+    ) -> Vec<[u32; 2]> {
+        let mut from: Vec<(u32, u32, u32)> = Vec::with_capacity(2 * border.len());
+        from.extend(border.iter().flat_map(|&([a, b], of)| [(a, b, of), (b, a, of)]));
+        from.sort_unstable();
+        let mut in_gaps = Vec::new();
+        for &([a, b], of) in border {
+            let [start, end] = [a, b].map_array(|v| points[v as usize]);
+            let (along, length) = (end - start, start.distance(end));
+            let place = |v: u32| (points[v as usize] - start).dot(along) / length;
+            let away = |v: u32| (points[v as usize] - start - along * (place(v) / length)).length();
+            let (mut chain, mut of_chain) = (vec![a], vec![of]);
+            while chain.len() <= MOST_OF_CHAIN {
+                let at = chain[chain.len() - 1];
+                let next = &from[from.partition_point(|edge| edge.0 < at)..];
+                let next = next.iter().take_while(|edge| edge.0 == at);
+                let is_beside = |v: u32| v == b || place(v) < length - grain;
+                let next = next.filter(|&&(_, v, other)| {
+                    other != of && place(v) > place(at) + grain && is_beside(v)
+                });
+                let Some(&(_, v, other)) = next.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))
+                else {
+                    break;
+                };
+                chain.push(v);
+                of_chain.push(other);
+                if v == b || away(v) > BESIDE * length {
+                    break;
+                }
+            }
+            let inner = chain.iter().skip(1).filter(|v| **v != b);
+            let is_open = inner.clone().any(|v| away(*v) > grain);
+            // The chain of a thin part that hangs on nothing has the third corner of the triangle.
+            let own = triangles.partition_point(|triangle| triangle.number < of);
+            let own = triangles.get(own).map_or([b; 3], |triangle| triangle.vertices);
+            let is_own = inner.clone().any(|v| own.contains(v));
+            if chain.last() == Some(&b) && chain.len() > 2 && is_open && !is_own {
+                in_gaps.extend(chain.windows(2).map(|e| [e[0].min(e[1]), e[0].max(e[1])]));
+                in_gaps.push([a, b]);
+                let polygon = chain.iter().map(|&v| points[v as usize]).collect();
+                self.gaps.push(Gap { polygon, triangles: of_chain });
+            }
+        }
+        self.gaps.sort_by_key(|gap| gap.triangles[0]);
+        in_gaps.sort_unstable();
+        in_gaps
+    }
+
     /// Vertices at a border that lie within the edge of a border.
-    fn find_t_junctions(&mut self, points: &[DVec3], border: &[([u32; 2], u32)], grain: f64) {
+    fn find_t_junctions(&mut self, points: &[DVec3], border: &[Border], grain: f64) {
         let mut vertices: Vec<u32> = border.iter().flat_map(|(ends, _)| *ends).collect();
         vertices.sort_unstable();
         vertices.dedup();
@@ -149,34 +251,56 @@ impl Shape {
             let place = (point - a).dot(along) / length;
             let away = (point - a - along * (place / length)).length();
             if away <= grain && place > grain && place < length - grain {
-                self.t_junctions.push(Edge { ends: [point, point], face: border[edge].1 });
+                let triangles = vec![border[edge].1];
+                self.t_junctions.push(Edge { ends: [point, point], triangles });
             }
             self.t_junctions.len() < MOST_FOUND
         });
         self.is_cut_short |= !is_whole;
-        self.t_junctions.sort_by_key(|edge| edge.face);
+        self.t_junctions.sort_by_key(|edge| edge.triangles[0]);
     }
 
     /// Pairs of faces in one plane that cover a part of it together.
-    fn find_overlaps(&mut self, faces: &[Face], corners: &[[DVec3; 3]], grain: f64) {
+    fn find_overlaps(&mut self, triangles: &[Triangle], corners: &[[DVec3; 3]], grain: f64) {
         let planes: Vec<Plane> = corners.iter().map(Plane::of).collect();
         let boxes: Vec<Box> = corners.iter().map(|corners| Box::around(corners, grain)).collect();
         let is_whole = pairs(&boxes, &mut |i, j| {
             let (a, b) = (&planes[i], &planes[j]);
+            let (first, second) = (triangles[i].face, triangles[j].face);
+            if first == second {
+                return true;
+            }
             let is_flat = a.holds(&corners[j], grain) && b.holds(&corners[i], grain);
             if is_flat && !a.parts(&corners[j], grain) && !b.parts(&corners[i], grain) {
-                let (first, second) = (faces[i].number, faces[j].number);
                 self.overlaps.push([first.max(second), first.min(second)]);
             }
             self.overlaps.len() < MOST_FOUND
         });
         self.is_cut_short |= !is_whole;
         self.overlaps.sort_unstable();
+        self.overlaps.dedup();
     }
 }
 
+fn edge(points: &[DVec3], ends: [u32; 2], triangles: Vec<u32>) -> Edge {
+    Edge { ends: ends.map_array(|v| points[v as usize]), triangles }
+}
+
+/// For each triangle the first one of its face.
+fn first_triangles(scene: &Scene, origins: &[Origin]) -> Vec<u32> {
+    let mut first: Vec<u32> = Vec::with_capacity(scene.triangles());
+    let mut before = None;
+    for face in faces(scene, origins) {
+        let number = first.len() as u32;
+        let same = first.last().filter(|_| before == Some(face));
+        first.push(same.copied().unwrap_or(number));
+        before = Some(face);
+    }
+    first
+}
+
 /// The positions that triangles use, each once, and the triangles.
-fn weld(scene: &Scene) -> (Vec<DVec3>, Vec<Face>) {
+fn weld(scene: &Scene, face_of: &[u32]) -> (Vec<DVec3>, Vec<Triangle>) {
     // Where items are moved differently, the same numbers are not the same position.
     let group = |item: usize| {
         let same =
@@ -216,8 +340,9 @@ fn weld(scene: &Scene) -> (Vec<DVec3>, Vec<Face>) {
         let triangles = item.mesh.triangles.positions().iter();
         triangles.map(move |triangle| triangle.map(|number| vertex_of[number as usize]))
     });
-    let faces = triangles.zip(0..).map(|(vertices, number)| Face { vertices, number }).collect();
-    (points, faces)
+    let numbered = triangles.zip(0..).zip(face_of);
+    let triangle = |((vertices, number), &face)| Triangle { vertices, number, face };
+    (points, numbered.map(triangle).collect())
 }
 
 /// The diagonal of the box around all points.
@@ -347,9 +472,10 @@ mod tests {
             [[0.0, 0.0], [4.0 + x, y], [x, 3.0 - y]].map(|[x, y]| DVec3::new(x, y, 0.0))
         };
         let corners: Vec<_> = (0..count).map(corners).collect();
-        let faces: Vec<_> = (0..count).map(|number| Face { vertices: [0; 3], number }).collect();
+        let triangle = |number| Triangle { vertices: [0; 3], number, face: number };
+        let triangles: Vec<_> = (0..count).map(triangle).collect();
         let mut shape = Shape::default();
-        shape.find_overlaps(&faces, &corners, 1e-6);
+        shape.find_overlaps(&triangles, &corners, 1e-6);
         assert_eq!((shape.overlaps.len(), shape.is_cut_short), (MOST_FOUND, true));
     }
 

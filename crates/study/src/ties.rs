@@ -1,14 +1,19 @@
-//! Which surface is seen at each pixel, judged before corners are snapped: decided, decided by rounding alone, or equal.
+//! Which surface is seen at each pixel, judged before corners are snapped: decided, decided by the order of drawing
+//! alone, or by rounding alone.
 //!
 //! The depth of a piece at a pixel centre is that of its plane through the corners as they are. Two depths are equal
-//! where they lie within what the doubles of the vertex stage and of the plane may be off, and decided by rounding
-//! where they lie within what snapping may move them besides. Which pieces cover a pixel is what is drawn.
+//! where they lie within what the doubles of the vertex stage and of the plane may be off. Rounding decides where they
+//! lie within what snapping may move them besides, unless the two pieces are the same one drawn twice. Which pieces
+//! cover a pixel is what is drawn. What blends hides nothing, so that it competes with what is opaque and not with what
+//! blends as well.
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_render::pipeline::opacity::AlphaMode;
+use rasterproof_render::scene::Scene;
 
 use crate::view::{NOTHING, Piece, Sampled};
 
@@ -19,19 +24,25 @@ pub enum Class {
     #[default]
     Empty,
     Decided,
+    /// The same piece is drawn twice: the order of drawing decides.
+    ByOrder,
+    /// Rounding decides between two depths that differ.
     ByRounding,
+    /// Rounding decides between two depths that are equal before corners are snapped.
     Equal,
 }
 
-/// How many pixels are of each class, which is the least decided one of their samples, and the first of the last two with the pieces that compete.
+/// How many pixels are of each class, which is the least decided one of their samples.
 #[derive(Clone, Debug)]
 pub struct Classes {
     pub map: Frame<Class>,
     pub decided: u64,
+    pub by_order: u64,
+    /// All pixels that rounding decides, also those of equal depths.
     pub by_rounding: u64,
     pub equal: u64,
-    pub first_by_rounding: Option<TiedPair>,
-    pub first_equal: Option<TiedPair>,
+    /// The first pixel that rounding decides.
+    pub first: Option<TiedPair>,
 }
 
 /// A pixel and two triangles of the scene, the nearer one first.
@@ -92,89 +103,145 @@ impl DepthPlane {
     }
 }
 
-/// The nearest piece at the samples of each pixel before corners are snapped, and how well it is known to be the
-/// nearest.
-pub fn classify(sampled: &Sampled) -> Classes {
-    let mut map = Frame::new(sampled.size, Class::Empty);
-    let mut pairs = Frame::new(sampled.size, [NOTHING; 2]);
-    for pieces in &sampled.planes {
-        let (classes, of_samples) = of_plane(pieces, sampled.window);
-        for (y, row) in classes.rows() {
-            for ((x, class), pair) in (sampled.window.x0..).zip(row).zip(of_samples.row(y)) {
-                let [x_px, y_px] = sampled.pixel([x, y]);
-                let held = &mut map.span_mut(y_px, x_px, x_px + 1)[0];
-                if class > held {
-                    *held = *class;
-                    pairs.span_mut(y_px, x_px, x_px + 1)[0] = *pair;
-                }
-            }
-        }
-    }
-    let count = |class: Class| {
-        let all = map.rows().flat_map(|(_, row)| row);
-        all.filter(|held| **held == class).count() as u64
-    };
-    let first = |class: Class| {
-        map.rows().find_map(|(y, row)| {
-            let x = row.iter().position(|held| *held == class)? as i32 + sampled.size.x0;
-            Some(TiedPair { pixel: [x, y], triangles: pairs.get(x, y)? })
-        })
-    };
-    Classes {
-        decided: count(Class::Decided),
-        by_rounding: count(Class::ByRounding),
-        equal: count(Class::Equal),
-        first_by_rounding: first(Class::ByRounding),
-        first_equal: first(Class::Equal),
-        map,
-    }
+/// The pieces of a plane of samples, and the nearest one of those that hide what is behind them.
+pub(crate) struct Surfaces<'a> {
+    pieces: &'a [Piece],
+    window: PixelRect,
+    planes: Vec<Option<DepthPlane>>,
+    /// Whether a piece blends, so that it hides nothing.
+    blends: Vec<bool>,
+    nearest: Frame<(f64, u32)>,
 }
 
-/// The class of each sample of a plane, and the triangles that compete for it.
-fn of_plane(pieces: &[Piece], window: PixelRect) -> (Frame<Class>, Frame<[u32; 2]>) {
-    let nothing = (f64::INFINITY, NOTHING);
-    let mut nearest = Frame::new(window, nothing);
-    let planes: Vec<Option<DepthPlane>> = pieces.iter().map(DepthPlane::of).collect();
-    let each = |see: &mut dyn FnMut(u32, &DepthPlane, i32, i32)| {
-        for (number, (piece, plane)) in pieces.iter().zip(&planes).enumerate() {
+const NONE: (f64, u32) = (f64::INFINITY, NOTHING);
+
+impl<'a> Surfaces<'a> {
+    /// One for each plane of samples.
+    pub fn of(scene: &Scene, sampled: &'a Sampled) -> Vec<Self> {
+        let blends = |piece: &Piece| {
+            let opacity = scene.items[piece.item as usize].material.opacity.as_ref();
+            opacity.is_some_and(|opacity| opacity.mode == AlphaMode::Blend)
+        };
+        let of_plane = |pieces: &'a Vec<Piece>| {
+            let mut surfaces = Self {
+                pieces,
+                window: sampled.window,
+                planes: pieces.iter().map(DepthPlane::of).collect(),
+                blends: pieces.iter().map(blends).collect(),
+                nearest: Frame::new(sampled.window, NONE),
+            };
+            let mut nearest = Frame::new(sampled.window, NONE);
+            surfaces.each(&mut |number, plane, x, y| {
+                let [z, ..] = plane.at(x, y);
+                let held = &mut nearest.span_mut(y, x, x + 1)[0];
+                if z < held.0 && !surfaces.blends[number as usize] {
+                    *held = (z, number);
+                }
+            });
+            surfaces.nearest = nearest;
+            surfaces
+        };
+        sampled.planes.iter().map(of_plane).collect()
+    }
+
+    /// Calls `see` with each sample of each piece.
+    fn each(&self, see: &mut dyn FnMut(u32, &DepthPlane, i32, i32)) {
+        for (number, (piece, plane)) in self.pieces.iter().zip(&self.planes).enumerate() {
             let Some(plane) = plane else { continue };
-            Scanline.cover(piece.corners(), window, |span| {
+            Scanline.cover(piece.corners(), self.window, |span| {
                 for x in span.x0_px..span.x1_px {
                     see(number as u32, plane, x, span.y_px);
                 }
             });
         }
-    };
-    each(&mut |number, plane, x, y| {
-        let [z, ..] = plane.at(x, y);
-        let held = &mut nearest.span_mut(y, x, x + 1)[0];
-        if z < held.0 {
-            *held = (z, number);
-        }
-    });
-    let mut map = Frame::new(window, Class::Empty);
-    let mut pairs = Frame::new(window, [NOTHING; 2]);
-    each(&mut |number, plane, x, y| {
-        let class = &mut map.span_mut(y, x, x + 1)[0];
-        *class = (*class).max(Class::Decided);
-        let (near, other) = nearest.get(x, y).unwrap_or(nothing);
-        if number == other {
-            return;
-        }
-        let Some(Some(front)) = planes.get(other as usize) else { return };
-        let ([_, off, wide], [z, own_off, own_wide]) = (front.at(x, y), plane.at(x, y));
-        let found = match z - near {
-            gap if gap <= off + own_off => Class::Equal,
-            gap if gap <= wide + own_wide => Class::ByRounding,
-            _ => return,
+    }
+
+    /// How far what is seen at a sample lies in front of a piece of this or another scene, and by how much either may be
+    /// off once corners are snapped; nothing where nothing is seen, or the piece has no plane.
+    pub fn before(&self, piece: &Piece, [x, y]: [i32; 2]) -> Option<[f64; 2]> {
+        let (near, front) = self.nearest.get(x, y).unwrap_or(NONE);
+        let front = self.planes.get(front as usize)?.as_ref()?;
+        let ([_, _, wide], [z, _, own_wide]) = (front.at(x, y), DepthPlane::of(piece)?.at(x, y));
+        Some([z - near, wide + own_wide])
+    }
+
+    /// Calls `see` with each sample of a piece that is seen there, or that competes with the one that is: its number, the
+    /// number of the other one, and how it is decided between them.
+    pub fn seen(&self, see: &mut dyn FnMut([i32; 2], [u32; 2], Class)) {
+        self.each(&mut |number, plane, x, y| {
+            let (near, front) = self.nearest.get(x, y).unwrap_or(NONE);
+            let Some(Some(front_plane)) = self.planes.get(front as usize) else {
+                return see([x, y], [number; 2], Class::Decided);
+            };
+            if number == front {
+                return see([x, y], [number; 2], Class::Decided);
+            }
+            let ([_, off, wide], [z, own_off, own_wide]) = (front_plane.at(x, y), plane.at(x, y));
+            let blends = self.blends[number as usize];
+            let class = match if blends { (z - near).abs() } else { z - near } {
+                _ if blends && z < near - wide - own_wide => Class::Decided,
+                gap if gap > wide + own_wide => return,
+                _ if self.are_same(number, front) => Class::ByOrder,
+                gap if gap <= off + own_off => Class::Equal,
+                _ => Class::ByRounding,
+            };
+            see([x, y], [number, front], class);
+        });
+    }
+
+    /// Whether two pieces have the same corners and depths, in any order.
+    fn are_same(&self, a: u32, b: u32) -> bool {
+        let corners = |piece: u32| {
+            let vertices = &self.pieces[piece as usize].triangle.vertices;
+            let corner = vertices.map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
+            let mut corners = corner;
+            corners.sort_unstable();
+            corners
         };
-        if found > *class {
-            *class = found;
-            let pair = [other, number].map_array(|piece| pieces[piece as usize].face);
-            pairs.span_mut(y, x, x + 1)[0] = pair;
+        corners(a) == corners(b)
+    }
+}
+
+/// How it is decided at the samples of each pixel which surface is seen.
+pub fn classify(scene: &Scene, sampled: &Sampled) -> Classes {
+    let mut classes = Classes::new(sampled.size);
+    for surfaces in Surfaces::of(scene, sampled) {
+        surfaces.seen(&mut |sample, [piece, front], class| {
+            let triangles = [front, piece].map_array(|one| surfaces.pieces[one as usize].face);
+            classes.add(TiedPair { pixel: sampled.pixel(sample), triangles }, class);
+        });
+    }
+    classes.counted()
+}
+
+impl Classes {
+    pub(crate) fn new(size: PixelRect) -> Self {
+        let map = Frame::new(size, Class::Empty);
+        Self { map, decided: 0, by_order: 0, by_rounding: 0, equal: 0, first: None }
+    }
+
+    /// Adds what is seen at a sample.
+    pub(crate) fn add(&mut self, pair: TiedPair, class: Class) {
+        let [x, y] = pair.pixel;
+        let held = &mut self.map.span_mut(y, x, x + 1)[0];
+        *held = class.max(*held);
+        let is_before = |first: TiedPair| [y, x] < [first.pixel[1], first.pixel[0]];
+        if class >= Class::ByRounding && self.first.is_none_or(is_before) {
+            self.first = Some(pair);
         }
-    });
-    (map, pairs)
+    }
+
+    /// The same with the pixels of each class counted.
+    pub(crate) fn counted(self) -> Self {
+        let count = |class: Class| {
+            let all = self.map.rows().flat_map(|(_, row)| row);
+            all.filter(|held| **held == class).count() as u64
+        };
+        let equal = count(Class::Equal);
+        let (decided, by_order) = (count(Class::Decided), count(Class::ByOrder));
+        let by_rounding = count(Class::ByRounding) + equal;
+        Self { decided, by_order, by_rounding, equal, ..self }
+    }
 }
 
 #[cfg(test)]
@@ -206,35 +273,29 @@ mod tests {
         Item::new(Mesh { positions: positions.into(), triangles }, Material::default())
     }
 
-    fn classes(second: Item) -> [u64; 3] {
+    fn classes(second: Item) -> Classes {
         let mut scene = Scene::new("two", "", perspective(0.7, 1.0, 1.0, 10.0).unwrap());
         scene.view = DMat4::IDENTITY;
         scene.items = vec![square(false, 0.0), second];
         let target = Target::new(200, 200, Antialias::None, DepthFormat::Unorm32).unwrap();
-        let found = classify(&Sampled::of(&scene, &target).unwrap());
-        [found.decided, found.by_rounding, found.equal]
+        classify(&scene, &Sampled::of(&scene, &target).unwrap())
     }
 
-    /// In one plane depths are equal, whatever the diagonals; apart by less than snapping moves them, rounding decides;
-    /// apart by more, all is decided.
+    /// In one plane depths are equal, whatever the diagonals, and rounding decides unless it is the same triangles twice;
+    /// apart by less than snapping moves them, rounding decides; apart by more, all is decided.
     #[test]
     fn surfaces_are_judged_before_they_are_snapped() {
         for other_diagonal in [false, true] {
-            let [decided, by_rounding, equal] = classes(square(other_diagonal, 0.0));
-            assert!(
-                equal > 5000 && by_rounding == 0 && decided < 200,
-                "{decided} {by_rounding} {equal}"
-            );
-            let [decided, by_rounding, equal] = classes(square(other_diagonal, 1e-6));
-            assert!(
-                equal == 0 && by_rounding > 5000 && decided < 200,
-                "{decided} {by_rounding} {equal}"
-            );
-            let [decided, by_rounding, equal] = classes(square(other_diagonal, 0.1));
-            assert!(
-                equal == 0 && by_rounding < 200 && decided > 5000,
-                "{decided} {by_rounding} {equal}"
-            );
+            let found = classes(square(other_diagonal, 0.0));
+            let [twice, equal] = [found.by_order, found.equal];
+            assert!(found.decided < 200 && found.by_rounding == equal, "{found:?}");
+            let is_as_drawn =
+                if other_diagonal { equal > 5000 } else { twice > 5000 && equal < 200 };
+            assert!(is_as_drawn, "{twice} {equal}");
+            let found = classes(square(other_diagonal, 1e-6));
+            assert!(found.equal == 0 && found.by_rounding > 5000 && found.decided < 200);
+            let found = classes(square(other_diagonal, 0.1));
+            assert!(found.equal == 0 && found.by_rounding < 200 && found.decided > 5000);
         }
     }
 }

@@ -107,6 +107,12 @@ fn planted_faults_are_caught() {
             if property == family {
                 assert!(failure.picture.is_some(), "{plant}: {text}");
                 assert!(text.contains("judged"), "{text}");
+                let is_explained =
+                    stand.verdict.recognised.is_some() || !stand.verdict.causes.is_empty();
+                assert!(
+                    is_explained && text.contains("it draws as") | text.contains("cause"),
+                    "{text}"
+                );
                 // Shrunk: a fault of the sample is seen on few pixels.
                 assert_eq!(failure.case.triangles().len(), 1);
             }

@@ -70,7 +70,9 @@ pub(super) struct Root {
     #[serde(default, deserialize_with = "or_default")]
     pub cameras: Vec<Camera>,
     #[serde(default, deserialize_with = "or_default")]
-    pub animations: Vec<IgnoredAny>,
+    pub animations: Vec<Value>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub extensions: Value,
     #[serde(default, deserialize_with = "or_default")]
     pub extensions_used: Vec<String>,
     #[serde(default, deserialize_with = "or_default")]
@@ -111,7 +113,7 @@ pub(super) struct Node {
 #[serde(default)]
 pub(super) struct Extensions {
     #[serde(rename = "KHR_lights_punctual")]
-    pub light: Option<IgnoredAny>,
+    pub light: Option<Value>,
     #[serde(rename = "EXT_mesh_gpu_instancing")]
     pub instances: Option<Instances>,
     #[serde(rename = "KHR_draco_mesh_compression")]
@@ -128,6 +130,26 @@ pub(super) struct Extensions {
     pub refraction: Option<Refraction>,
     #[serde(rename = "KHR_materials_specular")]
     pub specular: Option<Specular>,
+}
+
+/// A light of `KHR_lights_punctual`; one that cannot be read is counted as not drawn.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Light {
+    #[serde(rename = "type")]
+    pub kind: String,
+    pub color: Option<[f32; 3]>,
+    pub intensity: Option<f32>,
+    pub range: Option<f32>,
+    #[serde(deserialize_with = "or_default")]
+    pub spot: Spot,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Spot {
+    pub inner_cone_angle: Option<f64>,
+    pub outer_cone_angle: Option<f64>,
 }
 
 /// The accessors of where the copies of a mesh are.

@@ -4,6 +4,7 @@
 //! it took as long as to compile the largest crate of the workspace. Bytes are read by own code too, since the accessors of
 //! `gltf` panic where a hostile file gives them too few, and its validation refuses documents that other programs load.
 
+mod animation;
 mod data;
 mod document;
 mod draco;
@@ -22,14 +23,17 @@ use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::ClipPoint;
 use rasterproof_render::pipeline::opacity::{Opacity, OpacityMap};
 use rasterproof_render::pipeline::physical::Map;
+use rasterproof_render::pipeline::punctual::{Kind, PunctualLight};
+use serde::Deserialize as _;
+use serde_json::Value;
 
 use crate::cameras::{Camera, Lens};
 use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface};
 use crate::text::{self, without_mark};
-use crate::{BadFile, Warnings, bad};
+use crate::{BadFile, Pose, Warnings, bad};
 use data::Data;
 use document::{
-    Instances, LINE_LOOP, LINE_STRIP, LINES, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
+    Instances, LINE_LOOP, LINE_STRIP, LINES, Light, Mesh, Node, POINTS, Primitive, TRIANGLE_FAN,
     TRIANGLE_STRIP, TRIANGLES,
 };
 pub(crate) use materials::encoded;
@@ -44,11 +48,14 @@ const CORNER_BYTES: u64 = 32;
 /// What a part takes, however small it is, until it is merged with others.
 const PART_BYTES: u64 = 256;
 
+/// Lights that are drawn: every fragment is lit by each.
+const MOST_LIGHTS: usize = 64;
+
 /// Nodes that are visited: a document may show one node many times.
 const MOST_VISITS: usize = 1 << 20;
 
 /// Extensions that change nothing that could be seen, that are read, or whose use is counted.
-const READ: [&str; 18] = [
+const READ: [&str; 20] = [
     draco::EXTENSION,
     meshopt::EXTENSION,
     INSTANCES,
@@ -62,6 +69,8 @@ const READ: [&str; 18] = [
     "EXT_texture_webp",
     "KHR_mesh_quantization",
     "KHR_xmp_json_ld",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
     "KHR_binary_glTF",
     "KHR_techniques_webgl",
     "KHR_materials_common",
@@ -84,7 +93,7 @@ pub(crate) fn is_glb(bytes: &[u8]) -> bool {
 }
 
 /// Reads a document, as JSON with files beside it or as one GLB.
-pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+pub(crate) fn read(path: &Path, bytes: &[u8], pose: Option<Pose>) -> Result<Contents, BadFile> {
     let failed = |cause: String| bad(path, None, cause);
     let Chunks { json, bin, odd } = match is_glb(bytes) {
         true => chunks(bytes).map_err(failed)?,
@@ -113,7 +122,12 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         )));
     }
     let folder = path.parent().unwrap_or(Path::new(""));
-    let data = Data::new(root, folder, bin).map_err(failed)?;
+    let mut data = Data::new(root, folder, bin).map_err(failed)?;
+    if let Some(pose) = pose {
+        animation::apply(&mut data, pose).map_err(failed)?;
+    }
+    let name = |animation: &Value| text::name(animation["name"].as_str().unwrap_or("")).to_owned();
+    contents.animations = data.root.animations.iter().map(name).collect();
     let mut reader = Reader {
         path,
         data: &data,
@@ -266,6 +280,7 @@ impl Reader<'_> {
         for (number, world) in visits {
             let node = &root.nodes[number];
             self.camera(number, node, world);
+            self.light(node, world);
             let Some(mesh) = node.mesh else { continue };
             let missing = || format!("meshes[{mesh}] is not there");
             let primitives = &root.meshes.get(mesh).ok_or_else(missing)?.primitives;
@@ -306,6 +321,38 @@ impl Reader<'_> {
         let mut camera = Camera { name, eye, ahead, up, lens, near, far };
         camera.place(world);
         self.contents.cameras.push(camera);
+    }
+
+    /// Adds the light of a node, where it has one.
+    fn light(&mut self, node: &Node, world: DMat4) {
+        let Some(used) = &node.extensions.light else { return };
+        let number = used["light"].as_f64().filter(|number| *number >= 0.0);
+        let lights = &self.data.root.extensions[LIGHTS]["lights"];
+        let light = number.and_then(|number| lights.get(number as usize));
+        let light = light.and_then(|light| Light::deserialize(light).ok());
+        let kind = light.as_ref().and_then(|light| {
+            let range = light.range.filter(|range| *range > 0.0).map_or(f64::INFINITY, f64::from);
+            let [inner, outer] = Kind::ANGLES_RAD;
+            match light.kind.as_str() {
+                "directional" => Some(Kind::Directional),
+                "point" => Some(Kind::Point { range }),
+                "spot" => Some(Kind::Spot {
+                    range,
+                    inner_rad: light.spot.inner_cone_angle.unwrap_or(inner),
+                    outer_rad: light.spot.outer_cone_angle.unwrap_or(outer),
+                }),
+                _ => None,
+            }
+        });
+        match (light, kind) {
+            (Some(light), Some(kind)) if self.contents.lights.len() < MOST_LIGHTS => {
+                let usual = |number: f32| f64::from(number.clamp(0.0, 1e9));
+                let colour = DVec3::from_array(light.color.unwrap_or([1.0; 3]).map(usual));
+                let light = PunctualLight::new(kind, colour, usual(light.intensity.unwrap_or(1.0)));
+                self.contents.lights.push(light.placed(world));
+            }
+            _ => self.count("light", 1),
+        }
     }
 
     /// Where a node shows its mesh, in its own coordinates: once, or as often as an extension says.
@@ -408,9 +455,6 @@ impl Reader<'_> {
     /// What the document has beside triangles.
     fn count_the_rest(&mut self) {
         let root = &self.data.root;
-        self.count("animation", root.animations.len() as u64);
-        let lights = root.nodes.iter().filter(|node| node.extensions.light.is_some()).count();
-        self.count("light", lights as u64);
         // Some files name what they require here alone.
         let required: BTreeSet<&String> = root.extensions_required.iter().collect();
         let all: BTreeSet<&String> = root.extensions_used.iter().chain(required.clone()).collect();

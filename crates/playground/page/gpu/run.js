@@ -48,6 +48,23 @@ async function shrunk(api, check, subject) {
   return (await judged(api, { check, only: smallest })).view;
 }
 
+/** Checks of pixels, for which a cause is looked for. */
+const OF_PIXELS = ['lattice', 'coverage', 'reach', 'tiling', 'order'];
+
+/** Why pixels are wrong: the module asks for triangles, picture by picture, until it knows or gives up. */
+async function causeOf(api, title) {
+  const question = { ask: 'gpu-cause', device: deviceOf(api, 'coverage') };
+  let reply = must(ask(question));
+  for (let at = 1; reply.cause === undefined; at += 1) {
+    if (!state.running) return null;
+    state.progress = { text: word('asking')(title, at), part: 1 };
+    drawProgress();
+    await breathe();
+    reply = must(ask(question, await api.draw(reply, state.plant)));
+  }
+  return reply;
+}
+
 const breathe = () => new Promise((done) => { setTimeout(done, 0); });
 
 /** Judges one interface into a result; draws the page as it goes. A test may ask for some batches alone, on a lattice that it knows. */
@@ -109,18 +126,19 @@ async function judgeApi(name, { only, bits = null, shrinks = true }) {
   }
   if (readBack.uneven > 0) result.notes.push(['uneven', readBack.uneven]);
   if (!state.running) result.notes.push(['stopped']);
-  for (const [check, { broken, free }] of Object.entries(result.rows)) {
-    if (!state.running || !shrinks || losses > 1 || !(broken || free)) continue;
-    state.progress = { text: word('shrinking')(result.title, word('checks')[check]), part: 1 };
-    drawProgress();
-    await breathe();
-    try {
+  if (!shrinks || losses > 1) return;
+  try {
+    for (const [check, { broken, free }] of Object.entries(result.rows)) {
+      if (!state.running || !(broken || free)) continue;
+      state.progress = { text: word('shrinking')(result.title, word('checks')[check]), part: 1 };
+      drawProgress();
+      await breathe();
       result.views[check] = broken ? await shrunk(api, check, broken) : (await judged(api, { check, only: free })).view;
-    } catch (error) {
-      if (!(error instanceof Lost)) throw error;
-      result.notes.push(['lostAgain', error.message, batches.length]);
-      break;
     }
+    if (OF_PIXELS.some((check) => result.rows[check]?.word === 'broken')) result.cause = await causeOf(api, result.title);
+  } catch (error) {
+    if (!(error instanceof Lost)) throw error;
+    result.notes.push(['lostAgain', error.message, batches.length]);
   }
 }
 

@@ -48,7 +48,13 @@ impl<'a> Assembled<'a> {
         let mut pieces = Vec::with_capacity(scene.triangles());
         for &index in &self.order {
             let item = &self.items[index];
-            let mut keep = |piece: &Piece, _: &mut Counters| pieces.push((index, *piece));
+            // Clipping makes a few more than there are triangles. Twice the room for millions of them is out of reach.
+            let mut keep = |piece: &Piece, _: &mut Counters| {
+                if pieces.len() == pieces.capacity() {
+                    pieces.reserve_exact(pieces.len() / 8 + 1024);
+                }
+                pieces.push((index, *piece));
+            };
             item.assemble(scene, &mut self.counters, &mut keep);
         }
         self.pieces = Some(pieces);

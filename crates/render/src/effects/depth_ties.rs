@@ -199,16 +199,16 @@ impl<'a> TiedPieces<'a> {
         }
     }
 
-    /// Counts the pixels in which several pieces may be the nearest when depths are off as `cause` says:
-    /// only rounding decides which one is seen. Pieces with the same corners and depths count as one.
+    /// Counts the pixels in which several pieces may be the nearest when corners are snapped and depths are planes in
+    /// f32, as the rasterizer in tiles has them. Pieces with the same corners and depths count as one.
     #[must_use]
-    pub fn by_rounding(&self, cause: Cause) -> ByRounding {
+    pub fn by_planes_in_f32(&self) -> ByRounding {
         let size = self.size();
         let height = (size.y1 - size.y0).max(1);
         let rows = ((height + 7) / 8).min(64);
         let bands = parallel::map((height as usize).div_ceil(rows as usize), |number| {
             let y0 = size.y0 + number as i32 * rows;
-            self.by_rounding_within(PixelRect { y0, y1: (y0 + rows).min(size.y1), ..size }, cause)
+            self.in_f32_within(PixelRect { y0, y1: (y0 + rows).min(size.y1), ..size })
         });
         bands.into_iter().fold(ByRounding::default(), |sum, band| ByRounding {
             pixels: sum.pixels + band.pixels,
@@ -216,13 +216,13 @@ impl<'a> TiedPieces<'a> {
         })
     }
 
-    fn by_rounding_within(&self, rect: PixelRect, cause: Cause) -> ByRounding {
+    fn in_f32_within(&self, rect: PixelRect) -> ByRounding {
         let scale = self.pattern.scale;
         let samples = scaled(rect, scale);
         let mut farthest = vec![Frame::new(samples, (u64::MAX, u32::MAX)); self.pattern.planes];
         self.each_interval(
             rect,
-            &|plane| Some(cause.error(plane, self.size(), scale)),
+            &|plane| Some(error_in_f32(plane, self.size(), scale)),
             &mut |at, keys| {
                 let Sample { plane, y_px, x_px } = at.sample;
                 let least = &mut farthest[plane].span_mut(y_px, x_px, x_px + 1)[0];
@@ -233,7 +233,7 @@ impl<'a> TiedPieces<'a> {
         let mut open = Frame::new(rect, false);
         self.each_interval(
             rect,
-            &|plane| Some(cause.error(plane, self.size(), scale)),
+            &|plane| Some(error_in_f32(plane, self.size(), scale)),
             &mut |at, keys| {
                 let Sample { plane, y_px, x_px } = at.sample;
                 let Some(least) = farthest[plane].get(x_px, y_px) else { return };
@@ -340,58 +340,39 @@ impl<'a> TiedPieces<'a> {
 /// By how much a depth may be off at a sample.
 type DepthError = Box<dyn Fn(i32, i32) -> f64>;
 
-/// Why a depth may be off by more than a rasterizer's own rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// Corners are moved to whole subpixels, the same ones for every rasterizer.
-    Snapping,
-    /// Corners are snapped, and depths are planes in f32, as the rasterizer in tiles has them.
-    PlanesInF32,
-}
-
-impl Cause {
-    /// The bound for a piece, in a window of `size` pixels with `scale` samples along the side of each.
-    ///
-    /// Snapping: a corner moves by at most 1/512 along either axis. Inside of both triangles the depth is
-    /// an average of the corners', so it moves by at most (|gx| + |gy|) / 512, with g what the depth changes
-    /// by from sample to sample.
-    ///
-    /// Planes in f32, z = f0 + gx x + gy y from the first pixel of the box: at most 4 u S + 11 u' T, with
-    /// S = |f0| + |gx x| + |gy y| <= |z| + 2 (|gx x| + |gy y|) and T = M + Gx X + Gy Y, as the module
-    /// `planes` of the crate of tiles derives it. M <= 1.
-    fn error(
-        self,
-        (piece, depths): (&Piece, &DepthPlane),
-        size: PixelRect,
-        scale: i32,
-    ) -> DepthError {
-        let [gx, gy] = depths.per_px();
-        let off = (gx + gy) / f64::from(2 * SUBPIXELS);
-        if self == Self::Snapping {
-            return Box::new(move |_, _| off);
-        }
-        let corners = piece.corners();
-        let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
-        let start = |all: [i32; 3], least: i32| {
-            let first = all.into_iter().min().unwrap_or(0).div_euclid(SUBPIXELS);
-            f64::from(first.max(least * scale))
-        };
-        let x0 = start(corners.map_array(|c| c.x), size.x0);
-        let y0 = start(corners.map_array(|c| c.y), size.y0);
-        let [a, b, c] = corners.map_array(|c| (px(c.x), px(c.y)));
-        let area = twice_area(corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
-        let slope = |one: f64, other: f64| 2.0 * (one.abs() + other.abs()) / area.abs();
-        let (steep_x, steep_y) = (slope(b.1 - a.1, c.1 - a.1), slope(b.0 - a.0, c.0 - a.0));
-        let reach_x = (x0 - a.0).abs() + f64::from(size.width()) * f64::from(scale);
-        let reach_y = (y0 - a.1).abs() + f64::from(size.height()) * f64::from(scale);
-        let in_f64 = 11.0 * (f64::EPSILON / 2.0) * (1.0 + steep_x * reach_x + steep_y * reach_y);
-        let unit = f64::from(f32::EPSILON) / 2.0;
-        Box::new(move |x, y| {
-            let away = gx * (f64::from(x) + 1.0 - x0) + gy * (f64::from(y) + 1.0 - y0);
-            // The last factor is for products of errors.
-            off + (4.0 * unit * (1.0 + 2.0 * away) + in_f64) * (1.0 + 1.0 / f64::from(1 << 18))
-        })
-    }
+/// The bound for a piece, in a window of `size` pixels with `scale` samples along the side of each.
+///
+/// Snapping: a corner moves by at most 1/512 along either axis. Inside of both triangles the depth is
+/// an average of the corners', so it moves by at most (|gx| + |gy|) / 512, with g what the depth changes
+/// by from sample to sample.
+///
+/// Planes in f32, z = f0 + gx x + gy y from the first pixel of the box: at most 4 u S + 11 u' T, with
+/// S = |f0| + |gx x| + |gy y| <= |z| + 2 (|gx x| + |gy y|) and T = M + Gx X + Gy Y, as the module
+/// `planes` of the crate of tiles derives it. M <= 1.
+fn error_in_f32((piece, depths): (&Piece, &DepthPlane), size: PixelRect, scale: i32) -> DepthError {
+    let [gx, gy] = depths.per_px();
+    let off = (gx + gy) / f64::from(2 * SUBPIXELS);
+    let corners = piece.corners();
+    let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
+    let start = |all: [i32; 3], least: i32| {
+        let first = all.into_iter().min().unwrap_or(0).div_euclid(SUBPIXELS);
+        f64::from(first.max(least * scale))
+    };
+    let x0 = start(corners.map_array(|c| c.x), size.x0);
+    let y0 = start(corners.map_array(|c| c.y), size.y0);
+    let [a, b, c] = corners.map_array(|c| (px(c.x), px(c.y)));
+    let area = twice_area(corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
+    let slope = |one: f64, other: f64| 2.0 * (one.abs() + other.abs()) / area.abs();
+    let (steep_x, steep_y) = (slope(b.1 - a.1, c.1 - a.1), slope(b.0 - a.0, c.0 - a.0));
+    let reach_x = (x0 - a.0).abs() + f64::from(size.width()) * f64::from(scale);
+    let reach_y = (y0 - a.1).abs() + f64::from(size.height()) * f64::from(scale);
+    let in_f64 = 11.0 * (f64::EPSILON / 2.0) * (1.0 + steep_x * reach_x + steep_y * reach_y);
+    let unit = f64::from(f32::EPSILON) / 2.0;
+    Box::new(move |x, y| {
+        let away = gx * (f64::from(x) + 1.0 - x0) + gy * (f64::from(y) + 1.0 - y0);
+        // The last factor is for products of errors.
+        off + (4.0 * unit * (1.0 + 2.0 * away) + in_f64) * (1.0 + 1.0 / f64::from(1 << 18))
+    })
 }
 
 /// Pixels in which only rounding decides which surface is seen.

@@ -18,7 +18,8 @@ use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::footprint::{Footprint, Reading};
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
-use crate::pipeline::physical::{Map, Parts, Physical, Point};
+use crate::pipeline::physical::{Lights, Map, Parts, Physical, Point};
+use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::see_through::{self, Look};
 use crate::pipeline::shade::{Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
@@ -133,6 +134,7 @@ pub(super) struct Kernel<'a> {
 struct Coat<'a> {
     surface: &'a Physical,
     parts: Parts,
+    punctual: &'a [PunctualLight],
     /// The maps that are read in each fragment.
     maps: [Option<(&'a Texture, Option<Reading>)>; Map::ALL.len()],
     /// The texels of maps that have one colour where the piece reads them.
@@ -176,7 +178,8 @@ impl<'a> Coat<'a> {
             }
         }
         let parts = Parts { emission, reflection, occlusion, bumps };
-        Self { surface, parts, maps, texels, eye: item.eye, world, tangent }
+        let punctual = if plan.punctual { item.punctual } else { &[] };
+        Self { surface, parts, punctual, maps, texels, eye: item.eye, world, tangent }
     }
 }
 
@@ -410,6 +413,7 @@ impl<'a> Kernel<'a> {
         let Some(coat) = &self.coat else { return };
         let where_true = |pays: bool| if pays { shaded } else { 0 };
         counters.reflections += where_true(coat.parts.reflection);
+        counters.punctual += where_true(!coat.punctual.is_empty());
         counters.bumped += where_true(coat.parts.bumps);
         counters.occluded += where_true(coat.parts.occlusion);
         counters.emitted += where_true(coat.parts.emission);
@@ -520,8 +524,9 @@ impl<'a> Kernel<'a> {
             let to_eye = coat.eye.truncate() - world * coat.eye.w;
             let base = colour * texel;
             let share = f64::from(lit) / f64::from(TAPS);
-            let point = Point { base, normal, tangent, to_eye, texels, lit: share };
-            let shown = coat.surface.colour(&self.light, &point, coat.parts);
+            let point = Point { base, normal, tangent, to_eye, texels, lit: share, place: world };
+            let lights = Lights { main: &self.light, punctual: coat.punctual };
+            let shown = coat.surface.colour(lights, &point, coat.parts);
             return self.finish(shown, normal, lit, depth);
         }
         let intensity = if varies(Attributes::NORMAL) || self.receiver.is_some() {

@@ -11,6 +11,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 pub use super::scene_digest::SceneDigest;
+use super::table::fragment_effects;
 use super::{Effect, Mode};
 use crate::pipeline::depth::DepthFormat;
 use crate::pipeline::fog::Share;
@@ -20,8 +21,8 @@ use crate::pipeline::target::{Antialias, Target};
 use rasterproof_core::grid::PixelRect;
 
 /// The form of plans that this program writes and reads. It changes when a word of a plan gets another
-/// meaning.
-pub const VERSION: u32 = 1;
+/// meaning, as the digest of a scene did.
+pub const VERSION: u32 = 2;
 
 /// What is drawn into, as far as a plan depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -231,7 +232,9 @@ fn is_never(mode: &Mode) -> bool {
 }
 
 macro_rules! plans {
-    ($($(#[$about:meta])* $field:ident: $kind:ty, $paid:expr => $effect:ident, $planned:literal;)+) => {
+    ($($(#[$about:meta])*
+    $field:ident: $kind:ty = $paid:expr => $effect:ident, $planned:literal,
+        $condition:expr, $(fact $fact:ident)? $(by $how:path)?;)+) => {
         /// What each fragment of a piece pays for. Words of effects beyond the book's are missing where they are not
         /// called for.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -286,37 +289,7 @@ macro_rules! plans {
     };
 }
 
-// Each row: the field, what in it pays for which effect, and where a planned rule says so.
-plans! {
-    /// Whether the material's highlight is computed and added.
-    specular: bool, true => Specular, "where a highlight may show between the normals of the corners.";
-    /// Whether it is computed what metal and roughness reflect; else the surface is matt.
-    reflection: bool, true => Reflection, "where a normal may face the light.";
-    /// Whether normals are turned by a map.
-    normal_maps: bool, true => NormalMaps, "where the map is not known to be flat.";
-    /// Whether ambient light is multiplied by an occlusion.
-    occlusion: bool, true => Occlusion, "where the map is not known to be white.";
-    /// Whether emission is added.
-    emission: bool, true => Emission, "where the map is not known to be black.";
-    /// Whether it is looked up which part of the light arrives.
-    shadows: bool, true => Shadows, "where something may lie between a piece and the light.";
-    /// Whether textures are read at a level of detail.
-    mip_maps: bool, true => MipMaps, "where a texture is not known to be magnified everywhere.";
-    /// Whether textures may be read several times along the longer axis of a footprint.
-    anisotropy: bool, true => Anisotropy,
-        "where the axes of a footprint are not known to be about as long everywhere.";
-    /// Whether its fragments are mixed with fog, or show nothing else.
-    fog: Share, Share::Mixed => Fog, "as much as there is between the depths of the corners.";
-    /// Whether the opacity of its fragments is compared with a threshold, or is below it everywhere.
-    alpha_test: Drawn, Drawn::Mixed => AlphaTest,
-        "where the opacities that a piece may read lie on both sides of the threshold.";
-    /// Whether its fragments are mixed with what is behind them, or cover nothing of it.
-    blending: Drawn, Drawn::Mixed => Blending,
-        "where a piece may read an opacity that is neither 0 nor 255.";
-    /// Whether fragments that are mixed are kept, and mixed in the order of their depths when all is drawn.
-    layers: bool, true => Layers,
-        "where fragments are mixed and their depths tested, whatever else is there.";
-}
+fragment_effects!(plans);
 
 impl PiecePlan {
     /// Whether all its fragments have one colour. They may have opacities of their own all the same.

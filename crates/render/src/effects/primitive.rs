@@ -11,6 +11,7 @@ use crate::pipeline::assemble::{Assembler, BadVertex, ClipPoint, check_vertex};
 use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
 use crate::pipeline::physical::{Map, Physical};
+use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::LightView;
 use crate::pipeline::target::Antialias;
@@ -53,6 +54,7 @@ pub(super) struct Prepared<'a> {
     pub carries: Attributes,
     pub texture: Option<&'a Texture>,
     pub light: Light,
+    pub punctual: &'a [PunctualLight],
     pub highlight: Highlight,
     pub veil: Veil,
     /// Nothing where no light is looked up.
@@ -72,7 +74,26 @@ static WHITE: LazyLock<Texture> = LazyLock::new(Texture::white);
 
 /// Whether light depends on the fragment or triangle: Gouraud's is a colour of the corners.
 pub(super) fn is_lit(scene: &Scene, item: &Item) -> bool {
-    matches!(item.material.shading, Shading::Flat | Shading::Phong) && scene.light != Light::NONE
+    let has_light = scene.light != Light::NONE || !punctual(scene, item).is_empty();
+    matches!(item.material.shading, Shading::Flat | Shading::Phong) && has_light
+}
+
+/// The punctual lights of an item: they light physical surfaces alone.
+pub(super) fn punctual<'a>(scene: &'a Scene, item: &Item) -> &'a [PunctualLight] {
+    if item.material.physical.is_some() { &scene.punctual } else { &[] }
+}
+
+/// Whether it matters where in the world a fragment is: from there something is seen, or lit, in a direction of its own.
+pub(super) fn has_places(scene: &Scene) -> bool {
+    eye(scene).w != 0.0 || scene.punctual.iter().any(|light| light.at.w != 0.0)
+}
+
+/// The light of an item. Where there are punctual lights, nothing of it depends on a direction.
+pub(super) fn light(scene: &Scene, item: &Item) -> Light {
+    match punctual(scene, item) {
+        [] => scene.light,
+        _ => Light { diffuse: 0.0, ..scene.light },
+    }
 }
 
 /// The direction against that of the viewing axis. Camera space has z away from the eye.
@@ -84,7 +105,7 @@ fn towards_eye(scene: &Scene) -> DVec3 {
 
 /// The highlights of an item in the light of its scene.
 pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
-    Highlight::new(&item.material.specular, &scene.light, towards_eye(scene))
+    Highlight::new(&item.material.specular, &light(scene, item), towards_eye(scene))
 }
 
 /// The eye, where w of clip space grows with the distance; else the direction to it.
@@ -129,7 +150,8 @@ impl<'a> Prepared<'a> {
             points: Vec::new(),
             carries: plan.carries,
             texture: plan.carries.has(Attributes::UV).then_some(texture),
-            light: if is_lit(scene, item) { scene.light } else { Light::NONE },
+            light: if is_lit(scene, item) { light(scene, item) } else { Light::NONE },
+            punctual: if is_lit(scene, item) { punctual(scene, item) } else { &[] },
             highlight: highlight(scene, item),
             veil: Veil::new(scene.fog.as_ref(), &scene.projection),
             light_view: None,

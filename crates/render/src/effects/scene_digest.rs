@@ -1,22 +1,13 @@
 //! A digest of a scene, by which the plan of another one is recognized.
 
-use std::fmt;
+use std::{fmt, io};
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::pipeline::assemble::Cull;
-use crate::pipeline::fog::{Fog, Growth};
-use crate::pipeline::highlight::Specular;
-use crate::pipeline::opacity::{AlphaMode, Opacity};
-use crate::pipeline::physical::Physical;
-use crate::pipeline::shade::Light;
-use crate::scene::Shadows;
-use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
+use crate::scene::Scene;
 
-/// 64 bits of all that a plan depends on in a scene: meshes with their attributes, where they are and how
-/// they are seen, materials, light, and how what is hidden is found out. The texels of a texture are not
-/// among it, only whether there is one; nor are the names of the scene.
+/// 64 bits of all that a plan depends on in a scene: whatever of it is serialized. Those are neither its names nor the texels
+/// of its textures.
 ///
 /// It recognizes a mistake. It is no protection from somebody who looks for two scenes with one digest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,53 +16,12 @@ pub struct SceneDigest(u64);
 
 impl SceneDigest {
     /// The digest of a scene.
+    ///
+    /// # Panics
+    /// Never: lists and structs have a form in bytes, and nothing is written.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        // Every field is named, so that a new one is considered.
-        let Scene {
-            name: _,
-            about: _,
-            items,
-            view,
-            projection,
-            light: Light { towards, ambient, diffuse },
-            shadows,
-            fog,
-            background,
-            hidden,
-            layers,
-            affine,
-        } = scene;
-        let mut words = Words(0);
-        words.numbers(&view.to_cols_array());
-        words.numbers(&projection.to_cols_array());
-        words.point(*towards);
-        words.numbers(&[*ambient, *diffuse]);
-        if let Some(Shadows { size, bits }) = *shadows {
-            words.whole(u64::from(size) << 32 | u64::from(bits));
-        }
-        if let Some(Fog { colour: [r, g, b], growth }) = *fog {
-            let (kind, numbers) = match growth {
-                Growth::Linear { start, end } => (1, [start, end]),
-                Growth::Exponential { density } => (2, [density, 0.0]),
-            };
-            words.whole(u32::from_le_bytes([r, g, b, kind]).into());
-            words.numbers(&numbers);
-        }
-        words.whole(u32::from_le_bytes(*background).into());
-        words.whole(match hidden {
-            Hidden::DepthBuffer => 0,
-            Hidden::Painter => 1,
-        });
-        words.whole((*affine).into());
-        if let Some(layers) = layers {
-            words.whole(layers.get().into());
-        }
-        words.whole(items.len() as u64);
-        for item in items {
-            words.item(item);
-        }
-        Self(words.0)
+        Self(postcard::to_io(scene, Words(0)).expect("a scene has a form in bytes").0)
     }
 }
 
@@ -100,95 +50,35 @@ impl TryFrom<String> for SceneDigest {
 /// Words mixed into one, each by the finalizer of SplitMix64 (Steele, Lea, Flood 2014).
 struct Words(u64);
 
-impl Words {
-    fn whole(&mut self, word: u64) {
-        let z = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15) ^ word;
-        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        self.0 = z ^ (z >> 31);
+impl io::Write for Words {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        for bytes in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..bytes.len()].copy_from_slice(bytes);
+            let z = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15) ^ u64::from_le_bytes(word);
+            let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            self.0 = z ^ (z >> 31);
+        }
+        Ok(bytes.len())
     }
 
-    fn numbers(&mut self, numbers: &[f64]) {
-        numbers.iter().for_each(|number| self.whole(number.to_bits()));
-    }
-
-    fn point(&mut self, point: DVec3) {
-        self.numbers(&point.to_array());
-    }
-
-    fn item(&mut self, item: &Item) {
-        let Item { mesh, model, material, cull, two_sided } = item;
-        let Material { colour, vertex_colours, texture, shading, specular, opacity, physical } =
-            material;
-        self.numbers(&model.to_cols_array());
-        self.point(*colour);
-        self.whole((*vertex_colours).into());
-        let has_mip_map = texture.as_ref().is_some_and(|texture| texture.has_mip_map());
-        self.whole(u64::from(texture.is_some()) + u64::from(has_mip_map));
-        let anisotropy = texture.as_ref().map_or(1, |texture| texture.anisotropy);
-        if anisotropy > 1 {
-            self.whole(anisotropy.into());
-        }
-        self.whole(match shading {
-            Shading::Unlit => 0,
-            Shading::Flat => 1,
-            Shading::Gouraud => 2,
-            Shading::Phong => 3,
-        });
-        // Of a scene without highlights the digest is what it was.
-        if *specular != Specular::default() {
-            self.point(specular.colour);
-            self.numbers(&[specular.shininess]);
-        }
-        if let Some(physical) = physical {
-            let Physical { metal, roughness, emission, occlusion, bumps, straight, grazing, maps } =
-                &**physical;
-            self.point(*emission);
-            self.point(*straight);
-            self.numbers(&[*metal, *roughness, *occlusion, *bumps, *grazing]);
-            for map in maps {
-                self.whole(map.as_ref().map_or(0, |map| 1 + u64::from(map.has_mip_map())));
-            }
-        }
-        if let Some(Opacity { factor, map, mode }) = opacity {
-            let (kind, threshold) = match *mode {
-                AlphaMode::Test { threshold } => (1, threshold),
-                AlphaMode::Blend => (2, 0.0),
-            };
-            self.whole(kind);
-            self.numbers(&[*factor, threshold]);
-            // A plan depends on the blocks of a map.
-            let blocks = map.as_ref().map_or(&[][..], |map| map.blocks());
-            self.whole(blocks.len() as u64);
-            blocks.iter().for_each(|block| self.whole(u16::from_le_bytes(*block).into()));
-        }
-        self.whole(match cull {
-            Cull::None => 0,
-            Cull::Clockwise => 1,
-            Cull::CounterClockwise => 2,
-        });
-        // Of a scene without such items the digest is what it was.
-        if *two_sided {
-            self.whole(1);
-        }
-        self.whole(mesh.positions.len() as u64);
-        mesh.positions.iter().for_each(|position| self.point(*position));
-        self.whole(mesh.triangles.len() as u64);
-        for Corner { position, colour, normal, uv } in mesh.triangles.corners() {
-            self.whole(position.into());
-            self.point(colour);
-            self.point(normal);
-            self.numbers(&uv.to_array());
-        }
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::DMat4;
+    use glam::{DMat4, DVec3};
 
     use super::*;
-    use crate::scene::shapes;
+    use crate::pipeline::assemble::Cull;
+    use crate::pipeline::fog::{Fog, Growth};
+    use crate::pipeline::opacity::{AlphaMode, Opacity};
+    use crate::pipeline::physical::Physical;
+    use crate::pipeline::punctual::{Kind, PunctualLight};
+    use crate::scene::{Hidden, Item, Material, Shading, Shadows, shapes};
 
     #[test]
     fn whatever_a_plan_depends_on_changes_the_digest() {
@@ -202,7 +92,7 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 16] = [
+        let changes: [(&str, Change); 18] = [
             ("in shadow", |scene| scene.shadows = Some(Shadows::default())),
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
@@ -222,6 +112,14 @@ mod tests {
                 let mode = AlphaMode::Test { threshold: 0.5 };
                 let opacity = Opacity { factor: 1.0, map: None, mode };
                 scene.items[0].material.opacity = Some(opacity);
+            }),
+            ("a light of its own", |scene| {
+                let light = PunctualLight::new(Kind::Directional, DVec3::ONE, 1.0);
+                scene.punctual.push(light);
+            }),
+            ("tangents", |scene| {
+                let mesh = std::sync::Arc::unwrap_or_clone(scene.items[0].mesh.clone());
+                scene.items[0].mesh = std::sync::Arc::new(shapes::with_tangents(mesh));
             }),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
             ("lit from both sides", |scene| scene.items[0].two_sided = true),

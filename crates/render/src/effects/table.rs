@@ -69,6 +69,8 @@ effects! {
     Specular = "specular": Material, highlights, Some([240, 190, 60]);
     /// What metal and roughness reflect, and from where it is seen.
     Reflection = "reflection": Material, reflections, Some([245, 130, 160]);
+    /// Adding the light of directions, points and cones.
+    Punctual = "punctual-lights": Material, punctual, Some([255, 225, 60]);
     /// Turning normals by a map, and the tangents they need.
     NormalMaps = "normal-maps": Material, bumped, Some([130, 130, 250]);
     /// Multiplying ambient light by a map.
@@ -100,3 +102,58 @@ effects! {
     /// A front buffer that never shows an unfinished frame.
     SecondBuffer = "second-buffer": Planned, presented, None;
 }
+
+/// Gives the effects of single fragments to a macro, in the order of [`Effect::ALL`].
+///
+/// Each row: the field in a plan, a rule and the facts, what in it pays, the effect, where a planned rule says so, and the condition
+/// in `conditions`. The fragments of a piece pay where a `fact` of it is true or not known, or as much as a function says `by` the
+/// rule and all facts.
+macro_rules! fragment_effects {
+    ($for_each:ident) => {
+        $for_each! {
+            /// Whether the material's highlight is computed and added.
+            specular: bool = true => Specular, "where a highlight may show between the normals of the corners.",
+                specular::CONDITION, fact is_shiny;
+            /// Whether it is computed what metal and roughness reflect; else the surface is matt.
+            reflection: bool = true => Reflection, "where a normal may face the light.",
+                physical::REFLECTION, fact is_reflecting;
+            /// Whether punctual lights are added.
+            punctual: bool = true => Punctual, "where the light may arrive and a normal may face it.",
+                physical::PUNCTUAL, fact is_reached;
+            /// Whether normals are turned by a map.
+            normal_maps: bool = true => NormalMaps, "where the map is not known to be flat.",
+                physical::NORMAL_MAPS, fact is_bumpy;
+            /// Whether ambient light is multiplied by an occlusion.
+            occlusion: bool = true => Occlusion, "where the map is not known to be white.",
+                physical::OCCLUSION, fact is_occluded;
+            /// Whether emission is added.
+            emission: bool = true => Emission, "where the map is not known to be black.",
+                physical::EMISSION, fact is_emitting;
+            /// Whether it is looked up which part of the light arrives.
+            shadows: bool = true => Shadows, "where something may lie between a piece and the light.",
+                shadows::CONDITION, fact is_shadowed;
+            /// Whether textures are read at a level of detail.
+            mip_maps: bool = true => MipMaps, "where a texture is not known to be magnified everywhere.",
+                mip_maps::CONDITION, fact is_minified;
+            /// Whether textures may be read several times along the longer axis of a footprint.
+            anisotropy: bool = true => Anisotropy,
+                "where the axes of a footprint are not known to be about as long everywhere.",
+                anisotropy::CONDITION, fact is_stretched;
+            /// Whether its fragments are mixed with fog, or show nothing else.
+            fog: Share = Share::Mixed => Fog, "as much as there is between the depths of the corners.",
+                fog::CONDITION, by fog::share;
+            /// Whether the opacity of its fragments is compared with a threshold, or is below it everywhere.
+            alpha_test: Drawn = Drawn::Mixed => AlphaTest,
+                "where the opacities that a piece may read lie on both sides of the threshold.",
+                alpha_test::CONDITION, by alpha_test::share;
+            /// Whether its fragments are mixed with what is behind them, or cover nothing of it.
+            blending: Drawn = Drawn::Mixed => Blending,
+                "where a piece may read an opacity that is neither 0 nor 255.",
+                blending::CONDITION, by blending::share;
+            /// Whether fragments that are mixed are kept, and mixed in the order of their depths when all is drawn.
+            layers: bool = true => Layers, "where fragments are mixed and their depths tested, whatever else is there.",
+                layers::CONDITION, fact meets_blended;
+        }
+    };
+}
+pub(super) use fragment_effects;

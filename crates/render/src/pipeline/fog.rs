@@ -12,7 +12,7 @@ use super::target::{Colour, to_colour};
 use rasterproof_core::arrays::MapArray as _;
 
 /// The share of fog as a function of the distance from the eye.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub enum Growth {
     /// None up to a distance, nothing else from a larger one on.
     Linear { start: f64, end: f64 },
@@ -21,7 +21,7 @@ pub enum Growth {
 }
 
 /// The fog of a scene, in the world: distances are those of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Fog {
     pub colour: [u8; 3],
     pub growth: Growth,

@@ -13,7 +13,7 @@ use rasterproof_core::arrays::MapArray as _;
 use super::shade::Light;
 use super::target::{Colour, to_colour};
 
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Specular {
     /// Its specular colour, each channel in [0, 1]; 0 of a material without highlights.
     pub colour: DVec3,

@@ -22,6 +22,7 @@ pub mod opacity;
 pub mod physical;
 mod plain;
 pub mod present;
+pub mod punctual;
 mod sample;
 pub mod see_through;
 pub mod shade;
@@ -114,6 +115,8 @@ counters! {
     highlights = "highlights";
     /// Evaluations of what metal and roughness reflect.
     reflections = "reflections";
+    /// Fragments to which the light of directions, points and cones was added.
+    punctual = "lit by punctual lights";
     /// Fragments whose normal was turned by a map.
     bumped = "normals turned";
     /// Fragments whose ambient light was multiplied by an occlusion.

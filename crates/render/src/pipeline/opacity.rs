@@ -21,7 +21,7 @@ use super::texture::{Filter, FourTexels, Texture, Wrap};
 use super::wrap::within;
 
 /// How opaque a material is, and what that decides.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Opacity {
     /// Multiplies the opacity of every fragment; in [0, 1].
     pub factor: f64,
@@ -29,7 +29,7 @@ pub struct Opacity {
     pub mode: AlphaMode,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub enum AlphaMode {
     /// It is drawn from this opacity on, in [0, 1]; above 1 never.
     Test { threshold: f64 },
@@ -130,7 +130,7 @@ impl AlphaMode {
 
 /// A picture of opacities, with the least and the largest of each block of its texels. Copies that are read differently
 /// share both.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct OpacityMap {
     texture: Texture,
     blocks: Arc<[[u8; 2]]>,

@@ -10,7 +10,7 @@
 //! - what is reflected = ((1 - F) b (1 - m) / pi + F V D) n.l for each unit of light.
 //!
 //! The light of a scene is pi times its `diffuse`, so that a white matt surface that faces it has the colour that it has
-//! without all this. There is no environment, which the specification leaves to the viewer: ambient light comes from all sides alike
+//! without all this; in a scene with punctual lights ([`super::punctual`]) these light its surfaces instead. There is no environment, which the specification leaves to the viewer: ambient light comes from all sides alike
 //! and is multiplied by b and by the occlusion. Emission is added, and the sum is encoded.
 //!
 //! The denominator of D loses digits where h is near n, so (n.h)^2 (a^2 - 1) + 1 is computed as |n x h|^2 + a^2 (n.h)^2. A roughness below
@@ -23,6 +23,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 
 use super::linear;
+use super::punctual::PunctualLight;
 use super::shade::Light;
 use super::target::Colour;
 use super::texture::Texture;
@@ -54,7 +55,7 @@ impl Map {
     }
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Physical {
     /// From 0, as plastic or wood, to 1, as metal.
     pub metal: f64,
@@ -120,6 +121,14 @@ pub struct Point {
     pub texels: [DVec3; Map::ALL.len()],
     /// Which part of the light arrives, from 0 to 1.
     pub lit: f64,
+    /// Where it is in world space, which decides how much of a punctual light arrives.
+    pub place: DVec3,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Lights<'a> {
+    pub main: &'a Light,
+    pub punctual: &'a [PunctualLight],
 }
 
 impl Physical {
@@ -137,11 +146,12 @@ impl Physical {
 
     /// The colour of a point in a light.
     #[must_use]
-    pub fn colour(&self, light: &Light, point: &Point, parts: Parts) -> Colour {
-        linear::encoded(self.light(light, point, parts))
+    pub fn colour(&self, lights: Lights<'_>, point: &Point, parts: Parts) -> Colour {
+        linear::encoded(self.light(lights, point, parts))
     }
 
-    fn light(&self, light: &Light, point: &Point, parts: Parts) -> DVec3 {
+    fn light(&self, lights: Lights<'_>, point: &Point, parts: Parts) -> DVec3 {
+        let light = lights.main;
         let texel = |map: Map| point.texels[map as usize];
         // As in [`Light::intensity`], so that the cosine has the sign of the product.
         let length = point.normal.length();
@@ -157,17 +167,24 @@ impl Physical {
             1.0
         };
         let mut sum = point.base * (light.ambient * occlusion);
-        let arriving = light.diffuse * point.lit * cosine;
-        if cosine > 0.0 && arriving > 0.0 {
-            sum += arriving
-                * if parts.reflection {
-                    let DVec3 { y: roughness, z: metal, .. } = texel(Map::Metal);
-                    let of = [self.metal * metal, self.roughness * roughness];
-                    let to_eye = point.to_eye.normalize_or_zero();
-                    self.reflected(point.base, of, cosine, [normal, light.towards, to_eye])
-                } else {
-                    point.base
-                };
+        let mut add = |towards: DVec3, cosine: f64, arriving: DVec3| {
+            if cosine > 0.0 && arriving.max_element() > 0.0 {
+                sum += arriving
+                    * if parts.reflection {
+                        let DVec3 { y: roughness, z: metal, .. } = texel(Map::Metal);
+                        let of = [self.metal * metal, self.roughness * roughness];
+                        let to_eye = point.to_eye.normalize_or_zero();
+                        self.reflected(point.base, of, cosine, [normal, towards, to_eye])
+                    } else {
+                        point.base
+                    };
+            }
+        };
+        add(light.towards, cosine, DVec3::splat(light.diffuse * point.lit * cosine));
+        for light in lights.punctual {
+            let (towards, arriving) = light.arriving_at(point.place);
+            let cosine = normal.dot(towards);
+            add(towards, cosine, light.colour * (arriving * cosine));
         }
         if parts.emission {
             sum += self.emission * texel(Map::Emission);
@@ -226,11 +243,14 @@ mod tests {
             to_eye: DVec3::Z * 5.0,
             texels: Map::ALL.map(Map::missing),
             lit: 1.0,
+            place: DVec3::ZERO,
         }
     }
 
+    const LIGHTS: Lights<'_> = Lights { main: &LIGHT, punctual: &[] };
+
     fn light(surface: &Physical, point: &Point) -> f64 {
-        surface.light(&LIGHT, point, ALL).x
+        surface.light(LIGHTS, point, ALL).x
     }
 
     fn is_near(a: f64, b: f64) -> bool {
@@ -296,7 +316,7 @@ mod tests {
         of.texels[Map::Occlusion as usize] = DVec3::new(0.0, 1.0, 1.0);
         let direct = 0.5 * (0.96 * 0.5 + 0.04 * 16.0 / 4.0);
         assert!(is_near(light(&surface, &of), 0.5 * 0.25 * 0.5 + direct + 0.025));
-        assert!(is_near(surface.light(&LIGHT, &of, ALL).y, 0.5 * 0.25 * 0.5 + direct + 0.5));
+        assert!(is_near(surface.light(LIGHTS, &of, ALL).y, 0.5 * 0.25 * 0.5 + direct + 0.5));
         // The light behind, or in shadow: ambient light and emission.
         let behind = Point { normal: -DVec3::Z, ..of };
         let dark = Point { lit: 0.0, ..of };

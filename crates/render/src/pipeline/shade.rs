@@ -100,7 +100,7 @@ impl From<Attributes<PLACED>> for Surface {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Light {
     /// Towards the light, length 1.
     pub towards: DVec3,

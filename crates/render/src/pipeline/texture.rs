@@ -30,14 +30,16 @@ pub enum Filter {
 
 /// An opaque picture that is looked up by (u, v): u right, v **up**, [0, 1] each over the picture. Copies that are read
 /// differently share the texels and what is computed from them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Texture {
     width: u32,
     height: u32,
     /// Subtexels of a row and of a column.
     subtexels: DVec2,
+    #[serde(skip)]
     texels: Texels,
     /// The channel in [0, 1] of each byte.
+    #[serde(skip)]
     channels: &'static [f64; 256],
     /// Beyond the borders in u and in v.
     pub wrap: [Wrap; 2],
@@ -52,6 +54,7 @@ pub struct Texture {
     /// Its mip map: smaller and smaller pictures, down to one texel; empty without one. A texture that has none and is filtered
     /// in another way where it is minified has itself as its only level.
     levels: Vec<Texture>,
+    #[serde(skip)]
     derived: Arc<Derived>,
 }
 

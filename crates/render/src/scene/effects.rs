@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::entry::{AHEAD, Entry, daylight, entry, turned, with};
 use super::{Item, Material, Mesh, Scene, Shading, Shadows, shapes, textures};
@@ -13,6 +13,7 @@ use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use crate::pipeline::physical::{Map, Physical};
+use crate::pipeline::punctual::{Kind, PunctualLight};
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_core::angle::{turn_x, turn_y, turn_z};
@@ -64,6 +65,11 @@ pub const SCENES: &[Entry] = &[
         "surfaces",
         "a wall with bumps in its middle, grooves that keep ambient light, lamps that emit and a turning box of the same",
         surfaces,
+    ),
+    entry(
+        "lights",
+        "spheres before a wall in a dark room: a cone from above, a red and a blue point that reach only what is near, and moonlight",
+        lights,
     ),
 ];
 
@@ -412,6 +418,35 @@ fn metal(scene: Scene, turn: f64) -> Scene {
         }
     }
     Scene { light: sunlight(), ..with(scene, items) }
+}
+
+fn lights(scene: Scene, turn: f64) -> Scene {
+    let plaster = physical(DVec3::splat(0.6), Physical { roughness: 0.8, ..Physical::default() });
+    let wall = Item::new(board(DVec3::new(0.0, 0.0, 7.0), 9.0, 16), plaster.clone());
+    let place = DVec3::new(0.0, -1.3, 5.0);
+    let floor = Item::new(board(place, 9.0, 16), plaster);
+    let mut items = vec![wall, turned(floor, place, turn_x(TAU / 4.0))];
+    for (x, roughness, metal) in [(-1.5, 0.5, 0.0), (0.0, 0.35, 1.0), (1.5, 0.25, 0.0)] {
+        let surface = Physical { roughness, metal, ..Physical::default() };
+        let sphere = shapes::sphere(DVec3::new(x, -0.7, 5.0), 0.6, 32, 16);
+        let sphere = Item::new(sphere, physical(DVec3::new(0.8, 0.75, 0.7), surface));
+        items.push(Item { cull: Cull::Clockwise, ..sphere });
+    }
+    let at = |x: f64, y: f64, z: f64| DMat4::from_translation(DVec3::new(x, y, z));
+    let spot = Kind::Spot { range: f64::INFINITY, inner_rad: 0.2, outer_rad: 0.35 };
+    let point = Kind::Point { range: 2.5 };
+    let of = |kind, colour, intensity, place: DMat4| {
+        PunctualLight::new(kind, DVec3::from_array(colour), intensity).placed(place)
+    };
+    // Lights shine along -z: the cone and the moon are turned downwards.
+    let punctual = vec![
+        of(spot, [1.0, 0.9, 0.7], 40.0, at(0.0, 2.6, 4.0) * turn_y(0.3 * turn) * turn_x(-1.9)),
+        of(point, [1.0, 0.1, 0.05], 6.0, at(-2.2, 0.2, 4.2)),
+        of(point, [0.1, 0.25, 1.0], 8.0, at(2.3, 0.3, 4.4)),
+        of(Kind::Directional, [0.6, 0.7, 1.0], 0.15, turn_x(-0.9) * turn_y(0.6)),
+    ];
+    let light = Light { ambient: 0.02, diffuse: 0.0, ..daylight() };
+    Scene { light, punctual, ..with(scene, items) }
 }
 
 fn surfaces(scene: Scene, turn: f64) -> Scene {

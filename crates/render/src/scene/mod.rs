@@ -22,12 +22,13 @@ use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::Opacity;
 use crate::pipeline::physical::Physical;
+use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
 pub use triangles::{Attribute, Normals, Triangles};
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Corner {
     pub position: u32,
     /// Its colour, each channel in [0, 1].
@@ -38,7 +39,7 @@ pub struct Corner {
     pub uv: DVec2,
 }
 
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Mesh {
     /// Positions in object space, which copies of the mesh share until one of them changes.
     pub positions: Arc<Vec<DVec3>>,
@@ -91,7 +92,7 @@ impl Shading {
     }
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Material {
     /// Everything is multiplied by this, each channel in [0, 1].
     pub colour: DVec3,
@@ -143,7 +144,7 @@ impl Default for Material {
 }
 
 /// One mesh in the world.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Item {
     pub mesh: Arc<Mesh>,
     /// From object to world space.
@@ -176,7 +177,7 @@ pub enum Hidden {
 }
 
 /// The map of what the light sees, from which shadows are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Shadows {
     pub size: u32,
     /// In how many bits it holds a depth: whole steps from 0 to 1.
@@ -189,9 +190,11 @@ impl Default for Shadows {
     }
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Scene {
+    #[serde(skip)]
     pub name: String,
+    #[serde(skip)]
     pub about: String,
     /// What is in it, in drawing order.
     pub items: Vec<Item>,
@@ -201,6 +204,8 @@ pub struct Scene {
     pub projection: DMat4,
     /// The light, in world space.
     pub light: Light,
+    /// What lights physical surfaces instead of what a surface that faces `light` gets; ambient light stays.
+    pub punctual: Vec<PunctualLight>,
     /// Whether surfaces keep the light from others, and by what map.
     pub shadows: Option<Shadows>,
     /// What makes far things fade. Only with a projection whose z and w depend on the distance alone.
@@ -228,6 +233,7 @@ impl Scene {
             view: DMat4::IDENTITY,
             projection,
             light: Light::NONE,
+            punctual: Vec::new(),
             shadows: None,
             fog: None,
             background: [18, 18, 24, u8::MAX],

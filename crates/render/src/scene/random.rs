@@ -5,7 +5,7 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 
 use super::Shadows;
 use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
@@ -14,6 +14,7 @@ use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use crate::pipeline::physical::{Map, Physical};
+use crate::pipeline::punctual::{Kind, PunctualLight};
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use crate::pipeline::transform::{about, frustum};
@@ -43,7 +44,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 
 /// The same scene with effects beyond the book's: some of its materials have
 /// highlights or holes or blend, some of its textures mip maps or anisotropy, and some scenes fog
-/// or layers or a shadow map, and some items are physical.
+/// or layers or a shadow map, and some items are physical, some of them in punctual lights.
 ///
 /// # Panics
 /// As [`scene`].
@@ -111,7 +112,28 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
             make_physical(item, &mut rng);
         }
     }
+    if rng.chance(2) {
+        for _ in 0..rng.int(1, 3) {
+            let light = punctual(&mut rng);
+            scene.punctual.push(light);
+        }
+    }
     scene
+}
+
+/// Among the surfaces, with a range that reaches none, some or all of them.
+fn punctual(rng: &mut Rng) -> PunctualLight {
+    let range = [f64::INFINITY, 0.5, 2.0, 8.0][rng.int(0, 3) as usize] * (0.5 + rng.unit());
+    let outer_rad = 1.6 * rng.unit();
+    let inner_rad = outer_rad * rng.unit();
+    let kind =
+        [Kind::Directional, Kind::Point { range }, Kind::Spot { range, inner_rad, outer_rad }]
+            [rng.int(0, 2) as usize];
+    let colour = DVec3::new(rng.unit(), rng.unit(), rng.unit());
+    let place = DVec3::new(2.0 * rng.signed(), 2.0 * rng.signed(), 1.0 + 4.0 * rng.unit());
+    let turn = turn_y(3.0 * rng.signed()) * turn_x(rng.signed());
+    PunctualLight::new(kind, colour, 30.0 * rng.unit())
+        .placed(DMat4::from_translation(place) * turn)
 }
 
 /// Gives an item a surface in linear light, with maps that are mostly plain.

@@ -284,6 +284,13 @@ impl PartialEq for Triangles {
     }
 }
 
+/// The corners of each triangle, in whichever form they are stored.
+impl serde::Serialize for Triangles {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq((0..self.len()).map(|i| (self.at(i), self.tangents(i))))
+    }
+}
+
 impl Extend<[Corner; 3]> for Triangles {
     fn extend<I: IntoIterator<Item = [Corner; 3]>>(&mut self, triangles: I) {
         triangles.into_iter().for_each(|corners| self.push(corners));

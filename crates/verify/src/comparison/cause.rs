@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::Convention;
-use crate::convention::{Confidence, Diagnosis, Known, LineDiagnosis, LineQuestion, Question};
+use crate::convention::{Ask, Confidence, Diagnosis, Known, LineDiagnosis, LineQuestion, Question};
 use crate::mistakes::{self, Mistakes};
 use rasterproof_core::frame::Coverage;
 
@@ -32,11 +32,16 @@ impl Cause {
         mut draw: impl FnMut(&Question) -> Option<Coverage>,
     ) -> Self {
         let mut ask = |questions: &[Question]| questions.iter().map(&mut draw).collect();
-        let known = Known::from(declared);
-        let found = crate::convention::diagnose(&mut ask, &known, SEED);
+        Self::by_asking(&mut ask, &Known::from(declared), declared)
+    }
+
+    /// Asks whoever answers, in batches.
+    #[doc(hidden)]
+    pub fn by_asking(ask: &mut dyn Ask, known: &Known, declared: &Convention) -> Self {
+        let found = crate::convention::diagnose(ask, known, SEED);
         let cause =
             Self::of(found.confidence, &found.sentence(), Self::declaration(&found, declared));
-        cause.with(mistakes::of_triangles(&mut ask, &known, Some(&found), &[], &|| true))
+        cause.with(mistakes::of_triangles(ask, known, Some(&found), &[], &|| true))
     }
 
     /// Asks for about 1,100 lines in a small window.

@@ -21,6 +21,11 @@ pub trait Ask {
     /// One answer for each question, in order: the hits of each pixel of its window, or None where
     /// the program refused or died.
     fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>>;
+
+    /// Whether nobody waits for a conclusion: the answers come later, and all is asked again.
+    fn is_abandoned(&self) -> bool {
+        false
+    }
 }
 
 impl<F: FnMut(&[Question]) -> Vec<Option<Coverage>>> Ask for F {
@@ -48,7 +53,7 @@ impl Default for Known {
         Self {
             grid: 256,
             range_px: 1 << 22,
-            window_px: (SIDE_PX as u32, SIDE_PX as u32),
+            window_px: (4096, 4096),
             mask: false,
             declared: Convention::default(),
         }

@@ -178,17 +178,34 @@ pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
 
 /// Twice the area in 1/65536 square pixels, or the width or the height in subpixels.
 pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
-    let extent = |v: [i32; 3]| {
-        let (low, high) =
-            (v.iter().min().copied().unwrap_or(0), v.iter().max().copied().unwrap_or(0));
-        i64::from(high) - i64::from(low)
+    let extent = |of: [i32; 3]| {
+        let [least, most] = [of.into_iter().min(), of.into_iter().max()];
+        i64::from(most.unwrap_or(0)) - i64::from(least.unwrap_or(0))
     };
+    let farthest =
+        |of: [i32; 3]| of.map_array(|v| i64::from(v).abs()).into_iter().max().unwrap_or(0);
+    let [xs, ys] = [corners.map_array(|c| c.x), corners.map_array(|c| c.y)];
     match which {
-        0 => i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 8),
-        1 => extent(corners.map_array(|c| c.x)),
-        _ => extent(corners.map_array(|c| c.y)),
+        0 => i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32),
+        1 => extent(xs),
+        2 => extent(ys),
+        3 => extent(xs).max(extent(ys)),
+        4 => farthest(xs).max(farthest(ys)),
+        5 => farthest(xs),
+        _ => farthest(ys),
     }
 }
+
+/// What [`metric`] measures, and in which unit that is said.
+pub(super) const METRICS: [(&str, &str); 7] = [
+    ("area", "square px"),
+    ("width", "px"),
+    ("height", "px"),
+    ("longer side", "px"),
+    ("farthest coordinate", "px"),
+    ("farthest x", "px"),
+    ("farthest y", "px"),
+];
 
 /// `value / of` with three digits that count.
 pub(super) fn decimal(value: i64, of: i64) -> String {
@@ -292,7 +309,7 @@ pub(super) fn tiles(mask: &mut Mask, _: &Corners, window: PixelRect, p: i64) {
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 7] = [
+pub(super) const FORMULAS: [&str; 9] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -300,6 +317,8 @@ pub(super) const FORMULAS: [&str; 7] = [
     "barycentric weights of which the third is 1 minus the others",
     "barycentric weights times the reciprocal of the area, the third being 1 minus the others",
     "the edge function with corners relative to the sample",
+    "the products of the edge function, of differences that are exact",
+    "the edge function with a fused multiplication and addition",
 ];
 
 /// One of `FORMULAS`, with a rounding to f32 after every operation or without. Of corners that turn the other way, two are
@@ -318,14 +337,23 @@ pub(super) fn float(
         return Mask::default();
     }
     let points = points(corners);
-    let px = |p: Point| p.map_array(|v| r(v as f64 / 256.0));
+    let is_exact = formula == 7;
+    let px =
+        |p: Point| p.map_array(|v| if is_exact { v as f64 / 256.0 } else { r(v as f64 / 256.0) });
     let mut ordered = points;
     let sign = if turns < 0 && !exchanges { -1.0 } else { 1.0 };
     if turns < 0 && exchanges {
         ordered.swap(1, 2);
     }
     let edge = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
-        r(r(r(q[0] - p[0]) * r(at[1] - p[1])) - r(r(q[1] - p[1]) * r(at[0] - p[0])))
+        let [dx, dy] = [q[0] - p[0], q[1] - p[1]].map_array(r);
+        let [x, y] = [at[0] - p[0], at[1] - p[1]].map_array(r);
+        let second = r(dy * x);
+        match (formula, single) {
+            (8, true) => f64::from((dx as f32).mul_add(y as f32, -second as f32)),
+            (8, false) => dx.mul_add(y, -second),
+            _ => r(r(dx * y) - second),
+        }
     };
     let corners = ordered.map_array(px);
     let sides = [[0, 1], [1, 2], [2, 0]];
@@ -367,7 +395,7 @@ pub(super) fn float(
     each_sample(window, at_sample, &|at| {
         let at = px(at);
         let values = match formula {
-            0 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
+            0 | 7 | 8 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
             1 => sides.map_array(|[i, j]| {
                 let [p, q] = [corners[i], corners[j]];
                 let [a, b] = [r(p[1] - q[1]), r(q[0] - p[0])];

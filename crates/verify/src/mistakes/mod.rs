@@ -11,6 +11,7 @@ mod common;
 mod fills;
 mod lines;
 mod questions;
+mod thresholds;
 mod triangles;
 pub mod values;
 mod weigh;
@@ -29,6 +30,7 @@ use rasterproof_core::triangle::Corners;
 use triangles::{BY_WINDING, Fill};
 use weigh::{LEAST_WRONG, weigh};
 
+pub use thresholds::Threshold;
 pub use weigh::Hypothesis;
 
 /// An entry of a table.
@@ -139,6 +141,8 @@ pub struct Mistakes {
     pub common: Vec<String>,
     /// Questions whose answer was wrong, of all that were answered.
     pub wrong: Count,
+    /// From which size, slope or position on it is wrong, where there is such a limit.
+    pub limits: Vec<Threshold>,
 }
 
 impl Mistakes {
@@ -170,12 +174,17 @@ impl Mistakes {
         if self.is_known() {
             let more = self.causes.len().saturating_sub(MOST_SAID);
             said.extend((more > 0).then(|| format!("{more} other causes explain the same.")));
+            said.extend(self.limits.iter().map(Threshold::to_string));
             return said;
         }
         let Count { drawn, of } = self.wrong;
-        said.push(format!(
-            "{drawn} of {of} answers are wrong, and no known mistake explains them."
-        ));
+        said.push(match drawn {
+            0 => format!("None of {of} answers is wrong, but other ones are."),
+            _ => {
+                format!("{drawn} of {of} answers are wrong, and no known mistake explains them.")
+            }
+        });
+        said.extend(self.limits.iter().map(Threshold::to_string));
         said.extend(self.common.iter().cloned());
         if let Some(lead) = &self.lead {
             let explained = share(&lead.wrong, &lead.right);
@@ -233,19 +242,25 @@ pub fn of_triangles(
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
-    for questions in questions::triangles(known, sample_of(expected), SEED).chunks(AT_ONCE) {
-        if !goes_on() {
-            break;
+    let mut ask_all = |questions: &[Question], answered: &mut Vec<Answered<Question>>| {
+        for questions in questions.chunks(AT_ONCE).take_while(|_| goes_on()) {
+            for (question, answer) in questions.iter().zip(ask.ask(questions)) {
+                let right = expected.mask(&question.corners, question.window);
+                let Some(right) = right else { continue };
+                // What is not answered is not drawn.
+                let drawn = answer.filter(|a| a.bounds() == question.window);
+                let hits = |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
+                let twice = if known.mask { Mask::default() } else { hits(2) };
+                answered.push(Answered { question: *question, drawn: hits(1), twice, right });
+            }
         }
-        let answers = ask.ask(questions);
-        for (question, answer) in questions.iter().zip(answers) {
-            let Some(right) = expected.mask(&question.corners, question.window) else { continue };
-            // What is not answered is not drawn.
-            let drawn = answer.filter(|a| a.bounds() == question.window);
-            let hits = |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
-            let twice = if known.mask { Mask::default() } else { hits(2) };
-            answered.push(Answered { question: *question, drawn: hits(1), twice, right });
-        }
+    };
+    ask_all(&questions::triangles(known, sample_of(expected), SEED), &mut answered);
+    // Width, height and area are told apart near the limits between what is drawn and what is not.
+    let sizes = limits(&answered).into_iter().map(triangles::size);
+    ask_all(&thresholds::near(sizes, known, expected), &mut answered);
+    if ask.is_abandoned() {
+        return None;
     }
     let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
     let bases = bases(&known.declared, found);
@@ -285,7 +300,8 @@ pub fn of_triangles(
         program.hypothesis(&answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
     }));
     let seen = || answered.iter().map(common::Seen::triangle).collect();
-    conclude(hypotheses, &is_wrong, &seen)
+    let found = conclude(hypotheses, &is_wrong, &seen);
+    with_limits(found, is_wrong.len(), thresholds::of_triangles(ask, known, expected, goes_on))
 }
 
 /// The same for a line drawer: it asks for 700 lines of at most 40,000 steps.
@@ -369,7 +385,8 @@ pub fn of_lines(
         programs.iter().map(|program| program.hypothesis(&answered, |q, pixels| drawn(q, pixels))),
     );
     let seen = || answered.iter().map(common::Seen::line).collect();
-    conclude(hypotheses, &is_wrong, &seen)
+    let found = conclude(hypotheses, &is_wrong, &seen);
+    with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected, goes_on))
 }
 
 impl<Question, Picture> Program<'_, Question, Picture> {
@@ -423,8 +440,23 @@ fn conclude(
         causes,
         lead,
         common,
+        limits: Vec::new(),
         wrong: Count { drawn: wrong as u64, of: is_wrong.len() as u64 },
     })
+}
+
+/// Limits may be found where all other answers are right.
+fn with_limits(
+    found: Option<Mistakes>,
+    answers: usize,
+    limits: Vec<Threshold>,
+) -> Option<Mistakes> {
+    let all_right = || {
+        let wrong = Count { drawn: 0, of: answers as u64 };
+        (!limits.is_empty()).then(|| Mistakes { wrong, ..Mistakes::default() })
+    };
+    let found = found.or_else(all_right)?;
+    Some(Mistakes { limits, ..found })
 }
 
 /// Where a sample lies in its pixel, in subpixels.
@@ -527,7 +559,7 @@ fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
 /// Limits of size between what is drawn and what is not.
 fn limits(answered: &[Answered<Question>]) -> Vec<i64> {
     let mut limits = Vec::new();
-    for metric in 0..3 {
+    for metric in 0..fills::METRICS.len() {
         let sizes = |lost: bool| {
             answered
                 .iter()

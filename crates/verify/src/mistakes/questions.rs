@@ -11,19 +11,19 @@ pub(super) const SIDE_PX: i32 = 32;
 const TRIANGLES: usize = 1200;
 const LINES: usize = 700;
 /// The longest line: some programs walk each pixel of it.
-const LONGEST_PX: i64 = 40_000;
+pub(super) const LONGEST_PX: i64 = 40_000;
 
 /// Where coordinates may lie.
-struct Room {
-    rng: Rng,
-    side: [u32; 2],
+pub(super) struct Room {
+    pub(super) rng: Rng,
+    pub(super) side: [u32; 2],
     /// Subpixels between neighbouring coordinates.
-    grain: i64,
-    range_px: i64,
+    pub(super) grain: i64,
+    pub(super) range_px: i64,
 }
 
 impl Room {
-    fn new(known: &Known, seed: u64) -> Self {
+    pub(super) fn new(known: &Known, seed: u64) -> Self {
         let grid = known.grid.clamp(1, SUBPIXELS);
         let grain = if SUBPIXELS % grid == 0 { SUBPIXELS / grid } else { SUBPIXELS };
         let (width, height) = known.window_px;
@@ -50,7 +50,7 @@ impl Room {
         on_grid.clamp(-most, most) as i32
     }
 
-    fn point(&self, [x, y]: [i64; 2]) -> SubpixelPoint {
+    pub(super) fn point(&self, [x, y]: [i64; 2]) -> SubpixelPoint {
         SubpixelPoint::new(self.place(x), self.place(y))
     }
 
@@ -59,7 +59,7 @@ impl Room {
         self.rng.int(low_px * 256, high_px * 256)
     }
 
-    fn inside(&mut self, window: PixelRect) -> [i64; 2] {
+    pub(super) fn inside(&mut self, window: PixelRect) -> [i64; 2] {
         [self.within(0, window.x1.into()), self.within(0, window.y1.into())]
     }
 
@@ -79,6 +79,31 @@ impl Room {
         let [x, y] = [0, 0].map_array(|_| self.rng.int(-1000, 1000) as f64);
         let length = (x * x + y * y).sqrt();
         if length == 0.0 { [1.0, 0.0] } else { [x / length, y / length] }
+    }
+
+    /// The ends of an edge that passes a sample of the window so closely that the edge function there is a small number. The
+    /// sides of its box are given in steps of the grid, and which part of it lies before the sample.
+    pub(super) fn beside(
+        &mut self,
+        window: PixelRect,
+        sample: [i32; 2],
+        edge: [i64; 2],
+        part: f64,
+    ) -> [[i64; 2]; 2] {
+        let edge = if edge == [0, 0] { [1, 0] } else { edge };
+        let pixel = [window.x1, window.y1].map_array(|side| self.rng.int(0, i64::from(side) - 1));
+        let at = [0, 1].map_array(|i| pixel[i] * i64::from(SUBPIXELS) + i64::from(sample[i]));
+        // An offset from the sample to the edge, so that the edge function is `wanted` steps of the grid: u x + v y = g.
+        let (g, u, v) = bezout(edge[0], edge[1]);
+        let wanted = self.rng.int(-4, 4) * self.rng.int(1, 64);
+        let times = wanted.div_euclid(g).clamp(-4000, 4000);
+        // Moved along the edge until the sample lies where it is wanted.
+        let off = [-v * times, u * times];
+        let length: f64 = edge.iter().map(|side| (*side as f64).powi(2)).sum();
+        let ahead = (edge[0] as f64 * off[0] as f64 + edge[1] as f64 * off[1] as f64) / length;
+        let steps = ((part - ahead) * g as f64).round() as i64;
+        let from = [0, 1].map_array(|i| at[i] - (off[i] + steps * (edge[i] / g)) * self.grain);
+        [from, [0, 1].map_array(|i| from[i] + edge[i] * self.grain)]
     }
 
     fn away(&mut self, [x, y]: [i64; 2], [dx, dy]: [f64; 2], length: i64) -> [i64; 2] {
@@ -134,8 +159,18 @@ fn triangle(room: &mut Room, window: PixelRect, sample: [i32; 2], kind: usize) -
             let (wide, high) = (i64::from(window.x1), i64::from(window.y1));
             [room.within(-wide, 2 * wide), room.within(-high, 2 * high)]
         }),
+        // Large ones with a sample very near an edge.
+        8 => {
+            let edge = [0; 2].map_array(|_| room.far() / room.grain);
+            let edge = edge.map_array(|side| if room.rng.chance(2) { side } else { -side });
+            let part = [0.0, 1.0, room.rng.unit()][room.rng.int(0, 2) as usize];
+            let [a, b] = room.beside(window, sample, edge, part);
+            let side = room.direction();
+            let off = room.far();
+            [a, b, room.away(a, side, off)]
+        }
         // Large ones with an edge through the window.
-        7 | 8 => {
+        7 => {
             let at = room.inside(window);
             let along = room.direction();
             let [ahead, back, off] = [0; 3].map_array(|_| room.far());
@@ -160,25 +195,9 @@ fn triangle(room: &mut Room, window: PixelRect, sample: [i32; 2], kind: usize) -
 /// A triangle with an edge that passes a sample so closely that the edge function there is a small number.
 fn near_tie(room: &mut Room, window: PixelRect, sample: [i32; 2]) -> [[i64; 2]; 3] {
     let grain = room.grain;
-    let pixel =
-        [room.rng.int(0, i64::from(window.x1) - 1), room.rng.int(0, i64::from(window.y1) - 1)];
-    let at = [0, 1].map_array(|i| pixel[i] * i64::from(SUBPIXELS) + i64::from(sample[i]));
-    let third = room.near(at, 12);
-    let mut edge = [0; 2].map_array(|_| room.rng.int(-2000 / grain, 2000 / grain));
-    if edge == [0, 0] {
-        edge = [1, 0];
-    }
-    // An offset from the sample to the edge, so that the edge function is `wanted` steps of the grid: u x + v y = g.
-    let (g, u, v) = bezout(edge[0], edge[1]);
-    let wanted = room.rng.int(-4, 4) * room.rng.int(1, 64);
-    let times = wanted.div_euclid(g).clamp(-4000, 4000);
-    // Moved along the edge until the sample lies beside its middle.
-    let off = [-v * times, u * times];
-    let length = (edge[0] * edge[0] + edge[1] * edge[1]) as f64;
-    let ahead = (edge[0] * off[0] + edge[1] * off[1]) as f64 / length;
-    let steps = ((0.5 - ahead) * g as f64).round() as i64;
-    let from = [0, 1].map_array(|i| at[i] - (off[i] + steps * edge[i] / g) * grain);
-    let to = [0, 1].map_array(|i| from[i] + edge[i] * grain);
+    let edge = [0; 2].map_array(|_| room.rng.int(-2000 / grain, 2000 / grain));
+    let [from, to] = room.beside(window, sample, edge, 0.5);
+    let third = room.near([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], 12);
     [from, to, third]
 }
 

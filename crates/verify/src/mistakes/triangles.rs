@@ -315,7 +315,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "triangles are left out by size",
         sentence: |p| {
             let (metric, below, limit) = size(p);
-            let (what, unit) = [("area", "square px"), ("width", "px"), ("height", "px")][metric];
+            let (what, unit) = fills::METRICS[metric];
             let limit = fills::decimal(limit, if metric == 0 { 131_072 } else { 256 });
             format!(
                 "does not draw triangles whose {what} is {} about {limit} {unit}",
@@ -586,13 +586,15 @@ const STEPS: [i32; 4] = [256, 128, 64, 16];
 const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
 const CLIP_STEPS: [i64; 4] = [256, 64, 16, 4];
 
+const METRICS: i64 = fills::METRICS.len() as i64;
+
 /// A metric of the size, whether what lies below it is left out, and the limit: packed in a number.
 pub(super) fn packed_size(metric: usize, below: bool, limit: i64) -> i64 {
-    (limit * 3 + metric as i64) * 2 + i64::from(below)
+    (limit * METRICS + metric as i64) * 2 + i64::from(below)
 }
 
-fn size(p: i64) -> (usize, bool, i64) {
-    ((p / 2 % 3) as usize, p % 2 == 1, p / 6)
+pub(super) fn size(p: i64) -> (usize, bool, i64) {
+    ((p / 2 % METRICS) as usize, p % 2 == 1, p / (2 * METRICS))
 }
 
 type IsKind = fn(&Corners, PixelRect) -> bool;
@@ -658,10 +660,10 @@ fn suffix(number: i64) -> &'static str {
 }
 
 /// A formula, whether corners are exchanged where they turn the other way, and the precision.
-const FLOATS: [i64; 28] = {
-    let mut all = [0; 28];
+const FLOATS: [i64; 36] = {
+    let mut all = [0; 36];
     let mut i = 0;
-    while i < 28 {
+    while i < 36 {
         all[i] = i as i64;
         i += 1;
     }

@@ -80,6 +80,7 @@
 //! get fewer digits, as long as a fault of the same kind remains. A tessellator that panics has that as its fault; one that does
 //! not return, or that overflows the stack, ends the test with it.
 
+mod cause;
 mod decide;
 mod exact;
 mod families;

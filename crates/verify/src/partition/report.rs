@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
+use super::cause::{self, Made};
 use super::families::is_as_generated;
 use super::shrink::shrink;
 use super::{
@@ -10,6 +11,7 @@ use super::{
     judge_partition,
 };
 use crate::comparison::{NothingJudged, Watch, caught};
+use crate::mistakes::Mistakes;
 use rasterproof_core::parallel;
 
 /// Polygons that a thread judges in one go.
@@ -111,6 +113,8 @@ pub struct Report {
     pub families: Vec<FamilyReport>,
     /// The smallest failing polygon of each kind of fault, grave ones first.
     pub failures: Vec<Failure>,
+    /// What explains the wrong polygons, or what is known of them.
+    pub cause: Option<Mistakes>,
 }
 
 impl Report {
@@ -167,7 +171,7 @@ impl Report {
         show: &dyn Fn(&Polygon) -> String,
         repeat: &dyn Fn(Family, u64) -> String,
     ) -> fmt::Result {
-        let Self { families, failures, .. } = self;
+        let Self { options, families, failures, cause } = self;
         let sum = self.sum();
         writeln!(f, "{} of {} polygons are not covered exactly once", sum.wrong, sum.polygons)?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
@@ -176,6 +180,10 @@ impl Report {
         }
         if sum.allowed.iter().any(|&count| count > 0) {
             writeln!(f, "  allowed, and no faults: {}", by_kind(&sum.allowed))?;
+        }
+        if let Some(cause) = cause {
+            let what = if cause.is_known() { "probable cause" } else { "no cause was recognised" };
+            writeln!(f, "\n{what}: {}\n", cause.sentences().join("\n  "))?;
         }
         let wrong = families.iter().filter(|report| report.wrong > 0);
         let wrong: Vec<_> =
@@ -196,6 +204,10 @@ impl Report {
             }
             for line in failure.finding.to_string().lines() {
                 writeln!(f, "  {line}")?;
+            }
+            let rule = options.fill_rule;
+            if let Some(picture) = cause::picture(&failure.polygon, &failure.triangles, rule) {
+                f.write_str(&picture)?;
             }
             writeln!(f, "  found in: {}", repeat(failure.family, failure.index))?;
         }
@@ -290,11 +302,14 @@ fn judge(tessellator: &Asked, options: &Options) -> Result<Report, NothingJudged
     if numbers.is_empty() {
         return Err(NothingJudged::NoCases);
     }
-    let wanted = |family: &Family| options.families.is_empty() || options.families.contains(family);
-    let families: Vec<Family> = Family::ALL.into_iter().filter(wanted).collect();
+    let families = wanted(options);
     let blocks = (numbers.end - numbers.start).div_ceil(BLOCK);
-    let mut report =
-        Report { options: options.clone(), families: Vec::new(), failures: Vec::new() };
+    let mut report = Report {
+        options: options.clone(),
+        families: Vec::new(),
+        failures: Vec::new(),
+        cause: None,
+    };
     let mut failing: [Option<(usize, Family, u64)>; FaultKind::ALL.len()] = Default::default();
     for family in families {
         let parts = parallel::map(blocks as usize, |block| {
@@ -322,8 +337,33 @@ fn judge(tessellator: &Asked, options: &Options) -> Result<Report, NothingJudged
         let (kind, (_, family, index)) = failing[number];
         smallest(tessellator, options, kind, family, index)
     });
+    if !report.failures.is_empty() {
+        report.cause = cause::cause(&some(tessellator, options), options);
+    }
     Ok(report)
 }
+
+fn wanted(options: &Options) -> Vec<Family> {
+    let wanted = |family: &Family| options.families.is_empty() || options.families.contains(family);
+    Family::ALL.into_iter().filter(wanted).collect()
+}
+
+/// What becomes of the first polygons of every family, the ones that a cause has to explain.
+fn some(tessellator: &Asked, options: &Options) -> Vec<Made> {
+    let mut made = Vec::new();
+    for family in wanted(options) {
+        for index in 0..OF_A_FAMILY {
+            let polygon = family.polygon(options.seed, index, options.coordinates);
+            if let Some((triangles, finding)) = ask(tessellator, &polygon, options) {
+                made.push(Made { polygon, triangles, finding });
+            }
+        }
+    }
+    made
+}
+
+/// Polygons of each family by which a cause is looked for.
+const OF_A_FAMILY: u64 = 40;
 
 /// Of each kind of fault the polygon with the fewest vertices, and its number.
 type Smallest = [Option<(usize, u64)>; FaultKind::ALL.len()];

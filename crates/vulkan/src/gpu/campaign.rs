@@ -1,6 +1,7 @@
 //! A device judged: the families by the judge of programs, then the stages, each with its rule.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 use super::engine::Gpu;
 use super::known::{self, Known};
@@ -11,7 +12,7 @@ use crate::device::find::About;
 use rasterproof_judge::ask::{Answer, Ask, Question};
 use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::recognise::{Scope, mistakes, recognise};
 use rasterproof_judge::run::{Failing, Found, Row, run};
 use rasterproof_judge::verdict::{Outcome, Verdict, sentence};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
@@ -108,10 +109,15 @@ pub fn judge_with(
     let failures = failures::failures(first, &found, &options, &truth);
     let scope = Scope { triangles: true, lines: false, always: false };
     let recognised = if found.failing.is_empty() { None } else { recognise(first, scope) };
+    let start = Instant::now();
+    let goes_on = || start.elapsed() < options.patience;
+    let checks = if found.failing.is_empty() { Vec::new() } else { found.unexplained() };
+    let causes = mistakes(first, &checks, &truth, recognised.as_ref(), &goes_on);
     let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
     let mut verdict = Verdict::new(declared, &options, windings, said, found, failures, complaints);
+    verdict.causes = causes;
     let mut findings = of_rows(&mut verdict, &old, &stale);
     drop(shared);
     if options.only.is_none() {

@@ -74,6 +74,10 @@ pub fn text(
             out += &wrapped(&format!("it draws as one who says: {text}"), "  ");
         }
     }
+    if !verdict.causes.is_empty() {
+        out.push('\n');
+        judge_text::causes(&mut out, verdict);
+    }
     judge_text::incidents(&mut out, verdict, repeat);
     for failure in &verdict.failures {
         judge_text::one_failure(

@@ -62,6 +62,8 @@ enum Question {
     GpuBatch(Box<crate::gpu::Batch>),
     /// The verdict about the pixels that the GPU drew in one picture.
     GpuJudge(Box<crate::gpu::Judge>),
+    /// Why triangles are drawn wrongly, picture by picture.
+    GpuCause(crate::gpu::Cause),
 }
 
 /// The answer to a question, or why it makes no sense or cannot be drawn.
@@ -89,6 +91,7 @@ fn ask(question: Question) -> Result<Value, String> {
         Question::GpuPlan(plan) => Ok(plan.answer()),
         Question::GpuBatch(batch) => batch.answer(),
         Question::GpuJudge(judge) => judge.answer(),
+        Question::GpuCause(cause) => cause.answer(),
     }
 }
 

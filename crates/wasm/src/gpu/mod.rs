@@ -4,8 +4,9 @@
 //! The page asks for a batch of subjects, draws each in a cell of one picture, reads the picture back and
 //! sends it here to be judged: see `docs/your-gpu.md`. [`subjects`] makes the subjects of each check,
 //! [`place`] says where a sample lies with respect to a triangle, [`expected`] what each check expects, and
-//! [`judge`] compares.
+//! [`judge`] compares. [`cause`] asks more of a device that covers other pixels than it may.
 
+mod cause;
 mod expected;
 mod judge;
 mod place;
@@ -17,6 +18,7 @@ use serde_json::{Value, json};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+pub(crate) use cause::Cause;
 pub(crate) use judge::Judge;
 use rasterproof_core::grid::{SUBPIXEL_BITS, SUBPIXELS};
 
@@ -168,34 +170,46 @@ impl Batch {
         Ok((layout, list))
     }
 
+    pub fn answer(&self) -> Result<Value, String> {
+        let (layout, list) = self.subjects()?;
+        let drawn = list.iter().map(|subject| subjects::drawn(self.check, subject));
+        Ok(self.device.picture(self.check, layout, drawn))
+    }
+}
+
+impl Device {
     /// Clip coordinates of a vertex whose cell begins at a pixel, as the interface takes them.
-    fn clip(&self, [x, y, z, w, a, b]: Vertex, side: i32, origin: [i32; 2]) -> [f32; 6] {
+    fn clip(self, [x, y, z, w, a, b]: Vertex, side: i32, origin: [i32; 2]) -> [f32; 6] {
         let ndc = |v: f64, origin: i32| 2.0 * (v + f64::from(origin) * w) / f64::from(side) - w;
         let (x, y) = (ndc(x, origin[0]), ndc(y, origin[1]));
         // Row 0 of what is read back is the lowest of WebGL and the uppermost of WebGPU.
-        let (y, z) = match self.device.interface {
+        let (y, z) = match self.interface {
             Interface::Webgl2 => (y, 2.0 * z - w),
             Interface::Webgpu => (-y, z),
         };
         [x, y, z, w, a, b].map(|v| v as f32)
     }
 
-    pub fn answer(&self) -> Result<Value, String> {
-        let (layout, list) = self.subjects()?;
+    /// What the page draws: the vertices of each subject in its cell.
+    fn picture(
+        self,
+        check: Check,
+        layout: Layout,
+        subjects: impl Iterator<Item = Vec<Vertex>>,
+    ) -> Value {
         let (mut bytes, mut draws) = (Vec::new(), Vec::new());
-        for (index, subject) in list.iter().enumerate() {
+        for (index, vertices) in subjects.enumerate() {
             let origin = layout.origin(index);
-            let vertices = subjects::drawn(self.check, subject);
             draws.push([vertices.len() as i32, origin[0], origin[1]]);
             for vertex in vertices {
                 let numbers = self.clip(vertex, layout.side, origin);
                 bytes.extend(numbers.iter().flat_map(|v| v.to_le_bytes()));
             }
         }
-        Ok(json!({
-            "kind": self.check.kind(), "side": layout.side, "cell": layout.cell,
-            "draws": if layout.scissor { draws } else { Vec::new() }, "subjects": list.len(),
+        json!({
+            "kind": check.kind(), "side": layout.side, "cell": layout.cell, "subjects": draws.len(),
+            "draws": if layout.scissor { draws } else { Vec::new() },
             "vertices": STANDARD.encode(bytes),
-        }))
+        })
     }
 }

@@ -9,13 +9,66 @@ use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::fog::Share;
 use crate::scene::{Item, Scene};
 
+/// What is known of an item before its triangles are looked at.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    pub scene: &'a Scene,
+    pub item: &'a Item,
+    /// The attributes that its pieces carry.
+    pub carries: Attributes,
+    pub effects: &'a Effects,
+}
+
+/// When single fragments pay for an effect, and which reasons a plan gives.
+pub struct Condition {
+    pub effect: Effect,
+    /// The attributes, as bits, that are interpolated for effects alone that name them here.
+    pub needs: u8,
+    /// Whether anything of an item can pay for it, even where it is switched on everywhere.
+    pub is_possible: fn(&Asked<'_>) -> bool,
+    pub is_asked_for: fn(&Asked<'_>) -> bool,
+    /// Why an item does not ask for it, and whether every plan says so, or only one for which the user switches the effect on or off
+    /// everywhere. Nothing where no plan does.
+    pub missing: fn(&Asked<'_>) -> Option<(&'static str, bool)>,
+    /// Why all pieces pay where the material alone decides.
+    pub by_material: &'static str,
+    /// When a piece pays that is not looked at before it is drawn.
+    pub open: &'static str,
+    /// Why none of the pieces pays, all do, or some.
+    pub reasons: fn(&Account<'_>) -> [&'static str; 3],
+}
+
+impl Condition {
+    /// When the pieces of an item pay for it.
+    pub fn mode(&self, asked: &Asked<'_>) -> Mode {
+        match asked.effects.mode(self.effect) {
+            _ if !(self.is_possible)(asked) => Mode::Never,
+            Mode::Planned | Mode::Material if !(self.is_asked_for)(asked) => Mode::Never,
+            Mode::Material => Mode::Always,
+            mode => mode,
+        }
+    }
+
+    pub fn explain(&self, account: &Account<'_>) -> Option<Decision> {
+        let asked = &account.asked;
+        let mode = asked.effects.mode(self.effect);
+        let is_on = self.mode(asked) == Mode::Always;
+        if !(self.is_asked_for)(asked) {
+            let (reason, is_told) = (self.missing)(asked)?;
+            let is_told = is_told || !mode.is_open();
+            return is_told.then(|| account.decide_all(self.effect, is_on, reason));
+        }
+        Some(match mode {
+            Mode::Material => account.decide_all(self.effect, is_on, self.by_material),
+            _ => account.decide_each(self.effect, self.open, (self.reasons)(account)),
+        })
+    }
+}
+
 /// One item, and the plans of its pieces added up.
 pub struct Account<'a> {
-    pub scene: &'a Scene,
-    pub effects: &'a Effects,
-    pub item: &'a Item,
+    pub asked: Asked<'a>,
     pub index: usize,
-    pub carries: Attributes,
     /// Whether its pieces were looked at; else they are counted as triangles.
     pub is_listed: bool,
     pub pieces: u64,
@@ -41,11 +94,8 @@ impl<'a> Account<'a> {
     ) -> Self {
         let item = &scene.items[index];
         Self {
-            scene,
-            effects,
-            item,
+            asked: Asked { scene, item, carries, effects },
             index,
-            carries,
             is_listed,
             pieces: if is_listed { 0 } else { item.mesh.triangles.len() as u64 },
             paid: [0; Effect::ALL.len()],
@@ -105,7 +155,7 @@ impl<'a> Account<'a> {
 
     /// A decision about all triangles of the item, those included that leave no piece.
     pub fn decide_triangles(&self, effect: Effect, pays: bool, reason: &str) -> Decision {
-        let triangles = self.item.mesh.triangles.len() as u64;
+        let triangles = self.asked.item.mesh.triangles.len() as u64;
         let counts = if pays { [triangles, 0, 0] } else { [0, triangles, 0] };
         let decision = self.decision(effect, counts, reason.to_owned());
         Decision { unit: Unit::Triangles, ..decision }
@@ -113,7 +163,7 @@ impl<'a> Account<'a> {
 
     /// A decision that is left to a policy, except where a mode settles it.
     pub fn leave_open(&self, effect: Effect, reason: impl Into<String>) -> Decision {
-        let counts = match self.effects.mode(effect) {
+        let counts = match self.asked.effects.mode(effect) {
             Mode::Planned | Mode::Material => [0, 0, self.pieces],
             Mode::Always => [self.pieces, 0, 0],
             Mode::Never => [0, self.pieces, 0],
@@ -122,7 +172,7 @@ impl<'a> Account<'a> {
     }
 
     fn decision(&self, effect: Effect, [on, off, open]: [u64; 3], reason: String) -> Decision {
-        let reason = asked_for(self.effects.mode(effect), reason);
+        let reason = asked_for(self.asked.effects.mode(effect), reason);
         let unit = if self.is_listed { Unit::Pieces } else { Unit::Triangles };
         Decision { effect, item: Some(self.index), unit, on, off, open, reason }
     }

@@ -3,10 +3,9 @@
 //! Left out where the material does not use it: the factor left out is exactly 1, and the others
 //! keep their order.
 
-use super::account::Account;
-use super::{physical, shadows};
+use super::account::{Account, Asked};
 use crate::effects::plan::{Attributes, Decision};
-use crate::effects::primitive::{eye, is_lit};
+use crate::effects::primitive::{has_places, is_lit};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::shade::Light;
 use crate::scene::{Item, Scene, Shading};
@@ -35,22 +34,17 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
         effects.pays(*effect, called_for || *effect == Effect::Light && has_highlights)
     };
     let bits = ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit);
-    let is_in = |mode: Mode, bit: u8| if mode == Mode::Never { 0 } else { bit };
-    let of = |effect| physical::mode(scene, item, Attributes(bits), effects, effect);
-    let reads_map = shadows::mode(scene, item, Attributes(bits), effects);
-    let has_place = eye(scene).w != 0.0;
-    let world = if has_place { Attributes::WORLD } else { 0 };
-    let more = is_in(reads_map, Attributes::PLACE)
-        | is_in(of(Effect::Reflection), world)
-        | is_in(of(Effect::NormalMaps), Attributes::TANGENT);
-    Attributes(bits | more)
+    let asked = Asked { scene, item, carries: Attributes(bits), effects };
+    let in_use = super::ALL.iter().filter(|condition| condition.mode(&asked) != Mode::Never);
+    let needed = in_use.fold(bits, |bits, condition| bits | condition.needs);
+    if has_places(scene) { Attributes(needed) } else { Attributes(needed & !Attributes::WORLD) }
 }
 
 /// Why an item does without.
 fn unused(account: &Account<'_>, effect: Effect) -> &'static str {
-    let is_gouraud = account.item.material.shading == Shading::Gouraud;
+    let is_gouraud = account.asked.item.material.shading == Shading::Gouraud;
     match effect {
-        Effect::Light if account.scene.light == Light::NONE => "the scene has no light",
+        Effect::Light if account.asked.scene.light == Light::NONE => "the scene has no light",
         Effect::Light if is_gouraud => "Gouraud: the light is in the colours of the corners",
         Effect::Light => "the material is unlit",
         Effect::Texture => "the material has no texture",
@@ -62,13 +56,17 @@ pub fn explain<'a>(account: &'a Account<'_>) -> impl Iterator<Item = Decision> +
     let pieces = account.pieces;
     ALL.into_iter().map(move |(effect, bit, what)| {
         let varies = account.paid(effect);
-        let reason = match (uses(account.scene, account.item, effect), account.is_listed, varies) {
+        let reason = match (
+            uses(account.asked.scene, account.asked.item, effect),
+            account.is_listed,
+            varies,
+        ) {
             (false, ..) => unused(account, effect).to_owned(),
             (true, false, _) => format!("{what}: interpolated where it varies"),
             (true, true, 0) => format!("{what}: one for each triangle"),
             (true, true, _) if varies == pieces => format!("{what}: varies in every piece"),
             (true, true, _) => format!("{what}: varies in some pieces"),
         };
-        account.decide(effect, if account.carries.has(bit) { pieces } else { 0 }, reason)
+        account.decide(effect, if account.asked.carries.has(bit) { pieces } else { 0 }, reason)
     })
 }

@@ -9,12 +9,12 @@ use crate::effects::plan::Decision;
 use crate::pipeline::assemble::Cull;
 
 pub fn explain(account: &Account<'_>) -> Decision {
-    let cull = account.item.cull;
+    let cull = account.asked.item.cull;
     let reason = match cull {
         Cull::None => "not asked for",
         Cull::Clockwise => "asked for: clockwise pieces are left out",
         Cull::CounterClockwise => "asked for: counter-clockwise pieces are left out",
     };
-    let asks = account.effects.pays(Effect::Cull, cull != Cull::None);
+    let asks = account.asked.effects.pays(Effect::Cull, cull != Cull::None);
     account.decide_triangles(Effect::Cull, asks, reason)
 }

@@ -121,11 +121,11 @@ pub fn pays(scene: &Scene, effects: &Effects, overlaps: bool) -> bool {
 
 pub fn explain(account: &Account<'_>, looked_at: Option<[usize; 2]>) -> Decision {
     let (pieces, depth) = (account.pieces, account.paid(Effect::Depth));
-    if account.scene.hidden == Hidden::Painter {
+    if account.asked.scene.hidden == Hidden::Painter {
         return account.decide(Effect::Depth, 0, "the scene is drawn from back to front");
     }
     if !account.is_listed {
-        let on = if pays(account.scene, account.effects, true) { pieces } else { 0 };
+        let on = if pays(account.asked.scene, account.asked.effects, true) { pieces } else { 0 };
         let reason = match looked_at {
             None => "the first triangles overlap, and all are taken to".to_owned(),
             Some([0, _]) => "all are taken to overlap".to_owned(),

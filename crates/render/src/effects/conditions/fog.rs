@@ -7,24 +7,29 @@
 //! [`Veil::between`]: crate::pipeline::fog::Veil::between
 
 use super::Facts;
-use super::account::Account;
+use super::account::Condition;
 use super::alpha_test::drawn;
-use crate::effects::plan::{Decision, Rule};
+use crate::effects::plan::Rule;
 use crate::effects::primitive::{Piece, Prepared};
-use crate::effects::{Effect, Effects, Mode};
+use crate::effects::{Effect, Mode};
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
-use crate::scene::Scene;
 use rasterproof_core::arrays::MapArray as _;
 
-/// What the scene and its effects ask for.
-pub fn mode(scene: &Scene, effects: &Effects) -> Mode {
-    match effects.mode(Effect::Fog) {
-        Mode::Planned | Mode::Material if scene.fog.is_none() => Mode::Never,
-        Mode::Material => Mode::Always,
-        mode => mode,
-    }
-}
+pub const CONDITION: Condition = Condition {
+    effect: Effect::Fog,
+    needs: 0,
+    is_possible: |_| true,
+    is_asked_for: |asked| asked.scene.fog.is_some(),
+    missing: |_| Some(("the scene has no fog", false)),
+    by_material: "the scene has fog",
+    open: "where the depths of the corners are in the fog",
+    reasons: |account| {
+        let hidden = "no piece is partly in the fog: it is not in it, or nothing else is seen";
+        let none = if account.fogged > 0 { hidden } else { "every piece is nearer than the fog" };
+        [none, "every piece is partly in the fog", "some pieces are partly in the fog"]
+    },
+};
 
 /// How much fog there is between the depths of the corners.
 pub fn between(item: &Prepared<'_>, piece: &Piece) -> Share {
@@ -52,28 +57,4 @@ pub fn share(rule: &Rule, facts: &Facts) -> Share {
         Mode::Never => Share::None,
         _ => Share::Mixed,
     }
-}
-
-/// Nothing of a scene without fog, unless the user switches it on or off everywhere.
-pub fn explain(account: &Account<'_>) -> Option<Decision> {
-    let Account { scene, pieces, fogged, .. } = *account;
-    let asked = account.effects.mode(Effect::Fog);
-    let is_on = mode(scene, account.effects) == Mode::Always;
-    if scene.fog.is_none() {
-        let reason = "the scene has no fog";
-        return (!asked.is_open()).then(|| account.decide_all(Effect::Fog, is_on, reason));
-    }
-    if asked == Mode::Material {
-        return Some(account.decide_all(Effect::Fog, is_on, "the scene has fog"));
-    }
-    let some = match account.paid(Effect::Fog) {
-        0 if fogged > 0 => {
-            "no piece is partly in the fog: it is not in it, or nothing else is seen"
-        }
-        0 => "every piece is nearer than the fog",
-        mixed if mixed == pieces => "every piece is partly in the fog",
-        _ => "some pieces are partly in the fog",
-    };
-    let open = "where the depths of the corners are in the fog";
-    Some(account.decide_each(Effect::Fog, open, [some; 3]))
 }

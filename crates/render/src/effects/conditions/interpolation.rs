@@ -93,8 +93,9 @@ pub fn is_plain_in(texture: &Texture, rule: &Rule, item: &Prepared<'_>, piece: &
 }
 
 pub fn explain(account: &Account<'_>) -> Decision {
-    if account.effects.mode(Effect::Interpolation) == Mode::Material {
-        let (attributes, _) = rule(account.item, account.carries, account.effects);
+    if account.asked.effects.mode(Effect::Interpolation) == Mode::Material {
+        let (attributes, _) =
+            rule(account.asked.item, account.asked.carries, account.asked.effects);
         let reason = "what the material's shader reads";
         return account.decide_all(Effect::Interpolation, !attributes.is_empty(), reason);
     }

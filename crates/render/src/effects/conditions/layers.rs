@@ -7,31 +7,40 @@
 //! share meet in no sample. What is opaque there is drawn before it, since items that blend come last, and so the
 //! mixture at once is that of the one layer at the end.
 
-use super::account::Account;
+use super::account::{Asked, Condition};
 use super::blending::is_blended;
 use super::depth::{margin_px, overlaps};
-use crate::effects::plan::{Canvas, Decision};
+use crate::effects::plan::{Attributes, Canvas};
 use crate::effects::primitive::{Piece, Prepared, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
-use crate::scene::{Item, Scene};
+use crate::scene::Scene;
 use rasterproof_core::grid::PixelRect;
 
-fn is_asked_for(scene: &Scene, item: &Item) -> bool {
-    scene.layers.is_some() && is_blended(item)
+fn is_asked_for(asked: &Asked<'_>) -> bool {
+    asked.scene.layers.is_some() && is_blended(asked.item)
 }
 
-/// When an item pays for layers: never where the scene asks for none or the item does not blend.
-pub fn mode(scene: &Scene, item: &Item, effects: &Effects) -> Mode {
-    match effects.mode(Effect::Layers) {
-        _ if !is_asked_for(scene, item) => Mode::Never,
-        Mode::Material => Mode::Always,
-        mode => mode,
-    }
-}
+pub const CONDITION: Condition = Condition {
+    effect: Effect::Layers,
+    needs: 0,
+    is_possible: is_asked_for,
+    is_asked_for,
+    missing: |_| None,
+    by_material: "the material blends",
+    open: "where fragments are mixed",
+    reasons: |_| {
+        [
+            "no piece is mixed where another one blends",
+            "every piece may be mixed where another one blends",
+            "some pieces may be mixed where others blend",
+        ]
+    },
+};
 
 /// Whether any item may have layers.
 pub fn is_in_use(scene: &Scene, effects: &Effects) -> bool {
-    scene.items.iter().any(|item| mode(scene, item, effects) != Mode::Never)
+    let asked = |item| Asked { scene, item, carries: Attributes::NONE, effects };
+    scene.items.iter().any(|item| CONDITION.mode(&asked(item)) != Mode::Never)
 }
 
 /// Of more items that blend, all pieces are compared with all.
@@ -91,26 +100,6 @@ fn groups(blended: &[usize], pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<
     }
     groups.push(rest);
     groups
-}
-
-/// Nothing of a material that does not blend or a scene that does not ask for layers.
-pub fn explain(account: &Account<'_>) -> Option<Decision> {
-    if !is_asked_for(account.scene, account.item) {
-        return None;
-    }
-    let effect = Effect::Layers;
-    if account.effects.mode(effect) == Mode::Material {
-        return Some(account.decide_all(effect, true, "the material blends"));
-    }
-    Some(account.decide_each(
-        effect,
-        "where fragments are mixed",
-        [
-            "no piece is mixed where another one blends",
-            "every piece may be mixed where another one blends",
-            "some pieces may be mixed where others blend",
-        ],
-    ))
 }
 
 #[cfg(test)]

@@ -3,30 +3,37 @@
 //! Left out where the texture has no mip map, and for a piece that is magnified everywhere
 //! ([`Footprint::is_magnified`]): its level is at most 0, where the texture itself is read.
 
-use super::account::Account;
-use crate::effects::plan::{Attributes, Decision, Rule};
+use super::account::Condition;
+use crate::effects::plan::{Attributes, Rule};
 use crate::effects::primitive::{Piece, Prepared, has_one_w};
-use crate::effects::{Effect, Effects, Mode};
+use crate::effects::{Effect, Mode};
 use crate::pipeline::footprint::Footprint;
 use crate::pipeline::shade::Surface;
 use crate::pipeline::texture::Texture;
-use crate::scene::Item;
 use glam::DVec2;
 use rasterproof_core::arrays::MapArray as _;
 
-/// What an item asks for; without texture coordinates nothing.
-pub fn mode(item: &Item, carries: Attributes, effects: &Effects) -> Mode {
-    match effects.mode(Effect::MipMaps) {
-        _ if !carries.has(Attributes::UV) => Mode::Never,
-        Mode::Planned | Mode::Material if !has_mip_map(item) => Mode::Never,
-        Mode::Material => Mode::Always,
-        mode => mode,
-    }
-}
-
-fn has_mip_map(item: &Item) -> bool {
-    item.material.textures().any(Texture::has_mip_map)
-}
+/// Without texture coordinates there is no level.
+pub const CONDITION: Condition = Condition {
+    effect: Effect::MipMaps,
+    needs: 0,
+    is_possible: |asked| asked.carries.has(Attributes::UV),
+    is_asked_for: |asked| asked.item.material.textures().any(Texture::has_mip_map),
+    missing: |asked| {
+        let has_texture = asked.item.material.textures().next().is_some();
+        let none = "the material has no texture";
+        Some((if has_texture { "the texture has no mip map" } else { none }, false))
+    },
+    by_material: "the texture has a mip map",
+    open: "where the texture is not known to be magnified",
+    reasons: |_| {
+        [
+            "the texture is magnified everywhere",
+            "no piece is known to magnify the texture everywhere",
+            "some pieces are not known to magnify the texture everywhere",
+        ]
+    },
+};
 
 /// The footprint of a piece, and what it is made of. Where w is the same at all corners it is as if divided by,
 /// whether it is or not, so that the level keeps its bits.
@@ -74,29 +81,4 @@ pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> [bool; 2] 
         may_be[1] |= !(rule.anisotropy.is_open() && footprint.is_round(inv_w, uv));
     }
     may_be
-}
-
-/// Nothing of a texture without a mip map, unless the user switches levels on or off everywhere.
-pub fn explain(account: &Account<'_>) -> Option<Decision> {
-    let item = account.item;
-    let asked = account.effects.mode(Effect::MipMaps);
-    let is_on = mode(item, account.carries, account.effects) == Mode::Always;
-    if !has_mip_map(item) {
-        let has_texture = item.material.textures().next().is_some();
-        let reason =
-            if has_texture { "the texture has no mip map" } else { "the material has no texture" };
-        return (!asked.is_open()).then(|| account.decide_all(Effect::MipMaps, is_on, reason));
-    }
-    if asked == Mode::Material {
-        return Some(account.decide_all(Effect::MipMaps, is_on, "the texture has a mip map"));
-    }
-    Some(account.decide_each(
-        Effect::MipMaps,
-        "where the texture is not known to be magnified",
-        [
-            "the texture is magnified everywhere",
-            "no piece is known to magnify the texture everywhere",
-            "some pieces are not known to magnify the texture everywhere",
-        ],
-    ))
 }

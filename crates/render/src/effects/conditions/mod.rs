@@ -1,8 +1,8 @@
-//! When an effect may be left out: one file for each effect, with the condition, what it has to know of a piece, and the
-//! reason to read.
+//! When an effect may be left out: one file for each effect, or for those of one kind of surface, with the condition, what it has to
+//! know of a piece, and the reason to read.
 //!
-//! The four lists here are in the order in which they are made: the rule of an item, the facts of a piece, the plan of the
-//! piece, and the account. A condition reads rules and facts; never a triangle, an engine or a pixel.
+//! The rule of an item, the facts of a piece, the plan of the piece and the account are made of the one list in `table.rs`.
+//! A condition reads rules and facts; never a triangle, an engine or a pixel.
 
 pub(super) mod account;
 pub(super) mod alpha_test;
@@ -28,9 +28,10 @@ pub(super) mod wide_words;
 
 use glam::DVec2;
 
-use self::account::Account;
+use self::account::{Account, Asked, Condition};
 use super::plan::{Attributes, Decision, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w};
+use super::table::fragment_effects;
 use super::{Effect, Effects, Mode};
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
@@ -40,38 +41,79 @@ use crate::scene::{Item, Scene};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
 
-/// What is known of a piece before it is planned. What no mode asks for is not looked at, and is as in
-/// [`Facts::UNKNOWN`].
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Facts {
-    /// Attributes of which something that depends on them may differ between fragments.
-    pub varies: Attributes,
-    pub has_one_w: bool,
-    pub fog: Share,
-    /// What is drawn by the opacities that may be read.
-    pub opacity: Drawn,
-    /// Whether a normal between those of the corners may have a highlight.
-    pub is_shiny: bool,
-    /// Whether a normal between those of the corners may face the light.
-    pub is_reflecting: bool,
-    /// Whether a map may turn its normals.
-    pub is_bumpy: bool,
-    /// Whether a map may keep ambient light from it.
-    pub is_occluded: bool,
-    pub is_emitting: bool,
-    /// Whether something may keep light from it.
-    pub is_shadowed: bool,
-    /// Whether the texture may be read at a level above 0.
-    pub is_minified: bool,
-    /// Whether one axis of a footprint may be longer than the other.
-    pub is_stretched: bool,
-    /// Whether it may hide another piece or be hidden.
-    pub overlaps: bool,
-    /// Whether it may share a sample with another piece that blends.
-    pub meets_blended: bool,
-    /// Whether the engine needs more than 32 bits for it.
-    pub is_wide: bool,
+macro_rules! conditions {
+    ($($(#[$about:meta])*
+    $field:ident: $kind:ty = $paid:expr => $effect:ident, $planned:literal,
+        $condition:expr, $(fact $fact:ident)? $(by $how:path)?;)+) => {
+        /// What is known of a piece before it is planned. What no mode asks for is not looked at, and is as in
+        /// [`Facts::UNKNOWN`].
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct Facts {
+            /// Attributes of which something that depends on them may differ between fragments.
+            pub varies: Attributes,
+            pub has_one_w: bool,
+            pub fog: Share,
+            /// What is drawn by the opacities that may be read.
+            pub opacity: Drawn,
+            /// Whether it may hide another piece or be hidden.
+            pub overlaps: bool,
+            /// Whether the engine needs more than 32 bits for it.
+            pub is_wide: bool,
+            $($(#[doc = concat!("Whether it may be a piece ", $planned)] pub $fact: bool,)?)+
+        }
+
+        impl Facts {
+            /// Of a piece that is not looked at: whatever may be is taken to be.
+            pub const UNKNOWN: Self = Self {
+                varies: Attributes::EVERY,
+                has_one_w: false,
+                fog: Share::Mixed,
+                opacity: Drawn::Mixed,
+                overlaps: true,
+                is_wide: true,
+                $($($fact: true,)?)+
+            };
+        }
+
+        /// The conditions of the effects of single fragments.
+        pub(super) const ALL: &[&Condition] = &[$(&$condition,)+];
+
+        /// The attributes that an item carries, and what it asks for: without looking at its triangles.
+        pub(super) fn rule(scene: &Scene, item: &Item, effects: &Effects) -> (Attributes, Rule) {
+            let carries = attributes::carries(scene, item, effects);
+            let (interpolates, where_it_varies) = interpolation::rule(item, carries, effects);
+            let asked = Asked { scene, item, carries, effects };
+            let rule = Rule {
+                interpolates,
+                where_it_varies,
+                perspective: perspective::mode(scene, effects),
+                depth: depth::pays(scene, effects, true),
+                $($field: $condition.mode(&asked),)+
+            };
+            (carries, rule)
+        }
+
+        /// Attributes that only some of these effects need.
+        const NEEDED: u8 = $($condition.needs)|+;
+
+        /// Those that the effects of a piece need.
+        #[inline]
+        fn needed(plan: &PiecePlan) -> u8 {
+            $((if plan.$field == $paid { $condition.needs } else { 0 }))|+
+        }
+
+        /// What the fragments of a piece pay for by its facts, before effects are put together.
+        #[inline]
+        fn paid(rule: &Rule, facts: &Facts, is_hidden: bool) -> PiecePlan {
+            PiecePlan {
+                $($field: $(!is_hidden && rule.$field.pays(facts.$fact))? $($how(rule, facts))?,)+
+                ..PiecePlan::default()
+            }
+        }
+    };
 }
+
+fragment_effects!(conditions);
 
 /// Samples that a piece covers at least where its footprints are looked at: of a smaller one that takes longer than to compute
 /// what it asks for.
@@ -102,25 +144,6 @@ fn is_looked_at(texture: &Texture, samples: i64) -> bool {
 }
 
 impl Facts {
-    /// Of a piece that is not looked at: whatever may be is taken to be.
-    pub const UNKNOWN: Self = Self {
-        varies: Attributes::EVERY,
-        has_one_w: false,
-        fog: Share::Mixed,
-        opacity: Drawn::Mixed,
-        is_shiny: true,
-        is_reflecting: true,
-        is_bumpy: true,
-        is_occluded: true,
-        is_emitting: true,
-        is_shadowed: true,
-        is_minified: true,
-        is_stretched: true,
-        overlaps: true,
-        meets_blended: true,
-        is_wide: true,
-    };
-
     /// Of every piece of an item, by its material alone.
     pub fn of_item(item: &Item) -> Self {
         Self { varies: interpolation::at_most(item, Attributes::EVERY), ..Self::UNKNOWN }
@@ -184,71 +207,22 @@ impl Facts {
     }
 }
 
-/// The attributes that an item carries, and what it asks for: without looking at its triangles.
-pub(super) fn rule(scene: &Scene, item: &Item, effects: &Effects) -> (Attributes, Rule) {
-    let carries = attributes::carries(scene, item, effects);
-    let (interpolates, where_it_varies) = interpolation::rule(item, carries, effects);
-    let rule = Rule {
-        interpolates,
-        where_it_varies,
-        perspective: perspective::mode(scene, effects),
-        depth: depth::pays(scene, effects, true),
-        specular: specular::mode(scene, item, carries, effects),
-        reflection: physical::mode(scene, item, carries, effects, Effect::Reflection),
-        normal_maps: physical::mode(scene, item, carries, effects, Effect::NormalMaps),
-        occlusion: physical::mode(scene, item, carries, effects, Effect::Occlusion),
-        emission: physical::mode(scene, item, carries, effects, Effect::Emission),
-        shadows: shadows::mode(scene, item, carries, effects),
-        mip_maps: mip_maps::mode(item, carries, effects),
-        anisotropy: anisotropy::mode(item, carries, effects),
-        fog: fog::mode(scene, effects),
-        alpha_test: alpha_test::mode(item, effects),
-        blending: blending::mode(item, effects),
-        layers: layers::mode(scene, item, effects),
-    };
-    (carries, rule)
-}
-
 /// What a piece pays for by the rule of its item.
 #[inline]
 pub(super) fn plan(rule: &Rule, facts: &Facts) -> PiecePlan {
     let is_hidden = fog::hides(rule, facts);
-    let specular = !is_hidden && rule.specular.pays(facts.is_shiny);
-    let shadows = !is_hidden && rule.shadows.pays(facts.is_shadowed);
-    let paid = |mode: Mode, called_for: bool| !is_hidden && mode.pays(called_for);
-    let reflection = paid(rule.reflection, facts.is_reflecting);
-    let normal_maps = paid(rule.normal_maps, facts.is_bumpy);
-    let mut interpolates = rule.interpolates.both(facts.varies);
-    for (is_needed, bit) in [(reflection, Attributes::WORLD), (normal_maps, Attributes::TANGENT)] {
-        if !is_needed {
-            interpolates = interpolates.without(Attributes(bit));
-        }
+    let mut plan = paid(rule, facts, is_hidden);
+    if !is_hidden {
+        plan.interpolates = rule.interpolates.both(facts.varies);
+        plan.interpolates = plan.interpolates.without(Attributes(NEEDED & !needed(&plan)));
     }
-    if is_hidden {
-        interpolates = Attributes::NONE;
-    } else if !shadows {
-        interpolates = interpolates.without(Attributes(Attributes::PLACE));
-    }
-    let has_uv = interpolates.has(Attributes::UV);
-    let depth = rule.depth && facts.overlaps;
-    let blending = alpha_test::drawn(rule.blending, facts.opacity);
-    PiecePlan {
-        interpolates,
-        perspective: rule.perspective.pays(!interpolates.is_empty() && !facts.has_one_w),
-        depth,
-        specular,
-        reflection,
-        normal_maps,
-        occlusion: paid(rule.occlusion, facts.is_occluded),
-        emission: paid(rule.emission, facts.is_emitting),
-        shadows,
-        mip_maps: has_uv && rule.mip_maps.pays(facts.is_minified),
-        anisotropy: has_uv && rule.anisotropy.pays(facts.is_stretched),
-        fog: fog::share(rule, facts),
-        alpha_test: alpha_test::drawn(rule.alpha_test, facts.opacity),
-        blending,
-        layers: depth && blending == Drawn::Mixed && rule.layers.pays(facts.meets_blended),
-    }
+    let has_uv = plan.interpolates.has(Attributes::UV);
+    plan.mip_maps &= has_uv;
+    plan.anisotropy &= has_uv;
+    plan.depth = rule.depth && facts.overlaps;
+    plan.layers &= plan.depth && plan.blending == Drawn::Mixed;
+    plan.perspective = rule.perspective.pays(!plan.interpolates.is_empty() && !facts.has_one_w);
+    plan
 }
 
 /// Effects with which nothing is left out of a fragment that its material asks for.
@@ -270,14 +244,6 @@ pub(super) fn explain(
     decisions.push(perspective::explain(account));
     decisions.push(depth::explain(account, overlapping));
     decisions.extend(attributes::explain(account));
-    decisions.extend(specular::explain(account));
-    decisions.extend(physical::explain(account));
-    decisions.extend(shadows::explain(account));
-    decisions.extend(mip_maps::explain(account));
-    decisions.extend(anisotropy::explain(account));
-    decisions.extend(fog::explain(account));
-    decisions.extend(alpha_test::explain(account));
-    decisions.extend(blending::explain(account));
-    decisions.extend(layers::explain(account));
+    decisions.extend(ALL.iter().filter_map(|condition| condition.explain(account)));
     decisions.push(interpolation::explain(account));
 }

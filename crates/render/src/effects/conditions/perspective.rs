@@ -17,7 +17,7 @@ pub fn mode(scene: &Scene, effects: &Effects) -> Mode {
 pub fn explain(account: &Account<'_>) -> Decision {
     let Account { pieces, one_w, .. } = *account;
     let perspective = account.paid(Effect::Perspective);
-    if account.scene.affine {
+    if account.asked.scene.affine {
         let reason = "the scene asks for affine interpolation";
         return account.decide(Effect::Perspective, 0, reason);
     }

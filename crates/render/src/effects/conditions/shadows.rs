@@ -9,29 +9,42 @@
 //!
 //! [`LightView::may_be_shadowed`]: crate::pipeline::shadow::LightView::may_be_shadowed
 
-use super::account::Account;
+use super::account::Condition;
 use super::{Facts, fog, samples_of};
+use crate::effects::Effect;
 use crate::effects::assembled::Assembled;
-use crate::effects::plan::{Attributes, Decision, Rule};
-use crate::effects::primitive::{Piece, Prepared, is_lit};
-use crate::effects::{Effect, Effects, Mode};
+use crate::effects::plan::{Attributes, Rule};
+use crate::effects::primitive::{Piece, Prepared, is_lit, light};
 use crate::pipeline::shade::{Light, Surface};
 use crate::scene::{Item, Scene};
 use glam::DVec3;
 use rasterproof_core::arrays::MapArray as _;
 
-/// What an item asks for; without a map or normals nothing.
-pub fn mode(scene: &Scene, item: &Item, carries: Attributes, effects: &Effects) -> Mode {
-    match effects.mode(Effect::Shadows) {
-        _ if scene.shadows.is_none() || !carries.has(Attributes::NORMAL) => Mode::Never,
-        Mode::Planned | Mode::Material if !has_light(scene, item) => Mode::Never,
-        Mode::Material => Mode::Always,
-        mode => mode,
-    }
-}
+/// Without a map or normals there is no shadow.
+pub const CONDITION: Condition = Condition {
+    effect: Effect::Shadows,
+    needs: Attributes::PLACE,
+    is_possible: |asked| asked.scene.shadows.is_some() && asked.carries.has(Attributes::NORMAL),
+    is_asked_for: |asked| asked.scene.shadows.is_some() && has_light(asked.scene, asked.item),
+    missing: |asked| {
+        Some(match asked.scene.shadows {
+            None => ("the scene has no shadow map", false),
+            Some(_) => ("the material has no light of its fragments to lose", true),
+        })
+    },
+    by_material: "the scene has a shadow map",
+    open: "where something may lie before the light",
+    reasons: |_| {
+        [
+            "nothing lies between the item and the light, or it faces away",
+            "something may lie between every piece and the light",
+            "something may lie between some pieces and the light",
+        ]
+    },
+};
 
 fn has_light(scene: &Scene, item: &Item) -> bool {
-    is_lit(scene, item) && scene.light.diffuse != 0.0
+    is_lit(scene, item) && light(scene, item).diffuse != 0.0
 }
 
 /// Samples that a piece covers at least where it is searched what may keep light from it: a smaller one looks the light up in less
@@ -121,33 +134,6 @@ fn faces_away(light: &Light, normals: [DVec3; 3]) -> bool {
         (a.abs() + b.abs() + c.abs()).element_sum() * 0.5f64.powi(40)
     };
     normals.iter().all(|normal| normal.dot(light.towards) + margin <= 0.0)
-}
-
-/// Nothing of a scene without shadows, unless the user switches them on or off everywhere.
-pub fn explain(account: &Account<'_>) -> Option<Decision> {
-    let Account { scene, item, .. } = *account;
-    let asked = account.effects.mode(Effect::Shadows);
-    let is_on = mode(scene, item, account.carries, account.effects) == Mode::Always;
-    if scene.shadows.is_none() {
-        let reason = "the scene has no shadow map";
-        return (!asked.is_open()).then(|| account.decide_all(Effect::Shadows, false, reason));
-    }
-    if !has_light(scene, item) {
-        let reason = "the material has no light of its fragments to lose";
-        return Some(account.decide_all(Effect::Shadows, is_on, reason));
-    }
-    if asked == Mode::Material {
-        return Some(account.decide_all(Effect::Shadows, is_on, "the scene has a shadow map"));
-    }
-    Some(account.decide_each(
-        Effect::Shadows,
-        "where something may lie before the light",
-        [
-            "nothing lies between the item and the light, or it faces away",
-            "something may lie between every piece and the light",
-            "something may lie between some pieces and the light",
-        ],
-    ))
 }
 
 #[cfg(test)]

@@ -1,0 +1,642 @@
+//! From which size, slope or position on a program is wrong, found by asking: shapes of a certain measure are asked for, and
+//! the interval between the largest right measure and the smallest wrong one is halved until it is closed.
+
+use std::fmt;
+
+use super::fills::decimal;
+use super::questions::{LONGEST_PX, Room};
+use super::{lines, sample_of};
+use crate::convention::{
+    Ask, AskLine, Convention, Count, Known, LineConvention, LineQuestion, Mask, Mirror, Question,
+};
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+
+/// Shapes that are asked for at once.
+const AT_ONCE: usize = 40;
+/// Halvings of the interval: 2^-20 of the logarithm of all sizes is less than a step of the grid.
+const MOST_ROUNDS: usize = 24;
+/// The side of the window around a shape, in pixels.
+const SIDE_PX: i32 = 24;
+/// The largest window that is asked for, in pixels: its picture has 100,000 of them.
+const WIDEST_PX: i32 = 4096;
+
+/// A limit beyond which a program is wrong.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Threshold {
+    /// What is measured, such as "size".
+    pub of: &'static str,
+    /// Whether all below it are right and many above it are wrong. Otherwise wrong ones are rare at first.
+    pub is_sharp: bool,
+    /// The measure of the smallest shape that is wrong.
+    pub wrong_from: f64,
+    /// Shapes below the limit that were asked for; of a sharp limit none is wrong.
+    pub right: u64,
+    /// Wrong ones of those up to twice the limit, and of the largest that were asked for.
+    pub wrong: [Count; 2],
+    /// Wrong ones just above the limit.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    first: Count,
+    /// What reaches the end of a word there, where anything does.
+    pub hint: Option<String>,
+    /// What is said of it.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    words: String,
+}
+
+impl fmt::Display for Threshold {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { right, wrong: [near, largest], words, hint, .. } = self;
+        if self.is_sharp {
+            let Count { drawn, of } = near;
+            write!(
+                f,
+                "Found by asking: {words}: {drawn} of {of} up to twice that, and none of {right} below."
+            )?;
+        } else {
+            let Count { drawn, of } = largest;
+            write!(
+                f,
+                "Found by asking: {words}, rarely at first and often in the end ({drawn} of the {of} largest), as where numbers are rounded."
+            )?;
+        }
+        hint.iter().try_for_each(|hint| write!(f, " {hint}"))
+    }
+}
+
+/// What is measured.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Axis {
+    /// The longer side of the box, in steps of the grid.
+    Size,
+    /// The coordinate that is farthest from 0, in steps of the grid.
+    Reach,
+    /// The ratio of the sides of the box of an edge.
+    Slope,
+    /// The column, or the row, in pixels.
+    Column,
+    Row,
+}
+
+impl Axis {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Size => "size",
+            Self::Reach => "coordinate",
+            Self::Slope => "slope",
+            Self::Column => "column",
+            Self::Row => "row",
+        }
+    }
+
+    /// Whether triangles are measured in steps of the grid, and not in whole numbers.
+    fn is_in_steps(self) -> bool {
+        matches!(self, Self::Size | Self::Reach)
+    }
+}
+
+/// A shape that was asked for.
+struct Seen {
+    measure: i64,
+    is_wrong: bool,
+}
+
+/// Asks for some shapes whose measures lie between two numbers; none where it may not go on.
+type Probe<'a> = dyn FnMut(i64, i64) -> Option<Vec<Seen>> + 'a;
+
+/// What a search came to.
+struct Found {
+    right_to: i64,
+    wrong_from: i64,
+    /// Shapes below the limit that were asked for and are right.
+    right: u64,
+    /// Wrong ones among those of up to twice the limit, and of the largest.
+    wrong: [Count; 2],
+    /// The same of those just above the limit.
+    first: Count,
+    is_sharp: bool,
+}
+
+/// The last measure of which all are right and the first that is wrong; nothing where there is no such limit.
+fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<Found> {
+    let least = |seen: &[Seen]| seen.iter().filter(|s| s.is_wrong).map(|s| s.measure).min();
+    let mut right_to = 2 * low;
+    if high < 2 * right_to {
+        return None;
+    }
+    let small = probe(low, right_to)?;
+    if least(&small).is_some() {
+        return None;
+    }
+    let largest = probe(high / 2, high)?;
+    let mut wrong_from = least(&largest)?;
+    for _ in 0..MOST_ROUNDS {
+        if wrong_from - right_to <= 1 {
+            break;
+        }
+        let middle = geometric_mean(right_to, wrong_from).clamp(right_to + 1, wrong_from - 1);
+        match least(&probe(right_to + 1, middle)?) {
+            Some(measure) => wrong_from = measure,
+            None => right_to = middle,
+        }
+    }
+    // Whether it is a limit: others below are right, and a good part of those above is wrong.
+    let mut below = probe(low, right_to)?;
+    below.extend(probe((right_to / 2).max(low), right_to)?);
+    let up_to = |part: f64| ((wrong_from as f64 * part) as i64).clamp(wrong_from, high);
+    let first = count(&probe(wrong_from, up_to(1.2))?);
+    let wrong = [count(&probe(wrong_from, up_to(2.0))?), count(&largest)];
+    let is_many = |count: &Count| 10 * count.drawn >= count.of;
+    let lower = least(&below);
+    let is_sharp = lower.is_none() && is_many(&wrong[0]);
+    let right = (small.len() + below.len()) as u64;
+    wrong_from = lower.unwrap_or(wrong_from);
+    // What is rare at first has to be frequent in the end.
+    let is_limit = is_sharp || (is_many(&wrong[1]) && wrong_from >= 4 * low);
+    is_limit.then_some(Found { right_to, wrong_from, right, wrong, first, is_sharp })
+}
+
+fn count(seen: &[Seen]) -> Count {
+    let wrong = seen.iter().filter(|seen| seen.is_wrong).count();
+    Count { drawn: wrong as u64, of: seen.len() as u64 }
+}
+
+fn geometric_mean(low: i64, high: i64) -> i64 {
+    ((low as f64 * high as f64).sqrt() as i64).clamp(low, high)
+}
+
+/// A measure between two, near the upper one every second time; all powers of two are as likely.
+fn between(room: &mut Room, from: i64, to: i64, number: usize) -> i64 {
+    if number % 2 == 0 {
+        return room.rng.int(from.max(to - to / 50), to);
+    }
+    let [mut low, mut high] = [from, to];
+    for _ in 0..8 {
+        let middle = geometric_mean(low, high);
+        *if room.rng.chance(2) { &mut low } else { &mut high } = middle;
+    }
+    room.rng.int(low, high)
+}
+
+/// The limits of a rasterizer that is expected to follow a convention.
+pub(super) fn of_triangles(
+    ask: &mut dyn Ask,
+    known: &Known,
+    expected: &Convention,
+    goes_on: &dyn Fn() -> bool,
+) -> Vec<Threshold> {
+    let mut room = Room::new(known, 2);
+    let (grain, sample) = (room.grain, sample_of(expected));
+    let (wide, high) = known.window_px;
+    let widest = |side: u32| i64::from(side.min(WIDEST_PX as u32) as i32 - SIDE_PX);
+    let farthest = room.range_px.min(1 << 22) * i64::from(SUBPIXELS) / grain;
+    // Rows of a picture that is turned over lie elsewhere.
+    let is_plain = expected.mirror == Mirror::None;
+    let axes = [
+        (Axis::Size, i64::from(SUBPIXELS) / grain, farthest, true),
+        (Axis::Reach, i64::from(SIDE_PX * SUBPIXELS) / grain, farthest, true),
+        (Axis::Slope, 8, i64::from(SIDE_PX - 1) * 256 / grain, true),
+        (Axis::Column, 4, widest(wide).min(room.range_px - i64::from(SIDE_PX)), is_plain),
+        (Axis::Row, 4, widest(high).min(room.range_px - i64::from(SIDE_PX)), is_plain),
+    ];
+    let mut found: Vec<Threshold> = Vec::new();
+    for (axis, low, high, _) in axes.into_iter().filter(|(.., is_asked)| *is_asked) {
+        // What is far to the right has large coordinates, whose limit is known.
+        let nearest = found.iter().map(|limit| limit.wrong_from as i64).min().unwrap_or(i64::MAX);
+        let high = match axis {
+            Axis::Column | Axis::Row => high.min(nearest - i64::from(SIDE_PX)),
+            _ => high,
+        };
+        let mut probe = |from: i64, to: i64| {
+            if !goes_on() {
+                return None;
+            }
+            let shapes: Vec<_> = (0..AT_ONCE)
+                .map(|number| {
+                    let measure = between(&mut room, from, to, number);
+                    triangle(&mut room, axis, measure, sample)
+                })
+                .filter(|shape| (from..=to).contains(&shape.measure))
+                .collect();
+            let questions: Vec<_> = shapes.iter().map(|shape| shape.question).collect();
+            let answers = ask.ask(&questions);
+            if answers.len() < questions.len() {
+                return None;
+            }
+            let seen = shapes.iter().zip(answers).filter_map(|(shape, answer)| {
+                let is_wrong = !shape.is_drawn(answer.as_ref()?, expected)?;
+                Some(Seen { measure: shape.measure, is_wrong })
+            });
+            Some(seen.collect())
+        };
+        let limit = search(low, high, &mut probe);
+        found.extend(limit.map(|limit| threshold(axis, "triangles", 256 / grain, limit)));
+    }
+    // Large triangles have large coordinates: the measure that tells more is kept.
+    if let [size, reach, ..] = &found[..]
+        && (size.of, reach.of) == (Axis::Size.name(), Axis::Reach.name())
+    {
+        let tells = |t: &Threshold| (t.is_sharp, t.hint.is_some(), t.first.drawn);
+        let less = usize::from(tells(size) >= tells(reach));
+        found.remove(less);
+    }
+    found
+}
+
+/// Triangles about as large as some limits of a metric.
+pub(super) fn near(
+    limits: impl Iterator<Item = (usize, bool, i64)>,
+    known: &Known,
+    expected: &Convention,
+) -> Vec<Question> {
+    let mut room = Room::new(known, 4);
+    let mut questions = Vec::new();
+    for (metric, _, limit) in limits {
+        // Twice the area is the product of two sides.
+        let side = if metric == 0 { (limit as f64).sqrt() as i64 } else { limit };
+        let steps = (side / room.grain).max(1);
+        let axis = if metric >= 4 { Axis::Reach } else { Axis::Size };
+        questions.extend((0..NEAR_A_LIMIT).map(|_| {
+            let measure = room.rng.int(steps / 2 + 1, 2 * steps);
+            triangle(&mut room, axis, measure, sample_of(expected)).question
+        }));
+    }
+    questions
+}
+
+/// Triangles of about the size of a limit.
+const NEAR_A_LIMIT: usize = 24;
+
+/// The limits of a line drawer.
+pub(super) fn of_lines(
+    ask: &mut dyn AskLine,
+    known: &Known,
+    expected: &LineConvention,
+    goes_on: &dyn Fn() -> bool,
+) -> Vec<Threshold> {
+    let mut room = Room::new(known, 3);
+    let mut longest = LONGEST_PX.min(room.range_px);
+    let mut found = Vec::new();
+    for axis in [Axis::Size, Axis::Slope] {
+        let mut probe = |from: i64, to: i64| {
+            if !goes_on() {
+                return None;
+            }
+            let shapes: Vec<_> = (0..AT_ONCE)
+                .map(|number| {
+                    let measure = between(&mut room, from, to, number);
+                    line(&mut room, axis, measure, longest)
+                })
+                .filter(|(measure, _)| (from..=to).contains(measure))
+                .collect();
+            let questions: Vec<_> = shapes.iter().map(|(_, question)| *question).collect();
+            let answers = ask.ask_lines(&questions);
+            if answers.len() < questions.len() {
+                return None;
+            }
+            let seen = shapes.iter().zip(answers).filter_map(|(&(measure, question), answer)| {
+                let ends = question.ends.map_array(|end| end.map_array(i64::from));
+                let right = lines::of_convention(expected, ends, question.window)?;
+                let answer = answer?;
+                let pixels: Vec<_> = answer.iter().map(|p| p.map_array(i64::from)).collect();
+                Some(Seen { measure, is_wrong: lines::mask(&pixels, question.window) != right })
+            });
+            Some(seen.collect())
+        };
+        // A short line has few slopes.
+        let limit = search(4, if axis == Axis::Size { longest } else { longest / 4 }, &mut probe);
+        // Slopes are those of lines that are not too long.
+        longest = limit.as_ref().map_or(longest, |limit| limit.wrong_from - 1);
+        found.extend(limit.map(|limit| threshold(axis, "lines", 1, limit)));
+    }
+    found
+}
+
+struct Shape {
+    measure: i64,
+    question: Question,
+    /// The window in which it lies, and how far that is from the origin in pixels.
+    near: PixelRect,
+    moved_px: [i32; 2],
+}
+
+impl Shape {
+    /// Whether it was drawn as expected; nothing where that is open.
+    fn is_drawn(&self, picture: &Coverage, expected: &Convention) -> Option<bool> {
+        let [x, y] = self.moved_px;
+        let back = self
+            .question
+            .corners
+            .map_array(|c| SubpixelPoint::new(c.x - x * SUBPIXELS, c.y - y * SUBPIXELS));
+        let right = expected.mask(&back, self.near)?;
+        let mut drawn = Mask::default();
+        let mut beyond = false;
+        for (row, from, to) in picture.runs() {
+            for column in from..to {
+                let (px, py) = (column - x, row - y);
+                match self.near.contains(px, py) {
+                    true => drawn.set(px, py),
+                    false => beyond = true,
+                }
+            }
+        }
+        Some(drawn == right && !beyond)
+    }
+}
+
+fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> Shape {
+    let grain = room.grain;
+    let [wide, high] = room.side.map_array(|side| (side as i32).min(SIDE_PX));
+    let near = PixelRect::window(wide as u32, high as u32);
+    let at = room.inside(near);
+    let mut moved_px = [0, 0];
+    let points = match axis {
+        Axis::Size => {
+            // An edge through the window with sides of that size; products are largest on a diagonal.
+            let mut sides = [measure; 2];
+            if room.rng.chance(2) {
+                sides[usize::from(room.rng.chance(2))] = room.rng.int(0, measure);
+            }
+            let sides = sides.map_array(|side| if room.rng.chance(2) { side } else { -side });
+            // In half of them it begins or ends in the window.
+            let part = [0.0, 1.0, room.rng.unit(), room.rng.unit()][room.rng.int(0, 3) as usize];
+            let [first, second] = room.beside(near, sample, sides, part);
+            let third = match room.rng.int(0, 2) {
+                0 => [first[0], second[1]],
+                1 => [second[0], first[1]],
+                _ => [0, 1]
+                    .map_array(|i| room.rng.int(first[i].min(second[i]), first[i].max(second[i]))),
+            };
+            [first, second, third]
+        }
+        Axis::Reach => {
+            let most = measure * grain;
+            let first = [0; 2].map_array(|_| room.rng.int(-most, most));
+            let mut first =
+                first.map_array(|v| if room.rng.chance(3) { v.signum() * most } else { v });
+            first[usize::from(room.rng.chance(2))] = if room.rng.chance(2) { most } else { -most };
+            // Through the window, and not so far beyond.
+            let beyond = room.rng.unit() * 0.5;
+            let second = [0, 1].map_array(|i| at[i] + ((at[i] - first[i]) as f64 * beyond) as i64);
+            [first, second, room.inside(near)]
+        }
+        Axis::Slope => {
+            let length = i64::from(wide.min(high)) * 256 * 3 / 4 / grain;
+            let rise = (length / measure).max(1);
+            let from = [at[0] / 4, at[1]].map_array(|v| v.div_euclid(grain) * grain);
+            let sign = if room.rng.chance(2) { 1 } else { -1 };
+            let to = [from[0] + rise * measure * grain, from[1] + sign * rise * grain];
+            let off = room.rng.int(2, 10) * if room.rng.chance(2) { 256 } else { -256 };
+            let third = [room.rng.int(from[0], to[0]), from[1] + off];
+            let steep = room.rng.chance(2);
+            [from, to, third].map_array(|[x, y]| if steep { [y, x] } else { [x, y] })
+        }
+        Axis::Column | Axis::Row => {
+            moved_px = [0, 0];
+            moved_px[usize::from(axis == Axis::Row)] = measure as i32;
+            let far = moved_px.map_array(|px| i64::from(px) * 256);
+            [0; 3].map_array(|_| {
+                let [x, y] = room.inside(near);
+                [x + far[0], y + far[1]]
+            })
+        }
+    };
+    let mut corners: Corners = points.map_array(|point| room.point(point));
+    if room.rng.chance(2) {
+        corners.swap(1, 2);
+    }
+    let measure = match axis {
+        Axis::Size => {
+            let side = |of: &dyn Fn(&SubpixelPoint) -> i32| {
+                let all = corners.map_array(|c| i64::from(of(&c)));
+                all.into_iter().max().unwrap_or(0) - all.into_iter().min().unwrap_or(0)
+            };
+            side(&|c| c.x).max(side(&|c| c.y)) / grain
+        }
+        Axis::Reach => {
+            let all = corners.iter().flat_map(|c| [c.x, c.y]);
+            all.map(|v| i64::from(v).abs()).max().unwrap_or(0) / grain
+        }
+        Axis::Slope => steepest(&corners),
+        Axis::Column | Axis::Row => measure,
+    };
+    let [x, y] = moved_px;
+    let window = PixelRect::window((wide + x) as u32, (high + y) as u32);
+    Shape { measure, question: Question { corners, window }, near, moved_px }
+}
+
+/// The largest ratio of an edge's sides, without level and upright ones.
+fn steepest([a, b, c]: &Corners) -> i64 {
+    let ratio = |p: &SubpixelPoint, q: &SubpixelPoint| {
+        let sides = [i64::from(q.x) - i64::from(p.x), i64::from(q.y) - i64::from(p.y)];
+        let [dx, dy] = sides.map_array(i64::abs);
+        dx.max(dy).checked_div(dx.min(dy)).unwrap_or(0)
+    };
+    ratio(a, b).max(ratio(b, c)).max(ratio(c, a))
+}
+
+fn line(room: &mut Room, axis: Axis, measure: i64, longest: i64) -> (i64, LineQuestion) {
+    let [wide, high] = room.side.map_array(i64::from);
+    let window = PixelRect::window(wide as u32, high as u32);
+    let at = [room.rng.int(0, wide - 1), room.rng.int(0, high - 1)];
+    let (major, minor) = match axis {
+        Axis::Slope => {
+            let rise = room.rng.int(1, (longest / measure).min(8));
+            (rise * measure, rise)
+        }
+        _ => (measure, room.rng.int(0, measure)),
+    };
+    let mut along = [major, minor];
+    if room.rng.chance(2) {
+        along = [minor, major];
+    }
+    let along = along.map_array(|v| if room.rng.chance(2) { v } else { -v });
+    // A third of the lines begins in the window, and a third ends there.
+    let ahead = [0.0, 1.0, room.rng.unit()][room.rng.int(0, 2) as usize];
+    let from = [0, 1].map_array(|i| at[i] - (along[i] as f64 * ahead).round() as i64);
+    let ends = [from, [0, 1].map_array(|i| from[i] + along[i])];
+    let most = room.range_px.min(1 << 22);
+    let ends = ends.map_array(|end| end.map_array(|v| v.clamp(-most, most - 1) as i32));
+    let [dx, dy] = [0, 1].map_array(|i| (i64::from(ends[1][i]) - i64::from(ends[0][i])).abs());
+    let measure = match axis {
+        Axis::Slope => dx.max(dy).checked_div(dx.min(dy)).unwrap_or(0),
+        _ => dx.max(dy),
+    };
+    (measure, LineQuestion { ends, window })
+}
+
+fn threshold(axis: Axis, shapes: &str, per_px: i64, found: Found) -> Threshold {
+    let scale = if axis.is_in_steps() { per_px } else { 1 };
+    let Found { right_to, wrong_from, right, wrong, first, is_sharp } = found;
+    let said = decimal(wrong_from, scale);
+    let words = match axis {
+        Axis::Size if shapes == "lines" => {
+            format!("lines are wrong from {said} steps on")
+        }
+        Axis::Size => {
+            format!("{shapes} are wrong from {said} px on, the longer side of their box")
+        }
+        Axis::Reach => format!("{shapes} are wrong from a coordinate of {said} px on"),
+        Axis::Slope => format!("{shapes} are wrong from a slope of 1 : {said} on"),
+        Axis::Column => format!("{shapes} are wrong from column {said} on"),
+        Axis::Row => format!("{shapes} are wrong from row {said} on"),
+    };
+    Threshold {
+        of: axis.name(),
+        is_sharp,
+        wrong_from: wrong_from as f64 / scale as f64,
+        right,
+        wrong,
+        first,
+        hint: hint(axis, per_px, right_to, wrong_from).filter(|_| is_sharp),
+        words,
+    }
+}
+
+/// What comes to the end of a word between two measures, in steps of the grid or in whole pixels.
+fn hint(axis: Axis, per_px: i64, right_to: i64, wrong_from: i64) -> Option<String> {
+    // The first shape that is wrong is not exactly at the limit.
+    let [least, most] = [right_to as f64 * 0.99, wrong_from as f64 * 1.01];
+    let is_in_steps = axis.is_in_steps() && per_px > 1;
+    let mut units = vec![(1, "pixels".to_owned())];
+    if is_in_steps {
+        units = vec![(1, format!("steps of 1/{per_px} px")), (per_px, "pixels".to_owned())];
+    }
+    if axis == Axis::Slope {
+        units.clear();
+    }
+    for (scale, unit) in units {
+        let holds = |measure: f64| (least..=most).contains(&(measure * scale as f64));
+        for (bits, word) in WORDS {
+            let limit = 2f64.powi(bits);
+            let what = if bits < 32 && holds(limit) {
+                axis.name()
+            } else if axis == Axis::Size && bits >= 15 && holds(limit.sqrt()) {
+                "product of two sides"
+            } else if axis == Axis::Size && bits >= 15 && holds((limit / 2.0).sqrt()) {
+                "sum of two products of sides"
+            } else {
+                continue;
+            };
+            return Some(format!("There the {what} in {unit} passes 2^{bits}, the end of {word}."));
+        }
+    }
+    None
+}
+
+/// Where words end, as powers of two.
+const WORDS: [(i32, &str); 7] = [
+    (7, "a signed word of 8 bits"),
+    (8, "a word of 8 bits"),
+    (15, "a signed word of 16 bits"),
+    (16, "a word of 16 bits"),
+    (24, "what an f32 holds exactly"),
+    (31, "a signed word of 32 bits"),
+    (32, "a word of 32 bits"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mistakes;
+    use rasterproof_core::contract::Rasterize as _;
+    use rasterproof_core::raster::scanline::Scanline;
+
+    type IsWrong<'a> = &'a dyn Fn(&Question) -> bool;
+
+    /// The limits of a right rasterizer that leaves a pixel out of triangles of a kind.
+    fn limits(is_wrong: IsWrong<'_>) -> Vec<Threshold> {
+        let mut ask = |questions: &[Question]| {
+            let draw = |question: &Question| {
+                let mut picture = Coverage::new(question.window, 0);
+                let mut first = is_wrong(question);
+                Scanline.cover(question.corners, question.window, |s| {
+                    picture.hit(s.y_px, s.x0_px + i32::from(first), s.x1_px);
+                    first = false;
+                });
+                Some(picture)
+            };
+            questions.iter().map(draw).collect::<Vec<_>>()
+        };
+        of_triangles(&mut ask, &Known::default(), &Convention::default(), &|| true)
+    }
+
+    fn sides(corners: &Corners) -> [i64; 2] {
+        let side = |all: [i32; 3]| {
+            i64::from(all.into_iter().max().unwrap()) - i64::from(all.into_iter().min().unwrap())
+        };
+        [side(corners.map_array(|c| c.x)), side(corners.map_array(|c| c.y))]
+    }
+
+    #[test]
+    fn limits_are_found() {
+        let largest = |q: &Question| sides(&q.corners).into_iter().max().unwrap();
+        let found = limits(&|q| largest(q) > 300 * 256 + 77);
+        let [limit] = &found[..] else { panic!("{found:?}") };
+        assert_eq!((limit.of, limit.hint.as_deref()), ("size", None));
+        let beyond = limit.wrong_from * 256.0 - 77.0 - 76_800.0;
+        assert!(limit.is_sharp && (1.0..300.0).contains(&beyond), "{limit}");
+
+        // A product of two sides in 32 bits.
+        let found = limits(&|q| sides(&q.corners).iter().product::<i64>() >= 1 << 31);
+        let said = found[0].to_string();
+        assert!(said.starts_with("Found by asking: triangles are wrong from 181 px on"), "{said}");
+        let hint = "the product of two sides in steps of 1/256 px passes 2^31, the end of a signed word of 32 bits";
+        assert!(said.contains(hint), "{said}");
+
+        // A coordinate in 16 bits.
+        let far = |q: &Question| q.corners.iter().any(|c| c.x.abs().max(c.y.abs()) >= 1 << 15);
+        let found = limits(&far);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let said = found[0].to_string();
+        assert!(said.contains("wrong from a coordinate of 128 px on: "), "{said}");
+        assert!(said.contains("There the coordinate in steps of 1/256 px passes 2^15"), "{said}");
+
+        // A column in 8 bits, which small windows do not show.
+        let found = limits(&|q| q.window.x1 > 256 + 24 && q.window.y1 <= 24);
+        let said = found[0].to_string();
+        assert!(said.contains("wrong from column 257 on: "), "{said}");
+        assert!(said.contains("There the column in pixels passes 2^8"), "{said}");
+
+        // Flat edges.
+        let found = limits(&|q| steepest(&q.corners) >= 300);
+        assert!(found[0].to_string().contains("from a slope of 1 : 300 on"), "{found:?}");
+    }
+
+    /// Neither a right program nor one that is wrong everywhere has a limit.
+    #[test]
+    fn no_limit_is_found_where_none_is() {
+        assert_eq!(limits(&|_| false), []);
+        assert_eq!(limits(&|_| true), []);
+        assert_eq!(limits(&|q| q.corners[0].x % 3 == 0), []);
+    }
+
+    /// The limit of lines, and that of a mistake that is named.
+    #[test]
+    fn limits_of_lines_are_found() {
+        let convention = LineConvention::default();
+        let mut ask = |questions: &[LineQuestion]| {
+            let draw = |question: &LineQuestion| {
+                let [[x0, y0], [x1, y1]] = question.ends;
+                let steps = (i64::from(x1) - i64::from(x0))
+                    .abs()
+                    .max((i64::from(y1) - i64::from(y0)).abs());
+                let mut pixels = convention.pixels(question)?;
+                if steps > 16_384 {
+                    pixels.pop();
+                }
+                Some(pixels)
+            };
+            questions.iter().map(draw).collect::<Vec<_>>()
+        };
+        let found = of_lines(&mut ask, &Known::default(), &convention, &|| true);
+        assert!(found[0].to_string().contains("lines are wrong from 16385 steps on"), "{found:?}");
+        let found = mistakes::of_lines(&mut ask, &Known::default(), None, &[], &|| true);
+        let found = found.unwrap();
+        assert_eq!(found.limits.len(), 1, "{found}");
+    }
+}
