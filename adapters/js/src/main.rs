@@ -2,7 +2,7 @@
 //!
 //! Its standard input begins with options, a line each, and ends them with the line HELLO of the line protocol. Then it holds
 //! the answers to the requests on the standard output. The verdict goes to the standard error, and the exit status is the
-//! program's. A host that is called for every read can so be asked by an ordinary Rust program, without `unsafe`.
+//! program's. The host is called for every read, so an ordinary Rust program can put its questions to it, without `unsafe`.
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ use rasterproof_judge::{Options, adapt_case, judge, polygons};
 use rasterproof_report::{judge_text, polygons_text};
 use rasterproof_verify::partition::Family;
 
-/// Who called the module.
+/// The program that instantiated the module: it answers requests when the standard input is read.
 struct Host {
     declared: Declared,
 }
@@ -54,7 +54,6 @@ fn line() -> Option<String> {
     Some(line.trim_end().to_owned())
 }
 
-/// What the host wants to know.
 #[derive(Default)]
 struct Job {
     options: Options,

@@ -79,7 +79,7 @@ rasterproof_core::named! {
     }
 }
 
-/// What a tessellator promises.
+/// What a tessellator promises, in the words of the module [`partition`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tessellation {
     pub fill_rule: partition::FillRule,

@@ -1,4 +1,4 @@
-//! A tessellator as a judged program: it is asked for the triangles of polygons, and judged by
+//! A tessellator as a judged program: it sends the triangles of polygons, which are judged by
 //! [`rasterproof_verify::partition`].
 
 use std::sync::{Mutex, PoisonError};

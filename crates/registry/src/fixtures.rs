@@ -75,11 +75,9 @@ pub struct PolygonFixture {
     pub family: String,
     /// Inside is where they run around a point an odd number of times.
     pub contours: Vec<Vec<[i32; 2]>>,
-    /// Exact.
     pub twice_area: i64,
 }
 
-/// How many polygons there are.
 pub const POLYGONS: usize = 200;
 /// Of each family, the smallest of so many are taken.
 const POLYGONS_LOOKED_AT: u64 = 200;
@@ -96,7 +94,7 @@ impl PolygonFixture {
         Self { family: family.name().to_owned(), contours, twice_area }
     }
 
-    /// Vertices, then digits.
+    /// Fewer vertices come first, then fewer digits.
     fn size(&self) -> (usize, usize) {
         let vertices = self.contours.iter().map(Vec::len).sum();
         (vertices, format!("{:?}", self.contours).len())
@@ -111,7 +109,7 @@ fn shoelace(contour: &[[i32; 2]]) -> i64 {
     contour.iter().zip(next).map(cross).sum()
 }
 
-/// The smallest polygons of each family, alike many.
+/// The smallest polygons of each family: the same number of each, but for one.
 fn polygons(seed: u64) -> Vec<PolygonFixture> {
     let mut all = Vec::new();
     let mut families = Family::ALL.len();
