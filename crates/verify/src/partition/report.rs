@@ -266,13 +266,14 @@ pub fn judge_partitions<T: Tessellate + Sync>(
 /// By these options no polygon was judged.
 #[doc(hidden)]
 pub fn judge_partitions_of(
-    answer: &(dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Refused>> + Sync),
+    answer: &Answered<'_>,
     options: &Options,
 ) -> Result<Report, NothingJudged> {
     let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
     judge(&|polygon| answer(polygon).map(|answer| answer.map_err(refused)), options)
 }
 
+type Answered<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Refused>> + Sync + 'a;
 type Asked<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Fault>> + Sync + 'a;
 
 /// The triangles of a polygon and what was found about them; nothing where the polygon is not valid or not accepted.
