@@ -9,7 +9,10 @@ def triangles(contours):
     polygon = shapely.Polygon(contours[0], contours[1:])
     if not polygon.is_valid:
         return None
-    parts = shapely.constrained_delaunay_triangles(polygon).geoms
+    try:
+        parts = shapely.constrained_delaunay_triangles(polygon).geoms
+    except shapely.errors.GEOSException:
+        return np.empty((0, 3, 2))  # which is a gap
     return np.array([shapely.get_coordinates(part)[:3] for part in parts])
 
 
