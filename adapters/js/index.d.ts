@@ -34,6 +34,15 @@ export function assertLines(
   options?: Options,
 ): void;
 
+/**
+ * Judges the triangles that are made of polygons: they cover each exactly once. The function gets contours, the first one
+ * of a polygon around the others, and returns null for a polygon that it does not take.
+ */
+export function assertPartition(
+  fn: (contours: [x: number, y: number][][]) => [x: number, y: number][][] | null,
+  options?: Options,
+): void;
+
 /** Judges pixels with their values: z, linear on the screen, and a b in perspective, three numbers for each pixel. */
 export function assertValues(
   fn: (

@@ -177,28 +177,52 @@ function lines(call, given) {
   return all;
 }
 
+/** The points of a list of numbers, so many numbers each. */
+const points = (numbers, wide) => Array.from({ length: numbers.length / wide }, (_, i) => numbers.slice(wide * i, wide * i + wide));
+
+/** Reads a window and corners. */
+const corners = (wide, round) => ([width, height, ...numbers]) =>
+  [points(numbers.map(round), wide), [Number(width), Number(height)]];
+
+/** Reads the contours of a polygon. */
+function polygon([count, ...words]) {
+  const numbers = words.map(Number);
+  return [Array.from({ length: Number(count) }, () => points(numbers.splice(0, 2 * numbers.shift()), 2))];
+}
+
+function triangles(judged, value) {
+  const expected = 'an array of triangles, each three points [x, y], or null for a polygon that is not taken';
+  if (value === null) return null;
+  if (!Array.isArray(value)) throw new TypeError(`${judged.name} returned ${describe(value)}; expected ${expected}`);
+  const isPoint = (point) => point?.length === 2 && typeof point[0] === 'number' && typeof point[1] === 'number';
+  for (const triangle of value)
+    if (triangle?.length !== 3 || ![triangle[0], triangle[1], triangle[2]].every(isPoint))
+      throw new TypeError(`${judged.name} returned the triangle ${JSON.stringify(triangle)}; expected ${expected}`);
+  return `${value.length} ${value.flat(2).join(' ')}`;
+}
+
 /**
- * What judges functions of one kind: the letters of request and answer, what is declared, numbers of each corner, the
- * check of what is returned, and a first question.
+ * What judges functions of one kind: the letters of request and answer, what is declared, how a request is read, what checks
+ * and writes an answer, and a first request.
  */
-const judges = (call, [request, reply], capability, wide, write, probe) => {
-  const ask = (judged, numbers, window) => {
-    // A position of a line names the pixel that contains it.
-    const all = numbers.map((word) => (request === 'L' ? Math.floor(word) : Number(word)));
-    const corners = Array.from({ length: all.length / wide }, (_, i) => all.slice(wide * i, wide * i + wide));
-    return write(judged, judged.fn(corners, window), window);
+const judges = (call, [request, reply], capability, read, write, probe) => {
+  const ask = (judged, words) => {
+    const [shape, window] = read(words);
+    return write(judged, judged.fn(shape, window), window);
   };
   return function assert(fn, options = {}) {
     if (typeof fn !== 'function') throw new TypeError(`${call} takes a function; got ${describe(fn)}`);
     const judged = { fn, name: fn.name || 'function', kind: undefined };
     const header = lines(call, options);
     // What it returns for one case, in a window that is no square, says what can be seen in its answers.
-    ask(judged, probe, [8, 6]);
+    ask(judged, probe.split(' '));
     const masked = { booleans: ' mask', counts: '' }[judged.kind];
     const words = masked === undefined ? '' : `${masked}${request === 'L' ? ' line-set' : ''}`;
     const hello = `HELLO 2 ${judged.name.replace(/[^!-~]+/g, '-')} ${capability} batch=1024${words}`;
-    const { status, said } = run(`${[`call ${call}(${judged.name}`, ...header, hello].join('\n')}\n`, ([verb, id, width, height, ...numbers]) =>
-      verb === request ? `${reply} ${id} ${ask(judged, numbers, [Number(width), Number(height)])}` : `E ${id} unsupported`);
+    const { status, said } = run(`${[`call ${call}(${judged.name}`, ...header, hello].join('\n')}\n`, ([verb, id, ...words]) => {
+      const answer = verb === request ? ask(judged, words) : null;
+      return answer === null ? `E ${id} unsupported` : `${reply} ${id} ${answer}`;
+    });
     if (status === 0) return;
     const error = status === 1 ? new AssertionError(said.trim()) : new Error(`rasterproof gave no verdict:\n${said.trim()}`);
     // The first line of the trace is that of the test.
@@ -207,7 +231,9 @@ const judges = (call, [request, reply], capability, wide, write, probe) => {
   };
 };
 
-export const assertRasterizer = judges('assertRasterizer', 'TC', 'coverage', 2, coverage, [1, 1, 6, 1, 1, 6]);
-export const assertLines = judges('assertLines', 'LP', 'line', 2, pixels, [1, 1, 6, 4]);
-export const assertValues = judges('assertValues', 'IF', 'attributes', 6, fragments,
-  [1, 1, 0, 1, 0, 0, 6, 1, 0, 1, 1, 0, 1, 6, 1, 1, 0, 1]);
+export const assertRasterizer = judges('assertRasterizer', 'TC', 'coverage', corners(2, Number), coverage, '8 6 1 1 6 1 1 6');
+// A position of a line names the pixel that contains it.
+export const assertLines = judges('assertLines', 'LP', 'line', corners(2, Math.floor), pixels, '8 6 1 1 6 4');
+export const assertValues = judges('assertValues', 'IF', 'attributes', corners(6, Number), fragments,
+  '8 6 1 1 0 1 0 0 6 1 0 1 1 0 1 6 1 1 0 1');
+export const assertPartition = judges('assertPartition', 'YZ', 'partition', polygon, triangles, '1 3 0 0 4 0 0 4');

@@ -17,9 +17,10 @@ use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
-use rasterproof_judge::{Options, adapt_case, process_group};
+use rasterproof_judge::{Options, adapt_case, polygons, process_group};
 use rasterproof_report::formats::{self, Format};
-use rasterproof_report::{against_text, judge_text};
+use rasterproof_report::{against_text, judge_text, polygons_text};
+use rasterproof_verify::partition;
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
@@ -81,7 +82,8 @@ pub struct JudgeArguments {
 }
 
 fn families() -> Vec<&'static str> {
-    adapt_case::families(&[]).into_iter().map(|family| family.name).collect()
+    let polygons = partition::Family::ALL.into_iter().map(partition::Family::name);
+    adapt_case::families(&[]).into_iter().map(|family| family.name).chain(polygons).collect()
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -117,9 +119,67 @@ impl JudgeArguments {
         }
     }
 
+    fn format(&self) -> Format {
+        if self.json { Format::Json } else { self.format }
+    }
+
     fn words(&self) -> Vec<String> {
         self.declare.iter().flat_map(|words| words.split_whitespace()).map(str::to_owned).collect()
     }
+}
+
+/// The commands that judge everything, and one case, again.
+fn again(arguments: &JudgeArguments, typed: &Typed) -> (String, impl Fn(&str, u64) -> String) {
+    let again = typed.clone().without_output().without(&["update-baseline"]);
+    let again = again.set("seed", arguments.seed);
+    let repeat_all = again.clone().first("cases", arguments.cases).line();
+    let repeat_case = move |family: &str, index: u64| {
+        let one = again.clone().without(&["cases", "seconds", "jobs", "baseline"]);
+        one.first("case", index).first("family", family).line()
+    };
+    (repeat_all, repeat_case)
+}
+
+/// Judges a program that declares `partition`: by its polygons alone.
+fn tessellator(
+    arguments: &JudgeArguments,
+    program: &mut dyn Ask,
+    options: &Options,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Status {
+    let declared = program.declared().clone();
+    let name = &declared.name;
+    if declared.capabilities().len() > 1 {
+        return Err(usage(format!(
+            "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
+        )));
+    }
+    let idle = [
+        ("--seconds", arguments.seconds.is_some()),
+        ("--baseline", arguments.baseline.is_some()),
+        ("--against", arguments.against.is_some()),
+        ("--report", arguments.page.page("judge.html").is_some()),
+    ];
+    if let Some((option, _)) = idle.iter().find(|(_, is_given)| *is_given) {
+        return Err(usage(format!(
+            "{option} is not for tessellators, and {name} is one; leave it out"
+        )));
+    }
+    let report = polygons::judge(program, options).map_err(usage)?;
+    let (repeat_all, repeat_case) = again(arguments, typed);
+    let text = match arguments.format() {
+        Format::Text => {
+            polygons_text::text(&declared, &report, &repeat_all, &repeat_case, streams.colour)
+        }
+        other => {
+            let verdict = polygons::verdict(&declared, options, &report);
+            formats::write(&verdict, other, &repeat_all, &repeat_case)
+        }
+    };
+    streams.output.write_all(text.as_bytes())?;
+    streams.output.flush()?;
+    Ok(if report.sum().wrong == 0 { exit::AGREES } else { exit::DISAGREES })
 }
 
 pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
@@ -154,7 +214,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         if declared.capabilities().is_empty() {
             return Err(usage(format!(
                 "{} names no capability after HELLO; expected coverage, line, attributes, \
-                 samples4, depth or clip",
+                 samples4, depth, clip or partition",
                 declared.name
             )));
         }
@@ -171,6 +231,9 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         }
     }
     let options = arguments.options(baseline.as_ref());
+    if declared.partition {
+        return tessellator(arguments, &mut *askers[0], &options, typed, streams);
+    }
     let total = cases_of(&options, &declared);
     let progress = Progress::new(streams.progress, "cases judged", Some(total));
     let scope = Scope::of(&options);
@@ -189,14 +252,8 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     if let Some(baseline) = &baseline {
         baseline.apply(&mut verdict);
     }
-    let again = typed.clone().without_output().without(&["update-baseline"]);
-    let again = again.set("seed", arguments.seed);
-    let repeat_case = |family: &str, index: u64| {
-        let one = again.clone().without(&["cases", "seconds", "jobs", "baseline"]);
-        one.first("case", index).first("family", family).line()
-    };
-    let repeat_all = again.clone().first("cases", arguments.cases).line();
-    let format = if arguments.json { Format::Json } else { arguments.format };
+    let (repeat_all, repeat_case) = again(arguments, typed);
+    let format = arguments.format();
     let text = match format {
         Format::Text => match &verdict.against {
             Some(second) => {

@@ -4,12 +4,12 @@
 use std::collections::BTreeMap;
 
 use rasterproof_registry::engines::{Engine, LineEngine};
-use rasterproof_registry::fixtures::{Drawer, FORMAT, Fault, Fixtures, QUOTAS, generate};
+use rasterproof_registry::fixtures::{Drawer, FORMAT, Fault, Fixtures, POLYGONS, QUOTAS, generate};
 use serde_json::Value;
 
 use crate::pages::read;
 
-fn fixtures() -> Fixtures {
+pub(crate) fn fixtures() -> Fixtures {
     serde_json::from_str(&read("crates/verify/fixtures/fixtures.json")).unwrap()
 }
 
@@ -43,6 +43,7 @@ fn fixtures_are_a_thousand_small_cases() {
         let count = fixtures.cases.iter().filter(|case| case.kind == kind).count();
         assert_eq!(count, quota, "{kind:?}");
     }
+    assert_eq!(fixtures.polygons.len(), POLYGONS);
     assert_eq!(fixtures.to_json(), text);
     let with_choices = fixtures.cases.iter().filter(|case| case.expected.len() > 1).count();
     assert!(with_choices > 50, "{with_choices} cases differ by the bits");

@@ -9,7 +9,9 @@ use rasterproof::partition::{
 };
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
+use crate::fixtures::fixtures;
 use crate::pages::read;
+use crate::program::Folder;
 
 /// The triangles inside by the even-odd rule, of a triangulation that has all edges of the contours.
 fn spade(polygon: &Polygon) -> Vec<Triangle> {
@@ -83,6 +85,70 @@ fn partitions_of_spade_are_wrong_once_changed() {
         }
     }
     assert_eq!(planted, 4 * 1_100);
+}
+
+/// What a triangulation that has no fault covers is the area that the file of fixtures states.
+#[test]
+fn partition_fixtures_have_the_area_of_triangles() {
+    let area = |corners: Triangle| {
+        let [[ax, ay], [bx, by], [cx, cy]] = corners.map(|corner| corner.map(|v| v as i64));
+        ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).abs()
+    };
+    for fixture in fixtures().polygons {
+        let points = |contour: &Vec<[i32; 2]>| {
+            contour.iter().map(|point| point.map(f64::from)).collect::<Vec<_>>()
+        };
+        let polygon = Polygon::new(fixture.contours.iter().map(points).collect());
+        let triangles = spade(&polygon);
+        judge_partition(&polygon, &triangles, &Options::default()).unwrap().check().unwrap();
+        let sum: i64 = triangles.into_iter().map(area).sum();
+        assert_eq!(sum, fixture.twice_area, "{fixture:?}");
+    }
+}
+
+/// Each fault of a program behind the protocol is told: what it makes wrong, refuses, or does not answer.
+#[test]
+fn partition_programs_are_judged() {
+    let folder = Folder::new("tessellators");
+    let program = |name: &str, answer: &str| {
+        let text = format!(
+            "import sys\nfor line in sys.stdin:\n    words = line.split()\n    if words[0] == 'HELLO':\n        \
+             print('HELLO 2 mine partition triangles=any t-junctions', flush=True)\n        continue\n    \
+             p = list(zip(words[4::2], words[5::2]))\n    {answer}\n"
+        );
+        folder.put(name, text);
+        format!("-- python3 {name}")
+    };
+    // Of one contour that is convex, a fan is right.
+    let fan = "print('Z', words[1], len(p) - 2, *[v for b, c in zip(p[1:], p[2:]) for q in (p[0], b, c) for v in q], flush=True)";
+    let fan = program(
+        "fan.py",
+        &format!(
+            "if words[2] == '1': {fan}\n    else: print('E', words[1], 'unsupported', flush=True)"
+        ),
+    );
+    let wrong = folder.check(format!("judge --cases 20 --family Star {fan}"), 1);
+    let wrong = wrong.prints_all([
+        "mine is not right",
+        "partition fill-rule=even-odd triangles=any",
+        "outside: the smallest polygon",
+        "\n  [[[",
+    ]);
+    let case = wrong.out.split("found in: rasterproof ").nth(1).unwrap().lines().next().unwrap();
+    folder.check(case, 1).prints("1 of 1 polygons are not covered exactly once");
+    folder
+        .check(format!("judge --cases 5 --family Star --format junit {fan}"), 1)
+        .prints("name=\"Star\"");
+    folder.check(format!("judge --family flat {fan}"), 2).says("these families hold no polygons");
+    folder.check(format!("judge --seconds 5 {fan}"), 2).says("--seconds is not for tessellators");
+    let none = program("none.py", "print('E', words[1], 'unsupported', flush=True)");
+    folder.check(format!("judge --cases 5 {none}"), 2).says("accepts none of the polygons");
+    let refuses = program("refuses.py", "print('E', words[1], 'too hard', flush=True)");
+    folder.check(format!("judge --cases 5 {refuses}"), 1).prints("refused: too hard");
+    let dies = program("dies.py", "sys.exit(3)");
+    folder.check(format!("judge --cases 5 {dies}"), 1).prints("given up after 3 times");
+    let lies = program("lies.py", "print('Z', words[1], 1, 0, 0, 1, flush=True)");
+    folder.check(format!("judge --cases 5 {lies}"), 1).prints("prints nonsense");
 }
 
 /// A triangulation that leaves out the second contour covers the hole, and the report says so and where.

@@ -9,7 +9,7 @@ use std::process::Command;
 use rasterproof_faults::published::catalogue::CARDS;
 use rasterproof_invariants::CATALOGUE;
 use rasterproof_render::scene::chapters::SCENES;
-use rasterproof_verify::cases;
+use rasterproof_verify::{cases, partition};
 
 use crate::pages::{files, read, root};
 use crate::program::Run;
@@ -302,10 +302,14 @@ impl Known {
         let folders = source_folders().into_iter().chain(beside);
         let sources = folders.flat_map(|folder| files(&root().join(folder), ".rs"));
         let invariants: Vec<_> = CATALOGUE.iter().map(|invariant| invariant.name).collect();
+        let polygons = partition::Family::ALL.into_iter().map(partition::Family::name);
         Self {
             functions: sources.flat_map(|path| functions(&path)).collect(),
             options: [
-                ("--family ", cases::families().map(|family| family.name).collect()),
+                (
+                    "--family ",
+                    cases::families().map(|family| family.name).chain(polygons).collect(),
+                ),
                 ("--scene ", SCENES.iter().map(|scene| scene.name).collect()),
                 ("--specimen ", CARDS.iter().map(|card| card.name).collect()),
                 ("--invariant ", [invariants.clone(), vec!["all"]].concat()),

@@ -2,7 +2,7 @@
 //!
 //! Its standard input begins with options, a line each, and ends them with the line HELLO of the line protocol. Then it holds
 //! the answers to the requests on the standard output. The verdict goes to the standard error, and the exit status is the
-//! program's. A host that is called for every read can so be asked by an ordinary Rust program, without `unsafe`.
+//! program's. The host is called for every read, so an ordinary Rust program can put its questions to it, without `unsafe`.
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
@@ -12,10 +12,11 @@ use rasterproof_judge::ask::{Answer, Ask, Breach, Question};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
-use rasterproof_judge::{Options, adapt_case, judge};
-use rasterproof_report::judge_text;
+use rasterproof_judge::{Options, adapt_case, judge, polygons};
+use rasterproof_report::{judge_text, polygons_text};
+use rasterproof_verify::partition::Family;
 
-/// Who called the module.
+/// The program that instantiated the module: it answers requests when the standard input is read.
 struct Host {
     declared: Declared,
 }
@@ -53,7 +54,6 @@ fn line() -> Option<String> {
     Some(line.trim_end().to_owned())
 }
 
-/// What the host wants to know.
 #[derive(Default)]
 struct Job {
     options: Options,
@@ -86,7 +86,10 @@ impl Job {
                 self.options.time_limit = Some(seconds);
             }
             "family" => {
-                adapt_case::families(&[]).iter().find(|family| family.name == value)?;
+                let families = adapt_case::families(&[]);
+                let names = families.iter().map(|family| family.name);
+                let polygons = Family::ALL.into_iter().map(Family::name);
+                names.chain(polygons).find(|name| *name == value)?;
                 self.options.families.push(value.to_owned());
             }
             "call" => self.call = value.to_owned(),
@@ -106,18 +109,24 @@ impl Job {
     }
 
     fn judge(self, declared: Declared) -> Result<(bool, String), String> {
-        let scope = Scope::of(&self.options);
-        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(Host { declared })];
-        let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
-        if let Some(why) = verdict.judged_nothing(&self.options) {
-            return Err(why);
-        }
         let one = |family: &str, index| self.line(&format!("family: '{family}', case: {index}"));
         let families = match self.options.families.as_slice() {
             [] => String::new(),
             names => format!("family: ['{}'], ", names.join("', '")),
         };
         let all = self.line(&format!("{families}cases: {}", self.options.cases));
+        let mut host = Host { declared };
+        if host.declared.partition {
+            let report = polygons::judge(&mut host, &self.options)?;
+            let text = polygons_text::text(&host.declared, &report, &all, &one, false);
+            return Ok((report.sum().wrong == 0, text));
+        }
+        let scope = Scope::of(&self.options);
+        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(host)];
+        let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
+        if let Some(why) = verdict.judged_nothing(&self.options) {
+            return Err(why);
+        }
         let text = judge_text::text(&verdict, &all, &one, (false, false));
         Ok((verdict.agrees(), text.replace("--declare '", "declare: '")))
     }

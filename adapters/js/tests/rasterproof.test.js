@@ -5,7 +5,7 @@ import { spawn, spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { test } from 'node:test';
-import { AssertionError, assertLines, assertRasterizer, assertValues } from 'rasterproof';
+import { AssertionError, assertLines, assertPartition, assertRasterizer, assertValues } from 'rasterproof';
 import * as rasterproof from 'rasterproof';
 
 const RANGE = 'range=4096';
@@ -115,6 +115,21 @@ test('lines', () => {
   assert.match(message(() => assertLines(line((list) => list.slice(0, -1)), { ...one, family: undefined })), /the last pixel is not drawn/);
 });
 
+test('polygons', () => {
+  const fan = ([outer, ...holes]) => (holes.length ? null : outer.slice(2).map((c, i) => [outer[0], outer[i + 1], c]));
+  const said = message(() => assertPartition(fan, { cases: 20, family: 'Star' }));
+  assert.match(said, /fan speaks version 2: partition fill-rule=even-odd/);
+  assert.match(said, /outside: the smallest polygon that was found\n +\[\[\[/);
+  const call = /assertPartition\(fan, \{ family: .*\}\)/.exec(said)[0];
+  assert.match(message(() => new Function('assertPartition', 'fan', call)(assertPartition, fan)), /1 polygons are not covered/);
+  // A convex polygon is a fan, and a polygon that is not taken is not judged.
+  const isConvex = (p) => p.every((b, i) => edge(p.at(i - 1), b, ...p[(i + 1) % p.length]) > 0);
+  assertPartition((contours) => (contours.length === 1 && isConvex(contours[0]) ? fan(contours) : null), { family: 'SnappedCircle' });
+  assert.throws(() => assertPartition(() => null, { cases: 5 }), /gave no verdict:\n.*accepts none of the polygons/);
+  assert.throws(() => assertPartition(() => [[[0, 1]]]), /TypeError: function returned the triangle \[\[0,1\]\]; expected an array/);
+  assert.throws(() => assertPartition(fan, { cases: 0 }), /RangeError: no case/);
+});
+
 test('what is returned is checked', () => {
   const wrong = (fn, pattern, judge = assertRasterizer) => assert.throws(() => judge(fn, { declare: RANGE }), (error) => {
     assert.ok(error instanceof TypeError, error.stack);
@@ -166,7 +181,7 @@ test('the example fails with the message', () => {
   const { stdout, status } = spawnSync(process.execPath, ['--test', 'example.test.js'], { encoding: 'utf8', env });
   assert.equal(status, 1);
   assert.match(stdout, /draws\s+nothing on an edge: neighbours leave holes/);
-  assert.deepEqual(Object.keys(rasterproof), ['AssertionError', 'assertLines', 'assertRasterizer', 'assertValues']);
+  assert.deepEqual(Object.keys(rasterproof), ['AssertionError', 'assertLines', 'assertPartition', 'assertRasterizer', 'assertValues']);
 });
 
 const chromium = ['chromium', 'chromium-browser', 'google-chrome'].find((name) => !spawnSync(name, ['--version']).error);

@@ -17,15 +17,16 @@ from numpy.typing import NDArray
 from . import _shapes
 from ._session import Session, program, run
 
-__all__ = ["Judge", "assert_lines", "assert_rasterizer", "assert_values", "program"]
+__all__ = ["Judge", "assert_lines", "assert_partition", "assert_rasterizer", "assert_values", "program"]
 
 Window = Tuple[int, int]
 Rasterizer = Callable[[NDArray[Any], Window], Union[NDArray[Any], Sequence[NDArray[Any]]]]
 Values = Callable[[NDArray[Any], Window], Tuple[NDArray[Any], NDArray[Any]]]
+Tessellator = Callable[[List[NDArray[Any]]], Union[None, NDArray[Any], Sequence[Any]]]
 Families = Union[None, str, Sequence[str]]
 
 
-def _judge(of: "_Of", fn: Callable[[Any, Window], Any], judged: Dict[str, Any], declare: str, timeout: float) -> None:
+def _judge(of: "_Of", fn: Callable[..., Any], judged: Dict[str, Any], declare: str, timeout: float) -> None:
     __tracebackhide__ = True
     cases = judged["cases"]
     if not callable(fn):
@@ -34,9 +35,8 @@ def _judge(of: "_Of", fn: Callable[[Any, Window], Any], judged: Dict[str, Any], 
         raise ValueError(f"no case would be judged: cases is {cases!r}; expected at least 1")
     kind, name = _shapes.Kind(), str(getattr(fn, "__name__", type(fn).__name__))
 
-    def answer(numbers: List[List[float]], window: Window) -> List[str]:
-        written: List[str] = of.write(fn(of.read(numbers), window), len(numbers), window, name, kind)
-        return written
+    def answer(numbers: List[List[float]], window: Window) -> List[Optional[str]]:
+        return of.ask(fn, numbers, window, name, kind)
 
     # What it returns for one case, in a window that is no square, says what can be seen in its answers.
     answer([of.probe], (8, 6))
@@ -61,11 +61,32 @@ class _Of:
         return numpy.floor(array).astype(numpy.int64) if self.whole else array
 
 
+    def ask(self, fn: Callable[..., Any], numbers: List[List[float]], window: Window, name: str, kind: Any) -> List[Optional[str]]:
+        written: List[Optional[str]] = self.write(fn(self.read(numbers), window), len(numbers), window, name, kind)
+        return written
+
+
+class _Polygons(_Of):
+    """Polygons come one by one, as lists of contours, each behind the number of its vertices."""
+
+    def ask(self, fn: Callable[..., Any], numbers: List[List[float]], window: Window, name: str, kind: Any) -> List[Optional[str]]:
+        answers = []
+        for count, *rest in numbers:
+            contours: List[NDArray[Any]] = []
+            for _ in range(int(count)):
+                end = 1 + 2 * int(rest[0])
+                contours.append(numpy.array(rest[1:end]).reshape(-1, 2))
+                rest = rest[end:]
+            answers.append(self.write(fn(contours), name))
+        return answers
+
+
 _COVERAGE = _Of("assert_rasterizer", "T", "coverage", (3, 2), False, _shapes.coverage, [1, 1, 6, 1, 1, 6])
 _LINES = _Of("assert_lines", "L", "line", (2, 2), True, _shapes.pixels, [1, 1, 6, 4])
 _VALUES = _Of(
     "assert_values", "I", "attributes", (3, 6), False, _shapes.fragments, [1, 1, 0, 1, 0, 0, 6, 1, 0, 1, 1, 0, 1, 6, 1, 1, 0, 1]
 )
+_PARTITION = _Polygons("assert_partition", "Y", "partition", (0, 0), False, _shapes.triangles, [1, 3, 0, 0, 4, 0, 0, 4])
 
 
 def assert_rasterizer(
@@ -114,8 +135,22 @@ def assert_values(
     _judge(_VALUES, fn, judged, declare, timeout)
 
 
+def assert_partition(
+    fn: Tessellator, *, cases: int = 100, seed: int = 1, family: Families = None, case: Optional[int] = None,
+    declare: str = "", timeout: float = 60.0,
+) -> None:
+    """Judges the triangles that are made of polygons: they cover each exactly once.
+
+    `fn(contours)` gets a list of arrays of shape (k, 2), the first one around the others, and returns an array of shape
+    (m, 3, 2), or None for a polygon that it does not take.
+    """
+    __tracebackhide__ = True
+    judged = {"cases": cases, "seed": seed, "family": family, "case": case}
+    _judge(_PARTITION, fn, judged, declare, timeout)
+
+
 class Judge:
-    """The three functions with arguments chosen once, as the pytest fixture `rasterproof` has them."""
+    """The four functions with arguments chosen once, as the pytest fixture `rasterproof` has them."""
 
     def __init__(self, **chosen: Any) -> None:
         self.chosen = chosen
@@ -127,6 +162,10 @@ class Judge:
     def assert_lines(self, fn: Rasterizer, **arguments: Any) -> None:
         __tracebackhide__ = True
         assert_lines(fn, **{**self.chosen, **arguments})
+
+    def assert_partition(self, fn: Tessellator, **arguments: Any) -> None:
+        __tracebackhide__ = True
+        assert_partition(fn, **{**self.chosen, **arguments})
 
     def assert_values(self, fn: Values, **arguments: Any) -> None:
         __tracebackhide__ = True

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
 # The words of one request, without its id: its numbers, and its window.
-Answer = Callable[[List[List[float]], Tuple[int, int]], List[str]]
+Answer = Callable[[List[List[float]], Tuple[int, int]], List[Optional[str]]]
 
 RELAY = Path(__file__).with_name("_relay.py")
 PIECE = 1 << 18
@@ -91,7 +91,11 @@ class Session:
         groups: Dict[Tuple[int, int], List[int]] = {}
         words = [line.decode("latin-1").split() for line in block]
         for i, request in enumerate(words):
-            if request[0] == self.verb:
+            if request[0] == self.verb == "Y":
+                # A polygon has no window.
+                reply = self.answer([[float(word) for word in request[2:]]], (0, 0))[0]
+                replies[i] = f"E {request[1]} unsupported" if reply is None else f"Z {request[1]} {reply}"
+            elif request[0] == self.verb:
                 groups.setdefault((int(request[2]), int(request[3])), []).append(i)
             else:
                 replies[i] = self.hello if request == ["HELLO", "2"] else f"E {request[1]} unsupported"
@@ -145,4 +149,9 @@ def arguments(words: str) -> str:
     """Options of the command as arguments of the function: '--case 3' as ', case=3'."""
     found = re.findall(r"--(cases|seed|case|family|declare) (?:'([^']*)'|(\S+))", words)
     values = ((name, quoted or word) for name, quoted, word in found)
-    return "".join(f", {name}={value if value.isdigit() else repr(value)}" for name, value in values)
+    given: Dict[str, List[str]] = {}
+    for name, value in values:
+        given.setdefault(name, []).append(value if value.isdigit() else repr(value))
+    # Of families there may be several.
+    lists = ((name, all[0] if len(all) == 1 else f"[{', '.join(all)}]") for name, all in given.items())
+    return "".join(f", {name}={value}" for name, value in lists)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Sequence, Tuple
+from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy
 
@@ -137,3 +137,16 @@ def fragments(value: Any, count: int, window: Tuple[int, int], call: str, kind: 
     case, y, x = numpy.nonzero(masks)
     drawn = values[case, y, x].astype(numpy.float64)
     return joined([x, y, *drawn.T], case, count)
+
+
+def triangles(value: Any, call: str) -> Optional[str]:
+    if value is None:
+        return None
+    array = array_of(value, f"triangles of {call}")
+    if array.size == 0:
+        return "0"
+    if array.ndim != 3 or array.shape[1:] != (3, 2):
+        raise ValueError(f"{call} returned triangles of shape {array.shape}; expected (m, 3, 2), or None for a polygon that is not taken")
+    if not numpy.issubdtype(array.dtype, numpy.number) or numpy.issubdtype(array.dtype, numpy.complexfloating):
+        raise TypeError(f"{call} returned triangles of type {array.dtype}; expected numbers")
+    return " ".join([str(len(array)), *map(repr, array.astype(numpy.float64).ravel().tolist())])

@@ -117,6 +117,10 @@ class Judged(unittest.TestCase):
         self.assertTrue(np.array_equal(asked[0], asked[1]))
         self.assertFalse(np.array_equal(asked[0], asked[2]))
 
+    def test_several_families_are_printed_as_a_list(self):
+        said = self.fails(AssertionError, "is not right", rasterproof.assert_rasterizer, strict, cases=2, declare=RANGE, family=["flat", "fan"])
+        self.assertIn("repeat with: rasterproof.assert_rasterizer(draw, cases=2, family=['flat', 'fan'], seed=1, declare=", said)
+
     def test_doubles_are_seen(self):
         twice = lambda *request: exact(*request).astype(int) * 2
         said = self.fails(AssertionError, r"pixels: [\d,]+ twice", rasterproof.assert_rasterizer, twice, cases=5, declare=RANGE, family="uniform")
@@ -150,6 +154,20 @@ class Judged(unittest.TestCase):
         self.fails(TypeError, "ndarray; expected two arrays, masks and values", two, lambda c, w: values(c, w)[0])
         self.fails(ValueError, r"shape \(1, 6, 8\); expected \(1, 6, 8, 3\)", two, lambda c, w: (values(c, w)[0], np.ones((1, 6, 8))))
         self.fails(TypeError, "takes a function; got int", one, 3)
+
+    def test_polygons(self):
+        judge = rasterproof.assert_partition
+        fan = lambda contours: None if len(contours) > 1 else np.stack([[contours[0][0], b, c] for b, c in zip(contours[0][1:], contours[0][2:])])
+        fan.__name__ = "fan"
+        said = self.fails(AssertionError, r"outside: the smallest polygon that was found\n +\[\[\[", judge, fan, cases=20, family="Star")
+        call = re.search(r"rasterproof\.assert_partition\(fan, family=.*\)", said).group(0)
+        self.fails(AssertionError, "1 polygons are not covered", eval, call, {"rasterproof": rasterproof, "fan": fan})
+        turns = lambda p: np.cross(np.roll(p, -1, 0) - p, np.roll(p, -2, 0) - np.roll(p, -1, 0))
+        convex = lambda contours: fan(contours) if len(contours) == 1 and (turns(contours[0]) > 0).all() else None
+        judge(convex, family="SnappedCircle")
+        self.fails(RuntimeError, "accepts none of the polygons", judge, lambda contours: None, cases=5)
+        self.fails(ValueError, r"shape \(2, 2\); expected \(m, 3, 2\)", judge, lambda contours: np.ones((2, 2)))
+        self.fails(ValueError, "no case would be judged", judge, fan, cases=0)
 
     def test_nothing_to_judge(self):
         for cases in (0, -1, 1.5, True):

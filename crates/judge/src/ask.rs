@@ -15,6 +15,7 @@ use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
+use rasterproof_verify::partition::{self, Polygon};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
@@ -44,6 +45,8 @@ pub enum Asked {
     Near(Triangle),
     /// A: the same, with an attribute that new corners get as well.
     Carried(Triangle),
+    /// Y: the triangles of a polygon; the window has no part in it.
+    Polygon(Polygon),
 }
 
 impl Asked {
@@ -57,6 +60,7 @@ impl Asked {
             Self::Depth(_) => b"DV",
             Self::Near(_) => b"NG",
             Self::Carried(_) => b"AB",
+            Self::Polygon(_) => b"YZ",
         }
     }
 }
@@ -77,6 +81,8 @@ pub enum Answer {
     Polygon(Vec<ClipCorner>),
     /// B: corners of a polygon with attributes.
     Carried(Vec<ClipCorner>),
+    /// Z: triangles that make up a polygon.
+    Triangles(Vec<partition::Triangle>),
     /// E: the reason, printable.
     Refused(String),
     /// What each of two programs answers that are compared.
@@ -205,7 +211,7 @@ impl Question {
     pub fn write(&self, id: u64, out: &mut Vec<u8>) {
         // Writing to a vector does not fail.
         let _ = write!(out, "{} {id}", char::from(self.of.letters()[0]));
-        if !matches!(self.of, Asked::Near(_) | Asked::Carried(_)) {
+        if !matches!(self.of, Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_)) {
             let _ = write!(out, " {} {}", self.width, self.height);
         }
         // Rust prints the shortest decimal that reads back as the same number.
@@ -238,6 +244,13 @@ impl Question {
             }
             Asked::Carried(triangle) => {
                 clip_corners(triangle).iter().for_each(|corner| add(corner));
+            }
+            Asked::Polygon(polygon) => {
+                add(&[polygon.contours.len() as f64]);
+                for contour in &polygon.contours {
+                    add(&[contour.len() as f64]);
+                    add(contour.as_flattened());
+                }
             }
         }
         out.push(b'\n');
@@ -275,6 +288,10 @@ impl Question {
             })?),
             Asked::Carried(_) => Answer::Carried(each(n, words, |w| {
                 Some([w.float()?, w.float()?, w.float()?, w.float()?, w.float()?])
+            })?),
+            Asked::Polygon(_) => Answer::Triangles(each(n, words, |w| {
+                let mut corner = || Some([w.float()?, w.float()?]);
+                Some([corner()?, corner()?, corner()?])
             })?),
         };
         if words.is_empty() { Ok(answer) } else { Err("more follows than it counts") }
@@ -334,6 +351,9 @@ pub fn show(answer: &Answer, id: u64) -> String {
         Answer::Carried(corners) => {
             let one = |[x, y, z, w, a]: &ClipCorner| format!("{x} {y} {z} {w} {a}");
             list('B', corners.iter().map(one).collect())
+        }
+        Answer::Triangles(triangles) => {
+            list('Z', triangles.iter().map(|[a, b, c]| format!("{a:?} {b:?} {c:?}")).collect())
         }
         Answer::Line(pixels) => list('P', pixels.iter().map(|(x, y)| format!("{x} {y}")).collect()),
         Answer::Values(fragments) => {

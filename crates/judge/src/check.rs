@@ -543,6 +543,6 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             let carries = matches!(question.of, Asked::Carried(_));
             Some(if carries { Answer::Carried(floats) } else { Answer::Polygon(floats) })
         }
-        Asked::Samples(_) => None,
+        Asked::Samples(_) | Asked::Polygon(_) => None,
     }
 }

@@ -9,6 +9,7 @@ use std::fmt;
 use super::text::{number, printable, px};
 use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, MAX_SIDE_PX, SUBPIXELS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
+use rasterproof_verify::partition;
 
 /// What a program declares; the default is what version 1 promises.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +56,10 @@ pub struct Declared {
     pub tolerance: f64,
     /// Its near plane is z = 0, as Direct3D, Vulkan, Metal and WebGPU have it, and not z = -w, as OpenGL has it.
     pub near_is_zero: bool,
+    /// Answers Y.
+    pub partition: bool,
+    /// What it promises of the triangles of a polygon.
+    pub tessellation: Tessellation,
     /// How long its lines may be, in steps; measured and not declared. None means any length.
     pub reach: Option<i32>,
     /// Words that are not known or cannot be used, printable.
@@ -72,6 +77,41 @@ rasterproof_core::named! {
         /// The pixels that lie in the triangle as a whole: inner conservative rasterization.
         Covered = "covered",
     }
+}
+
+/// What a tessellator promises, in the words of the module [`partition`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tessellation {
+    pub fill_rule: partition::FillRule,
+    pub winding: partition::Winding,
+    pub coordinates: partition::Coordinates,
+    pub t_junctions: bool,
+    pub degenerate: bool,
+}
+
+impl Tessellation {
+    const FILL_RULES: [(&'static str, partition::FillRule); 2] =
+        [("even-odd", partition::FillRule::EvenOdd), ("nonzero", partition::FillRule::NonZero)];
+    const WINDINGS: [(&'static str, partition::Winding); 4] = [
+        ("alike", partition::Winding::Alike),
+        ("ccw", partition::Winding::Counterclockwise),
+        ("cw", partition::Winding::Clockwise),
+        ("any", partition::Winding::Any),
+    ];
+    const COORDINATES: [(&'static str, partition::Coordinates); 3] = [
+        ("f64", partition::Coordinates::F64),
+        ("f32", partition::Coordinates::F32),
+        ("integer", partition::Coordinates::Integer),
+    ];
+}
+
+/// What a word stands for in a list.
+fn meant<T: Copy>(list: &[(&str, T)], word: &str) -> Option<T> {
+    list.iter().find(|(known, _)| *known == word).map(|(_, value)| *value)
+}
+
+fn word_of<T: PartialEq>(list: &[(&'static str, T)], value: &T) -> &'static str {
+    list.iter().find(|(_, known)| known == value).map_or("", |(word, _)| word)
 }
 
 /// A tolerance for programs that compute in f32 and declare none.
@@ -106,6 +146,8 @@ impl Default for Declared {
             line_set: false,
             tolerance: DEFAULT_TOLERANCE,
             near_is_zero: false,
+            partition: false,
+            tessellation: Tessellation::default(),
             reach: None,
             unknown: Vec::new(),
         }
@@ -146,6 +188,18 @@ impl Declared {
             ("depth", None) => self.depth = true,
             ("clip", None) => self.clip = true,
             ("clip-attributes", None) => self.clip_attributes = true,
+            ("partition", None) => self.partition = true,
+            ("t-junctions", None) => self.tessellation.t_junctions = true,
+            ("degenerate", None) => self.tessellation.degenerate = true,
+            ("fill-rule", Some(v)) => {
+                self.tessellation.fill_rule = meant(&Tessellation::FILL_RULES, v)?
+            }
+            ("triangles", Some(v)) => {
+                self.tessellation.winding = meant(&Tessellation::WINDINGS, v)?
+            }
+            ("coordinates", Some(v)) => {
+                self.tessellation.coordinates = meant(&Tessellation::COORDINATES, v)?
+            }
             ("yup", None) => self.yup = true,
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
@@ -200,6 +254,7 @@ impl Declared {
             depth: self.depth && other.depth,
             clip: self.clip && other.clip,
             clip_attributes: self.clip_attributes && other.clip_attributes,
+            partition: self.partition && other.partition,
             grid: self.grid.min(other.grid),
             range: least(self.range, other.range),
             reach: least(self.reach, other.reach),
@@ -226,6 +281,7 @@ impl Declared {
             ("depth", self.depth),
             ("clip", self.clip),
             ("clip-attributes", self.clip_attributes),
+            ("partition", self.partition),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
     }
@@ -241,6 +297,16 @@ impl fmt::Display for Declared {
     /// The words after the name, as HELLO 2 has them.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.capabilities().join(" "))?;
+        if self.partition {
+            let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate } =
+                &self.tessellation;
+            let fill_rule = word_of(&Tessellation::FILL_RULES, fill_rule);
+            let winding = word_of(&Tessellation::WINDINGS, winding);
+            let coordinates = word_of(&Tessellation::COORDINATES, coordinates);
+            write!(f, " fill-rule={fill_rule} triangles={winding} coordinates={coordinates}")?;
+            f.write_str(if *t_junctions { " t-junctions" } else { "" })?;
+            return f.write_str(if *degenerate { " degenerate" } else { "" });
+        }
         write!(f, " grid={} origin={},{}", self.grid, px(self.origin[0]), px(self.origin[1]))?;
         write!(f, " rule={} winding={}", self.rule.word(), self.winding.word())?;
         let flags = [("yup", self.yup), ("mask", self.mask), ("line-set", self.line_set)];
@@ -285,6 +351,20 @@ mod tests {
         assert!(declared.unknown.is_empty());
         let again = Declared::parse(&format!("HELLO 2 mine {declared}")).unwrap();
         assert_eq!(again, declared);
+    }
+
+    #[test]
+    fn declarations_of_a_tessellator_are_said_again() {
+        let said =
+            "partition fill-rule=nonzero triangles=cw coordinates=f32 t-junctions degenerate";
+        let declared = Declared::parse(&format!("HELLO 2 mine {said}")).unwrap();
+        assert!(declared.unknown.is_empty() && declared.to_string() == said, "{declared}");
+        let other = Declared::parse("HELLO 2 mine partition fill-rule=odd triangles=left").unwrap();
+        assert_eq!(other.unknown.len(), 2);
+        assert_eq!(
+            other.to_string(),
+            "partition fill-rule=even-odd triangles=alike coordinates=f64"
+        );
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! wrong with a case ([`finding`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
-//! [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
+//! [`polygons`] judges tessellators. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
 pub mod against;
@@ -28,6 +28,7 @@ pub mod near_plane;
 mod outline;
 pub mod pictured;
 pub mod pixels;
+pub mod polygons;
 pub mod process;
 pub mod process_group;
 mod reach;

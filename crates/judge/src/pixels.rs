@@ -62,6 +62,7 @@ pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
         Answer::Line(pixels) => as_runs(pixels),
         Answer::Polygon(_)
         | Answer::Carried(_)
+        | Answer::Triangles(_)
         | Answer::Refused(_)
         | Answer::Two(_)
         | Answer::Died(_) => return None,

@@ -388,7 +388,9 @@ impl Live {
             }))
         };
         let letter = match words.word() {
-            Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'G' | b'B' | b'E')]) => *letter,
+            Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'G' | b'B' | b'Z' | b'E')]) => {
+                *letter
+            }
             _ => return Err(nonsense("no answer begins like this")),
         };
         let named = words.word().unwrap_or(b"");

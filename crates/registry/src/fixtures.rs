@@ -24,8 +24,9 @@ use rasterproof_verify::cases::shrink::{greedy, shrink};
 use rasterproof_verify::cases::{self, Case, Shape};
 use rasterproof_verify::comparison::{caught, line_coverage};
 use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::partition::{Coordinates, Family};
 
-pub const FORMAT: &str = "rasterproof-fixtures/1";
+pub const FORMAT: &str = "rasterproof-fixtures/2";
 pub const QUOTAS: [(Kind, usize); 5] = [
     (Kind::Triangle, 400),
     (Kind::Fan, 150),
@@ -64,6 +65,64 @@ pub struct Fixtures {
     /// Where the samples of a kind lie in a pixel, in px from its upper left corner.
     pub samples: BTreeMap<String, Vec<[f64; 2]>>,
     pub cases: Vec<Fixture>,
+    pub polygons: Vec<PolygonFixture>,
+}
+
+/// A polygon for tessellators. The triangles that make it up have its area.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PolygonFixture {
+    pub family: String,
+    /// Inside is where they run around a point an odd number of times.
+    pub contours: Vec<Vec<[i32; 2]>>,
+    pub twice_area: i64,
+}
+
+pub const POLYGONS: usize = 200;
+/// Of each family, the smallest of so many are taken.
+const POLYGONS_LOOKED_AT: u64 = 200;
+
+impl PolygonFixture {
+    fn new(family: Family, seed: u64, index: u64) -> Self {
+        let polygon = family.polygon(seed, index, Coordinates::Integer);
+        let whole = |contour: &Vec<[f64; 2]>| {
+            contour.iter().map(|point| point.map(|v| v as i32)).collect::<Vec<_>>()
+        };
+        let contours: Vec<_> = polygon.contours.iter().map(whole).collect();
+        // Contours turn one way around what is inside and the other way around holes, so their areas add up.
+        let twice_area = contours.iter().map(|contour| shoelace(contour)).sum();
+        Self { family: family.name().to_owned(), contours, twice_area }
+    }
+
+    /// Fewer vertices come first, then fewer digits.
+    fn size(&self) -> (usize, usize) {
+        let vertices = self.contours.iter().map(Vec::len).sum();
+        (vertices, format!("{:?}", self.contours).len())
+    }
+}
+
+fn shoelace(contour: &[[i32; 2]]) -> i64 {
+    let next = contour.iter().cycle().skip(1);
+    let cross = |(&[ax, ay], &[bx, by]): (&[i32; 2], &[i32; 2])| {
+        i64::from(ax) * i64::from(by) - i64::from(bx) * i64::from(ay)
+    };
+    contour.iter().zip(next).map(cross).sum()
+}
+
+/// The smallest polygons of each family: the same number of each, but for one.
+fn polygons(seed: u64) -> Vec<PolygonFixture> {
+    let mut all = Vec::new();
+    let mut families = Family::ALL.len();
+    for family in Family::ALL {
+        let mut found: Vec<_> =
+            (0..POLYGONS_LOOKED_AT).map(|i| PolygonFixture::new(family, seed, i)).collect();
+        found.sort_by_key(|polygon| (polygon.size(), polygon.clone()));
+        found.dedup();
+        found.truncate((POLYGONS - all.len()).div_ceil(families));
+        families -= 1;
+        all.extend(found);
+    }
+    all
 }
 
 /// A case, and what is expected of it.
@@ -646,19 +705,25 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
         seed,
         samples: [("samples4".to_owned(), four), ("others".to_owned(), vec![[0.5, 0.5]])].into(),
         cases,
+        polygons: polygons(seed),
     }
 }
 
 impl Fixtures {
-    /// As text, a case a line.
+    /// As text, a case or a polygon a line.
     pub fn to_json(&self) -> String {
         let head = serde_json::json!({
             "format": self.format, "rasterproof": self.rasterproof, "seed": self.seed, "samples": self.samples,
         });
-        let json = |case: &Fixture| serde_json::to_string(case).unwrap_or_default();
-        let cases: Vec<_> = self.cases.iter().map(json).collect();
+        let cases = lines(&self.cases);
+        let polygons = lines(&self.polygons);
         let head = head.to_string();
         let open = head.strip_suffix('}').unwrap_or(&head);
-        format!("{open},\"cases\":[\n{}\n]}}\n", cases.join(",\n"))
+        format!("{open},\"cases\":[\n{cases}\n],\"polygons\":[\n{polygons}\n]}}\n")
     }
+}
+
+fn lines<T: Serialize>(all: &[T]) -> String {
+    let json = |one: &T| serde_json::to_string(one).unwrap_or_default();
+    all.iter().map(json).collect::<Vec<_>>().join(",\n")
 }

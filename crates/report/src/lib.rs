@@ -19,6 +19,7 @@ pub mod page_cases;
 pub mod panels;
 pub mod phrases;
 pub mod picture;
+pub mod polygons_text;
 pub mod specimen_sheet;
 pub mod specimens;
 pub mod study;

@@ -171,6 +171,8 @@
 //! - samples in `outline` lie exactly on an edge that belongs to one triangle alone. The top-left rule hits those of them that
 //!   are in `hit`. Specifications without a rule for edges, such as those of OpenGL and Vulkan, leave them open.
 //!
+//! Its 200 polygons for tessellators have whole coordinates and twice the area that their triangles must make up.
+//!
 //! Pictures cannot show every fault. A rasterizer that passes may still have wrong depths and attributes, draw in a wrong order,
 //! or fail in windows that do not begin at the origin and in lists of more than 16 triangles.
 //!

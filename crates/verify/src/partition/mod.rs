@@ -94,7 +94,10 @@ use std::fmt;
 
 pub use families::{Coordinates, Family};
 pub use region::InvalidPolygon;
-pub use report::{Disagreement, Failure, FamilyReport, Report, judge_partitions, must_partition};
+pub use report::{
+    Disagreement, Failure, FamilyReport, Report, judge_partitions, judge_partitions_of,
+    must_partition,
+};
 
 /// A point: x, then y.
 pub type Point = [f64; 2];

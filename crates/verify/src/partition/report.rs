@@ -7,7 +7,8 @@ use super::cause::{self, Made};
 use super::families::is_as_generated;
 use super::shrink::shrink;
 use super::{
-    Family, Fault, FaultKind, Finding, Options, Polygon, Tessellate, Triangle, judge_partition,
+    Family, Fault, FaultKind, Finding, Options, Polygon, Refused, Tessellate, Triangle,
+    judge_partition,
 };
 use crate::comparison::{NothingJudged, Watch, caught};
 use crate::mistakes::Mistakes;
@@ -150,8 +151,28 @@ impl Error for Disagreement {}
 
 impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Report { options, families, failures, cause } = &self.0;
-        let sum = self.0.sum();
+        let options = &self.0.options;
+        let repeat = |family: Family, index: u64| {
+            let (seed, family, declared) = (options.seed, family.name(), declared(options));
+            format!(
+                "Options::default().seed({seed}).family(Family::{family}).only({index}){declared}"
+            )
+        };
+        self.0.write(f, &Polygon::to_string, &repeat)
+    }
+}
+
+impl Report {
+    /// Writes what is wrong, with polygons and what repeats one in the words of some language.
+    #[doc(hidden)]
+    pub fn write(
+        &self,
+        f: &mut dyn fmt::Write,
+        show: &dyn Fn(&Polygon) -> String,
+        repeat: &dyn Fn(Family, u64) -> String,
+    ) -> fmt::Result {
+        let Self { options, families, failures, cause } = self;
+        let sum = self.sum();
         writeln!(f, "{} of {} polygons are not covered exactly once", sum.wrong, sum.polygons)?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
         if sum.left_out > 0 {
@@ -173,7 +194,7 @@ impl fmt::Display for Disagreement {
                 f,
                 "\n{}: the smallest polygon that was found\n  {}",
                 failure.kind.name(),
-                failure.polygon
+                show(&failure.polygon)
             )?;
             for (number, triangle) in failure.triangles.iter().take(MOST_TRIANGLES).enumerate() {
                 writeln!(f, "  triangle {number}: {triangle:?}")?;
@@ -188,14 +209,7 @@ impl fmt::Display for Disagreement {
             if let Some(picture) = cause::picture(&failure.polygon, &failure.triangles, rule) {
                 f.write_str(&picture)?;
             }
-            writeln!(
-                f,
-                "  found in: Options::default().seed({}).family(Family::{}).only({}){}",
-                options.seed,
-                failure.family.name(),
-                failure.index,
-                declared(options)
-            )?;
+            writeln!(f, "  found in: {}", repeat(failure.family, failure.index))?;
         }
         Ok(())
     }
@@ -246,6 +260,20 @@ pub fn judge_partitions<T: Tessellate + Sync>(
     )
 }
 
+/// The same of somebody who answers polygons: nothing is the answer where he does not take it.
+///
+/// # Errors
+/// By these options no polygon was judged.
+#[doc(hidden)]
+pub fn judge_partitions_of(
+    answer: &Answered<'_>,
+    options: &Options,
+) -> Result<Report, NothingJudged> {
+    let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
+    judge(&|polygon| answer(polygon).map(|answer| answer.map_err(refused)), options)
+}
+
+type Answered<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Refused>> + Sync + 'a;
 type Asked<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Fault>> + Sync + 'a;
 
 /// The triangles of a polygon and what was found about them; nothing where the polygon is not valid or not accepted.

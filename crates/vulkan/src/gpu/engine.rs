@@ -141,7 +141,9 @@ impl Gpu {
             Asked::Values(_) if self.plant == Some(Plant::NoPerspective) => Kind::Linear,
             Asked::Values(_) => Kind::Values,
             Asked::Line { .. } => Kind::Lines,
-            Asked::Depth(_) | Asked::Near(_) | Asked::Carried(_) => return None,
+            Asked::Depth(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => {
+                return None;
+            }
         })
     }
 
@@ -206,7 +208,7 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
             let [a, b] = [a, b].map(|p| SubpixelPoint::new(centre(p.x), centre(p.y)));
             plain(&[a, b, b], half_px)
         }
-        Asked::Depth(_) | Asked::Near(_) | Asked::Carried(_) => return None,
+        Asked::Depth(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
     })
 }
 
