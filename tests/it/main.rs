@@ -64,6 +64,7 @@ mod scenes;
 mod site;
 mod snapshots;
 mod specimens;
+mod speed;
 mod steps;
 mod study;
 mod surface;
