@@ -65,6 +65,7 @@ mod scenes;
 mod site;
 mod snapshots;
 mod specimens;
+mod speed;
 mod steps;
 mod study;
 mod surface;

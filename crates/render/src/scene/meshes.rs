@@ -35,7 +35,14 @@ pub const NAMES: [&str; 12] = [
 pub fn scene(name: &str) -> Option<Scene> {
     let name = NAMES.into_iter().find(|known| *known == name)?;
     let (shape, count) = name.split_once('-')?;
-    let triangles: f64 = count.parse().ok()?;
+    sized(shape, count.parse().ok()?)
+}
+
+/// As [`scene`], with about so many triangles.
+#[must_use]
+pub fn sized(shape: &str, triangles: u32) -> Option<Scene> {
+    let name = format!("{shape}-{triangles}");
+    let triangles = f64::from(triangles);
     // Two triangles in each of twice as many columns as rows, four times as many along a knot.
     let along = match shape {
         "knot" => 8.0,
@@ -48,10 +55,11 @@ pub fn scene(name: &str) -> Option<Scene> {
     let mesh = match shape {
         "bumps" => bumps(columns, rows),
         "knot" => tube(columns, rows, 0.22, knot),
-        _ => tube(columns, rows, 0.4, |t| DVec3::new(cos(t), 0.0, sin(t))),
+        "torus" => tube(columns, rows, 0.4, |t| DVec3::new(cos(t), 0.0, sin(t))),
+        _ => return None,
     };
     let projection = perspective(0.7, 1.0, 1.0, 10.0).ok()?;
-    let mut scene = Scene::new(name, "a mesh of many triangles, textured and lit", projection);
+    let mut scene = Scene::new(&name, "a mesh of many triangles, textured and lit", projection);
     let texture = Arc::new(textures::checkerboard());
     let shading = Shading::Phong;
     let material = Material { texture: Some(texture), shading, ..Material::default() };
