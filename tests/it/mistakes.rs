@@ -380,13 +380,11 @@ const FILLS: &[(&str, Fill)] = &[
         // 1/8 px out, at right angles.
         let wide = c.map_array(|p| [f64::from(p.x), f64::from(p.y)]);
         tested(c, out, exactly, |i, e, _| {
-            // The edges of a triangle that turns the other way come in the other order.
             let lengths = [0, 1, 2].map(|k: usize| {
                 let [p, q] = [wide[k], wide[(k + 1) % 3]];
                 (q[0] - p[0]).hypot(q[1] - p[1])
             });
-            let along = if area(c) > 0 { i } else { 2 - i };
-            e as f64 + lengths[along] * 32.0 > 0.0
+            e as f64 + lengths[i] * 32.0 > 0.0
         });
     }),
     ("weights are cut", |c, _, out| {
