@@ -51,7 +51,7 @@ fn every_option_is_on_the_page() {
         ("plan", "camera.gltf --camera 1 --size 32x24 --rounds 1".into()),
         ("study", "camera.gltf --camera 1 --size 32x24 --quick".into()),
         ("plan", "--scene panels --size 32x24 --json --whole --rounds 1".into()),
-        ("study", format!("{model} --quick")),
+        ("study", format!("{model} --quick --all")),
         ("study", "--scene panels --size 32x24 --quick --json".into()),
         (
             "inspect",

@@ -44,7 +44,6 @@ struct Dot {
 
 struct Panel {
     head: String,
-    /// What the axes show.
     up: String,
     right: String,
     /// An error that is drawn as a line, since many dots would have it.

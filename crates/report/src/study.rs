@@ -783,7 +783,6 @@ pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> 
     }
 }
 
-/// The effects of a state.
 fn needs_table(needs: &Needs, state: State) -> Table {
     let row = |need: &Need| {
         let time = takes(needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));

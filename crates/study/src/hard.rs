@@ -245,7 +245,6 @@ struct Search<'a> {
     found: Vec<HardCase>,
 }
 
-/// What was found of a kind.
 struct Noted {
     kind: Kind,
     count: u64,
