@@ -133,7 +133,7 @@ test('polygons', () => {
     holes += inner.length;
     return [];
   };
-  message(() => assertPartition(watched, { cases: 20, family: 'Touching' }));
+  message(() => assertPartition(watched, { cases: 20, family: 'Islands' }));
   assert.ok(holes > 20, `${holes} holes`);
   assert.throws(() => assertPartition(() => null, { cases: 5 }), /gave no verdict:\n.*accepts none of the polygons/);
   assert.throws(() => assertPartition(() => [[[0, 1]]]), /TypeError: function returned the triangle \[\[0,1\]\]; expected an array/);

@@ -171,7 +171,7 @@ class Judged(unittest.TestCase):
             self.assertTrue(all(((hole >= low) & (hole <= high)).all() for hole in contours[1:]))
             holes.extend(contours[1:])
             return np.empty((0, 3, 2))
-        self.fails(AssertionError, "gap", judge, watched, cases=20, family="Touching")
+        self.fails(AssertionError, "gap", judge, watched, cases=20, family="Islands")
         self.assertGreater(len(holes), 20)
         self.fails(RuntimeError, "accepts none of the polygons", judge, lambda contours: None, cases=5)
         self.fails(ValueError, r"shape \(2, 2\); expected \(m, 3, 2\)", judge, lambda contours: np.ones((2, 2)))
