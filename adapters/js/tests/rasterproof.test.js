@@ -125,6 +125,16 @@ test('polygons', () => {
   // A convex polygon is a fan, and a polygon that is not taken is not judged.
   const isConvex = (p) => p.every((b, i) => edge(p.at(i - 1), b, ...p[(i + 1) % p.length]) > 0);
   assertPartition((contours) => (contours.length === 1 && isConvex(contours[0]) ? fan(contours) : null), { family: 'SnappedCircle' });
+  // Holes lie within the first contour.
+  let holes = 0;
+  const watched = ([outer, ...inner]) => {
+    const range = [0, 1].map((axis) => [Math.min, Math.max].map((most) => most(...outer.map((point) => point[axis]))));
+    for (const point of inner.flat()) assert.ok(point.every((v, axis) => v >= range[axis][0] && v <= range[axis][1]), `${point}`);
+    holes += inner.length;
+    return [];
+  };
+  message(() => assertPartition(watched, { cases: 20, family: 'Islands' }));
+  assert.ok(holes > 20, `${holes} holes`);
   assert.throws(() => assertPartition(() => null, { cases: 5 }), /gave no verdict:\n.*accepts none of the polygons/);
   assert.throws(() => assertPartition(() => [[[0, 1]]]), /TypeError: function returned the triangle \[\[0,1\]\]; expected an array/);
   assert.throws(() => assertPartition(fan, { cases: 0 }), /RangeError: no case/);

@@ -165,6 +165,14 @@ class Judged(unittest.TestCase):
         turns = lambda p: np.cross(np.roll(p, -1, 0) - p, np.roll(p, -2, 0) - np.roll(p, -1, 0))
         convex = lambda contours: fan(contours) if len(contours) == 1 and (turns(contours[0]) > 0).all() else None
         judge(convex, family="SnappedCircle")
+        holes = []
+        def watched(contours):
+            low, high = contours[0].min(0), contours[0].max(0)
+            self.assertTrue(all(((hole >= low) & (hole <= high)).all() for hole in contours[1:]))
+            holes.extend(contours[1:])
+            return np.empty((0, 3, 2))
+        self.fails(AssertionError, "gap", judge, watched, cases=20, family="Islands")
+        self.assertGreater(len(holes), 20)
         self.fails(RuntimeError, "accepts none of the polygons", judge, lambda contours: None, cases=5)
         self.fails(ValueError, r"shape \(2, 2\); expected \(m, 3, 2\)", judge, lambda contours: np.ones((2, 2)))
         self.fails(ValueError, "no case would be judged", judge, fan, cases=0)

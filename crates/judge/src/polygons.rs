@@ -79,5 +79,11 @@ pub fn verdict(declared: &Declared, options: &Options, report: &Report) -> Verdi
     let rows = report.families.iter().map(row).collect();
     let found = Found { rows, answered: report.sum().polygons, ..Found::default() };
     let (windings, none) = (Windings::default(), Vec::new());
-    Verdict::new(declared.clone(), options, windings, None, found, none, Vec::new())
+    let declared = declared.clone();
+    let mut verdict = Verdict::new(declared, options, windings, None, found, none, Vec::new());
+    // The families of cases have a text of their own.
+    for property in verdict.properties.iter_mut().filter(|property| property.about.is_empty()) {
+        "every polygon is covered exactly once".clone_into(&mut property.about);
+    }
+    verdict
 }
