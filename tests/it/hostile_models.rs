@@ -784,7 +784,7 @@ fn fuzz_of_models() {
     }
     let parts = match std::env::var("RASTERPROOF_FUZZ") {
         Ok(numbers) => vec![range(&numbers)],
-        Err(_) => [0..120].into_iter().chain(FOUND.map(|number| number..number + 1)).collect(),
+        Err(_) => std::iter::once(0..120).chain(FOUND.map(|number| number..number + 1)).collect(),
     };
     for numbers in parts {
         let name = format!("hostile-models-{}", numbers.start);
