@@ -206,9 +206,15 @@ pub(crate) fn each_plane(
         see(&pieces(scene, target.bounds())?);
         return Ok(());
     }
-    let at_centres = pieces(scene, target.size())?;
     for sample in SAMPLES {
-        see(&at_centres.iter().filter_map(|piece| moved(piece, sample)).collect::<Vec<_>>());
+        // Made anew for each plane, since two lists of millions of pieces do not fit beside each other.
+        let mut pieces = pieces(scene, target.size())?;
+        pieces.retain_mut(|piece| {
+            let moved = moved(piece, sample);
+            *piece = moved.unwrap_or(*piece);
+            moved.is_some()
+        });
+        see(&pieces);
     }
     Ok(())
 }

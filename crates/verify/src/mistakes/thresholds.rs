@@ -206,7 +206,8 @@ pub(super) fn of_triangles(
     let mut found: Vec<Threshold> = Vec::new();
     for (axis, low, high, _) in axes.into_iter().filter(|(.., is_asked)| *is_asked) {
         // What is far to the right has large coordinates, whose limit is known.
-        let nearest = found.iter().map(|limit| limit.wrong_from as i64).min().unwrap_or(i64::MAX);
+        let far = found.iter().filter(|limit| limit.of != Axis::Slope.name());
+        let nearest = far.map(|limit| limit.wrong_from as i64).min().unwrap_or(i64::MAX);
         let high = match axis {
             Axis::Column | Axis::Row => high.min(nearest - i64::from(SIDE_PX)),
             _ => high,
