@@ -124,7 +124,7 @@ fn pictures_of_what_files_ask_for() {
     let scenes = [
         (Effect::Specular, "highlights"),
         (Effect::Reflection, "metal"),
-        (Effect::Punctual, "lights"),
+        (Effect::PunctualLights, "lights"),
         (Effect::NormalMaps, "surfaces"),
         (Effect::Occlusion, "surfaces"),
         (Effect::Emission, "surfaces"),

@@ -33,7 +33,7 @@ fn every_option_is_on_the_page() {
     let folder = Folder::new("page-commands");
     folder.put("a 'model'.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let seen = include_str!("../data/models/double-sided-front.gltf")
-        .replace(r#""nodes": [{"mesh": 0}]"#, r#""nodes": [{"mesh": 0, "camera": 0}], "cameras": [{"orthographic": {"ymag": 2, "znear": -1, "zfar": 1}}]"#);
+        .replace(r#""nodes": [{"mesh": 0}]"#, r#""nodes": [{"mesh": 0, "camera": 0}], "animations": [{"channels": [], "samplers": []}], "cameras": [{"orthographic": {"ymag": 2, "znear": -1, "zfar": 1}}]"#);
     folder.put("camera.gltf", seen);
     folder.put("plan.json", folder.check("plan panels --size 32x24 --rounds 1 --json", 0).out);
     let model = "\"a 'model'.obj\" --size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
@@ -47,9 +47,9 @@ fn every_option_is_on_the_page() {
         // Options that do not go together with those above.
         ("render", "--scene panels --size 32x24 --wireframe --output drawn.png --json".into()),
         ("render", "panels --size 32x24 --plan plan.json".into()),
-        ("render", "camera.gltf --camera 1 --size 32x24".into()),
-        ("plan", "camera.gltf --camera 1 --size 32x24 --rounds 1".into()),
-        ("study", "camera.gltf --camera 1 --size 32x24 --quick".into()),
+        ("render", "camera.gltf --camera 1 --animation 1 --time 0.5 --size 32x24".into()),
+        ("plan", "camera.gltf --camera 1 --animation 1 --time 0.5 --size 32x24 --rounds 1".into()),
+        ("study", "camera.gltf --camera 1 --animation 1 --time 0.5 --size 32x24 --quick".into()),
         ("plan", "--scene panels --size 32x24 --json --whole --rounds 1".into()),
         ("study", format!("{model} --quick --all")),
         ("study", "--scene panels --size 32x24 --quick --json".into()),

@@ -681,7 +681,7 @@ fn counterexamples() -> Vec<Counterexample> {
             mesh.triangles.change(0, |corners| corners[1].normal = DVec3::new(1.0, 0.0, -by));
             reflecting(mesh, Physical { metal: 1.0, ..Physical::default() })
         }),
-        make(Effect::Punctual, none, |by| {
+        make(Effect::PunctualLights, none, |by| {
             // All normals are at a right angle to a direction, and one turns towards it.
             let mut mesh = screen_with(|corner| corner.normal = DVec3::X);
             mesh.triangles.change(0, |corners| corners[1].normal = DVec3::new(1.0, 0.0, -by));

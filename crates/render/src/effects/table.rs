@@ -70,7 +70,7 @@ effects! {
     /// What metal and roughness reflect, and from where it is seen.
     Reflection = "reflection": Material, reflections, Some([245, 130, 160]);
     /// Adding the light of directions, points and cones.
-    Punctual = "punctual-lights": Material, punctual, Some([255, 225, 60]);
+    PunctualLights = "punctual-lights": Material, punctual, Some([255, 225, 60]);
     /// Turning normals by a map, and the tangents they need.
     NormalMaps = "normal-maps": Material, bumped, Some([130, 130, 250]);
     /// Multiplying ambient light by a map.
@@ -118,7 +118,7 @@ macro_rules! fragment_effects {
             reflection: bool = true => Reflection, "where a normal may face the light.",
                 physical::REFLECTION, fact is_reflecting;
             /// Whether punctual lights are added.
-            punctual: bool = true => Punctual, "where the light may arrive and a normal may face it.",
+            punctual: bool = true => PunctualLights, "where the light may arrive and a normal may face it.",
                 physical::PUNCTUAL, fact is_reached;
             /// Whether normals are turned by a map.
             normal_maps: bool = true => NormalMaps, "where the map is not known to be flat.",

@@ -65,7 +65,7 @@ pub const REFLECTION: Condition = Condition {
 
 /// Without normals no light arrives.
 pub const PUNCTUAL: Condition = Condition {
-    effect: Effect::Punctual,
+    effect: Effect::PunctualLights,
     needs: Attributes::WORLD,
     is_possible: |asked| {
         !punctual(asked.scene, asked.item).is_empty() && asked.carries.has(Attributes::NORMAL)
