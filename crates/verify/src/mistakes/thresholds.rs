@@ -238,11 +238,11 @@ pub(super) fn of_triangles(
         found.extend(limit.map(|limit| threshold(axis, "triangles", 256 / grain, limit)));
     }
     // Large triangles have large coordinates: the measure that tells more is kept.
-    if let [size, reach, ..] = &found[..]
-        && (size.of, reach.of) == (Axis::Size.name(), Axis::Reach.name())
-    {
+    let both =
+        [Axis::Size, Axis::Reach].map_array(|axis| found.iter().position(|t| t.of == axis.name()));
+    if let [Some(size), Some(reach)] = both {
         let tells = |t: &Threshold| (t.is_sharp, t.hint.is_some(), t.first.drawn);
-        let less = usize::from(tells(size) >= tells(reach));
+        let less = if tells(&found[size]) >= tells(&found[reach]) { reach } else { size };
         found.remove(less);
     }
     found
