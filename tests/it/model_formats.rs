@@ -877,7 +877,7 @@ fn a_gltf_is_drawn_in_its_rest_pose() {
 #[test]
 fn an_animation_brings_nodes_to_where_they_are() {
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    let lists: [&[f32]; 5] = [
+    let lists: [&[f32]; 6] = [
         &[1.0, 2.0, 4.0],
         &[0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 4.0, 0.0],
         // A quarter about z.
@@ -885,13 +885,14 @@ fn an_animation_brings_nodes_to_where_they_are() {
         // Leaves with the slope 2, arrives with 0; of three numbers the middle one is the value.
         &[0.0, 1.0, 2.0, 0.0, 3.0, 0.0, 0.0, 3.0, 0.0].map(|number| [number; 3]).concat(),
         &[1.0],
+        &[f32::NAN, 2.0, 4.0],
     ];
     let whole = lists.concat().into_iter().flat_map(f32::to_le_bytes);
     let (json, mut bytes) = document(|d| {
         let mut start = 72;
-        for (list, (width, form)) in
-            lists.iter().zip([(1, "SCALAR"), (3, "VEC3"), (4, "VEC4"), (3, "VEC3"), (1, "SCALAR")])
-        {
+        let forms =
+            [(1, "SCALAR"), (3, "VEC3"), (4, "VEC4"), (3, "VEC3"), (1, "SCALAR"), (1, "SCALAR")];
+        for (list, (width, form)) in lists.iter().zip(forms) {
             let length = 4 * list.len();
             let view = json!({ "buffer": 0, "byteOffset": start, "byteLength": length });
             d["bufferViews"].as_array_mut().unwrap().push(view);
@@ -909,7 +910,9 @@ fn an_animation_brings_nodes_to_where_they_are() {
         d["animations"] = json!([
             of("translation", 3, "LINEAR"), of("translation", 3, "STEP"), of("rotation", 4, "LINEAR"),
             of("scale", 5, "CUBICSPLINE"), of("translation", 6, "LINEAR"), { "name": "empty" },
+            of("translation", 3, "LINEAR"),
         ]);
+        d["animations"][6]["samplers"][0]["input"] = json!(7);
     });
     bytes.extend(whole);
     let folder = folder();
@@ -938,14 +941,15 @@ fn an_animation_brings_nodes_to_where_they_are() {
             assert!(found.distance(DVec3::new(x, y, 0.0)) < 1e-6, "{animation} {time}: {found}");
         }
         assert_eq!(model.not_drawn, "");
-        assert_eq!((model.animations.len(), &*model.animations[1]), (6, "translation STEP"));
+        assert_eq!((model.animations.len(), &*model.animations[1]), (7, "translation STEP"));
     }
     let still = rasterproof_models::load(&path, Options::default()).unwrap();
     assert_eq!(still.items[0].mesh.positions[0].to_array(), [7.0, 7.0, -7.0]);
     for (animation, cause) in [
         (4, "animations[4]: accessors[6] has 1 numbers where 3 are needed"),
         (5, "animations[5]: missing field `channels`"),
-        (6, "has the animations 1 to 6, and not 7"),
+        (6, "animations[6]: accessors[7] has a time that is no finite number"),
+        (7, "has the animations 1 to 7, and not 8"),
     ] {
         let error = at(animation, 1.0).unwrap_err().to_string();
         assert!(error.contains(cause), "{error}");

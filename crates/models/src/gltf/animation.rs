@@ -44,9 +44,9 @@ pub(super) fn apply(data: &mut Data<'_>, pose: Pose) -> Result<(), String> {
     let animation: Animation = Value::deserialize(animation)
         .and_then(serde_json::from_value)
         .map_err(|error| format!("{place}: {error}"))?;
-    for Channel { sampler, target } in &animation.channels {
-        let sampler = animation.samplers.get(*sampler);
-        let sampler = sampler.ok_or_else(|| format!("{place}.samplers[..] is not there"))?;
+    for Channel { sampler: number, target } in &animation.channels {
+        let sampler = animation.samplers.get(*number);
+        let sampler = sampler.ok_or_else(|| format!("{place}.samplers[{number}] is not there"))?;
         let (Some(node), path) = (target.node, target.path.as_str()) else { continue };
         let value = value(data, sampler, path, pose.time_s).map_err(|e| format!("{place}: {e}"))?;
         let missing = || format!("{place}: nodes[{node}] is not there");
@@ -72,6 +72,9 @@ fn set(node: &mut Node, path: &str, value: &[f64]) {
 /// What a sampler gives at a time: before the first and after the last of its moments what it has there.
 fn value(data: &Data<'_>, sampler: &Sampler, path: &str, time: f64) -> Result<Vec<f64>, String> {
     let times: Vec<f64> = data.vectors::<1>(sampler.input)?.into_iter().flatten().collect();
+    if !times.iter().all(|time| time.is_finite()) {
+        return Err(format!("accessors[{}] has a time that is no finite number", sampler.input));
+    }
     let output = sampler.output;
     let values: Vec<f64> = match path {
         "translation" | "scale" => data.vectors::<3>(output)?.into_flattened(),
@@ -119,6 +122,7 @@ fn between(from: DQuat, to: DQuat, t: f64) -> DQuat {
     let to = if from.dot(to) < 0.0 { -to } else { to };
     let angle = libm::acos(from.dot(to).min(1.0));
     let whole = libm::sin(angle);
+    // A straight line is off by less than the third power of the angle, which doubles do not hold then.
     if whole < 1e-9 {
         return from.lerp(to, t);
     }

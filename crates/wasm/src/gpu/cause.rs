@@ -6,9 +6,10 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use super::{Check, Device, Layout, Vertex};
+use super::subjects::triangle;
+use super::{Check, Device, Layout};
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_verify::comparison::{Cause as Found, Convention};
 use rasterproof_verify::convention::{Ask, Known, Question};
 use serde::Deserialize;
@@ -77,11 +78,6 @@ impl Ask for Asked {
     }
 }
 
-fn vertex(corner: SubpixelPoint) -> Vertex {
-    let [x, y] = [corner.x, corner.y].map(|v| f64::from(v) / f64::from(SUBPIXELS));
-    [x, y, 0.5, 1.0, 1.0, 0.0]
-}
-
 impl Cause {
     pub fn answer(&self) -> Result<Value, String> {
         ASKED.with_borrow_mut(|asked| {
@@ -90,8 +86,9 @@ impl Cause {
                 None => *asked = Asked::default(),
             }
             let declared = Convention::default();
+            let finest = SUBPIXELS / self.device.step();
             let known = Known {
-                grid: [256, 64, 16].into_iter().find(|g| *g <= 1 << self.device.bits).unwrap_or(1),
+                grid: [256, 64, 16].into_iter().find(|grid| *grid <= finest).unwrap_or(1),
                 range_px: REACH * LAYOUT.cell,
                 window_px: (LAYOUT.cell as u32, LAYOUT.cell as u32),
                 ..Known::from(&declared)
@@ -100,7 +97,7 @@ impl Cause {
             if asked.waiting.is_empty() {
                 return Ok(json!({ "cause": found.headline(), "asked": asked.answered.len() }));
             }
-            let drawn = asked.waiting.iter().map(|question| question.corners.map(vertex).to_vec());
+            let drawn = asked.waiting.iter().map(|question| triangle(question.corners));
             Ok(self.device.picture(Check::Coverage, LAYOUT, drawn))
         })
     }
@@ -113,7 +110,7 @@ mod tests {
     use base64::Engine as _;
     use base64::engine::general_purpose::STANDARD;
     use rasterproof_core::contract::Rasterize as _;
-    use rasterproof_core::grid::PixelRect;
+    use rasterproof_core::grid::{PixelRect, SubpixelPoint};
     use rasterproof_core::triangle::Corners;
     use rasterproof_verify::comparison::area2;
     use rasterproof_verify::oracle::Oracle;
@@ -154,6 +151,15 @@ mod tests {
             question["pixels"] = json!(String::from_utf8(pixels).unwrap());
         }
         unreachable!("the search ends")
+    }
+
+    #[test]
+    fn any_number_of_bits_is_taken() {
+        for bits in [0, 9, u32::MAX] {
+            let device = json!({ "interface": "webgl2", "bits": bits, "samples_apart": false });
+            let reply = answer(&json!({ "ask": "gpu-cause", "device": device }).to_string());
+            assert!(reply.contains("vertices"), "{reply}");
+        }
     }
 
     #[test]
