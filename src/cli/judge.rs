@@ -17,10 +17,9 @@ use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
-use rasterproof_judge::{Options, adapt_case, polygons, process_group};
+use rasterproof_judge::{Options, family_names, polygons, process_group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::{against_text, judge_text, polygons_text};
-use rasterproof_verify::partition;
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
@@ -32,7 +31,7 @@ pub struct JudgeArguments {
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     seconds: Option<Duration>,
     /// Only this family; may be repeated
-    #[arg(long, value_name = "NAME", value_parser = families(), hide_possible_values = true)]
+    #[arg(long, value_name = "NAME", value_parser = family_names(), hide_possible_values = true)]
     family: Vec<String>,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
@@ -79,11 +78,6 @@ pub struct JudgeArguments {
     /// The program and its arguments, after --
     #[arg(last = true, required_unless_present = "league", value_name = "CMD")]
     command: Vec<String>,
-}
-
-fn families() -> Vec<&'static str> {
-    let polygons = partition::Family::ALL.into_iter().map(partition::Family::name);
-    adapt_case::families(&[]).into_iter().map(|family| family.name).chain(polygons).collect()
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

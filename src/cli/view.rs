@@ -506,23 +506,26 @@ impl ViewArguments {
         if self.time.is_some() && model.animations.is_empty() {
             return Err(usage("--time: the model has no animations".to_owned()));
         }
-        if self.time.is_none() && !model.animations.is_empty() {
-            let names = model.animations.iter().map(String::as_str);
-            let (count, list) = (model.animations.len(), cameras::listed(names));
-            let s = if count == 1 { "" } else { "s" };
-            writeln!(
-                streams.errors,
-                "the file has {count} animation{s}: {list}; --time 0.5 shows the first after half a second"
-            )?;
-        }
-        if self.camera.is_none() && !model.cameras.is_empty() {
-            let names = model.cameras.iter().map(|camera| camera.name.as_str());
-            let (count, cameras) = (model.cameras.len(), cameras::listed(names));
-            let s = if count == 1 { "" } else { "s" };
-            writeln!(
-                streams.errors,
-                "the file has {count} camera{s}: {cameras}; --camera 1 looks through the first"
-            )?;
+        let notes: [(bool, &str, Vec<&str>, &str); 2] = [
+            (
+                self.time.is_some(),
+                "animation",
+                model.animations.iter().map(String::as_str).collect(),
+                "--time 0.5 shows the first after half a second",
+            ),
+            (
+                self.camera.is_some(),
+                "camera",
+                model.cameras.iter().map(|camera| camera.name.as_str()).collect(),
+                "--camera 1 looks through the first",
+            ),
+        ];
+        for (_, what, names, how) in
+            notes.iter().filter(|(is_used, _, names, _)| !is_used && !names.is_empty())
+        {
+            let s = if names.len() == 1 { "" } else { "s" };
+            let listed = cameras::listed(names.iter().copied());
+            writeln!(streams.errors, "the file has {} {what}{s}: {listed}; {how}", names.len())?;
         }
         if !model.lights.is_empty() {
             let (count, s) = (model.lights.len(), if model.lights.len() == 1 { "" } else { "s" });

@@ -12,9 +12,8 @@ use rasterproof_judge::ask::{Answer, Ask, Breach, Question};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
-use rasterproof_judge::{Options, adapt_case, judge, polygons};
+use rasterproof_judge::{Options, family_names, judge, polygons};
 use rasterproof_report::{judge_text, polygons_text};
-use rasterproof_verify::partition::Family;
 
 /// The program that instantiated the module: it answers requests when the standard input is read.
 struct Host {
@@ -86,10 +85,7 @@ impl Job {
                 self.options.time_limit = Some(seconds);
             }
             "family" => {
-                let families = adapt_case::families(&[]);
-                let names = families.iter().map(|family| family.name);
-                let polygons = Family::ALL.into_iter().map(Family::name);
-                names.chain(polygons).find(|name| *name == value)?;
+                family_names().into_iter().find(|name| *name == value)?;
                 self.options.families.push(value.to_owned());
             }
             "call" => self.call = value.to_owned(),

@@ -48,6 +48,7 @@ use std::time::{Duration, Instant};
 use ask::{Answer, Ask, Question};
 use check::Truth;
 use declared::Declared;
+use rasterproof_verify::partition;
 use recognise::{Recognised, Said};
 use run::Incident;
 use timed::Timed;
@@ -95,6 +96,13 @@ impl Options {
         }
         options
     }
+}
+
+/// The names of all families, those of polygons last.
+#[must_use]
+pub fn family_names() -> Vec<&'static str> {
+    let polygons = partition::Family::ALL.into_iter().map(partition::Family::name);
+    adapt_case::families(&[]).into_iter().map(|family| family.name).chain(polygons).collect()
 }
 
 /// What the judge does, for those who wait.

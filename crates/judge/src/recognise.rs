@@ -91,9 +91,7 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     let lines = (scope.lines && declared.line)
         .then(|| {
             let ask = scope.always || !bench.draws_as_declared(&declared, true);
-            let most = known(&declared);
-            let side_px =
-                (most.window_px.0.min(most.window_px.1).min(32) as i32).min(most.range_px);
+            let side_px = known(&declared).side_px();
             let ordered = !declared.line_set;
             (ask && !bench.is_over)
                 .then(|| convention::diagnose_lines(&mut bench, side_px, ordered, SEED))

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
+use rasterproof_precision::cost::EQUAL;
 use rasterproof_render::scene::Scene;
 use rasterproof_study::cost::{Choice, Group};
 use rasterproof_study::effects::{Fineness, Need, Needs, State};
@@ -163,21 +164,18 @@ fn accuracy(groups: &[Group]) -> String {
         _ => "",
     };
     let exact = format!("{}, exact for every model{snapped}", name(certain));
-    let mut sentence = match times {
-        ..=1.03 => {
-            format!("Exact coverage costs nothing here: {exact}, is the cheapest choice.")
-        }
-        _ => {
-            let is = match wrong(cheapest.1) {
-                0.0 => "happens to be exact here".to_owned(),
-                wrong => format!("is wrong in {} {unit}", thousands(wrong as u64)),
-            };
-            let (other, times) = (name(cheapest), number(times, 6));
-            format!(
-                "Exact coverage takes {times} times as long as the cheapest choice: {exact}, against \
-                 {other}, which {is}."
-            )
-        }
+    let mut sentence = if times <= EQUAL {
+        format!("Exact coverage costs nothing here: {exact}, is the cheapest choice.")
+    } else {
+        let is = match wrong(cheapest.1) {
+            0.0 => "happens to be exact here".to_owned(),
+            wrong => format!("is wrong in {} {unit}", thousands(wrong as u64)),
+        };
+        let (other, times) = (name(cheapest), number(times, 6));
+        format!(
+            "Exact coverage takes {times} times as long as the cheapest choice: {exact}, against \
+             {other}, which {is}."
+        )
     };
     let are_wrong: Vec<_> = all.iter().filter(|one| wrong(one.1) > 0.0).collect();
     let worst = are_wrong.iter().max_by(|a, b| wrong(a.1).total_cmp(&wrong(b.1)));

@@ -110,7 +110,7 @@ fn planted_faults_are_caught() {
                 let is_explained =
                     stand.verdict.recognised.is_some() || !stand.verdict.causes.is_empty();
                 assert!(
-                    is_explained && text.contains("it draws as") | text.contains("cause"),
+                    is_explained && (text.contains("it draws as") || text.contains("cause")),
                     "{text}"
                 );
                 // Shrunk: a fault of the sample is seen on few pixels.

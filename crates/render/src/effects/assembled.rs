@@ -48,7 +48,7 @@ impl<'a> Assembled<'a> {
         let mut pieces = Vec::with_capacity(scene.triangles());
         for &index in &self.order {
             let item = &self.items[index];
-            // Clipping makes a few more than there are triangles. Twice the room for millions of them is out of reach.
+            // Clipping makes a few more pieces than there are triangles. A list of millions must not double for them.
             let mut keep = |piece: &Piece, _: &mut Counters| {
                 if pieces.len() == pieces.capacity() {
                     pieces.reserve_exact(pieces.len() / 8 + 1024);

@@ -22,8 +22,6 @@ pub struct Cause {
 
 /// The questions are the same in every run.
 const SEED: u64 = 1;
-/// The side of the window in which lines are asked for.
-const LINE_SIDE_PX: i32 = 32;
 
 impl Cause {
     /// Asks for about 1,900 triangles in a small window.
@@ -49,7 +47,7 @@ impl Cause {
         let mut draw = draw;
         let mut ask = |questions: &[LineQuestion]| questions.iter().map(&mut draw).collect();
         let found: LineDiagnosis =
-            crate::convention::diagnose_lines(&mut ask, LINE_SIDE_PX, true, SEED);
+            crate::convention::diagnose_lines(&mut ask, Known::default().side_px(), true, SEED);
         let cause = Self::of(found.confidence, &found.sentence(), None);
         cause.with(mistakes::of_lines(&mut ask, &Known::default(), Some(&found), &[], &|| true))
     }

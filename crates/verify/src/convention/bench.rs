@@ -53,10 +53,19 @@ impl Default for Known {
         Self {
             grid: 256,
             range_px: 1 << 22,
-            window_px: (4096, 4096),
+            window_px: (u32::MAX, u32::MAX),
             mask: false,
             declared: Convention::default(),
         }
+    }
+}
+
+impl Known {
+    /// The side of the window in which it is asked, in pixels: at most 32.
+    pub fn side_px(&self) -> i32 {
+        let (width, height) = self.window_px;
+        let most = width.min(height).min(SIDE_PX as u32) as i32;
+        most.min(self.range_px)
     }
 }
 
@@ -87,8 +96,7 @@ pub(super) const LEAST_SIDE_PX: i32 = 16;
 impl<'a> Bench<'a> {
     /// None where what is declared leaves no room for questions.
     pub(super) fn new(ask: &'a mut dyn Ask, known: &'a Known, seed: u64) -> Option<Self> {
-        let (width, height) = known.window_px;
-        let side = SIDE_PX.min(known.range_px).min(width.min(height).min(1 << 20) as i32);
+        let side = known.side_px();
         // A grid that does not divide 1/256 px is asked in whole pixels.
         let grid = known.grid.clamp(1, 256);
         let grain = if 256 % grid == 0 { 256 / grid } else { 256 };

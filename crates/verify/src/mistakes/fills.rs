@@ -199,36 +199,42 @@ pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
     vec![[top, middle, cut].map_array(narrow), [middle, cut, bottom].map_array(narrow)]
 }
 
-/// Twice the area in 1/65536 square pixels, or the width or the height in subpixels.
+/// A size of a triangle: twice its area in 1/65536 square pixels, or a length in subpixels.
+type Metric = fn(&Corners) -> i64;
+
+/// What may be measured, in which unit that is said, and how much it is.
+pub(super) const METRICS: [(&str, &str, Metric); 7] = [
+    ("area", "square px", |corners| i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32)),
+    ("width", "px", |corners| extent(xs(corners))),
+    ("height", "px", |corners| extent(ys(corners))),
+    ("longer side", "px", |corners| extent(xs(corners)).max(extent(ys(corners)))),
+    ("farthest coordinate", "px", |corners| farthest(xs(corners)).max(farthest(ys(corners)))),
+    ("farthest x", "px", |corners| farthest(xs(corners))),
+    ("farthest y", "px", |corners| farthest(ys(corners))),
+];
+/// The first of the metrics that are coordinates; those before it are sizes.
+pub(super) const FARTHEST: usize = 4;
+
 pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
-    let extent = |of: [i32; 3]| {
-        let [least, most] = [of.into_iter().min(), of.into_iter().max()];
-        i64::from(most.unwrap_or(0)) - i64::from(least.unwrap_or(0))
-    };
-    let farthest =
-        |of: [i32; 3]| of.map_array(|v| i64::from(v).abs()).into_iter().max().unwrap_or(0);
-    let [xs, ys] = [corners.map_array(|c| c.x), corners.map_array(|c| c.y)];
-    match which {
-        0 => i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32),
-        1 => extent(xs),
-        2 => extent(ys),
-        3 => extent(xs).max(extent(ys)),
-        4 => farthest(xs).max(farthest(ys)),
-        5 => farthest(xs),
-        _ => farthest(ys),
-    }
+    METRICS[which].2(corners)
 }
 
-/// What [`metric`] measures, and in which unit that is said.
-pub(super) const METRICS: [(&str, &str); 7] = [
-    ("area", "square px"),
-    ("width", "px"),
-    ("height", "px"),
-    ("longer side", "px"),
-    ("farthest coordinate", "px"),
-    ("farthest x", "px"),
-    ("farthest y", "px"),
-];
+fn xs(corners: &Corners) -> [i32; 3] {
+    corners.map_array(|c| c.x)
+}
+
+fn ys(corners: &Corners) -> [i32; 3] {
+    corners.map_array(|c| c.y)
+}
+
+fn extent(of: [i32; 3]) -> i64 {
+    let [least, most] = [of.into_iter().min(), of.into_iter().max()];
+    i64::from(most.unwrap_or(0)) - i64::from(least.unwrap_or(0))
+}
+
+fn farthest(of: [i32; 3]) -> i64 {
+    of.map_array(|v| i64::from(v).abs()).into_iter().max().unwrap_or(0)
+}
 
 /// `value / of` with three digits that count.
 pub(super) fn decimal(value: i64, of: i64) -> String {

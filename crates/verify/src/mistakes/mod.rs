@@ -300,8 +300,9 @@ pub fn of_triangles(
         program.hypothesis(&answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
     }));
     let seen = || answered.iter().map(common::Seen::triangle).collect();
-    let is_near =
-        |i: usize| fills::metric(&answered[i].question.corners, 4) <= i64::from(NEAR_PX) * 256;
+    let is_near = |i: usize| {
+        fills::metric(&answered[i].question.corners, fills::FARTHEST) <= i64::from(NEAR_PX) * 256
+    };
     let found = conclude(hypotheses, &is_wrong, &is_near, &seen);
     with_limits(found, is_wrong.len(), thresholds::of_triangles(ask, known, expected, goes_on))
 }

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::fills::decimal;
+use super::fills::{FARTHEST, decimal};
 use super::questions::{LONGEST_PX, Room};
 use super::{lines, sample_of};
 use crate::convention::{
@@ -21,7 +21,7 @@ const MOST_ROUNDS: usize = 24;
 /// The side of the window around a shape, in pixels.
 const SIDE_PX: i32 = 24;
 /// The largest window that is asked for, in pixels: its picture has 100,000 of them.
-const WIDEST_PX: i32 = 4096;
+const WIDEST_PX: u32 = 4096;
 
 /// A limit beyond which a program is wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,9 +38,6 @@ pub struct Threshold {
     pub right: u64,
     /// Wrong ones of those up to twice the limit, and of the largest that were asked for.
     pub wrong: [Count; 2],
-    /// Wrong ones just above the limit.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    first: Count,
     /// What reaches the end of a word there, where anything does.
     pub hint: Option<String>,
     /// What is said of it.
@@ -182,6 +179,28 @@ fn between(room: &mut Room, from: i64, to: i64, number: usize) -> i64 {
     room.rng.int(low, high)
 }
 
+/// Makes shapes with measures between two numbers and asks for them. `make` makes one of about a measure and says which it
+/// has, and `are_wrong` says of each whether it is drawn wrongly, or that this is open; nothing where too few were answered.
+fn probe<S>(
+    room: &mut Room,
+    [from, to]: [i64; 2],
+    make: impl Fn(&mut Room, i64) -> (i64, S),
+    are_wrong: impl FnOnce(&[S]) -> Option<Vec<Option<bool>>>,
+) -> Option<Vec<Seen>> {
+    let shapes = (0..AT_ONCE).map(|number| {
+        let measure = between(room, from, to, number);
+        make(room, measure)
+    });
+    let shapes = shapes.filter(|(measure, _)| (from..=to).contains(measure));
+    let (measures, shapes): (Vec<i64>, Vec<S>) = shapes.unzip();
+    let are_wrong = are_wrong(&shapes)?;
+    let seen = measures.into_iter().zip(are_wrong);
+    Some(
+        seen.filter_map(|(measure, is_wrong)| Some(Seen { measure, is_wrong: is_wrong? }))
+            .collect(),
+    )
+}
+
 /// The limits of a rasterizer that is expected to follow a convention.
 pub(super) fn of_triangles(
     ask: &mut dyn Ask,
@@ -192,60 +211,55 @@ pub(super) fn of_triangles(
     let mut room = Room::new(known, 2);
     let (grain, sample) = (room.grain, sample_of(expected));
     let (wide, high) = known.window_px;
-    let widest = |side: u32| i64::from(side.min(WIDEST_PX as u32) as i32 - SIDE_PX);
+    let widest = |side: u32| i64::from(side.min(WIDEST_PX) as i32 - SIDE_PX);
     let farthest = room.range_px.min(1 << 22) * i64::from(SUBPIXELS) / grain;
-    // Rows of a picture that is turned over lie elsewhere.
-    let is_plain = expected.mirror == Mirror::None;
-    let axes = [
-        (Axis::Size, i64::from(SUBPIXELS) / grain, farthest, true),
-        (Axis::Reach, i64::from(SIDE_PX * SUBPIXELS) / grain, farthest, true),
-        (Axis::Slope, 8, i64::from(SIDE_PX - 1) * 256 / grain, true),
-        (Axis::Column, 4, widest(wide).min(room.range_px - i64::from(SIDE_PX)), is_plain),
-        (Axis::Row, 4, widest(high).min(room.range_px - i64::from(SIDE_PX)), is_plain),
+    let mut axes = vec![
+        (Axis::Size, i64::from(SUBPIXELS) / grain, farthest),
+        (Axis::Reach, i64::from(SIDE_PX * SUBPIXELS) / grain, farthest),
+        (Axis::Slope, 8, i64::from(SIDE_PX - 1) * 256 / grain),
     ];
-    let mut found: Vec<Threshold> = Vec::new();
-    for (axis, low, high, _) in axes.into_iter().filter(|(.., is_asked)| *is_asked) {
-        // What is far to the right has large coordinates, whose limit is known.
-        let far = found.iter().filter(|limit| limit.of != Axis::Slope.name());
-        let nearest = far.map(|limit| limit.wrong_from as i64).min().unwrap_or(i64::MAX);
-        let high = match axis {
-            Axis::Column | Axis::Row => high.min(nearest - i64::from(SIDE_PX)),
-            _ => high,
-        };
-        let mut probe = |from: i64, to: i64| {
-            if !goes_on() {
-                return None;
-            }
-            let shapes: Vec<_> = (0..AT_ONCE)
-                .map(|number| {
-                    let measure = between(&mut room, from, to, number);
-                    triangle(&mut room, axis, measure, sample)
-                })
-                .filter(|shape| (from..=to).contains(&shape.measure))
-                .collect();
-            let questions: Vec<_> = shapes.iter().map(|shape| shape.question).collect();
-            let answers = ask.ask(&questions);
-            if answers.len() < questions.len() {
-                return None;
-            }
-            let seen = shapes.iter().zip(answers).filter_map(|(shape, answer)| {
-                let is_wrong = !shape.is_drawn(answer.as_ref()?, expected)?;
-                Some(Seen { measure: shape.measure, is_wrong })
-            });
-            Some(seen.collect())
-        };
-        let limit = search(low, high, &mut probe);
-        found.extend(limit.map(|limit| threshold(axis, "triangles", 256 / grain, limit)));
+    // Rows of a picture that is turned over lie elsewhere.
+    if expected.mirror == Mirror::None {
+        let most = room.range_px - i64::from(SIDE_PX);
+        axes.extend(
+            [(Axis::Column, wide), (Axis::Row, high)]
+                .map_array(|(axis, side)| (axis, 4, widest(side).min(most))),
+        );
+    }
+    let per_px = 256 / grain;
+    let mut found: Vec<(Axis, Found)> = Vec::new();
+    for (axis, low, mut high) in axes {
+        if matches!(axis, Axis::Column | Axis::Row) {
+            // What is far to the right has large coordinates, whose limit is known.
+            let far = found.iter().filter(|(axis, _)| axis.is_in_steps());
+            let nearest = far.map(|(_, limit)| limit.wrong_from / per_px).min();
+            high = high.min(nearest.unwrap_or(i64::MAX) - i64::from(SIDE_PX));
+        }
+        let limit = search(low, high, &mut |from, to| {
+            goes_on().then_some(())?;
+            let make = |room: &mut Room, measure| triangle(room, axis, measure, sample);
+            probe(&mut room, [from, to], make, |shapes| {
+                let questions: Vec<_> = shapes.iter().map(|shape| shape.question).collect();
+                let answers = ask.ask(&questions);
+                let is_wrong = |(shape, answer): (&Shape, Option<Coverage>)| {
+                    Some(!shape.is_drawn(answer.as_ref()?, expected)?)
+                };
+                (answers.len() == questions.len())
+                    .then(|| shapes.iter().zip(answers).map(is_wrong).collect())
+            })
+        });
+        found.extend(limit.map(|limit| (axis, limit)));
     }
     // Large triangles have large coordinates: the measure that tells more is kept.
     let both =
-        [Axis::Size, Axis::Reach].map_array(|axis| found.iter().position(|t| t.of == axis.name()));
+        [Axis::Size, Axis::Reach].map_array(|axis| found.iter().position(|(of, _)| *of == axis));
     if let [Some(size), Some(reach)] = both {
-        let tells = |t: &Threshold| (t.is_sharp, t.hint.is_some(), t.first.drawn);
-        let less = if tells(&found[size]) >= tells(&found[reach]) { reach } else { size };
-        found.remove(less);
+        let tells = |(axis, limit): &(Axis, Found)| {
+            (limit.is_sharp, hint(*axis, per_px, limit).is_some(), limit.first.drawn)
+        };
+        found.remove(if tells(&found[size]) >= tells(&found[reach]) { reach } else { size });
     }
-    found
+    found.into_iter().map(|(axis, limit)| threshold(axis, "triangles", per_px, limit)).collect()
 }
 
 /// Triangles about as large as some limits of a metric.
@@ -260,10 +274,10 @@ pub(super) fn near(
         // Twice the area is the product of two sides.
         let side = if metric == 0 { (limit as f64).sqrt() as i64 } else { limit };
         let steps = (side / room.grain).max(1);
-        let axis = if metric >= 4 { Axis::Reach } else { Axis::Size };
+        let axis = if metric >= FARTHEST { Axis::Reach } else { Axis::Size };
         questions.extend((0..NEAR_A_LIMIT).map(|_| {
             let measure = room.rng.int(steps / 2 + 1, 2 * steps);
-            triangle(&mut room, axis, measure, sample_of(expected)).question
+            triangle(&mut room, axis, measure, sample_of(expected)).1.question
         }));
     }
     questions
@@ -283,33 +297,24 @@ pub(super) fn of_lines(
     let mut longest = LONGEST_PX.min(room.range_px);
     let mut found = Vec::new();
     for axis in [Axis::Size, Axis::Slope] {
-        let mut probe = |from: i64, to: i64| {
-            if !goes_on() {
-                return None;
-            }
-            let shapes: Vec<_> = (0..AT_ONCE)
-                .map(|number| {
-                    let measure = between(&mut room, from, to, number);
-                    line(&mut room, axis, measure, longest)
-                })
-                .filter(|(measure, _)| (from..=to).contains(measure))
-                .collect();
-            let questions: Vec<_> = shapes.iter().map(|(_, question)| *question).collect();
-            let answers = ask.ask_lines(&questions);
-            if answers.len() < questions.len() {
-                return None;
-            }
-            let seen = shapes.iter().zip(answers).filter_map(|(&(measure, question), answer)| {
-                let ends = question.ends.map_array(|end| end.map_array(i64::from));
-                let right = lines::of_convention(expected, ends, question.window)?;
-                let answer = answer?;
-                let pixels: Vec<_> = answer.iter().map(|p| p.map_array(i64::from)).collect();
-                Some(Seen { measure, is_wrong: lines::mask(&pixels, question.window) != right })
-            });
-            Some(seen.collect())
-        };
         // A short line has few slopes.
-        let limit = search(4, if axis == Axis::Size { longest } else { longest / 4 }, &mut probe);
+        let high = if axis == Axis::Size { longest } else { longest / 4 };
+        let limit = search(4, high, &mut |from, to| {
+            goes_on().then_some(())?;
+            let make = |room: &mut Room, measure| line(room, axis, measure, longest);
+            probe(&mut room, [from, to], make, |questions| {
+                let answers = ask.ask_lines(questions);
+                let is_wrong = |(question, answer): (&LineQuestion, Option<Vec<[i32; 2]>>)| {
+                    let ends = question.ends.map_array(|end| end.map_array(i64::from));
+                    let right = lines::of_convention(expected, ends, question.window)?;
+                    let answer = answer?;
+                    let pixels: Vec<_> = answer.iter().map(|p| p.map_array(i64::from)).collect();
+                    Some(lines::mask(&pixels, question.window) != right)
+                };
+                (answers.len() == questions.len())
+                    .then(|| questions.iter().zip(answers).map(is_wrong).collect())
+            })
+        });
         // Slopes are those of lines that are not too long.
         longest = limit.as_ref().map_or(longest, |limit| limit.wrong_from - 1);
         found.extend(limit.map(|limit| threshold(axis, "lines", 1, limit)));
@@ -318,7 +323,6 @@ pub(super) fn of_lines(
 }
 
 struct Shape {
-    measure: i64,
     question: Question,
     /// The window in which it lies, and how far that is from the origin in pixels.
     near: PixelRect,
@@ -349,7 +353,7 @@ impl Shape {
     }
 }
 
-fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> Shape {
+fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> (i64, Shape) {
     let grain = room.grain;
     let [wide, high] = room.side.map_array(|side| (side as i32).min(SIDE_PX));
     let near = PixelRect::window(wide as u32, high as u32);
@@ -427,7 +431,7 @@ fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> Shap
     };
     let [x, y] = moved_px;
     let window = PixelRect::window((wide + x) as u32, (high + y) as u32);
-    Shape { measure, question: Question { corners, window }, near, moved_px }
+    (measure, Shape { question: Question { corners, window }, near, moved_px })
 }
 
 /// The largest ratio of an edge's sides, without level and upright ones.
@@ -472,7 +476,8 @@ fn line(room: &mut Room, axis: Axis, measure: i64, longest: i64) -> (i64, LineQu
 
 fn threshold(axis: Axis, shapes: &str, per_px: i64, found: Found) -> Threshold {
     let scale = if axis.is_in_steps() { per_px } else { 1 };
-    let Found { right_to, wrong_from, right, wrong, first, is_sharp } = found;
+    let hint = hint(axis, per_px, &found);
+    let Found { wrong_from, right, wrong, is_sharp, .. } = found;
     let said = decimal(wrong_from, scale);
     let words = match axis {
         Axis::Size if shapes == "lines" => {
@@ -492,22 +497,21 @@ fn threshold(axis: Axis, shapes: &str, per_px: i64, found: Found) -> Threshold {
         wrong_from: wrong_from as f64 / scale as f64,
         right,
         wrong,
-        first,
-        hint: hint(axis, per_px, right_to, wrong_from).filter(|_| is_sharp),
+        hint,
         words,
     }
 }
 
 /// What comes to the end of a word between two measures, in steps of the grid or in whole pixels.
-fn hint(axis: Axis, per_px: i64, right_to: i64, wrong_from: i64) -> Option<String> {
+fn hint(axis: Axis, per_px: i64, found: &Found) -> Option<String> {
+    if axis == Axis::Slope || !found.is_sharp {
+        return None;
+    }
     // The first shape that is wrong is not exactly at the limit.
-    let [least, most] = [right_to as f64 * 0.99, wrong_from as f64 * 1.01];
+    let [least, most] = [found.right_to as f64 * 0.99, found.wrong_from as f64 * 1.01];
     // Programs may keep fewer bits below the pixel than they are asked with.
     let grids: &[i64] = if axis.is_in_steps() { &[256, 64, 16, 1] } else { &[1] };
     let grids = grids.iter().filter(|grid| **grid <= per_px);
-    if axis == Axis::Slope {
-        return None;
-    }
     for (bits, word) in WORDS {
         let limit = 2f64.powi(bits);
         for &grid in grids.clone() {

@@ -405,7 +405,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "triangles are left out by size",
         sentence: |p| {
             let (metric, below, limit) = size(p);
-            let (what, unit) = fills::METRICS[metric];
+            let (what, unit, _) = fills::METRICS[metric];
             let limit = fills::decimal(limit, if metric == 0 { 131_072 } else { 256 });
             format!(
                 "does not draw triangles whose {what} is {} about {limit} {unit}",

@@ -81,73 +81,75 @@ fn samples(polygon: &Polygon, columns: usize, rows: usize) -> Vec<Point> {
     all.filter(|point| point.iter().all(|v| v.is_finite())).collect()
 }
 
-/// What else might be filled: how often a point is covered.
-type Fills = fn(&Polygon, FillRule, Point) -> Option<i64>;
+/// How often a point is covered; nothing on an edge.
+type Covers<'a> = Box<dyn Fn(Point) -> Option<i64> + 'a>;
+
+/// What else might be filled of a polygon.
+type Fills = for<'a> fn(&'a Polygon, FillRule) -> Covers<'a>;
 
 const FILLS: [(&str, &str, &str, Fills); 6] = [
     (
         "contours alone",
         "fills every contour by itself, so that holes are filled, and what lies in them twice",
         "cut the holes out: connect each with its outline, or use their edges as constraints",
-        |polygon, rule, p| {
-            let alone = |contour: &Vec<Point>| {
-                Some(i64::from(rule.fills(rounds(std::slice::from_ref(contour), p)?)))
-            };
-            polygon.contours.iter().map(alone).sum()
+        |polygon, rule| {
+            Box::new(move |p| polygon.contours.chunks(1).map(|alone| filled(alone, rule, p)).sum())
         },
     ),
     (
         "the first contour",
         "fills the first contour and ignores the others",
         "fill all contours, by the fill rule",
-        |polygon, rule, p| Some(i64::from(rule.fills(rounds(polygon.contours.get(..1)?, p)?))),
+        |polygon, rule| Box::new(move |p| filled(polygon.contours.get(..1)?, rule, p)),
     ),
     (
         "the other fill rule",
         "follows the other fill rule: even-odd in place of non-zero, or the other way",
         "ask for the rule that is meant, or declare the other one by Options::fill_rule",
-        |polygon, rule, p| {
+        |polygon, rule| {
             let other = match rule {
                 FillRule::EvenOdd => FillRule::NonZero,
                 FillRule::NonZero => FillRule::EvenOdd,
             };
-            Some(i64::from(other.fills(rounds(&polygon.contours, p)?)))
+            Box::new(move |p| filled(&polygon.contours, other, p))
         },
     ),
     (
         "a fan",
         "draws a fan around the first vertex of each contour, which is right where the contour is convex",
         "cut ears, or split into monotone pieces",
-        |polygon, _, p| {
-            let fan = |c: &Vec<Point>| -> Option<i64> {
-                let fan = (2..c.len()).map(|i| [c[0], c[i - 1], c[i]]);
-                covering(&fan.collect::<Vec<_>>(), p)
-            };
-            polygon.contours.iter().map(fan).sum()
+        |polygon, _| {
+            let fan = |c: &Vec<Point>| c.windows(2).skip(1).map(|v| [c[0], v[0], v[1]]).collect();
+            made_of(polygon, fan)
         },
     ),
     (
         "a strip",
         "joins each vertex with the next two, as a strip of triangles",
         "cut ears, or split into monotone pieces",
-        |polygon, _, p| {
-            let strip = |c: &Vec<Point>| -> Option<i64> {
-                let strip = c.windows(3).map(|v| [v[0], v[1], v[2]]);
-                covering(&strip.collect::<Vec<_>>(), p)
-            };
-            polygon.contours.iter().map(strip).sum()
-        },
+        |polygon, _| made_of(polygon, |c| c.windows(3).map(|v| [v[0], v[1], v[2]]).collect()),
     ),
     (
         "the convex hull",
         "fills the convex hull of the vertices",
         "use the edges of the contours as constraints, and leave out triangles that lie outside",
-        |polygon, _, p| {
-            let hull = hull(polygon.contours.iter().flatten().copied().collect());
-            Some(i64::from(rounds(&[hull], p)? != 0))
+        |polygon, _| {
+            let hull = [hull(polygon.contours.iter().flatten().copied().collect())];
+            Box::new(move |p| filled(&hull, FillRule::NonZero, p))
         },
     ),
 ];
+
+/// Whether a point lies within contours by a rule, as a number.
+fn filled(contours: &[Vec<Point>], rule: FillRule, p: Point) -> Option<i64> {
+    Some(i64::from(rule.fills(rounds(contours, p)?)))
+}
+
+/// The triangles that are made of each contour.
+fn made_of<'a>(polygon: &Polygon, make: fn(&Vec<Point>) -> Vec<Triangle>) -> Covers<'a> {
+    let triangles: Vec<Triangle> = polygon.contours.iter().flat_map(make).collect();
+    Box::new(move |p| covering(&triangles, p))
+}
 
 /// The convex hull, counterclockwise.
 fn hull(mut points: Vec<Point>) -> Vec<Point> {
@@ -238,10 +240,11 @@ pub(super) fn cause(made: &[Made], options: &Options) -> Option<Mistakes> {
     for (name, does, repair, fills) in FILLS {
         let (seen, gross) = (&seen, &gross);
         let predicts = move |i: usize| {
-            let polygon = &made[gross[i]].polygon;
-            seen[gross[i]].iter().all(|&(p, drawn, _)| {
-                fills(polygon, rule, p).is_none_or(|expected| expected == drawn)
-            })
+            let covers = fills(&made[gross[i]].polygon, rule);
+            let is_as_drawn = |&(p, drawn, _): &(Point, i64, bool)| {
+                covers(p).is_none_or(|expected| expected == drawn)
+            };
+            seen[gross[i]].iter().all(is_as_drawn)
         };
         let says = says(name, does.to_owned(), repair);
         hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
@@ -284,8 +287,7 @@ fn of_vertices<'a>(made: &'a [Made], is_wrong: &'a [bool]) -> Vec<Hypothesis<'a>
     let alone =
         move |kind: FaultKind, i: usize| made[i].finding.faults.iter().all(|f| f.kind == kind);
     let straight = move |i: usize| {
-        let has = !made[i].finding.faults.is_empty();
-        alone(FaultKind::TJunction, i) && (!has || has_straight_vertex(&made[i].polygon))
+        alone(FaultKind::TJunction, i) && (!is_wrong[i] || has_straight_vertex(&made[i].polygon))
     };
     hypotheses.push(Hypothesis {
         predicts: Box::new(straight),
