@@ -1,7 +1,9 @@
 //! The program: connects the command line to the terminal, and exits.
 
-use std::io::{self, BufWriter, IsTerminal};
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
+#[cfg(unix)]
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rasterproof::cli::{self, Delivery, Streams};
 use rasterproof_judge::process_group::end_strays;
@@ -13,10 +15,41 @@ fn columns(size: Option<(Width, Height)>) -> Option<usize> {
     size.map(|(width, _)| width.0.into()).or_else(said).filter(|&columns| columns > 0)
 }
 
+#[cfg(unix)]
+static OUTPUT_WAS_CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Looks whether standard output is open (`>&-` closes it) before Rust opens `/dev/null` in place of what is closed, which
+/// cannot be told later from the `/dev/null` of a caller that wants no output. Runs before `main`, so it does nothing else.
+#[cfg(unix)]
+#[ctor::ctor]
+fn look_at_output() {
+    let is_closed = rustix::fs::fcntl_getfl(io::stdout()).is_err();
+    OUTPUT_WAS_CLOSED.store(is_closed, Ordering::Relaxed);
+}
+
+/// Standard output; where it was closed, every byte written to it is an error.
+fn output() -> Box<dyn Write> {
+    struct Closed;
+    impl Write for Closed {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(io::Error::other("it is closed"))
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+    #[cfg(unix)]
+    if OUTPUT_WAS_CLOSED.load(Ordering::Relaxed) {
+        return Box::new(Closed);
+    }
+    Box::new(io::stdout().lock())
+}
+
 fn main() -> ExitCode {
     let mut streams = Streams {
         input: &mut io::stdin().lock(),
-        output: &mut BufWriter::new(io::stdout().lock()),
+        output: &mut BufWriter::new(output()),
         errors: &mut io::stderr(),
         progress: io::stderr().is_terminal(),
         // See no-color.org.

@@ -4,11 +4,6 @@
 //! output: where standard output fails, the command goes on without it. A verdict that agrees becomes
 //! an error where something was lost that the user should have (a full disk, a file that cannot be
 //! written), since a script would believe otherwise that it is there. A failing verdict stays one.
-//!
-//! A standard output that was closed (`>&-`) is not noticed. Rust opens `/dev/null` in its place before `main`, for
-//! reading and writing, so that no file which is opened later gets its number. Callers that want no output pass the
-//! same: Python's `DEVNULL` and `ignore` of Node.js are `/dev/null` for reading and writing too, and nothing that
-//! `/proc` says of the two differs. An error for the one would be a false alarm for the other.
 
 use std::cell::Cell;
 use std::fmt::Display;

@@ -41,7 +41,7 @@ pub mod wrap;
 
 use std::ffi::OsString;
 use std::fmt;
-use std::io::{self, BufRead, Write};
+use std::io::{self, BufRead, ErrorKind, Write};
 use std::path::Path;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -409,9 +409,10 @@ fn status_of(result: Result<u8, Failure>, errors: &mut dyn Write) -> u8 {
 /// Says why standard output did not take everything.
 fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
     if let Some(error) = output.lost() {
+        let remedy = if error.kind() == ErrorKind::StorageFull { "make room, or " } else { "" };
         let _ = writeln!(
             errors,
-            "error: standard output cannot be written: {error}; make room, or name another place"
+            "error: standard output cannot be written: {error}; {remedy}name another place"
         );
     }
 }

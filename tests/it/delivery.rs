@@ -7,6 +7,7 @@ use std::fs::{self, File};
 use std::os::unix::ffi::OsStrExt as _;
 use std::os::unix::fs::symlink;
 use std::path::Path;
+use std::process::Command;
 
 use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
 
@@ -34,6 +35,12 @@ impl Folder {
     fn run_full(&self, words: &str) -> Run {
         let full = File::options().write(true).open("/dev/full").unwrap();
         Run::of(self.command(words).stdout(full))
+    }
+
+    /// Runs a command whose standard output is closed.
+    fn run_closed(&self, words: &str) -> Run {
+        let mut shell = Command::new("sh");
+        Run::of(shell.args(["-c", &format!("exec {PROGRAM} {words} >&-")]))
     }
 }
 
@@ -72,6 +79,10 @@ fn a_verdict_that_cannot_be_written_is_no_success() {
     for (words, status) in VERDICTS {
         let expected = if status == AGREES { USAGE } else { status };
         folder.run_full(words).has(expected).says("standard output cannot be written: No space");
+        folder
+            .run_closed(words)
+            .has(expected)
+            .says("standard output cannot be written: it is closed");
     }
 }
 
