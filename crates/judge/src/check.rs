@@ -121,6 +121,21 @@ impl Finding {
 }
 
 impl Check {
+    /// Whether a case can be asked: a mesh that falls apart has no holes.
+    #[must_use]
+    pub fn fits(self, case: &Case) -> bool {
+        match &case.shape {
+            Shape::Triangles { disjoint, .. } => self != Self::Watertight || *disjoint,
+            _ => self != Self::Watertight,
+        }
+    }
+
+    /// Whether each answer is compared with an expected one, not with others.
+    pub(super) fn is_one_by_one(self) -> bool {
+        use Check::{Carried, Coverage, Depth, Line, Near, Values};
+        matches!(self, Coverage | Line | Values | Depth | Near | Carried)
+    }
+
     /// Its name as a property: of checks that a family is made for, the name of that family.
     pub fn name(self, family: &'static str) -> &'static str {
         match self {

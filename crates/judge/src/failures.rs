@@ -1,7 +1,7 @@
 //! Failing cases made small while the program is asked, and what was said about them.
 
 use std::cell::RefCell;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::Options;
 use super::adapt_case;
@@ -11,7 +11,7 @@ use super::finding::Finding;
 use super::pictured::{Pictured, pictured};
 use super::run::{Failing, Found, MOST_DEATHS, Row};
 use super::shrink::smaller;
-use rasterproof_verify::cases::{self, Case};
+use rasterproof_verify::cases::Case;
 
 #[derive(Clone, Debug)]
 pub struct Failure {
@@ -68,16 +68,30 @@ pub fn failures(
 }
 
 /// A case that was asked, with what came of it.
-struct Asked {
-    questions: Vec<Question>,
-    answers: Vec<Answer>,
-    finding: Finding,
+pub struct Asked {
+    pub questions: Vec<Question>,
+    pub answers: Vec<Answer>,
+    pub finding: Finding,
 }
 
 impl Asked {
+    fn of(program: &mut dyn Ask, check: Check, case: &Case, truth: &Truth) -> Self {
+        let mut questions = Vec::new();
+        check.questions(case, truth, &mut questions);
+        let answers = program.ask(&questions, MOST_DEATHS);
+        let finding = judge(check, case, &answers, questions.len(), truth);
+        Self { questions, answers, finding }
+    }
+
     /// Whether answers are missing, and not because the program died: the time is up.
     fn is_late(&self) -> bool {
         self.answers.len() < self.questions.len() && self.finding.died.is_empty()
+    }
+
+    /// Whether it takes long to go wrong.
+    fn is_slow(&self) -> bool {
+        let is_slow = |m: &Misbehaviour| matches!(m.breach, Breach::Hangs | Breach::Late);
+        self.finding.died.iter().any(|(_, m)| is_slow(m))
     }
 }
 
@@ -89,111 +103,116 @@ fn failure(
     truth: &Truth,
 ) -> Option<Failure> {
     let family = adapt_case::family(failing.family)?;
-    let original = adapt_case::put(family.case(options.seed, failing.index), &truth.declared);
-    let check = Check::of_truth(family.name, &original, failing.index, truth)
+    let case = adapt_case::put(family.case(options.seed, failing.index), &truth.declared);
+    let check = Check::of_truth(family.name, &case, failing.index, truth)
         .into_iter()
         .find(|check| check.name(family.name) == failing.property)?;
-    let program = RefCell::new(program);
-    let ask = |case: &Case| {
-        let mut questions = Vec::new();
-        check.questions(case, truth, &mut questions);
-        let answers = program.borrow_mut().ask(&questions, MOST_DEATHS);
-        let finding = judge(check, case, &answers, truth);
-        Asked { questions, answers, finding }
-    };
-    let first = ask(&original);
-    let start = Instant::now();
-    let leaves = adapt_case::leaves_window(&original);
-    let was_wrong = first.finding.is_wrong();
+    let leaves = adapt_case::leaves_window(&case);
+    let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
+    let first = Asked::of(program, check, &case, truth);
     let was_asked = !first.is_late();
-    // What takes long to go wrong is shown as it is.
-    let is_slow = |m: &Misbehaviour| matches!(m.breach, Breach::Hangs | Breach::Late);
-    let is_slow = first.finding.died.iter().any(|(_, m)| is_slow(m));
-    // The answers to the smallest case so far.
-    let kept = RefCell::new(first);
-    let case = if !was_wrong || is_slow {
-        original.clone()
-    } else {
-        smaller(check, original.clone(), |smaller| {
-            let is_asked = adapt_case::holds(smaller, &truth.declared)
-                && (leaves || !adapt_case::leaves_window(smaller))
-                && start.elapsed() < options.patience;
-            // A mesh that falls apart is no mesh.
-            let smaller = adapt_case::put(smaller.clone(), &truth.declared);
-            if !is_asked || !still_a_mesh(check, &smaller) {
-                return false;
-            }
-            let asked = ask(&smaller);
-            let is_wrong = asked.finding.is_wrong();
-            if is_wrong {
-                *kept.borrow_mut() = asked;
-            }
-            is_wrong
-        })
-    };
-    let again = if was_asked { Some(ask(&case)).filter(|again| !again.is_late()) } else { None };
-    let is_late = again.is_none();
-    let shrunk = match (is_late, is_slow) {
-        (true, _) if case == original => "not made smaller: the time was up",
-        (true, _) => "shrunk until the time was up",
-        (false, true) => "as it is, since it takes long",
-        (false, false) => "shrunk",
-    };
-    let Asked { questions, answers, finding } = again.unwrap_or_else(|| kept.into_inner());
-    let what = match (was_asked, was_wrong, finding.is_wrong()) {
-        (false, ..) => {
-            found.described.get(&failing.name()).map_or("wrong", String::as_str).to_owned()
-        }
-        // Asked again, it was right: the program does not repeat itself.
-        (_, false, _) | (_, _, false) => "wrong at first, right when asked again".to_owned(),
-        _ => finding.describe(check),
-    };
-    let exchanges = questions.iter().zip(&answers).map(|(question, answer)| Exchange {
-        request: question.text(1),
-        answer: show(answer, 1),
-        other: match answer {
-            Answer::Two(both) => show(&both[1], 1),
-            _ => String::new(),
-        },
-        expected: match check {
-            Check::Coverage
-            | Check::Line
-            | Check::Values
-            | Check::Depth
-            | Check::Near
-            | Check::Carried => {
-                expected_answer(question, truth).map_or_else(String::new, |e| show(&e, 1))
-            }
-            _ => String::new(),
-        },
-    });
-    Some(Failure {
-        property: failing.property,
-        check,
-        family: family.name,
-        index: failing.index,
-        what,
-        shrunk,
-        exchanges: exchanges.collect(),
-        picture: pictured(check, &case, &answers, truth).filter(|_| was_asked),
-        case,
-    })
+    let search = Search { check, truth, patience: options.patience, may_be: &may_be };
+    let mut failure = search.smallest(program, failing, case, first);
+    if !was_asked {
+        let described = found.described.get(&failing.name());
+        failure.what = described.map_or("wrong", String::as_str).to_owned();
+        failure.picture = None;
+    }
+    Some(failure)
 }
 
-fn judge(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Finding {
-    let mut questions = Vec::new();
-    check.questions(case, truth, &mut questions);
-    if answers.len() < questions.len() {
+/// How a failing case is made smaller.
+pub struct Search<'a> {
+    pub check: Check,
+    pub truth: &'a Truth,
+    pub patience: Duration,
+    /// Whether a smaller case is one to ask.
+    pub may_be: &'a dyn Fn(&Case) -> bool,
+}
+
+impl Search<'_> {
+    /// What takes long to go wrong is shown as it is, and not asked again.
+    pub fn smallest(
+        &self,
+        program: &mut dyn Ask,
+        failing: &Failing,
+        original: Case,
+        first: Asked,
+    ) -> Failure {
+        let &Self { check, truth, patience, may_be } = self;
+        let program = RefCell::new(program);
+        let ask = |case: &Case| Asked::of(*program.borrow_mut(), check, case, truth);
+        let start = Instant::now();
+        let (was_wrong, was_late, is_slow) =
+            (first.finding.is_wrong(), first.is_late(), first.is_slow());
+        // The answers to the smallest case so far.
+        let kept = RefCell::new(first);
+        let case = if !was_wrong || is_slow {
+            original.clone()
+        } else {
+            smaller(check, original.clone(), |smaller| {
+                let is_asked = adapt_case::holds(smaller, &truth.declared)
+                    && may_be(smaller)
+                    && start.elapsed() < patience;
+                let smaller = adapt_case::put(smaller.clone(), &truth.declared);
+                if !is_asked || !check.fits(&smaller) {
+                    return false;
+                }
+                let asked = ask(&smaller);
+                let is_wrong = asked.finding.is_wrong();
+                if is_wrong {
+                    *kept.borrow_mut() = asked;
+                }
+                is_wrong
+            })
+        };
+        let is_asked_again = !was_late && !is_slow;
+        let again =
+            if is_asked_again { Some(ask(&case)).filter(|again| !again.is_late()) } else { None };
+        let shrunk = match (is_slow, again.is_none()) {
+            (true, _) => "as it is, since it takes long",
+            (_, true) if case == original => "not made smaller: the time was up",
+            (_, true) => "shrunk until the time was up",
+            (_, false) => "shrunk",
+        };
+        let Asked { questions, answers, finding } = again.unwrap_or_else(|| kept.into_inner());
+        // Asked again, it was right: the program does not repeat itself.
+        let what = match was_wrong && finding.is_wrong() {
+            true => finding.describe(check),
+            false => "wrong at first, right when asked again".to_owned(),
+        };
+        let expected = |question: &Question| {
+            let expected = expected_answer(question, truth).filter(|_| check.is_one_by_one());
+            expected.map_or_else(String::new, |expected| show(&expected, 1))
+        };
+        let exchanges = questions.iter().zip(&answers).map(|(question, answer)| Exchange {
+            request: question.text(1),
+            answer: show(answer, 1),
+            other: match answer {
+                Answer::Two(both) => show(&both[1], 1),
+                _ => String::new(),
+            },
+            expected: expected(question),
+        });
+        Failure {
+            property: failing.property,
+            check,
+            family: failing.family,
+            index: failing.index,
+            what,
+            shrunk,
+            exchanges: exchanges.collect(),
+            picture: pictured(check, &case, &answers, truth),
+            case,
+        }
+    }
+}
+
+/// What is found in the answers to a case; there are fewer where the program died or the time was up.
+pub fn judge(check: Check, case: &Case, answers: &[Answer], of: usize, truth: &Truth) -> Finding {
+    if answers.len() < of {
         Check::judge_deaths(answers)
     } else {
         check.judge(case, answers, truth)
     }
-}
-
-fn still_a_mesh(check: Check, case: &Case) -> bool {
-    let is_mesh = match &case.shape {
-        cases::Shape::Triangles { disjoint, .. } => *disjoint,
-        _ => false,
-    };
-    check != Check::Watertight || is_mesh
 }

@@ -1,18 +1,16 @@
 //! A step asked of a program: cases, the first that fails made small, and what was said about it.
 
-use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use super::misconceptions::{self, Misconception};
 use super::{Exercise, Step};
-use rasterproof_judge::ask::{Answer, Ask, Breach, Question, show};
-use rasterproof_judge::check::{Check, Truth, expected_answer};
+use rasterproof_judge::ask::{Answer, Ask, Question};
+use rasterproof_judge::check::{Check, Truth};
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::finding::Finding;
-use rasterproof_judge::pictured::{Pictured, pictured};
-use rasterproof_judge::shrink::smaller;
+use rasterproof_judge::failures::{Asked, Failure, Search, judge};
+use rasterproof_judge::run::Failing;
 use rasterproof_judge::{adapt_case, recognise, run};
-use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::cases::Case;
 use rasterproof_verify::mistakes::Mistakes;
 
 #[derive(Clone, Copy, Debug)]
@@ -48,25 +46,13 @@ impl Outcome {
     }
 }
 
-#[derive(Debug)]
-pub struct Failure {
-    pub found: String,
-    pub what: String,
-    /// Requests, answers and expected answers, as lines of the protocol.
-    pub lines: Vec<[String; 3]>,
-    /// What was drawn, and what was expected, where there are both.
-    pub picture: Option<Pictured>,
-}
-
 /// A case that fails, and the exercise it belongs to.
-struct Failing<'a> {
+struct Wrong<'a> {
     exercise: &'a Exercise,
-    found: String,
+    is: Failing,
     case: Case,
     truth: Truth,
-    asked: Vec<(Question, Answer)>,
-    /// Questions of the case; not all of them are answered where the program died.
-    questions: usize,
+    asked: Asked,
 }
 
 /// Asks all exercises of a step. What the program says of its rule, its grid and its range does not
@@ -104,7 +90,12 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     program.end_at(None);
     let unexplained = failing.as_ref().filter(|_| outcome.misconception.is_none());
     outcome.cause = unexplained.and_then(|failing| cause(program, failing, amount.patience));
-    outcome.failure = failing.map(|failing| shrunk(program, failing, amount.patience));
+    outcome.failure = failing.map(|Wrong { exercise, is, case, truth, asked }| {
+        let may_be = |case: &Case| (exercise.prepare)(case.clone()).as_ref() == Some(case);
+        let (check, patience) = (exercise.check, amount.patience);
+        let search = Search { check, truth: &truth, patience, may_be: &may_be };
+        search.smallest(program, &is, case, asked)
+    });
     outcome
 }
 
@@ -121,7 +112,7 @@ fn ask_family<'a>(
     restarts: &mut u64,
     outcome: &mut Outcome,
     asked: &mut Vec<(Question, Answer)>,
-) -> Option<Failing<'a>> {
+) -> Option<Wrong<'a>> {
     let check = exercise.check;
     let truth = truth(exercise);
     let family = adapt_case::families(&[name.to_owned()])[0];
@@ -129,7 +120,7 @@ fn ask_family<'a>(
     let mut questions = Vec::new();
     for index in 0..amount.cases {
         let case = adapt_case::put(family.case(amount.seed, index), &truth.declared);
-        let Some(case) = (exercise.prepare)(case).filter(|case| fits(check, case)) else {
+        let Some(case) = (exercise.prepare)(case).filter(|case| check.fits(case)) else {
             continue;
         };
         let start = questions.len();
@@ -169,19 +160,14 @@ fn ask_family<'a>(
         outcome.cases += 1;
         outcome.wrong += u64::from(finding.is_wrong());
         if finding.is_wrong() && first.is_none() {
-            let pairs = questions[range.clone()].iter().zip(here);
-            let asked =
-                pairs.map(|(question, answer)| (question.clone(), answer.clone())).collect();
-            first = Some((format!("{name} #{index}"), case, asked, range.len()));
+            let (questions, answers) = (questions[range].to_vec(), here.to_vec());
+            first = Some((index, case, Asked { questions, answers, finding }));
         }
     }
-    first.map(|(found, case, asked, questions)| Failing {
-        exercise,
-        found,
-        case,
-        truth,
-        asked,
-        questions,
+    first.map(|(index, case, asked)| {
+        let (property, fingerprint) = (check.name(family.name), asked.finding.fingerprint());
+        let is = Failing { property, family: family.name, index, fingerprint };
+        Wrong { exercise, is, case, truth, asked }
     })
 }
 
@@ -192,25 +178,9 @@ fn truth(exercise: &Exercise) -> Truth {
     Truth::of(&declared)
 }
 
-/// A mesh has to be one to be asked for its holes.
-fn fits(check: Check, case: &Case) -> bool {
-    match &case.shape {
-        Shape::Triangles { disjoint, .. } => check != Check::Watertight || *disjoint,
-        _ => true,
-    }
-}
-
-fn judge(check: Check, case: &Case, answers: &[Answer], asked: usize, truth: &Truth) -> Finding {
-    if answers.len() < asked {
-        Check::judge_deaths(answers)
-    } else {
-        check.judge(case, answers, truth)
-    }
-}
-
 /// The mistake of a program that answers, where a known one explains it.
-fn cause(program: &mut dyn Ask, failing: &Failing<'_>, patience: Duration) -> Option<Mistakes> {
-    if failing.asked.iter().any(|(_, answer)| answer.is_death()) {
+fn cause(program: &mut dyn Ask, failing: &Wrong<'_>, patience: Duration) -> Option<Mistakes> {
+    if !failing.asked.finding.died.is_empty() {
         return None;
     }
     let start = Instant::now();
@@ -224,56 +194,6 @@ fn cause(program: &mut dyn Ask, failing: &Failing<'_>, patience: Duration) -> Op
     found.into_iter().map(|found| found.why).find(Mistakes::is_known)
 }
 
-fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Failure {
-    let Failing { exercise, found, case, truth, asked, questions } = failing;
-    let check = exercise.check;
-    let program = RefCell::new(program);
-    let ask = |case: &Case| {
-        let mut questions = Vec::new();
-        check.questions(case, &truth, &mut questions);
-        let answers = program.borrow_mut().ask(&questions, run::MOST_DEATHS);
-        let finding = judge(check, case, &answers, questions.len(), &truth);
-        (questions, answers, finding)
-    };
-    let is_slow = |answer: &Answer| matches!(answer, Answer::Died(what) if matches!(what.breach, Breach::Hangs | Breach::Late));
-    let start = Instant::now();
-    // What takes long to go wrong is shown as it is, and not asked again.
-    let (case, (questions, answers, finding)) = if asked.iter().any(|(_, a)| is_slow(a)) {
-        let (all, answers): (Vec<_>, Vec<_>) = asked.into_iter().unzip();
-        let finding = judge(check, &case, &answers, questions, &truth);
-        (case, (all, answers, finding))
-    } else {
-        let case = smaller(check, case, |smaller| {
-            let smaller = adapt_case::put(smaller.clone(), &truth.declared);
-            start.elapsed() < patience
-                && adapt_case::holds(&smaller, &truth.declared)
-                && fits(check, &smaller)
-                && (exercise.prepare)(smaller.clone()).as_ref() == Some(&smaller)
-                && ask(&smaller).2.is_wrong()
-        });
-        let shown = ask(&case);
-        (case, shown)
-    };
-    let what = if finding.is_wrong() {
-        finding.describe(check)
-    } else {
-        "wrong at first, right when asked again".to_owned()
-    };
-    let picture = pictured(check, &case, &answers, &truth);
-    let line = |(question, answer): (&Question, &Answer)| {
-        let expected = expected_answer(question, &truth).filter(|_| is_one_by_one(check));
-        let expected = expected.map_or_else(String::new, |e| show(&e, 1));
-        [question.text(1), show(answer, 1), expected]
-    };
-    let lines = questions.iter().zip(&answers).map(line).collect();
-    Failure { found, what, lines, picture }
-}
-
-/// Whether each answer is compared with an expected one, not with others.
-fn is_one_by_one(check: Check) -> bool {
-    matches!(check, Check::Coverage | Check::Line | Check::Values | Check::Depth | Check::Near)
-}
-
 /// The last line of a program's standard error, if it wrote any.
 pub fn complaint(program: &dyn Ask) -> Option<String> {
     program.complaints().pop()
@@ -283,7 +203,7 @@ pub fn complaint(program: &dyn Ask) -> Option<String> {
 mod tests {
     use super::*;
     use crate::course::STEPS;
-    use rasterproof_judge::ask::Misbehaviour;
+    use rasterproof_judge::ask::{Breach, Misbehaviour};
 
     /// A program whose requests all come to nothing, and how many it was asked.
     struct Silent {

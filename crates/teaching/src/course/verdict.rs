@@ -2,6 +2,7 @@
 
 use super::examine::Outcome;
 use super::{Step, number};
+use rasterproof_judge::failures::{Exchange, Failure};
 use rasterproof_report::judge_text;
 
 /// How a step came out, with its smallest failing case.
@@ -19,9 +20,9 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
     let mut out =
         format!("step {number}, {title}: NOT YET, wrong in {wrong} of {cases} cases{late}\n");
     let Some(failure) = &outcome.failure else { return out };
-    out +=
-        &indented(&format!("smallest found: {} (from {}, shrunk)", failure.what, failure.found), 2);
-    for [request, answer, expected] in failure.lines.iter().take(2) {
+    let Failure { what, family, index, shrunk, exchanges, .. } = failure;
+    out += &indented(&format!("smallest found: {what} (from {family} #{index}, {shrunk})"), 2);
+    for Exchange { request, answer, expected, .. } in exchanges.iter().take(2) {
         for (what, line) in [("request:", request), ("answer:", answer), ("expected:", expected)] {
             if !line.is_empty() {
                 out += &indented(&format!("{what:<9} {line}"), 2);
