@@ -13,7 +13,7 @@ use super::render::NOTHING_DRAWN;
 use super::view::{Purpose, ViewArguments};
 use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_host::output::Over;
-use rasterproof_host::shell::quote;
+use rasterproof_host::shell::{self, quote};
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::target::{Antialias, check_size};
 use rasterproof_render::scene::chapters;
@@ -331,7 +331,8 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     drop(shown);
     let before = progress.failures.min(3) * usize::from(progress.step == step.name);
     progress.note(step, outcome.passes());
-    let text = verdict::text(step, &outcome);
+    let command = shell::line(&progress.run);
+    let text = verdict::text(step, &outcome, &command);
     streams.output.write_all(text.as_bytes())?;
     // It was read, and is written anew.
     let noted = Output { path: progress::path(&arguments.dir), over: Over::Updated };

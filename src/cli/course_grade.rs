@@ -408,7 +408,7 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
                     patience: Duration::from_secs(1).min(seconds / 24),
                 };
                 let outcome = examine::examine(&mut program, step, &amount);
-                grade.steps.push((outcome.passes(), verdict::text(step, &outcome)));
+                grade.steps.push((outcome.passes(), verdict::text(step, &outcome, "the program")));
             }
         }
     }

@@ -26,7 +26,9 @@ fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
     // Results for machines have long lines, and the program's own path is as long as it is.
     let shown = if run.out.starts_with('{') { "" } else { &run.out };
     let shown = shown.replace(PROGRAM, "rasterproof");
-    let mut lines = shown.lines().filter(|line| !line.contains("cannot be judged"));
+    // A command is one line, so that it can be pasted.
+    let is_text = |line: &&str| !line.contains("cannot be judged") && !line.contains("again: ");
+    let mut lines = shown.lines().filter(is_text);
     assert!(lines.all(|line| line.chars().count() <= 100), "{run}");
     run
 }
@@ -55,7 +57,7 @@ fn course_judges_every_step() {
     for ((name, right, planted), step) in JUDGED.iter().zip(STEPS.iter()) {
         assert_eq!(*name, step.name);
         let words = ["check", name, "--cases", "64", "--", PROGRAM, "engine"];
-        course(&folder, [&words[..], &[planted]].concat(), 1)
+        let wrong = course(&folder, [&words[..], &[planted]].concat(), 1)
             .prints("NOT YET, wrong in ")
             .prints("smallest found: ")
             .prints("hint 1: ")
@@ -64,6 +66,18 @@ fn course_judges_every_step() {
             .prints(&step.page)
             .prints("yours")
             .prints("expected");
+        let known = ["it looks as if ", "no known mistake explains its answers\n"];
+        assert_eq!(known.iter().filter(|said| wrong.out.contains(**said)).count(), 1);
+        let line = |begin: &str| wrong.out.lines().find_map(|line| line.trim().strip_prefix(begin));
+        if let Some(again) = line("again:    ") {
+            let again = Run::of(Command::new("sh").args(["-c", again])).has(0);
+            let answer = line("answer:   ").unwrap();
+            assert!(
+                again.out.split_whitespace().eq(answer.split_whitespace()),
+                "{}{answer}",
+                again.out
+            );
+        }
         let Run { out, errors, .. } = course(&folder, [&words[..], &[right]].concat(), 0);
         assert!(out.contains(": PASSED, ") && errors.is_empty(), "{out}{errors}");
         progress = Progress::read(&folder).unwrap();

@@ -442,29 +442,29 @@ pub const ENTRIES: [Entry; 9] = entries![
 pub const SPECIMENS: [Entry; 15] = entries![
     "book-ch2", "specimen: the book's DrawTriangle2D, section 2.2",
         specimen: Specimen::Triangle(&BookChapter2);
-    "book-ch3", "specimen: the same without its clamp, with values, section 3.2",
+    "book-ch3", "specimen: the book's DrawTriangle2D without its clamp, with values, section 3.2",
         specimen: Specimen::Triangle(&BookChapter3);
-    "book-affine", "specimen: the same on projected corners, section 5.3",
+    "book-affine", "specimen: the book's DrawTriangle2D on projected corners, section 5.3",
         specimen: Specimen::Triangle(&BookAffine);
     "book-ch6", "specimen: the book's triangle with w as its depth, chapter 6",
         specimen: Specimen::Triangle(&BookDepth::Chapter6);
-    "book-ch7", "specimen: the same with -1/w as its depth, chapter 7",
+    "book-ch7", "specimen: the book's triangle with -1/w as its depth, chapter 7",
         specimen: Specimen::Triangle(&BookDepth::Chapter7);
     "book-ch11", "specimen: the book's final DrawTriangle, chapter 11",
         specimen: Specimen::Triangle(&BookFinal { exercise: false });
-    "book-ch11-fixed", "specimen: the same after the exercise of section 11.4",
+    "book-ch11-fixed", "specimen: the book's final DrawTriangle after the exercise of section 11.4",
         specimen: Specimen::Triangle(&BookFinal { exercise: true });
     "games101-strict", "specimen: GAMES101 homework 2, strict inside test",
         specimen: Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: false });
-    "games101-int", "specimen: the same with sample positions through an int",
+    "games101-int", "specimen: GAMES101 homework 2, strict, with sample positions through an int",
         specimen: Specimen::Triangle(&Games101Strict { whole_samples: true, true_w: false });
-    "games101-depth", "specimen: the same with the true w put back, depth included",
+    "games101-depth", "specimen: GAMES101 homework 2, strict, with the true w put back, depth included",
         specimen: Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: true });
     "sysu-inclusive", "specimen: SYSU assignment 2, inclusive integer edge functions",
         specimen: Specimen::Triangle(&SysuInclusive);
-    "sysu-weights", "specimen: the same with weights in the wrong order",
+    "sysu-weights", "specimen: SYSU assignment 2 with weights in the wrong order",
         specimen: Specimen::Triangle(&SysuWeights);
-    "sysu-truncated", "specimen: the same with positions truncated",
+    "sysu-truncated", "specimen: SYSU assignment 2 with positions truncated",
         specimen: Specimen::Triangle(&SysuTruncated);
     "book-dda", "specimen: the book's DrawLine, section 2.1",
         specimen: Specimen::Line(&BookDda);

@@ -5,8 +5,8 @@ use super::{Step, number};
 use rasterproof_judge::failures::{Exchange, Failure};
 use rasterproof_report::judge_text;
 
-/// How a step came out, with its smallest failing case.
-pub fn text(step: &Step, outcome: &Outcome) -> String {
+/// How a step came out, with its smallest failing case and how to ask for it again.
+pub fn text(step: &Step, outcome: &Outcome, command: &str) -> String {
     let (number, title) = (number(step), &step.title);
     let Outcome { cases, wrong, .. } = outcome;
     if outcome.passes() {
@@ -32,14 +32,20 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
     if let Some(picture) = &failure.picture {
         judge_text::picture(&mut out, &["yours"], picture);
     }
+    if let [Exchange { request, .. }] = &exchanges[..] {
+        out += &indented(&format!("again:    echo '{request}' | {command}"), 2);
+    }
     if let Some(misconception) = outcome.misconception {
         out += &(judge_text::hanging(misconception.says, "it looks as if ", "  ") + "\n");
         out += &(judge_text::hanging(misconception.ask, "think about: ", "  ") + "\n");
     }
     // What it does, and not what repairs it: that is the exercise.
-    if let Some(cause) = outcome.cause.as_ref().and_then(|cause| cause.causes.first()) {
+    let known = outcome.cause.as_ref().and_then(|cause| cause.causes.first());
+    if let Some(cause) = known {
         out += &(judge_text::hanging(&cause.does, "it looks as if it ", "  ") + "\n");
-        out += &(judge_text::hanging(cause.page, "read: page ", "  ") + "\n");
+        out += &format!("read: docs/{}.md\n", cause.page);
+    } else if outcome.misconception.is_none() {
+        out += "no known mistake explains its answers\n";
     }
     out
 }
