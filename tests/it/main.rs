@@ -68,6 +68,7 @@ mod specimens;
 mod speed;
 mod steps;
 mod study;
+mod subjects;
 mod surface;
 mod terms;
 mod threads;
