@@ -36,7 +36,7 @@ pub mod recognise;
 pub mod run;
 pub mod server;
 pub mod shrink;
-mod stages;
+pub mod stages;
 pub mod text;
 pub mod timed;
 pub mod verdict;

@@ -21,15 +21,16 @@ use rasterproof_core::triangle::Fragment;
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
+use rasterproof_verify::comparison::area2;
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, of_answers};
 use rasterproof_verify::oracle::Oracle;
 
 /// A case with its answers, and whether they are wrong.
-struct Answered {
-    questions: Vec<Question>,
-    answers: Vec<Answer>,
-    is_wrong: bool,
+pub struct Answered {
+    pub questions: Vec<Question>,
+    pub answers: Vec<Answer>,
+    pub is_wrong: bool,
 }
 
 /// Cases that are drawn for a check, over all of its families.
@@ -96,13 +97,7 @@ pub fn mistakes(
     let all = answered(program, check, families(check), truth, goes_on);
     let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
     let tolerance = truth.declared.tolerance;
-    let mut hypotheses = match check {
-        Check::Values => of_values(&all, tolerance),
-        Check::Samples => of_samples(&all),
-        Check::Depth => of_depth(&all),
-        Check::Near | Check::Carried => of_near(&all, &truth.declared),
-        _ => Vec::new(),
-    };
+    let mut hypotheses = hypotheses(check, &all, truth);
     for known in programs {
         let name = known.borrow().name();
         let about = format!("draws as the planted fault or published algorithm {name}");
@@ -113,6 +108,24 @@ pub fn mistakes(
         }));
     }
     of_answers(hypotheses, &is_wrong)
+}
+
+fn hypotheses<'a>(check: Check, all: &'a [Answered], truth: &Truth) -> Vec<Hypothesis<'a>> {
+    match check {
+        Check::Values => of_values(all, truth.declared.tolerance),
+        Check::Samples => of_samples(all),
+        Check::Depth => of_depth(all),
+        Check::Near | Check::Carried => of_near(all, &truth.declared),
+        _ => Vec::new(),
+    }
+}
+
+/// What the mistakes do that predict every one of these answers.
+#[must_use]
+pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<String> {
+    let explains = |known: &Hypothesis<'_>| (0..all.len()).all(|i| (known.predicts)(i));
+    let all = hypotheses(check, all, truth).into_iter().filter(explains);
+    all.map(|known| known.says.does).collect()
 }
 
 /// That every answer is the one that a mistake predicts, by `predicts` of a question and its answer.
@@ -280,6 +293,10 @@ fn mean(t: &Triangle) -> f64 {
     depths(t).iter().sum::<f64>() / 3.0
 }
 
+fn size(t: &Triangle) -> f64 {
+    area2(&t.corners()).unsigned_abs() as f64
+}
+
 type Quantise = fn(f64, i32) -> f64;
 /// How a depth is brought to so many bits.
 const QUANTISED: [(Quantise, &str); 2] = [
@@ -320,6 +337,13 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
+        does: "compares the mean depths of whole triangles",
+        repair: "compare depths at every pixel",
+        refuted: "two triangles through each other that are both seen",
+        replaces: |a, b| mean(b.triangle) < mean(a.triangle),
+        place: CENTRE,
+    },
+    DepthMistake {
         does: "sorts whole triangles by their nearest corner",
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
@@ -342,6 +366,13 @@ const DEPTHS: &[DepthMistake] = &[
         repair: "interpolate depth",
         refuted: "a leaning triangle that is cut by another",
         replaces: |a, b| depths(b.triangle)[0] < depths(a.triangle)[0],
+        place: CENTRE,
+    },
+    DepthMistake {
+        does: "compares depths that are not divided by the area of their triangle",
+        repair: "divide the weighted sum by the area",
+        refuted: "a large triangle that is seen before a small one",
+        replaces: |a, b| b.depth * size(b.triangle) < a.depth * size(a.triangle),
         place: CENTRE,
     },
     DepthMistake {

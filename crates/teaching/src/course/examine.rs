@@ -4,11 +4,12 @@ use std::time::{Duration, Instant};
 
 use super::misconceptions::{self, Misconception};
 use super::{Exercise, Step};
-use rasterproof_judge::ask::{Answer, Ask, Question};
+use rasterproof_judge::ask::{Answer, Ask};
 use rasterproof_judge::check::{Check, Truth};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Asked, Failure, Search, judge};
 use rasterproof_judge::run::Failing;
+use rasterproof_judge::stages::Answered;
 use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::mistakes::Mistakes;
@@ -84,7 +85,7 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
             failing = failing.or(first);
         }
         if !had_failed && failing.is_some() {
-            outcome.misconception = misconceptions::find(&asked, &truth(exercise));
+            outcome.misconception = misconceptions::find(exercise.check, &asked, &truth(exercise));
         }
     }
     program.end_at(None);
@@ -111,7 +112,7 @@ fn ask_family<'a>(
     amount: &Amount,
     restarts: &mut u64,
     outcome: &mut Outcome,
-    asked: &mut Vec<(Question, Answer)>,
+    asked: &mut Vec<Answered>,
 ) -> Option<Wrong<'a>> {
     let check = exercise.check;
     let truth = truth(exercise);
@@ -147,9 +148,6 @@ fn ask_family<'a>(
         answers.extend(here);
     }
     let mut first = None;
-    for (question, answer) in questions.iter().zip(&answers).take(ASKED_OF_A_FAMILY) {
-        asked.push((question.clone(), answer.clone()));
-    }
     for (index, case, range) in cases {
         // Where the program was given up, the rest of the answers is not there.
         if answers.len() < questions.len() && range.start >= answers.len() {
@@ -158,9 +156,15 @@ fn ask_family<'a>(
         let here = &answers[range.start..range.end.min(answers.len())];
         let finding = judge(check, &case, here, range.len(), &truth);
         outcome.cases += 1;
-        outcome.wrong += u64::from(finding.is_wrong());
-        if finding.is_wrong() && first.is_none() {
-            let (questions, answers) = (questions[range].to_vec(), here.to_vec());
+        let is_wrong = finding.is_wrong();
+        outcome.wrong += u64::from(is_wrong);
+        let (questions, answers) = (questions[range.clone()].to_vec(), here.to_vec());
+        let is_whole = answers.len() == questions.len();
+        if is_whole && range.end <= ASKED_OF_A_FAMILY {
+            let (questions, answers) = (questions.clone(), answers.clone());
+            asked.push(Answered { questions, answers, is_wrong });
+        }
+        if is_wrong && first.is_none() {
             first = Some((index, case, Asked { questions, answers, finding }));
         }
     }
@@ -203,7 +207,7 @@ pub fn complaint(program: &dyn Ask) -> Option<String> {
 mod tests {
     use super::*;
     use crate::course::STEPS;
-    use rasterproof_judge::ask::{Breach, Misbehaviour};
+    use rasterproof_judge::ask::{Breach, Misbehaviour, Question};
 
     /// A program whose requests all come to nothing, and how many it was asked.
     struct Silent {

@@ -54,6 +54,11 @@ fn right_values(t: &Triangle, weights: [f64; 3]) -> [f64; 3] {
     with(sum(weights, depths(t)), attributes(t, corrected(t, weights)))
 }
 
+/// Twice the signed area in pixels squared.
+fn twice_px(t: &Triangle) -> f64 {
+    area2(&t.corners()) as f64 / f64::from(SUBPIXELS * SUBPIXELS)
+}
+
 const VALUES: &[ValueMistake] = &[
     ValueMistake {
         name: "attributes ignore w",
@@ -196,6 +201,52 @@ const VALUES: &[ValueMistake] = &[
         refuted: "a counterclockwise triangle with right values",
         values: |t, [a, b, c]| {
             right_values(t, if area2(&t.corners()) < 0 { [a, c, b] } else { [a, b, c] })
+        },
+    },
+    ValueMistake {
+        name: "weights of a transposed matrix",
+        does: "takes the weights from the transposed matrix",
+        repair: "multiply the matrix with the corners as columns by the point",
+        page: "ch02",
+        refuted: "a pixel near a corner with its values",
+        values: |t, l| {
+            // The rows of the inverse are what each weight is of x, y and 1; a weight changes evenly along an axis.
+            let at = |x, y| weights(&t.corners(), [x, y]);
+            let (constant, x, y) = (at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0));
+            let point = [0, 1].map(|axis| {
+                let corners = t.corners().map(px);
+                sum(l, corners.map(|corner| corner[axis]))
+            });
+            let row = |i: usize| [x[i] - constant[i], y[i] - constant[i], constant[i]];
+            let parts = [0, 1, 2].map(|k| row(0)[k] * point[0] + row(1)[k] * point[1] + row(2)[k]);
+            right_values(t, parts)
+        },
+    },
+    ValueMistake {
+        name: "depth not divided by the area",
+        does: "does not divide depth by the area",
+        repair: "divide the weighted sum by the area",
+        page: "ch06",
+        refuted: "a triangle of another area than 1 with right depths",
+        values: |t, l| with(sum(l, depths(t)) * twice_px(t).abs(), attributes(t, corrected(t, l))),
+    },
+    ValueMistake {
+        name: "depth not divided by the area",
+        does: "does not divide depth by the signed area",
+        repair: "divide the weighted sum by the area",
+        page: "ch06",
+        refuted: "a triangle of another area than 1 with right depths",
+        values: |t, l| with(sum(l, depths(t)) * twice_px(t), attributes(t, corrected(t, l))),
+    },
+    ValueMistake {
+        name: "depth divided by w again",
+        does: "divides depth by w once more",
+        repair: "depth is z/w already: interpolate it as it is",
+        page: "ch06",
+        refuted: "a corner with w other than 1 and right depths",
+        values: |t, l| {
+            let over_w = t.vertices.map(|v| v.depth * v.inv_w);
+            with(sum(l, over_w), attributes(t, corrected(t, l)))
         },
     },
     ValueMistake {
