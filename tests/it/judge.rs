@@ -25,8 +25,13 @@ use crate::program::{PROGRAM, Run, check, shared};
 
 pub fn options(cases: u64, families: &[&str]) -> Options {
     let families = families.iter().map(|name| (*name).to_owned()).collect();
-    // How small a failing case gets is not looked at here.
-    Options { cases, families, patience: Duration::from_millis(20), ..Options::default() }
+    // How small a failing case gets, and why it fails, is not looked at here.
+    Options { cases, families, patience: Duration::ZERO, ..Options::default() }
+}
+
+/// The same, with time to look for a cause.
+fn patient(cases: u64, families: &[&str]) -> Options {
+    Options { patience: Duration::from_secs(5), ..options(cases, families) }
 }
 
 pub fn judged(asker: Box<dyn Ask>, options: &Options) -> Verdict {
@@ -591,7 +596,7 @@ fn cut(ends: [PixelPoint; 2], [right, bottom]: [i32; 2]) -> [PixelPoint; 2] {
 /// Where it comes out otherwise by more, it counts as wrong. Of who draws it as the rest, nothing is said.
 #[test]
 fn judge_tells_what_leaves_the_window() {
-    let options = options(30, &["line-octants", "line-clipped"]);
+    let options = patient(30, &["line-octants", "line-clipped"]);
     let entry = engines::find("bresenham").unwrap();
     // Within the window it draws as it declares, so that it is questioned only where that is asked.
     let scope = Scope { triangles: false, lines: true, always: true };
@@ -774,7 +779,7 @@ fn judge_takes_a_declared_near_plane() {
             };
             questions.iter().map(clip).collect()
         };
-        judged(Box::new(Answering(declared, answer)), &options(100, &["near-plane"]))
+        judged(Box::new(Answering(declared, answer)), &patient(100, &["near-plane"]))
     };
     assert!(judged_as("near=zero").agrees());
     let verdict = judged_as("");
