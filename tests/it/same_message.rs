@@ -17,79 +17,40 @@ use rasterproof_verify::partition::{self, Polygon, judge_partitions_of};
 use crate::pages::root;
 use crate::program::{Folder, PROGRAM, Run};
 
-/// A fault: the capability, the planted engine, and the function and what is called with it in Python and JavaScript.
-struct Fault {
-    capability: &'static str,
-    engine: &'static str,
-    python: [&'static str; 2],
-    javascript: [&'static str; 2],
-}
-
-const FAULTS: [Fault; 4] = [
-    Fault {
-        capability: "coverage",
-        engine: "exclusive-edges",
-        python: ["rasterizer", "lambda *request: strict(*request).astype(int)"],
-        javascript: ["Rasterizer", "strict"],
-    },
-    Fault {
-        capability: "line",
-        engine: "line-misses-end",
-        python: ["lines", "dda(1)"],
-        javascript: ["Lines", "line(1)"],
-    },
-    Fault {
-        capability: "attributes",
-        engine: "affine-attributes",
-        python: [
-            "values",
-            "lambda *r: [part.astype(float if part.dtype == float else int) for part in values(*r, True)]",
-        ],
-        javascript: ["Values", "values(true)"],
-    },
-    Fault {
-        capability: "partition",
-        engine: "",
-        python: ["partition", "lambda contours: fan(contours)"],
-        javascript: ["Partition", "(contours) => fan(contours)"],
-    },
+/// A capability, the planted engine, the name of the call, and the function in Python and in JavaScript.
+#[rustfmt::skip]
+const FAULTS: [[&str; 5]; 4] = [
+    ["coverage", "exclusive-edges", "Rasterizer", "lambda *r: strict(*r).astype(int)", "strict"],
+    ["line", "line-misses-end", "Lines", "dda(1)", "line(1)"],
+    ["attributes", "affine-attributes", "Values", "lambda *r: [part + 0 for part in values(*r, True)]", "values(true)"],
+    ["partition", "", "Partition", "lambda contours: fan(contours)", "(contours) => fan(contours)"],
 ];
 const DECLARED: &str = "window=1024x1024 range=4096";
 
 const CPP: &str = r#"
-#include "rasterproof.h"
+#include "mine.h"
 #include <algorithm>
 typedef rasterproof_corner Corner;
 static double edge(const Corner &p, const Corner &q, double x, double y) { return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x); }
-// The top-left rule, or nothing on an edge.
-template <class F> static void fill(const Corner *corners, int width, int height, bool has_rule, F set) {
-    Corner c[] = {corners[0], corners[1], corners[2], corners[0]};
+static bool draws(const Corner &p, const Corner &q, double x, double y) {
+    const double e = edge(p, q, x, y), dx = q.x - p.x, dy = q.y - p.y;
+    return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
+}
+static void affine(const Corner given[3], int width, int height, rasterproof_set_values set) {
+    Corner c[] = {given[0], given[1], given[2], given[0], given[1]};
+    if (edge(c[0], c[1], c[2].x, c[2].y) < 0) std::swap(c[1], c[2]), c[4] = c[1];
     const double area = edge(c[0], c[1], c[2].x, c[2].y);
-    if (area < 0) std::swap(c[1], c[2]);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
+            double z = 0, a = 0, b = 0;
             bool inside = area != 0;
             for (int i = 0; i < 3; i++) {
-                const double e = edge(c[i], c[i + 1], x + 0.5, y + 0.5), dx = c[i + 1].x - c[i].x, dy = c[i + 1].y - c[i].y;
-                inside = inside && (e > 0 || (has_rule && e == 0 && (dy < 0 || (dy == 0 && dx > 0))));
+                const double part = edge(c[i + 1], c[i + 2], x + 0.5, y + 0.5) / area;
+                inside = inside && draws(c[i + 1], c[i + 2], x + 0.5, y + 0.5);
+                z += part * c[i].z, a += part * c[i].a, b += part * c[i].b;
             }
-            if (inside) set(x, y);
+            if (inside) set(x, y, z, a, b);
         }
-}
-static void strict(double ax, double ay, double bx, double by, double cx, double cy, int width, int height, rasterproof_set_pixel set) {
-    const Corner corners[] = {{ax, ay, 0, 0, 0, 0}, {bx, by, 0, 0, 0, 0}, {cx, cy, 0, 0, 0, 0}};
-    fill(corners, width, height, false, set);
-}
-static void affine(const Corner corners[3], int width, int height, rasterproof_set_values set) {
-    fill(corners, width, height, true, [&](int x, int y) {
-        double v[3] = {}, area = edge(corners[0], corners[1], corners[2].x, corners[2].y);
-        for (int i = 0; i < 3; i++) {
-            const Corner &c = corners[i];
-            const double part = edge(corners[(i + 1) % 3], corners[(i + 2) % 3], x + 0.5, y + 0.5) / area;
-            v[0] += part * c.z, v[1] += part * c.a, v[2] += part * c.b;
-        }
-        set(x, y, v[0], v[1], v[2]);
-    });
 }
 static void short_line(int x0, int y0, int x1, int y1, int width, int height, rasterproof_set_pixel set) {
     const int dx = x1 - x0, dy = y1 - y0, n = std::max(abs(dx), abs(dy)), tie = n - ((abs(dx) == n ? dx : dy) < 0);
@@ -100,7 +61,7 @@ static void short_line(int x0, int y0, int x1, int y1, int width, int height, ra
 }
 int main(int, char **words) {
     rasterproof_drawers drawers = {};
-    if (*words[1] == 'c') drawers.triangle = strict;
+    if (*words[1] == 'c') drawers.triangle = triangle;
     if (*words[1] == 'l') drawers.line = short_line;
     if (*words[1] == 'a') drawers.values = affine;
     return rasterproof_serve_all("mine", "batch=1024 range=4096", drawers);
@@ -131,41 +92,45 @@ impl Ask for Planted {
     }
 }
 
-fn in_rust(fault: &Fault) -> String {
-    let hello = format!("HELLO 2 mine {} batch=1024 {DECLARED}", fault.capability);
-    let planted = Inside::new(&find_planted(fault.engine).unwrap());
+fn in_rust(capability: &str, engine: &str) -> String {
+    let hello = format!("HELLO 2 mine {capability} batch=1024 {DECLARED}");
+    let planted = Inside::new(&find_planted(engine).unwrap());
     let mut askers: Vec<Box<dyn Ask>> =
         vec![Box::new(Planted(planted, Declared::parse(&hello).unwrap()))];
     let options = rasterproof_judge::Options { cases: 20, ..Default::default() };
     let scope = Scope::of(&options);
     let verdict =
         rasterproof_judge::judge(&mut askers, &options, &|asked| recognise(asked, scope), &|_| ());
-    judge_text::text(&verdict, "", &|_, _| String::new(), (false, false))
+    judge_text::text(&verdict, "-", &|_, _| "-".to_owned(), (false, false))
 }
 
 /// What is said of a fault in this language, or nothing where it is not installed.
-fn said(language: &str, fault: &Fault, folder: &Folder) -> Option<String> {
+fn said(language: &str, fault: [&str; 5], folder: &Folder) -> Option<String> {
     let run = |command: &mut Command| Run::of(command.current_dir(root())).has(0).out;
     let has = |program: &str, words: &[&str]| {
         Command::new(program).args(words).output().is_ok_and(|done| done.status.success())
     };
-    let declare = if fault.engine.is_empty() { "" } else { DECLARED };
-    let [call, function] = if language == "Python" { fault.python } else { fault.javascript };
+    let [capability, engine, call, python, javascript] = fault;
+    let has_pixels = capability != "partition";
+    let declare = if has_pixels { DECLARED } else { "" };
     match language {
-        "Rust" if !fault.engine.is_empty() => Some(in_rust(fault)),
-        "C++" if !fault.engine.is_empty() && has("c++", &["--version"]) => {
+        "Rust" if has_pixels => Some(in_rust(capability, engine)),
+        "C++" if has_pixels && has("c++", &["--version"]) => {
             let program = folder.join("mine");
             if !program.exists() {
                 let mut build = Command::new("c++");
-                build.args(["-std=c++11", "-O1", "-I", "adapters", "-o"]).arg(&program);
+                build
+                    .args(["-std=c++11", "-O1", "-Iadapters", "-Iadapters/test/cmake", "-o"])
+                    .arg(&program);
                 run(build.arg(folder.put("mine.cpp", CPP)));
             }
-            Some(folder.check(format!("judge --cases 20 -- ./mine {}", fault.capability), 1).out)
+            Some(folder.check(format!("judge --cases 20 -- ./mine {capability}"), 1).out)
         }
         "Python" if has("python3", &["-c", "import numpy"]) => {
             let text = format!(
-                "import rasterproof\nfrom test_rasterproof import *\nmine = {function}\nmine.__name__ = 'mine'\ntry:\n    \
-                 rasterproof.assert_{call}(mine, cases=20, declare='{declare}')\nexcept AssertionError as error:\n    print(error)"
+                "import rasterproof\nfrom test_rasterproof import *\nmine = {python}\nmine.__name__ = 'mine'\ntry:\n    \
+                 rasterproof.assert_{}(mine, cases=20, declare='{declare}')\nexcept AssertionError as error:\n    print(error)",
+                call.to_lowercase()
             );
             let mut python = Command::new("python3");
             python
@@ -180,13 +145,13 @@ fn said(language: &str, fault: &Fault, folder: &Folder) -> Option<String> {
             let text = format!(
                 "const {{ assert{call} }} = await import('./target/js/package/index.js');\n\
                  const {{ fan, line, strict, values }} = await import('./adapters/js/tests/functions.js');\n\
-                 const mine = Object.defineProperty({function}, 'name', {{ value: 'mine' }});\n\
+                 const mine = Object.defineProperty({javascript}, 'name', {{ value: 'mine' }});\n\
                  try {{ assert{call}(mine, {{ cases: 20, declare: '{declare}' }}); }} catch (error) {{ console.log(error.message); }}"
             );
             Some(run(Command::new("node").args(["--input-type=module", "-e", &text])))
         }
         _ => {
-            eprintln!("skipped: {} in {language}", fault.capability);
+            eprintln!("skipped: {capability} in {language}");
             None
         }
     }
@@ -208,16 +173,16 @@ fn words(said: &str) -> Vec<String> {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn the_same_fault_has_the_same_message_in_every_language() {
     let folder = Folder::new("same-message");
-    for fault in &FAULTS {
+    for fault in FAULTS {
         let all: Vec<_> = ["Rust", "C++", "Python", "JavaScript"]
             .into_iter()
             .filter_map(|language| said(language, fault, &folder))
             .collect();
         for other in &all {
             assert!(other.contains("mine is not right"), "{other}");
-            assert_eq!(words(other), words(&all[0]), "{}", fault.capability);
+            assert_eq!(words(other), words(&all[0]), "{}", fault[0]);
         }
-        match fault.capability {
+        match fault[0] {
             "coverage" => all.iter().for_each(|said| has_the_counts_of_the_macro(said)),
             "partition" => all.iter().for_each(|said| has_the_words_of_the_macro(said)),
             _ => {}
