@@ -214,10 +214,27 @@ fn mistakes_of_tessellators_are_named() {
         all.pop();
         all
     };
+    let is_clockwise = |polygon: &Polygon| {
+        let (c, cross) =
+            (&polygon.contours[0], |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0]);
+        (0..c.len()).map(|i| cross(c[i], c[(i + 1) % c.len()])).sum::<f64>() < 0.0
+    };
+    // Fills what contours run around counterclockwise.
+    let positive = |polygon: &Polygon| {
+        if is_clockwise(polygon) { Vec::new() } else { spade(polygon) }
+    };
+    let wound_as_given = |polygon: &Polygon| {
+        let turn = |[a, b, c]: Triangle| if is_clockwise(polygon) { [a, c, b] } else { [a, b, c] };
+        spade(polygon).into_iter().map(turn).collect()
+    };
     let options = Options::default().cases(60).coordinates(Coordinates::Integer);
+    let left = options.clone().winding(Winding::Counterclockwise);
     let wound = options.clone().winding(Winding::Clockwise);
     let straight = options.clone().family(Family::Collinear);
-    let all: [(Make<'_>, &Options, &str); 9] = [
+    let one_way = "probable cause: It depends on the direction of the contours: where the first one runs clockwise";
+    let all: [(Make<'_>, &Options, &str); 11] = [
+        (&positive, &options, one_way),
+        (&wound_as_given, &left, one_way),
         (&first, &options, "probable cause: It fills the first contour and ignores the others"),
         (&each, &options, "probable cause: It fills every contour by itself"),
         (&fan, &options, "probable cause: It draws a fan around the first vertex"),

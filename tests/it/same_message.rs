@@ -1,128 +1,197 @@
-//! One planted fault, a strict fill rule, judged from Rust, Python, JavaScript and C++: the same cases are wrong by the same
-//! pixels, and the same words say so.
+//! Planted faults, judged from Rust, Python, JavaScript and C++: the same cases are wrong by the same pixels, and the same
+//! words say so. The functions of Python and JavaScript are those of their own tests.
 
-use std::collections::BTreeMap;
 use std::process::Command;
 
 use rasterproof_faults::planted::TriangleMutant;
+use rasterproof_judge::ask::{Answer, Ask, Question};
+use rasterproof_judge::declared::Declared;
+use rasterproof_judge::in_process::Inside;
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_registry::engines::find_planted;
+use rasterproof_report::judge_text;
 use rasterproof_verify::cases::FamilyName;
 use rasterproof_verify::comparison::{Options, judge_coverage};
+use rasterproof_verify::partition::{self, Polygon, judge_partitions_of};
 
 use crate::pages::root;
 use crate::program::{Folder, PROGRAM, Run};
 
-const PYTHON: &str = r#"
-import numpy as np, rasterproof
-
-def strict(corners, window):
-    x, y = np.arange(window[0]) + 0.5, np.arange(window[1])[:, None] + 0.5
-    a, b, c = corners.transpose(1, 2, 0)[..., None, None]
-    edge = lambda p, q: (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])
-    e = np.stack([edge(a, b), edge(b, c), edge(c, a)])
-    return ((e > 0).all(0) | (e < 0).all(0)).astype(int)
-
-try:
-    rasterproof.assert_rasterizer(strict, cases=20, declare="window=1024x1024 range=4096")
-except AssertionError as error:
-    print(error)
-"#;
-
-const JAVASCRIPT: &str = r"
-const { assertRasterizer } = await import('./target/js/package/index.js');
-function strict([a, b, c], [width, height]) {
-  const edge = (p, q, x, y) => (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
-  return Uint8Array.from({ length: width * height }, (_, i) => {
-    const x = (i % width) + 0.5, y = Math.floor(i / width) + 0.5;
-    const e = [edge(a, b, x, y), edge(b, c, x, y), edge(c, a, x, y)];
-    return e.every((v) => v > 0) || e.every((v) => v < 0);
-  });
-}
-try {
-  assertRasterizer(strict, { cases: 20, declare: 'window=1024x1024 range=4096' });
-} catch (error) {
-  console.log(error.message);
-}";
+/// A capability, the planted engine, the name of the call, and the function in Python and in JavaScript.
+#[rustfmt::skip]
+const FAULTS: [[&str; 5]; 4] = [
+    ["coverage", "exclusive-edges", "Rasterizer", "lambda *r: strict(*r).astype(int)", "strict"],
+    ["line", "line-misses-end", "Lines", "dda(1)", "line(1)"],
+    ["attributes", "affine-attributes", "Values", "lambda *r: [part + 0 for part in values(*r, True)]", "values(true)"],
+    ["partition", "", "Partition", "lambda contours: fan(contours)", "(contours) => fan(contours)"],
+];
+const DECLARED: &str = "window=1024x1024 range=4096";
 
 const CPP: &str = r#"
-#include "rasterproof.h"
-static void strict(double ax, double ay, double bx, double by, double cx, double cy, int width, int height, rasterproof_set_pixel set_pixel) {
+#include "mine.h"
+#include <algorithm>
+typedef rasterproof_corner Corner;
+static double edge(const Corner &p, const Corner &q, double x, double y) { return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x); }
+static bool draws(const Corner &p, const Corner &q, double x, double y) {
+    const double e = edge(p, q, x, y), dx = q.x - p.x, dy = q.y - p.y;
+    return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
+}
+static void affine(const Corner given[3], int width, int height, rasterproof_set_values set) {
+    Corner c[] = {given[0], given[1], given[2], given[0], given[1]};
+    if (edge(c[0], c[1], c[2].x, c[2].y) < 0) std::swap(c[1], c[2]), c[4] = c[1];
+    const double area = edge(c[0], c[1], c[2].x, c[2].y);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            double u = (bx - ax) * (y + 0.5 - ay) - (by - ay) * (x + 0.5 - ax);
-            double v = (cx - bx) * (y + 0.5 - by) - (cy - by) * (x + 0.5 - bx);
-            double w = (ax - cx) * (y + 0.5 - cy) - (ay - cy) * (x + 0.5 - cx);
-            if ((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0)) set_pixel(x, y);
+            double z = 0, a = 0, b = 0;
+            bool inside = area != 0;
+            for (int i = 0; i < 3; i++) {
+                const double part = edge(c[i + 1], c[i + 2], x + 0.5, y + 0.5) / area;
+                inside = inside && draws(c[i + 1], c[i + 2], x + 0.5, y + 0.5);
+                z += part * c[i].z, a += part * c[i].a, b += part * c[i].b;
+            }
+            if (inside) set(x, y, z, a, b);
         }
 }
-int main() { return rasterproof_serve("strict", "batch=1024 range=4096", strict, nullptr); }
+static void short_line(int x0, int y0, int x1, int y1, int width, int height, rasterproof_set_pixel set) {
+    const int dx = x1 - x0, dy = y1 - y0, n = std::max(abs(dx), abs(dy)), tie = n - ((abs(dx) == n ? dx : dy) < 0);
+    for (int i = 0; i < n; i++) {
+        const int x = (2 * i * abs(dx) + tie) / (2 * n), y = (2 * i * abs(dy) + tie) / (2 * n);
+        set(x0 + (dx < 0 ? -x : x), y0 + (dy < 0 ? -y : y));
+    }
+}
+int main(int, char **words) {
+    rasterproof_drawers drawers = {};
+    if (*words[1] == 'c') drawers.triangle = triangle;
+    if (*words[1] == 'l') drawers.line = short_line;
+    if (*words[1] == 'a') drawers.values = affine;
+    return rasterproof_serve_all("mine", "batch=1024 range=4096", drawers);
+}
 "#;
 
-/// What is said in this language, or nothing where it is not installed.
-fn said(language: &str) -> Option<String> {
-    let folder = Folder::new(&format!("same-message-{language}"));
-    let run = |command: &mut Command| Run::of(command.current_dir(root()));
+/// A planted engine that says of itself what the functions of the other languages do.
+struct Planted(Inside, Declared);
+
+impl Ask for Planted {
+    fn declared(&self) -> &Declared {
+        &self.1
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        let mut answers = self.0.ask(questions, most_deaths);
+        // As the others write them, in runs that are as long as they can be.
+        for answer in &mut answers {
+            if let Answer::Coverage(spans) = answer {
+                spans.dedup_by(|next, span| {
+                    let goes_on = next.y_px == span.y_px && next.x0_px == span.x1_px;
+                    span.x1_px = if goes_on { next.x1_px } else { span.x1_px };
+                    goes_on
+                });
+            }
+        }
+        answers
+    }
+}
+
+fn in_rust(capability: &str, engine: &str) -> String {
+    let hello = format!("HELLO 2 mine {capability} batch=1024 {DECLARED}");
+    let planted = Inside::new(&find_planted(engine).unwrap());
+    let mut askers: Vec<Box<dyn Ask>> =
+        vec![Box::new(Planted(planted, Declared::parse(&hello).unwrap()))];
+    let options = rasterproof_judge::Options { cases: 20, ..Default::default() };
+    let scope = Scope::of(&options);
+    let verdict =
+        rasterproof_judge::judge(&mut askers, &options, &|asked| recognise(asked, scope), &|_| ());
+    judge_text::text(&verdict, "-", &|_, _| "-".to_owned(), (false, false))
+}
+
+/// What is said of a fault in this language, or nothing where it is not installed.
+fn said(language: &str, fault: [&str; 5], folder: &Folder) -> Option<String> {
+    let run = |command: &mut Command| Run::of(command.current_dir(root())).has(0).out;
     let has = |program: &str, words: &[&str]| {
         Command::new(program).args(words).output().is_ok_and(|done| done.status.success())
     };
-    let is_there = match language {
-        "Python" => has("python3", &["-c", "import numpy"]),
-        "JavaScript" => {
-            root().join("target/js/package/rasterproof.wasm").exists()
-                && has("node", &["--version"])
+    let [capability, engine, call, python, javascript] = fault;
+    let has_pixels = capability != "partition";
+    let declare = if has_pixels { DECLARED } else { "" };
+    match language {
+        "Rust" if has_pixels => Some(in_rust(capability, engine)),
+        "C++" if has_pixels && has("c++", &["--version"]) => {
+            let program = folder.join("mine");
+            if !program.exists() {
+                let mut build = Command::new("c++");
+                build
+                    .args(["-std=c++11", "-O1", "-Iadapters", "-Iadapters/test/cmake", "-o"])
+                    .arg(&program);
+                run(build.arg(folder.put("mine.cpp", CPP)));
+            }
+            Some(folder.check(format!("judge --cases 20 -- ./mine {capability}"), 1).out)
         }
-        _ => has("c++", &["--version"]),
-    };
-    if !is_there {
-        eprintln!("skipped: {language}");
-        return None;
-    }
-    let done = match language {
-        "Python" => run(Command::new("python3")
-            .args(["-B", "-c", PYTHON])
-            .env("PYTHONPATH", "adapters/python")
-            .env("RASTERPROOF", PROGRAM))
-        .has(0),
-        "JavaScript" => {
-            run(Command::new("node").args(["--input-type=module", "-e", JAVASCRIPT])).has(0)
+        "Python" if has("python3", &["-c", "import numpy"]) => {
+            let text = format!(
+                "import rasterproof\nfrom test_rasterproof import *\nmine = {python}\nmine.__name__ = 'mine'\ntry:\n    \
+                 rasterproof.assert_{}(mine, cases=20, declare='{declare}')\nexcept AssertionError as error:\n    print(error)",
+                call.to_lowercase()
+            );
+            let mut python = Command::new("python3");
+            python
+                .args(["-B", "-c", &text])
+                .env("PYTHONPATH", "adapters/python:adapters/python/tests");
+            Some(run(python.env("RASTERPROOF", PROGRAM)))
+        }
+        "JavaScript"
+            if root().join("target/js/package/rasterproof.wasm").exists()
+                && has("node", &["--version"]) =>
+        {
+            let text = format!(
+                "const {{ assert{call} }} = await import('./target/js/package/index.js');\n\
+                 const {{ fan, line, strict, values }} = await import('./adapters/js/tests/functions.js');\n\
+                 const mine = Object.defineProperty({javascript}, 'name', {{ value: 'mine' }});\n\
+                 try {{ assert{call}(mine, {{ cases: 20, declare: '{declare}' }}); }} catch (error) {{ console.log(error.message); }}"
+            );
+            Some(run(Command::new("node").args(["--input-type=module", "-e", &text])))
         }
         _ => {
-            let (source, program) = (folder.put("strict.cpp", CPP), folder.join("strict"));
-            let mut build = Command::new("c++");
-            build.args(["-std=c++11", "-O1", "-I", "adapters"]).arg(source).arg("-o").arg(&program);
-            run(&mut build).has(0);
-            folder.check("judge --cases 20 -- ./strict", 1)
+            eprintln!("skipped: {capability} in {language}");
+            None
         }
-    };
-    Some(done.out)
+    }
 }
 
 /// The words, without the calls that repeat a case: each language has its own. The program breaks long lines.
 fn words(said: &str) -> Vec<String> {
-    let lines = said.lines().filter(|line| !line.trim().starts_with("repeat with: "));
+    let is_call = |line: &&str| {
+        !["repeat with: ", "found in: "].iter().any(|call| line.trim().starts_with(call))
+    };
     let declares = ["declare=", "declare: ", "--declare "];
     let same =
         |line: &str| declares.iter().fold(line.to_owned(), |line, d| line.replace(d, "declare "));
-    lines
-        .map(same)
-        .flat_map(|line| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
-        .collect()
-}
-
-/// Wrong pixels by family, as the table has them.
-fn missing(said: &str) -> BTreeMap<&str, u64> {
-    let rows = said.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
-    let rows = rows.filter(|row| row.len() == 10 && row[9].ends_with('%'));
-    rows.filter_map(|row| Some((row[0], row[4].parse().ok()?))).collect()
+    let lines: Vec<_> = said.lines().filter(is_call).map(same).collect();
+    lines.join(" ").split_whitespace().map(str::to_owned).collect()
 }
 
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn the_same_fault_has_the_same_message_in_every_language() {
-    let all: Vec<_> = ["C++", "Python", "JavaScript"].into_iter().filter_map(said).collect();
-    for other in &all {
-        assert_eq!(words(other), words(&all[0]));
+    let folder = Folder::new("same-message");
+    for fault in FAULTS {
+        let all: Vec<_> = ["Rust", "C++", "Python", "JavaScript"]
+            .into_iter()
+            .filter_map(|language| said(language, fault, &folder))
+            .collect();
+        for other in &all {
+            assert!(other.contains("mine is not right"), "{other}");
+            assert_eq!(words(other), words(&all[0]), "{}", fault[0]);
+        }
+        match fault[0] {
+            "coverage" => all.iter().for_each(|said| has_the_counts_of_the_macro(said)),
+            "partition" => all.iter().for_each(|said| has_the_words_of_the_macro(said)),
+            _ => {}
+        }
     }
-    // What the macros of Rust judge: families within the declared range have the same cases.
+}
+
+/// What `assert_rasterizer!` judges: families within the declared range have the same cases, and it names the same cause.
+fn has_the_counts_of_the_macro(said: &str) {
     let families =
         [FamilyName::HalfInteger, FamilyName::Rectangle, FamilyName::Fan, FamilyName::Flat];
     let options = families.into_iter().fold(Options::default().cases(20), Options::family);
@@ -130,17 +199,26 @@ fn the_same_fault_has_the_same_message_in_every_language() {
     let message = verdict.check().unwrap_err().to_string();
     let cause = "draws nothing on an edge: neighbours leave holes.";
     assert!(message.contains(cause), "{message}");
-    for said in &all {
-        let unbroken = said.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(unbroken.contains(cause), "{said}");
-        let found = missing(said);
-        for family in &verdict.families {
-            let wrong = family.pairs[0].tally.missing;
-            assert!(
-                wrong > 0 && found[&*family.family] == wrong,
-                "{}: {wrong}\n{said}",
-                family.family
-            );
-        }
+    assert!(words(said).join(" ").contains(cause), "{said}");
+    let row = |name: &str| {
+        let rows = said.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+        rows.into_iter().find(|row| row.len() == 10 && row[0] == name).unwrap()[4].to_owned()
+    };
+    for family in &verdict.families {
+        let wrong = family.pairs[0].tally.missing;
+        assert!(wrong > 0 && row(&family.family) == wrong.to_string(), "{wrong}\n{said}");
     }
+}
+
+/// What `assert_partition!` says, with polygons as Rust writes them.
+fn has_the_words_of_the_macro(said: &str) {
+    let fan = |polygon: &Polygon| match &polygon.contours[..] {
+        [c] => Some(Ok((2..c.len()).map(|i| [c[0], c[i - 1], c[i]]).collect())),
+        _ => None,
+    };
+    let report = judge_partitions_of(&fan, &partition::Options::default().cases(20)).unwrap();
+    let message = report.check().unwrap_err().to_string();
+    let message = message.replace("Polygon::new(", "").replace("vec!", "").replace("])", "]");
+    let (said, message) = (words(said).join(" "), words(&message).join(" "));
+    assert!(said.contains(&message), "{message}\n\n{said}");
 }

@@ -1,24 +1,61 @@
-"""Checks what a function returns, and writes it as answers of the line protocol."""
+"""Calls a function with what requests of the line protocol ask, checks what it returns, and writes it as answers."""
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy
 
+__tracebackhide__ = True
 Array = Any
+# Pixels that are drawn by one call.
+MOST_PIXELS = 1 << 24
 
 
-class Kind:
-    """What a function returned first: it has to go on returning that."""
+class Judged:
+    """A function, and what it returned first: it has to go on returning that."""
 
-    def __init__(self) -> None:
-        self.first = ""
+    def __init__(self, fn: Callable[..., Any]) -> None:
+        self.fn, self.name, self.kind = fn, str(getattr(fn, "__name__", type(fn).__name__)), ""
 
-    def keep(self, kind: str, call: str) -> None:
-        self.first = self.first or kind
-        if kind != self.first:
-            raise TypeError(f"{call} returned {kind}; in an earlier call {self.first}")
+    def keep(self, kind: str) -> None:
+        self.kind = self.kind or kind
+        if kind != self.kind:
+            raise TypeError(f"{self.name} returned {kind}; in an earlier call {self.kind}")
+
+
+def drawn(shape: Tuple[int, int], write: Callable[..., List[str]], whole: bool = False) -> Any:
+    """Asks for all requests with one window together, each a window and an array of this shape."""
+
+    def ask(judged: Judged, requests: List[List[str]]) -> List[str]:
+        replies = [""] * len(requests)
+        windows: Dict[Tuple[int, int], List[int]] = {}
+        for i, words in enumerate(requests):
+            windows.setdefault((int(words[0]), int(words[1])), []).append(i)
+        for window, members in windows.items():
+            most = max(1, MOST_PIXELS // (window[0] * window[1]))
+            for part in (members[first : first + most] for first in range(0, len(members), most)):
+                array = numpy.array([requests[i][2:] for i in part]).astype(numpy.float64).reshape(-1, *shape)
+                # A position of a line names the pixel that contains it.
+                array = numpy.floor(array).astype(numpy.int64) if whole else array
+                for i, reply in zip(part, write(judged, judged.fn(array, window), len(part), window)):
+                    replies[i] = reply
+        return replies
+
+    return ask
+
+
+def polygons(judged: Judged, requests: List[List[str]]) -> List[Optional[str]]:
+    """Polygons come one by one, as lists of contours, each behind the number of its vertices."""
+    answers = []
+    for count, *rest in requests:
+        contours: List[Array] = []
+        for _ in range(int(count)):
+            end = 1 + 2 * int(rest[0])
+            contours.append(numpy.array(rest[1:end]).astype(numpy.float64).reshape(-1, 2))
+            rest = rest[end:]
+        answers.append(triangles(judged, judged.fn(contours)))
+    return answers
 
 
 def array_of(value: Any, what: str) -> Array:
@@ -28,34 +65,43 @@ def array_of(value: Any, what: str) -> Array:
     return array
 
 
-def masks_of(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> Array:
+def reals_of(value: Any, what: str) -> Array:
+    array = array_of(value, what)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{what} are of type {array.dtype}; expected floats")
+    return array
+
+
+def masks_of(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -> Array:
     """How often each pixel was drawn, of shape (count, height, width)."""
-    masks = array_of(value, f"masks of {call}")
+    masks = array_of(value, f"masks of {judged.name}")
     width, height = window
     if masks.dtype != bool and not numpy.issubdtype(masks.dtype, numpy.integer):
-        raise TypeError(f"{call} returned masks of type {masks.dtype}; expected bool, or integers that count how often a pixel is drawn")
+        raise TypeError(f"{judged.name} returned masks of type {masks.dtype}; expected bool, or integers that count how often a pixel is drawn")
     if masks.shape != (count, height, width):
-        raise ValueError(f"{call} returned masks of shape {masks.shape}; expected {(count, height, width)}: (n, height, width)")
+        raise ValueError(f"{judged.name} returned masks of shape {masks.shape}; expected {(count, height, width)}: (n, height, width)")
     if masks.dtype != bool and masks.size and masks.min() < 0:
-        raise ValueError(f"{call} returned masks with {masks.min()}; a pixel is drawn at least 0 times")
-    kind.keep("masks of bool" if masks.dtype == bool else "masks of integers", call)
+        raise ValueError(f"{judged.name} returned masks with {masks.min()}; a pixel is drawn at least 0 times")
+    judged.keep("masks of bool" if masks.dtype == bool else "masks of integers")
     return masks
 
 
-def rows_of(value: Any, count: int, columns: str, call: str) -> List[str]:
+def rows_of(judged: Judged, value: Any, count: int, columns: str) -> List[str]:
     """The rows of each case as text, from an array with these columns for each."""
+    judged.keep("a list")
     if len(value) != count:
-        raise ValueError(f"{call} returned a list of {len(value)}; expected {count}, one for each case")
+        raise ValueError(f"{judged.name} returned a list of {len(value)}; expected {count}, one for each case")
     wide = len(columns.split())
     rows = []
     for case, each in enumerate(value):
-        array = array_of(each, f"rows of {call}")
+        array = array_of(each, f"rows of {judged.name}")
         if array.size == 0:
             array = numpy.empty((0, wide), numpy.int64)
         if array.ndim != 2 or array.shape[1] != wide:
-            raise ValueError(f"{call} returned shape {array.shape} for case {case}; expected (k, {wide}) with the columns {columns}")
+            expected = f"(k, {wide}) with the columns {columns}, or one array of masks in place of a list"
+            raise ValueError(f"{judged.name} returned shape {array.shape} for case {case}; expected {expected}")
         if not numpy.issubdtype(array.dtype, numpy.integer):
-            raise TypeError(f"{call} returned type {array.dtype} for case {case}; expected integers with the columns {columns}")
+            raise TypeError(f"{judged.name} returned type {array.dtype} for case {case}; expected integers with the columns {columns}")
         rows.append(" ".join(map(str, [len(array), *array.ravel().tolist()])))
     return rows
 
@@ -108,45 +154,39 @@ def spans(masks: Array) -> List[str]:
     return joined([numpy.concatenate(column)[order] for column in zip(*parts)], case[order], len(masks))
 
 
-def coverage(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> List[str]:
+def coverage(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -> List[str]:
     if isinstance(value, (list, tuple)):
-        kind.keep("a list of spans", call)
-        return rows_of(value, count, "y x0 x1", call)
-    return spans(masks_of(value, count, window, call, kind))
+        return rows_of(judged, value, count, "y x0 x1")
+    return spans(masks_of(judged, value, count, window))
 
 
-def pixels(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> List[str]:
+def pixels(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -> List[str]:
     if isinstance(value, (list, tuple)):
-        kind.keep("a list of pixels", call)
-        return rows_of(value, count, "x y", call)
-    masks = masks_of(value, count, window, call, kind)
+        return rows_of(judged, value, count, "x y")
+    masks = masks_of(judged, value, count, window)
     case, y, x = numpy.nonzero(masks)
     case, y, x = (numpy.repeat(part, masks[case, y, x].astype(numpy.int64)) for part in (case, y, x))
     return joined([x, y], case, count)
 
 
-def fragments(value: Any, count: int, window: Tuple[int, int], call: str, kind: Kind) -> List[str]:
+def fragments(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -> List[str]:
     if not isinstance(value, (list, tuple)) or len(value) != 2:
-        raise TypeError(f"{call} returned {type(value).__name__}; expected two arrays, masks and values")
-    masks = masks_of(value[0], count, window, call, kind)
-    values = array_of(value[1], f"values of {call}")
-    if not numpy.issubdtype(values.dtype, numpy.number) or numpy.issubdtype(values.dtype, numpy.complexfloating):
-        raise TypeError(f"{call} returned values of type {values.dtype}; expected floats")
+        raise TypeError(f"{judged.name} returned {type(value).__name__}; expected two arrays, masks and values")
+    masks = masks_of(judged, value[0], count, window)
+    values = reals_of(value[1], f"values of {judged.name}")
     if values.shape != (*masks.shape, 3):
-        raise ValueError(f"{call} returned values of shape {values.shape}; expected {(*masks.shape, 3)}: (n, height, width, 3), each z a b")
+        raise ValueError(f"{judged.name} returned values of shape {values.shape}; expected {(*masks.shape, 3)}: (n, height, width, 3), each z a b")
     case, y, x = numpy.nonzero(masks)
     drawn = values[case, y, x].astype(numpy.float64)
     return joined([x, y, *drawn.T], case, count)
 
 
-def triangles(value: Any, call: str) -> Optional[str]:
+def triangles(judged: Judged, value: Any) -> Optional[str]:
     if value is None:
         return None
-    array = array_of(value, f"triangles of {call}")
+    array = reals_of(value, f"triangles of {judged.name}")
     if array.size == 0:
         return "0"
     if array.ndim != 3 or array.shape[1:] != (3, 2):
-        raise ValueError(f"{call} returned triangles of shape {array.shape}; expected (m, 3, 2), or None for a polygon that is not taken")
-    if not numpy.issubdtype(array.dtype, numpy.number) or numpy.issubdtype(array.dtype, numpy.complexfloating):
-        raise TypeError(f"{call} returned triangles of type {array.dtype}; expected numbers")
+        raise ValueError(f"{judged.name} returned triangles of shape {array.shape}; expected (m, 3, 2), or None for a polygon that is not taken")
     return " ".join([str(len(array)), *map(repr, array.astype(numpy.float64).ravel().tolist())])

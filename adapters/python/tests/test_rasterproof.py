@@ -15,37 +15,39 @@ import numpy as np
 import rasterproof
 from rasterproof import _shapes
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE))
-from example import draw as strict
-
 RANGE = "range=4096"
+COVERAGE, LINES, VALUES, PARTITION = (getattr(rasterproof, f"assert_{name}") for name in ("rasterizer", "lines", "values", "partition"))
 
 
-def exact(corners, window):
-    """The pixel centre and the top-left rule, in whole numbers."""
-    x, y = np.arange(window[0])[None, None, :] * 256 + 128, np.arange(window[1])[None, :, None] * 256 + 128
-    a, b, c = (corners * 256).astype(np.int64).transpose(1, 2, 0)[..., None, None]
-    area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    b, c = np.where(area < 0, c, b), np.where(area < 0, b, c)
-    inside = np.broadcast_to(area != 0, (len(corners), window[1], window[0]))
-    for p, q in ((a, b), (b, c), (c, a)):
-        (dx, dy) = q - p
-        top_left = (dy < 0) | ((dy == 0) & (dx > 0))
-        inside = inside & (dx * (y - p[1]) - dy * (x - p[0]) >= np.where(top_left, 0, 1))
-    return inside
+def filled(keeps, name="filled"):
+    """A function that draws where all three edges say so, in whole numbers."""
+
+    def filled(corners, window):
+        x, y = np.arange(window[0])[None, None, :] * 256 + 128, np.arange(window[1])[None, :, None] * 256 + 128
+        a, b, c = (corners * 256).astype(np.int64).transpose(1, 2, 0)[..., None, None]
+        area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        b, c = np.where(area < 0, c, b), np.where(area < 0, b, c)
+        inside = np.broadcast_to(area != 0, (len(corners), window[1], window[0]))
+        for p, q in ((a, b), (b, c), (c, a)):
+            dx, dy = q - p
+            inside = inside & keeps(dx * (y - p[1]) - dy * (x - p[0]), dx, dy)
+        return inside
+
+    filled.__name__ = name
+    return filled
+
+
+exact = filled(lambda e, dx, dy: e >= np.where((dy < 0) | ((dy == 0) & (dx > 0)), 0, 1))
+strict = filled(lambda e, dx, dy: e > 0, "draw")
 
 
 def spans(corners, window):
     """The same, as spans."""
-    rows = []
-    for mask in exact(corners, window):
-        row = [(y, np.flatnonzero(line)[0], np.flatnonzero(line)[-1] + 1) for y, line in enumerate(mask) if line.any()]
-        rows.append(np.array(row, np.int64))
-    return rows
+    rows = lambda mask: [(y, np.flatnonzero(line)[0], np.flatnonzero(line)[-1] + 1) for y, line in enumerate(mask) if line.any()]
+    return [np.array(rows(mask), np.int64) for mask in exact(corners, window)]
 
 
-def values(corners, window):
+def values(corners, window, flat=False):
     x, y = np.arange(window[0])[None, None, :] + 0.5, np.arange(window[1])[None, :, None] + 0.5
     p = corners[:, :, :2].transpose(1, 2, 0)[..., None, None]
     edge = lambda p, q: (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])
@@ -53,134 +55,137 @@ def values(corners, window):
         weights = np.stack([edge(p[1], p[2]), edge(p[2], p[0]), edge(p[0], p[1])], -1)
         weights = weights / weights.sum(-1, keepdims=True)
         z, w, a, b = (corners[:, None, None, :, i] for i in (2, 3, 4, 5))
+        w = np.ones_like(w) if flat else w
         inverse = (weights / w).sum(-1)
         parts = [(weights * z).sum(-1), (weights / w * a).sum(-1) / inverse, (weights / w * b).sum(-1) / inverse]
     return exact(corners[:, :, :2], window), np.stack(parts, -1)
 
 
-def affine(corners, window):
-    flat = corners.copy()
-    flat[:, :, 3] = 1
-    return values(flat, window)
+def dda(missing=0):
+    """Lines without so many pixels at their end."""
 
-
-def dda(round_half, kept=lambda pixels: pixels):
     def dda(ends, window):
         rows = []
         for (x0, y0), (x1, y1) in ends.tolist():
-            n = max(abs(x1 - x0), abs(y1 - y0))
-            i = np.arange(n + 1)
-            x, y = (np.array([x0, y0])[:, None] + round_half(i * np.array([[x1 - x0], [y1 - y0]]), max(n, 1)))
+            dx, dy = x1 - x0, y1 - y0
+            n = max(abs(dx), abs(dy))
+            # A tie comes to the same pixel from either end.
+            tie = n - ((dx if abs(dx) == n else dy) < 0)
+            at = lambda d: (2 * np.arange(n + 1 - missing) * abs(d) + tie) // (2 * max(n, 1)) * np.sign(d)
+            x, y = x0 + at(dx), y0 + at(dy)
             inside = (x >= 0) & (y >= 0) & (x < window[0]) & (y < window[1])
-            rows.append(kept(np.stack([x, y], 1)[inside]))
+            rows.append(np.stack([x, y], 1)[inside])
         return rows
 
     return dda
 
 
-# A tie of the project goes toward larger coordinates of a flat line, and of a steep one.
-nearest = dda(lambda steps, n: (2 * steps + n) // (2 * n))
+def fan(contours):
+    return None if len(contours) > 1 else np.stack([[contours[0][0], b, c] for b, c in zip(contours[0][1:], contours[0][2:])])
+
+
+def judge(fn, call=COVERAGE, **options):
+    call(fn, **{"cases": 20, **({} if call is PARTITION else {"declare": RANGE}), **options})
 
 
 class Judged(unittest.TestCase):
-    def fails(self, error, pattern, call, *arguments, **options):
+    def fails(self, error, pattern, *arguments, **options):
         with self.assertRaisesRegex(error, pattern) as caught:
-            call(*arguments, **options)
+            judge(*arguments, **options)
         return str(caught.exception)
+
+    def repeats(self, said, fn):
+        """The printed call is one that fails."""
+        call = re.search(rf"rasterproof\.assert_\w+\({fn.__name__}, family=.*, case=.*\)", said).group(0)
+        with self.assertRaisesRegex(AssertionError, "is not right"):
+            eval(call, {"rasterproof": rasterproof, fn.__name__: fn})
 
     def test_right_triangles(self):
         for fn in (exact, spans, lambda *request: exact(*request).astype(np.uint8)):
-            rasterproof.assert_rasterizer(fn, cases=20, declare=RANGE)
+            judge(fn)
 
     def test_strict_triangles(self):
-        said = self.fails(AssertionError, "draws nothing on an edge", rasterproof.assert_rasterizer, strict, cases=20, declare=RANGE)
-        self.assertIn("repeat with: rasterproof.assert_rasterizer(draw, family='", said)
-        self.assertIn("declare='rule=strict'", said)
-        self.assertNotIn("_relay", said)
+        said = self.fails(AssertionError, "draws nothing on an edge", strict)
+        self.assertIn("to be judged by it: declare='rule=strict'", said)
         self.assertIn(" mask ", said)
-        # The printed call is one that fails with that case, and what is declared is right.
-        call = re.search(r"rasterproof\.assert_rasterizer\(draw, family=.*\)", said).group(0)
-        self.fails(AssertionError, "is not right", eval, call, {"rasterproof": rasterproof, "draw": strict})
-        rasterproof.assert_rasterizer(strict, cases=20, declare=RANGE + " rule=strict", family="flat")
-
-    def test_the_page_begins_with_the_example(self):
-        for page in ("docs/python.md", "docs/zh/python.md"):
-            self.assertIn((HERE / "example.py").read_text(), (HERE.parents[2] / page).read_text(encoding="utf-8"))
+        self.repeats(said, strict)
+        judge(strict, declare=RANGE + " rule=strict", family="flat")
 
     def test_seed_and_family_choose_cases(self):
         asked = []
-        for seed in (1, 1, 2):
+        for seed in (1, 1, np.int64(2)):
             seen = []
-            watched = lambda c, w: seen.append(c.copy()) or exact(c, w)
-            rasterproof.assert_rasterizer(watched, cases=5, seed=seed, family=["tiny", "uniform"], declare=RANGE)
+            judge(lambda c, w: seen.append(c.copy()) or exact(c, w), cases=5, seed=seed, family=["tiny", "uniform"])
             asked.append(np.concatenate(seen))
         self.assertTrue(np.array_equal(asked[0], asked[1]))
         self.assertFalse(np.array_equal(asked[0], asked[2]))
 
     def test_several_families_are_printed_as_a_list(self):
-        said = self.fails(AssertionError, "is not right", rasterproof.assert_rasterizer, strict, cases=2, declare=RANGE, family=["flat", "fan"])
-        self.assertIn("repeat with: rasterproof.assert_rasterizer(draw, cases=2, family=['flat', 'fan'], seed=1, declare=", said)
+        said = self.fails(AssertionError, "is not right", strict, cases=2, family=["flat", "fan"])
+        self.assertIn(f"repeat with: rasterproof.assert_rasterizer(draw, family=['flat', 'fan'], cases=2, seed=1, declare='{RANGE}')", said)
 
     def test_doubles_are_seen(self):
-        twice = lambda *request: exact(*request).astype(int) * 2
-        said = self.fails(AssertionError, r"pixels: [\d,]+ twice", rasterproof.assert_rasterizer, twice, cases=5, declare=RANGE, family="uniform")
+        said = self.fails(AssertionError, r"pixels: [\d,]+ twice", lambda *request: exact(*request).astype(int) * 2, family="uniform")
         self.assertNotIn(" mask", said)
 
     def test_values(self):
-        rasterproof.assert_values(values, cases=20, declare=RANGE)
-        self.fails(AssertionError, r"linearly on the screen and ignores w", rasterproof.assert_values, affine, cases=20, declare=RANGE)
+        judge(values, VALUES)
+        self.fails(AssertionError, "linearly on the screen and ignores w", lambda c, w: values(c, w, True), VALUES)
 
     def test_lines(self):
-        rasterproof.assert_lines(nearest, cases=20, declare=RANGE, family="line-axis")
-        masks = lambda ends, window: np.stack([_mask(row, window) for row in nearest(ends, window)])
-        rasterproof.assert_lines(masks, cases=20, declare=RANGE, family="line-axis")
-        short = dda(lambda steps, n: (2 * steps + n) // (2 * n), lambda pixels: pixels[:-1])
-        self.fails(AssertionError, "the last pixel is not drawn", rasterproof.assert_lines, short, cases=20, declare=RANGE)
+        def masks(ends, window):
+            masks = np.zeros((len(ends), window[1], window[0]), bool)
+            for mask, pixels in zip(masks, dda()(ends, window)):
+                mask[pixels[:, 1], pixels[:, 0]] = True
+            return masks
+
+        for fn in (dda(), masks):
+            judge(fn, LINES)
+        self.fails(AssertionError, "the last pixel is not drawn", dda(1), LINES)
 
     def test_what_is_returned_is_checked(self):
-        judged = lambda change: (lambda c, w: change(exact(c, w)))
-        one = rasterproof.assert_rasterizer
-        self.fails(ValueError, r"shape \(1, 8\); expected \(1, 6, 8\): \(n, height, width\)", one, judged(lambda m: m[:, 0]))
-        self.fails(ValueError, r"shape \(1, 8, 6\); expected \(1, 6, 8\)", one, judged(lambda m: m.transpose(0, 2, 1)))
-        self.fails(TypeError, "float64; expected bool, or integers", one, judged(lambda m: m * 1.0))
-        self.fails(TypeError, "no numbers: NoneType", one, lambda c, w: [None] * len(c))
-        self.fails(ValueError, r"-1; a pixel is drawn at least 0 times", one, judged(lambda m: -m.astype(int)))
-        self.fails(ValueError, r"a list of 0; expected 1", one, lambda c, w: [])
-        self.fails(ValueError, r"\(6, 8\) for case 0; expected \(k, 3\) with the columns y x0 x1", one, judged(list))
-        self.fails(TypeError, "float64 for case 0; expected integers", one, lambda c, w: [np.array([[0.5, 0, 1]])] * len(c))
+        changed = lambda change: (lambda c, w: change(exact(c, w)))
+        each = lambda row: (lambda c, w: [row] * len(c))
+        wrong = self.fails
+        wrong(ValueError, r"shape \(1, 8\); expected \(1, 6, 8\): \(n, height, width\)", changed(lambda m: m[:, 0]))
+        wrong(ValueError, r"shape \(1, 8, 6\); expected \(1, 6, 8\)", changed(lambda m: m.transpose(0, 2, 1)))
+        wrong(TypeError, "float64; expected bool, or integers", changed(lambda m: m * 1.0))
+        wrong(TypeError, "no numbers: NoneType", each(None))
+        wrong(ValueError, r"-1; a pixel is drawn at least 0 times", changed(lambda m: -m.astype(int)))
+        wrong(ValueError, r"a list of 0; expected 1", lambda c, w: [])
+        wrong(ValueError, r"\(6, 8\) for case 0; expected \(k, 3\) with the columns y x0 x1, or one array of masks", changed(list))
+        wrong(TypeError, "float64 for case 0; expected integers", each(np.array([[0.5, 0, 1]])))
         changes = lambda c, w: exact(c, w).astype(bool if len(c) == 1 else int)
-        self.fails(TypeError, "returned masks of integers; in an earlier call masks of bool", one, changes, declare=RANGE)
-        two = rasterproof.assert_values
-        self.fails(TypeError, "ndarray; expected two arrays, masks and values", two, lambda c, w: values(c, w)[0])
-        self.fails(ValueError, r"shape \(1, 6, 8\); expected \(1, 6, 8, 3\)", two, lambda c, w: (values(c, w)[0], np.ones((1, 6, 8))))
-        self.fails(TypeError, "takes a function; got int", one, 3)
+        wrong(TypeError, "returned masks of integers; in an earlier call masks of bool", changes)
+        wrong(TypeError, "ndarray; expected two arrays, masks and values", lambda c, w: values(c, w)[0], VALUES)
+        wrong(ValueError, r"shape \(1, 6, 8\); expected \(1, 6, 8, 3\)", lambda c, w: (values(c, w)[0], np.ones((1, 6, 8))), VALUES)
+        wrong(ValueError, r"shape \(2, 2\); expected \(m, 3, 2\)", lambda contours: np.ones((2, 2)), PARTITION)
+        wrong(TypeError, "takes a function; got int", 3)
 
     def test_polygons(self):
-        judge = rasterproof.assert_partition
-        fan = lambda contours: None if len(contours) > 1 else np.stack([[contours[0][0], b, c] for b, c in zip(contours[0][1:], contours[0][2:])])
-        fan.__name__ = "fan"
-        said = self.fails(AssertionError, r"outside: the smallest polygon that was found\n +\[\[\[", judge, fan, cases=20, family="Star")
-        call = re.search(r"rasterproof\.assert_partition\(fan, family=.*\)", said).group(0)
-        self.fails(AssertionError, "1 polygons are not covered", eval, call, {"rasterproof": rasterproof, "fan": fan})
-        turns = lambda p: np.cross(np.roll(p, -1, 0) - p, np.roll(p, -2, 0) - np.roll(p, -1, 0))
-        convex = lambda contours: fan(contours) if len(contours) == 1 and (turns(contours[0]) > 0).all() else None
-        judge(convex, family="SnappedCircle")
+        self.repeats(self.fails(AssertionError, r"outside: the smallest polygon that was found\n +\[\[\[", fan, PARTITION, family="Star"), fan)
+        turns = lambda p: np.array([1, -1]) @ ((np.roll(p, -1, 0) - p) * (np.roll(p, -2, 0) - np.roll(p, -1, 0))[:, ::-1]).T
+        one_way = lambda p: (turns(p) > 0).all() or (turns(p) < 0).all()
+        judge(lambda contours: fan(contours) if len(contours) == 1 and one_way(contours[0]) else None, PARTITION, family="SnappedCircle")
         holes = []
+
         def watched(contours):
             low, high = contours[0].min(0), contours[0].max(0)
             self.assertTrue(all(((hole >= low) & (hole <= high)).all() for hole in contours[1:]))
             holes.extend(contours[1:])
             return np.empty((0, 3, 2))
-        self.fails(AssertionError, "gap", judge, watched, cases=20, family="Islands")
-        self.assertGreater(len(holes), 20)
-        self.fails(RuntimeError, "accepts none of the polygons", judge, lambda contours: None, cases=5)
-        self.fails(ValueError, r"shape \(2, 2\); expected \(m, 3, 2\)", judge, lambda contours: np.ones((2, 2)))
-        self.fails(ValueError, "no case would be judged", judge, fan, cases=0)
 
-    def test_nothing_to_judge(self):
+        self.fails(AssertionError, "gap", watched, PARTITION, family="Islands")
+        self.assertGreater(len(holes), 20)
+        self.fails(ValueError, "accepts none of the polygons", lambda contours: None, PARTITION)
+
+    def test_options_are_checked(self):
         for cases in (0, -1, 1.5, True):
-            self.fails(ValueError, "no case would be judged", rasterproof.assert_rasterizer, exact, cases=cases)
-        self.fails(RuntimeError, "(?s)no verdict.*'nosuch'", rasterproof.assert_rasterizer, exact, family="nosuch")
+            self.fails(ValueError, f"^no case would be judged: cases is {cases}; expected at least 1", exact, cases=cases)
+        self.fails(ValueError, "^seed is -7; expected a whole number from 0 on", exact, seed=-7)
+        self.fails(ValueError, "^no option is case_; expected cases, seed", exact, case_=1)
+        self.fails(ValueError, "^no family is nosuch; expected .*flat", exact, family="nosuch")
+        self.fails(ValueError, "no case was judged", exact, family="line-axis")
 
     def test_an_error_of_the_function_comes_through(self):
         def fails_late(corners, window):
@@ -189,7 +194,7 @@ class Judged(unittest.TestCase):
             return exact(corners, window)
 
         begin = time.monotonic()
-        self.fails(KeyError, "mine", rasterproof.assert_rasterizer, fails_late, declare=RANGE)
+        self.fails(KeyError, "mine", fails_late)
         self.assertLess(time.monotonic() - begin, 5)
 
     def test_numbers_are_written_exactly(self):
@@ -202,7 +207,7 @@ class Judged(unittest.TestCase):
     def test_pytest(self):
         with tempfile.TemporaryDirectory() as folder:
             test = Path(folder) / "test_mine.py"
-            test.write_text(f"""import sys; sys.path.insert(0, {str(HERE)!r})
+            test.write_text(f"""import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})
 from test_rasterproof import exact, strict
 def test_chosen(rasterproof):
     assert rasterproof.chosen == {{"cases": 7, "seed": 3}}
@@ -217,12 +222,6 @@ def test_strict(rasterproof):
         self.assertIn("1 failed, 1 passed", done.stdout, done.stdout + done.stderr)
         self.assertIn("AssertionError", done.stdout)
         self.assertIn("rasterproof.assert_rasterizer(draw, family=", done.stdout)
-
-
-def _mask(pixels, window):
-    mask = np.zeros(window[::-1], bool)
-    mask[pixels[:, 1], pixels[:, 0]] = True
-    return mask
 
 
 if __name__ == "__main__":

@@ -90,7 +90,7 @@ impl PolygonFixture {
         };
         let contours: Vec<_> = polygon.contours.iter().map(whole).collect();
         // Contours turn one way around what is inside and the other way around holes, so their areas add up.
-        let twice_area = contours.iter().map(|contour| shoelace(contour)).sum();
+        let twice_area = contours.iter().map(|contour| shoelace(contour)).sum::<i64>().abs();
         Self { family: family.name().to_owned(), contours, twice_area }
     }
 

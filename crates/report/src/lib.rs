@@ -10,6 +10,7 @@ pub mod differential;
 pub mod drawn;
 pub mod formats;
 pub mod frame_comparison;
+pub mod hosted;
 pub mod html;
 pub mod json;
 pub mod judge_text;

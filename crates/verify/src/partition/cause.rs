@@ -7,6 +7,7 @@ use std::cmp::Ordering;
 use std::fmt::Write as _;
 
 use super::exact::orientation;
+use super::region::region;
 use super::{FaultKind, FillRule, Finding, Options, Point, Polygon, Triangle, key};
 use crate::mistakes::{Explanation, Hypothesis, Mistakes, of_answers};
 
@@ -308,6 +309,18 @@ fn of_vertices<'a>(made: &'a [Made], is_wrong: &'a [bool]) -> Vec<Hypothesis<'a>
             "exchange two corners of each, or declare the other Winding",
         ),
     });
+    for (way, rounds) in [("clockwise", [-1, 0]), ("counterclockwise", [0, 1])] {
+        let predicts = move |i: usize| {
+            let region = region(&made[i].polygon, FillRule::EvenOdd);
+            region.is_ok_and(|region| region.rounds == rounds) == is_wrong[i]
+        };
+        let does = format!(
+            "depends on the direction of the contours: where the first one runs {way} (y up), polygons come out wrong"
+        );
+        let repair = "turn the contours by the sign of the first one's area before anything else";
+        let says = says("the direction of contours", does, repair);
+        hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+    }
     hypotheses
 }
 

@@ -2,9 +2,9 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::{BigInt, Sign};
+use num_bigint::BigInt;
 
-use super::{Point, Triangle};
+use super::{Point, Triangle, key, order};
 use crate::oracle::rational::edge_value;
 use crate::oracle::values::take_apart;
 
@@ -60,109 +60,96 @@ pub(super) fn sides(
     triangles: &[(usize, Triangle)],
     boundary: &[[Point; 2]],
 ) -> Sides {
+    // On which side of an edge all points between the ends lie; nothing where the edge passes between them.
+    let side = |[a, b]: [Point; 2]| match ends.map(|end| orientation(a, b, end)) {
+        [one, Ordering::Equal] => Some(one),
+        [one, other] if one == other || one.is_eq() => Some(other),
+        _ => None,
+    };
+    let of_triangles: Vec<[[Point; 2]; 3]> =
+        triangles.iter().map(|&(_, [a, b, c])| [[a, b], [b, c], [c, a]]).collect();
+    let edges = || of_triangles.as_flattened().iter().chain(boundary).copied();
+    let passing: Vec<[Point; 2]> = edges().filter(|&edge| side(edge).is_none()).collect();
+    let unit = edges().chain([ends]).flatten().flatten().map(|value| take_apart(value).1).min();
+    let mut frame = Frame::new(ends, unit.unwrap_or(0), 1, 1);
     // A point between the ends at 1/2, 1/4, 3/4, 1/8 and so on of the way. An edge that is not on the line of the piece
     // contains one of these points at most, so the search ends.
-    let mut bits = 1_u32;
-    let mut part = 1_u64;
-    loop {
-        let frame = Frame::new(ends, bits, part, triangles, boundary);
-        let is_free = |edge: &[Big; 2]| frame.side(edge) != Sign::NoSign || frame.is_along(edge);
-        if frame.triangles.iter().flatten().chain(&frame.boundary).all(is_free) {
-            return frame.count(ends, f64::from(part as u32) / 2_f64.powi(bits as i32), triangles);
-        }
-        part += 2;
-        if part >> bits > 0 {
-            (bits, part) = (bits + 1, 1);
-        }
+    while passing.iter().any(|&edge| frame.side(edge).is_eq()) {
+        let Frame { unit, bits, part, .. } = frame;
+        frame = match (part + 2) >> bits {
+            0 => Frame::new(ends, unit, bits, part + 2),
+            _ => Frame::new(ends, unit, bits + 1, 1),
+        };
+    }
+    // Beside the point, an edge on the line of the piece has its left side where the piece has it, or opposite.
+    let contains =
+        |edge: [Point; 2], is_left: bool| match side(edge).unwrap_or_else(|| frame.side(edge)) {
+            Ordering::Equal => order(&key(edge[0]), &key(edge[1])).is_lt() == is_left,
+            side => side.is_gt(),
+        };
+    let covering = |is_left: bool| {
+        let inside = of_triangles.iter().zip(triangles);
+        let inside = inside.filter(|(edges, _)| edges.iter().all(|&edge| contains(edge, is_left)));
+        inside.map(|(_, &(number, _))| number).collect()
+    };
+    // Straight down from the point, edges to the right have the region above them, edges to the left below them.
+    let is_inside = |is_left: bool| {
+        let rounds = boundary.iter().map(|&[a, b]| {
+            let goes_on = order(&key(a), &key(b)).is_lt();
+            let (low, high, round) = if goes_on { (a, b, 1) } else { (b, a, -1) };
+            let is_passed =
+                frame.follows(low) && !frame.follows(high) && contains([low, high], is_left);
+            if is_passed { round } else { 0 }
+        });
+        rounds.sum::<i32>() > 0
+    };
+    let ([start, end], part) = (ends, frame.part as f64 / 2_f64.powi(frame.bits as i32));
+    Sides {
+        // Halves first, since the difference of two large numbers overflows.
+        near: [0, 1].map(|axis| start[axis] * (1.0 - part) + end[axis] * part),
+        covering: [covering(true), covering(false)],
+        is_inside: [is_inside(true), is_inside(false)],
     }
 }
 
 type Big = [BigInt; 2];
 
-/// Everything in multiples of one unit, so that a point between two vertices is a whole one, too.
+/// A point between two vertices, in multiples of a unit in which it and all vertices are whole.
 struct Frame {
-    ends: [Big; 2],
+    ends: [Point; 2],
+    unit: i32,
+    bits: u32,
+    part: u64,
     point: Big,
-    triangles: Vec<[[Big; 2]; 3]>,
-    boundary: Vec<[Big; 2]>,
 }
 
 impl Frame {
-    fn new(
-        ends: [Point; 2],
-        bits: u32,
-        part: u64,
-        triangles: &[(usize, Triangle)],
-        boundary: &[[Point; 2]],
-    ) -> Self {
-        let corners = triangles.iter().flat_map(|(_, corners)| corners);
-        let all = corners.chain(boundary.as_flattened()).chain(&ends).flatten();
-        let unit = all.map(|&value| take_apart(value).1).min().unwrap_or(0);
-        let whole = |value: f64| -> BigInt {
+    fn new(ends: [Point; 2], unit: i32, bits: u32, part: u64) -> Self {
+        let mut frame = Self { ends, unit, bits, part, point: Big::default() };
+        let [start, end] = ends.map(|end| frame.big(end));
+        frame.point = [0, 1].map(|i| &start[i] + ((&end[i] - &start[i]) >> bits) * part);
+        frame
+    }
+
+    fn big(&self, point: Point) -> Big {
+        point.map(|value| {
             let (mantissa, exponent) = take_apart(value);
-            let shift = if mantissa == 0 { 0 } else { exponent - unit };
-            BigInt::from(mantissa) << (shift as u32 + bits)
-        };
-        let big = |point: Point| point.map(whole);
-        let [start, end] = ends.map(big);
-        let between = |axis: usize| &start[axis] + ((&end[axis] - &start[axis]) >> bits) * part;
-        Self {
-            point: [between(0), between(1)],
-            ends: [start.clone(), end.clone()],
-            triangles: triangles
-                .iter()
-                .map(|&(_, [a, b, c])| [[a, b], [b, c], [c, a]].map(|edge| edge.map(big)))
-                .collect(),
-            boundary: boundary.iter().map(|edge| edge.map(big)).collect(),
-        }
+            let shift = if mantissa == 0 { 0 } else { exponent - self.unit };
+            BigInt::from(mantissa) << (shift as u32 + self.bits)
+        })
     }
 
     /// On which side of an edge the point lies.
-    fn side(&self, [a, b]: &[Big; 2]) -> Sign {
-        cross(a, b, &self.point)
+    fn side(&self, [a, b]: [Point; 2]) -> Ordering {
+        let ([a, b], c) = ([self.big(a), self.big(b)], &self.point);
+        ((&b[0] - &a[0]) * (&c[1] - &a[1])).cmp(&((&b[1] - &a[1]) * (&c[0] - &a[0])))
     }
 
-    fn is_along(&self, edge: &[Big; 2]) -> bool {
-        edge.iter().all(|point| cross(&self.ends[0], &self.ends[1], point) == Sign::NoSign)
+    /// Whether the point is this one or comes after it, by x and then by y. Those between which it lies say so of most.
+    fn follows(&self, point: Point) -> bool {
+        let [start, end] = self.ends.map(|end| order(&key(point), &key(end)));
+        start.is_le() || (end.is_lt() && self.big(point) <= self.point)
     }
-
-    fn count(&self, ends: [Point; 2], part: f64, triangles: &[(usize, Triangle)]) -> Sides {
-        // Beside the point, an edge on the line of the piece has its left side where the piece has it, or opposite.
-        let contains = |[a, b]: &[Big; 2], is_left: bool| match self.side(&[a.clone(), b.clone()]) {
-            Sign::NoSign => (a < b) == is_left,
-            sign => sign == Sign::Plus,
-        };
-        let covering = |is_left: bool| {
-            let inside = self
-                .triangles
-                .iter()
-                .zip(triangles)
-                .filter(|(edges, _)| edges.iter().all(|edge| contains(edge, is_left)));
-            inside.map(|(_, &(number, _))| number).collect()
-        };
-        // Straight down from the point, edges to the right have the region above them, edges to the left below them.
-        let is_inside = |is_left: bool| {
-            let rounds = self.boundary.iter().map(|[a, b]| {
-                let (low, high, round) = if a < b { (a, b, 1) } else { (b, a, -1) };
-                let is_passed = *low <= self.point
-                    && self.point < *high
-                    && contains(&[low.clone(), high.clone()], is_left);
-                if is_passed { round } else { 0 }
-            });
-            rounds.sum::<i32>() > 0
-        };
-        let [start, end] = ends;
-        Sides {
-            // Halves first, since the difference of two large numbers overflows.
-            near: [0, 1].map(|axis| start[axis] * (1.0 - part) + end[axis] * part),
-            covering: [covering(true), covering(false)],
-            is_inside: [is_inside(true), is_inside(false)],
-        }
-    }
-}
-
-fn cross(a: &Big, b: &Big, c: &Big) -> Sign {
-    ((&b[0] - &a[0]) * (&c[1] - &a[1]) - (&b[1] - &a[1]) * (&c[0] - &a[0])).sign()
 }
 
 #[cfg(test)]

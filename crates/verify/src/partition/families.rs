@@ -56,8 +56,9 @@ impl Coordinates {
 }
 
 rasterproof_core::named! {
-    /// A way to make polygons that share a danger. The first contour is the outer one, and counterclockwise where y points
-    /// up. Every other one is a hole in it, and clockwise; only [`Family::Islands`] has polygons in holes.
+    /// A way to make polygons that share a danger. The first contour is the outer one, in three of four polygons
+    /// counterclockwise where y points up, otherwise clockwise. Every other one is a hole in it, and runs the other way; only
+    /// [`Family::Islands`] has polygons in holes.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     #[non_exhaustive]
     pub enum Family {
@@ -92,8 +93,12 @@ impl Family {
     pub fn polygon(self, seed: u64, index: u64, coordinates: Coordinates) -> Polygon {
         let mut rng = Rng::new(self.name(), seed, index);
         for _ in 0..100 {
-            let polygon = self.draw(&mut rng, coordinates);
+            let mut polygon = self.draw(&mut rng, coordinates);
             if is_as_generated(&polygon, self) {
+                // Drawn last: the shape of a polygon does not depend on it.
+                if rng.chance(4) {
+                    polygon.contours.iter_mut().for_each(|contour| contour.reverse());
+                }
                 return polygon;
             }
         }
@@ -126,9 +131,12 @@ impl Family {
 /// Whether contours are as [`Family`] states: outlines and holes by their directions, around some area.
 pub(super) fn is_as_generated(polygon: &Polygon, family: Family) -> bool {
     let holes = polygon.contours.get(1..).unwrap_or(&[]);
-    let is_plain = region(polygon, FillRule::EvenOdd)
-        .is_ok_and(|region| region.is_plain && !region.boundary.is_empty());
-    is_plain && (family == Family::Islands || holes.iter().all(|hole| area(hole) <= 0.0))
+    let turn = match region(polygon, FillRule::EvenOdd).map(|region| region.rounds) {
+        Ok([0, 1]) => 1.0,
+        Ok([-1, 0]) => -1.0,
+        _ => return false,
+    };
+    family == Family::Islands || holes.iter().all(|hole| turn * area(hole) <= 0.0)
 }
 
 type Contour = Vec<Point>;
@@ -485,14 +493,18 @@ mod tests {
     }
 
     #[test]
-    fn outlines_come_first_and_turn_left() {
+    fn outlines_come_first_and_holes_turn_the_other_way() {
+        let mut clockwise = 0;
         for family in [Family::Touching, Family::Star, Family::Comb, Family::Spiral] {
             for index in 0..300 {
                 let polygon = family.polygon(2, index, Coordinates::Integer);
                 let mut areas = polygon.contours.iter().map(|contour| area(contour));
-                assert!(areas.next().unwrap() > 0.0, "{family:?} {index}");
-                assert!(areas.all(|area| area < 0.0), "{family:?} {index}");
+                let outline = areas.next().unwrap();
+                assert!(outline != 0.0, "{family:?} {index}");
+                assert!(areas.all(|area| area * outline < 0.0), "{family:?} {index}");
+                clockwise += u32::from(outline < 0.0);
             }
         }
+        assert!((240..360).contains(&clockwise), "{clockwise} of 1200");
     }
 }

@@ -39,8 +39,8 @@ impl Error for InvalidPolygon {}
 pub(super) struct Region {
     /// The boundary, cut at every vertex of the polygon that lies on it, with the region on the left of each edge.
     pub boundary: Vec<[Point; 2]>,
-    /// Whether the contours run around every point once or not at all: outlines counterclockwise, holes clockwise.
-    pub is_plain: bool,
+    /// The fewest and the most times that the contours run around a point, counterclockwise.
+    pub rounds: [i64; 2],
 }
 
 pub(super) fn region(polygon: &Polygon, rule: FillRule) -> Result<Region, InvalidPolygon> {
@@ -55,18 +55,19 @@ pub(super) fn region(polygon: &Polygon, rule: FillRule) -> Result<Region, Invali
     let net = Net { points: &points, pieces };
     net.crossing().map_or(Ok(()), Err)?;
     let mut boundary = Vec::new();
-    let mut is_plain = true;
+    let mut rounds = [0; 2];
     for &([low, high], along) in net.pieces.iter().filter(|(_, along)| *along != 0) {
         let below = net.rounds_below([low, high]);
         let ends = [points[low], points[high]];
-        is_plain &= [below, below + along].iter().all(|rounds| (0..=1).contains(rounds));
-        match (rule.fills(below), rule.fills(below + along)) {
-            (false, true) => boundary.push(ends),
-            (true, false) => boundary.push([ends[1], ends[0]]),
+        let sides = [below, below + along];
+        rounds = [rounds[0].min(sides[0]).min(sides[1]), rounds[1].max(sides[0]).max(sides[1])];
+        match sides.map(|rounds| rule.fills(rounds)) {
+            [false, true] => boundary.push(ends),
+            [true, false] => boundary.push([ends[1], ends[0]]),
             _ => {}
         }
     }
-    Ok(Region { boundary, is_plain })
+    Ok(Region { boundary, rounds })
 }
 
 /// A piece of an edge by the numbers of its ends, the lower one first, and how often contours run along it minus how

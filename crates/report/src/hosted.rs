@@ -1,0 +1,172 @@
+//! The judge of a function in the program that started this one: what `rasterproof judge` does, with the package of another
+//! language in the place of a process. `adapters/python` starts the program for it, `adapters/js` a WebAssembly module.
+//!
+//! The standard input begins with options, a line each, and ends them with the line HELLO of the line protocol. Requests go to
+//! the standard output, an empty line ends those that are sent at once, and their answers are read. The verdict goes to the
+//! standard error, and the exit status is that of `judge`. A module's host is called for every read, so it needs no `unsafe`.
+
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use super::{judge_text, polygons_text};
+use rasterproof_judge::ask::{Answer, Ask, Breach, Question};
+use rasterproof_judge::declared::Declared;
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::text::Words;
+use rasterproof_judge::{Options, family_names, judge, polygons};
+
+/// The program that started this one.
+struct Host {
+    declared: Declared,
+}
+
+impl Ask for Host {
+    fn declared(&self) -> &Declared {
+        &self.declared
+    }
+
+    fn ask(&mut self, questions: &[Question], _: u64) -> Vec<Answer> {
+        let mut requests = Vec::new();
+        for (id, question) in (1..).zip(questions) {
+            question.write(id, &mut requests);
+        }
+        // Who reads all of it before it answers never waits for a pipe that is full.
+        requests.push(b'\n');
+        let sent = io::stdout().write_all(&requests).and_then(|()| io::stdout().flush());
+        let answer = |question: &Question| {
+            let line = line().unwrap_or_default();
+            let mut words = Words(line.as_bytes());
+            let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
+            words.word();
+            let read = question.read(letter, &mut words);
+            read.unwrap_or_else(|why| Answer::Died(Breach::Nonsense.by(why)))
+        };
+        match sent {
+            Ok(()) => questions.iter().map(answer).collect(),
+            Err(error) => vec![Answer::Died(Breach::Exits.by(error.to_string()))],
+        }
+    }
+}
+
+/// The next line of the standard input; nothing at its end.
+fn line() -> Option<String> {
+    let mut line = String::new();
+    io::stdin().read_line(&mut line).ok().filter(|bytes| *bytes > 0)?;
+    Some(line.trim_end().to_owned())
+}
+
+#[derive(Default)]
+struct Job {
+    options: Options,
+    /// The function of the package and the name of what is judged, as in `assertRasterizer(draw`.
+    call: String,
+    is_python: bool,
+    declare: String,
+}
+
+impl Job {
+    fn read() -> Result<(Self, Declared), String> {
+        let mut job = Self::default();
+        while let Some(line) = line() {
+            if let Some(mut declared) = Declared::parse(&line) {
+                job.declare.split_whitespace().for_each(|word| declared.hear(word));
+                return Ok((job, declared));
+            }
+            let (option, value) = line.split_once(' ').unwrap_or((&line, ""));
+            job.hear(option, value).ok_or_else(|| match option {
+                "cases" => {
+                    format!("no case would be judged: cases is {value}; expected at least 1")
+                }
+                "seed" | "case" => {
+                    format!("{option} is {value}; expected a whole number from 0 on")
+                }
+                "seconds" => format!("seconds is {value}; expected a number above 0"),
+                "family" => {
+                    format!("no family is {value}; expected {}", family_names().join(", "))
+                }
+                _ => format!(
+                    "no option is {option}; expected cases, seed, case, seconds, family or declare"
+                ),
+            })?;
+        }
+        Err("no line with HELLO was read".to_owned())
+    }
+
+    fn hear(&mut self, option: &str, value: &str) -> Option<()> {
+        match option {
+            "cases" => self.options.cases = value.parse().ok().filter(|cases| *cases > 0)?,
+            "seed" => self.options.seed = value.parse().ok()?,
+            "case" => self.options.only = Some(value.parse().ok()?),
+            "seconds" => {
+                let seconds = Duration::try_from_secs_f64(value.parse().ok()?).ok()?;
+                self.options.time_limit = Some(seconds).filter(|seconds| !seconds.is_zero());
+                self.options.time_limit?;
+            }
+            "family" => {
+                family_names().into_iter().find(|name| *name == value)?;
+                self.options.families.push(value.to_owned());
+            }
+            "language" => self.is_python = value == "python",
+            "call" => self.call = value.to_owned(),
+            "declare" => self.declare = value.to_owned(),
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// What stands between the name of an argument and its value.
+    fn is(&self) -> &'static str {
+        if self.is_python { "=" } else { ": " }
+    }
+
+    /// The call that judges these cases.
+    fn line(&self, cases: &[(&str, String)]) -> String {
+        let declare =
+            (!self.declare.is_empty()).then(|| ("declare", format!("'{}'", self.declare)));
+        let seed = ("seed", self.options.seed.to_string());
+        let all = cases.iter().cloned().chain([seed]).chain(declare);
+        let all: Vec<_> = all.map(|(name, value)| format!("{name}{}{value}", self.is())).collect();
+        let [open, close] = if self.is_python { ["", ""] } else { ["{ ", " }"] };
+        format!("{}, {open}{}{close})", self.call, all.join(", "))
+    }
+
+    fn judge(self, declared: Declared) -> Result<(bool, String), String> {
+        let one = |family: &str, index: u64| {
+            self.line(&[("family", format!("'{family}'")), ("case", index.to_string())])
+        };
+        let families = match self.options.families.as_slice() {
+            [] => None,
+            names => Some(("family", format!("['{}']", names.join("', '")))),
+        };
+        let cases = ("cases", self.options.cases.to_string());
+        let all = self.line(&families.into_iter().chain([cases]).collect::<Vec<_>>());
+        let mut host = Host { declared };
+        if host.declared.partition {
+            let report = polygons::judge(&mut host, &self.options)?;
+            let text = polygons_text::text(&host.declared, &report, &all, &one, false);
+            return Ok((report.sum().wrong == 0, text));
+        }
+        let scope = Scope::of(&self.options);
+        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(host)];
+        let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
+        if let Some(why) = verdict.judged_nothing(&self.options) {
+            return Err(why);
+        }
+        let text = judge_text::text(&verdict, &all, &one, (false, false));
+        Ok((verdict.agrees(), text.replace("--declare '", &format!("declare{}'", self.is()))))
+    }
+}
+
+/// Judges by the standard streams of this process.
+#[must_use]
+pub fn main() -> ExitCode {
+    let judged = Job::read().and_then(|(job, declared)| job.judge(declared));
+    let (status, said) = match judged {
+        Ok((agrees, text)) => (u8::from(!agrees), text),
+        Err(why) => (2, why),
+    };
+    // Without a place to say it, there is still the status.
+    let _ = io::stderr().write_all(said.as_bytes());
+    ExitCode::from(status)
+}
