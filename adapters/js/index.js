@@ -107,7 +107,7 @@ function rows(judged, list, columns) {
   return `${list.length} ${Array.from(list, (row) => Array.prototype.join.call(row, ' ')).join(' ')}`;
 }
 
-const isList = (value) => Array.isArray(value) && typeof value[0] !== 'boolean';
+const isList = (value) => Array.isArray(value) && !['boolean', 'number'].includes(typeof value[0]);
 
 function coverage(judged, value, window) {
   if (isList(value)) return rows(judged, value, 'y x0 x1');

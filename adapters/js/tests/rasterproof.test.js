@@ -104,6 +104,7 @@ test('what is returned is checked', () => {
   });
   wrong(/returned 8 pixels; expected 48: 8 \* 6, row by row/, () => new Uint8Array(8));
   wrong(/returned Float64Array; expected a Uint8Array/, () => new Float64Array(48));
+  wrong(/returned Array; expected a Uint8Array/, () => Array(48).fill(0));
   wrong(/returned undefined; expected/, () => undefined);
   wrong(/returned Promise; expected/, async () => new Uint8Array(48));
   wrong(/a mask with -1; a pixel is drawn at least 0 times/, () => new Int8Array(48).fill(-1));

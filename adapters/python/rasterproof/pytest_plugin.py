@@ -15,6 +15,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.fixture
 def rasterproof(request: pytest.FixtureRequest) -> Judge:
-    """assert_rasterizer, assert_lines and assert_values with the cases and the seed of the command line."""
+    """The four functions with the cases and the seed of the command line."""
     option = request.config.getoption
     return Judge(cases=option("--rasterproof-cases"), seed=option("--rasterproof-seed"))
