@@ -223,9 +223,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         (None, None) => vec![progress.current()],
     };
     let model = match &arguments.model {
-        Some(path) => {
-            Some(ViewArguments::of(size).maker(path, Purpose::Drawn, streams)?.scene(0.0))
-        }
+        Some(path) => Some(ViewArguments::of(size).maker(path, Purpose::Drawn, streams)?.scene),
         None => None,
     };
     let name = match (word, &model) {

@@ -203,9 +203,8 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     let page = arguments.page.page("plan.html");
     let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
     check()?;
-    let maker = arguments.what.maker(typed, Purpose::Planned, streams)?;
+    let scene = arguments.what.maker(typed, Purpose::Planned, streams)?.scene;
     check()?;
-    let scene = maker.scene(0.0);
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
     }

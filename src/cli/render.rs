@@ -133,16 +133,16 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     if let Some(frames) = arguments.spin {
         return spin(arguments, &maker, frames, &output, &progress, streams);
     }
-    let scene = maker.scene(0.0);
+    let scene = &maker.scene;
     if arguments.map {
-        return map(arguments, &scene, &output, streams);
+        return map(arguments, scene, &output, streams);
     }
-    let mut drawings = draw(arguments, &scene, &progress)?;
+    let mut drawings = draw(arguments, scene, &progress)?;
     let picture = frame_comparison::png(&drawings[0].rendered.picture)?;
-    let comparison = compare(&scene, &drawings, arguments.plan.is_some())?;
+    let comparison = compare(scene, &drawings, arguments.plan.is_some())?;
     let by_rounding = match arguments.wireframe {
         true => None,
-        false => Some(by_rounding(&scene, &drawings[0].target)?),
+        false => Some(by_rounding(scene, &drawings[0].target)?),
     };
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
@@ -159,7 +159,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     };
     if arguments.json {
         // With its scene the plan can be drawn by.
-        drawings[0].rendered.plan.scene = Some(SceneDigest::of(&scene));
+        drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
         let json = frame_comparison::json(
             &scene.name,
             &names(&drawings),
@@ -172,13 +172,13 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     } else {
         let files = [drawn_in, difference_in];
         let mut text =
-            describe(&scene, &drawings, &times, comparison.as_ref(), files, maker.why_empty());
+            describe(scene, &drawings, &times, comparison.as_ref(), files, maker.why_empty());
         text += &rounding_text(by_rounding.unwrap_or_default(), ROUNDING);
         streams.output.write_all(text.as_bytes())?;
     }
     streams.output.flush()?;
     if let Some(path) = page {
-        let report = report_page(typed, &scene, &drawings, comparison.as_ref(), by_rounding);
+        let report = report_page(typed, scene, &drawings, comparison.as_ref(), by_rounding);
         write_page(&path, report, streams);
     }
     Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
@@ -532,7 +532,7 @@ fn draw_in_tiles(
     }
     let mut target = arguments.what.view.target()?;
     let size = target.size();
-    let scene = &maker.scene(0.0);
+    let scene = &maker.scene;
     let exact = || {
         let mut target = arguments.what.view.target()?;
         let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
@@ -648,7 +648,7 @@ fn spin(
         let failed = |error: image::ImageError| usage(format!("the GIF: {error}"));
         encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
         for frame in 0..frames {
-            let scene = maker.scene(f64::from(frame) / f64::from(frames));
+            let scene = maker.turned(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene, progress)?;
             if let Some(c) = compare(&scene, &drawings, false)? {
                 is_compared = true;

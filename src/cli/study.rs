@@ -125,7 +125,7 @@ pub(super) fn cost(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Measured, streams)?;
-    let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
+    let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
     let groups = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
@@ -156,7 +156,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
-    let scene = maker.scene(0.0);
+    let scene = maker.scene.clone();
     let studied = Studied::new(scene, maker.origins(), &what.view)?;
     let effort = arguments.once.effort(arguments.quick);
     let groups = measure(&studied, &what.view, effort, streams.progress)?;
@@ -221,7 +221,7 @@ fn all_around(
     let mut titles = Vec::new();
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
-        let studied = Studied::new(maker.scene(turn), maker.origins(), view)?;
+        let studied = Studied::new(maker.turned(turn), maker.origins(), view)?;
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
         let classes = &studied.hard.classes;
         let pixels = |kind: Kind| studied.hard.of(kind).map_or(0, |case| case.pixels);
@@ -302,7 +302,7 @@ pub(super) fn verify(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
+    let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     // The engines see samples as the picture has them, and values up to their limit.
@@ -436,7 +436,7 @@ pub(super) fn face(
 ) -> Result<Option<Found>, Failure> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
+    let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
     let (scene, origins) = (&studied.scene, studied.origins);
     let number = word.parse::<u32>().ok();
     let of_face = |(triangle, face)| (Some(face) == number).then_some(triangle);

@@ -305,7 +305,7 @@ impl SceneArguments {
         self.source().map_or_else(stem, str::to_owned)
     }
 
-    /// The scene, turned by a share of a full turn, as a function that makes it.
+    /// The scene, with what turns it.
     pub(super) fn maker(
         &self,
         typed: &Typed,
@@ -324,8 +324,9 @@ impl SceneArguments {
                         "--{option} is for models; the scene '{name}' has an eye and a light of its own"
                     )));
                 }
+                let scene = chapter(name, aspect, 0.0, view.cull);
                 let base = Base::Chapter(name.to_owned());
-                let maker = Maker { base, aspect, cull: view.cull };
+                let maker = Maker { scene, base, aspect, cull: view.cull };
                 view.refuse_too_much(name, &maker, purpose)?;
                 Ok(maker)
             }
@@ -368,10 +369,12 @@ impl ViewArguments {
     ) -> Result<Maker, Failure> {
         let aspect = self.aspect()?;
         self.refuse_large_frames(purpose)?;
-        let base = Base::Model(Box::new(self.frame_model(path, aspect, streams)?));
-        let maker = Maker { base, aspect, cull: self.cull };
+        let (mut scene, framed) = self.frame_model(path, aspect, streams)?;
+        cull(&mut scene, self.cull);
+        let base = Base::Model(Box::new(framed));
+        let maker = Maker { scene, base, aspect, cull: self.cull };
         self.refuse_too_much(&printable_path(path).to_string(), &maker, purpose)?;
-        let backs = facing::share_of_backs(&maker.scene(0.0)).filter(|share| *share > 0.5);
+        let backs = facing::share_of_backs(&maker.scene).filter(|share| *share > 0.5);
         if let Some(share) = backs {
             // 100% only of all.
             let percent = (share * 100.0).floor();
@@ -408,11 +411,11 @@ impl ViewArguments {
     /// Refuses a scene that takes too long to draw, or whose pieces or layers take too much memory.
     fn refuse_too_much(&self, name: &str, maker: &Maker, purpose: Purpose) -> Result<(), Failure> {
         self.refuse_large_frames(purpose)?;
-        let scene = maker.scene(0.0);
+        let scene = &maker.scene;
         let (width, height) = self.size;
         let scale = self.aa.scale();
         let planes = self.aa.planes() as u64;
-        let work = Work::of(&scene, PixelRect::window(width * scale, height * scale));
+        let work = Work::of(scene, PixelRect::window(width * scale, height * scale));
         let all = u64::from(width) * u64::from(height) * self.aa.samples();
         let of_planes = |count: u64| count.saturating_mul(planes);
         let (rows, samples) = (of_planes(work.rows), of_planes(work.samples));
@@ -420,7 +423,7 @@ impl ViewArguments {
         let file_bytes = maker.framed().map_or(0, |framed| framed.file_bytes);
         let Costs { ns_of_row, ns_of_sample, ns_of_byte, .. } = purpose.costs();
         // The map is drawn as often as the frame.
-        let map = Work::of_map(&scene);
+        let map = Work::of_map(scene);
         let ns = [(rows, ns_of_row), (samples, ns_of_sample)]
             .into_iter()
             .chain([(map.rows, ns_of_row / OF_MAP), (map.samples, ns_of_sample / OF_MAP)])
@@ -470,7 +473,7 @@ impl ViewArguments {
         path: &Path,
         aspect: f64,
         streams: &mut Streams<'_>,
-    ) -> Result<Framed, Failure> {
+    ) -> Result<(Scene, Framed), Failure> {
         let shading = self.shading.unwrap_or(Shading::Phong);
         let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
         let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));
@@ -609,7 +612,7 @@ impl ViewArguments {
             // The file does not decide.
             why_empty.clear();
         }
-        Ok(Framed { scene, centre, origins, not_drawn, why_empty, file_bytes, loading })
+        Ok((scene, Framed { centre, origins, not_drawn, why_empty, file_bytes, loading }))
     }
 }
 
@@ -638,7 +641,6 @@ fn report_model(
 }
 
 struct Framed {
-    scene: Scene,
     centre: DVec3,
     origins: Vec<Origin>,
     not_drawn: String,
@@ -653,6 +655,8 @@ enum Base {
 }
 
 pub(super) struct Maker {
+    /// Before it is turned.
+    pub(super) scene: Scene,
     base: Base,
     aspect: f64,
     cull: Option<Cull>,
@@ -685,24 +689,31 @@ impl Maker {
         self.framed().map_or(&[], |framed| &framed.origins)
     }
 
-    pub(super) fn scene(&self, turn: f64) -> Scene {
-        let mut scene = match &self.base {
-            Base::Chapter(name) => chapters::scene(name, self.aspect, turn)
-                .unwrap_or_else(|| Scene::new(name, "", DMat4::IDENTITY)),
+    /// The scene, turned by a share of a full turn.
+    pub(super) fn turned(&self, turn: f64) -> Scene {
+        match &self.base {
+            Base::Chapter(name) => chapter(name, self.aspect, turn, self.cull),
             Base::Model(framed) => {
-                let mut scene = framed.scene.clone();
+                let mut scene = self.scene.clone();
                 let turn = turn_y(turn * std::f64::consts::TAU);
                 for item in &mut scene.items {
                     item.model = about(framed.centre, turn) * item.model;
                 }
                 scene
             }
-        };
-        if let Some(cull) = self.cull {
-            for item in &mut scene.items {
-                item.cull = cull;
-            }
         }
-        scene
+    }
+}
+
+fn chapter(name: &str, aspect: f64, turn: f64, asked: Option<Cull>) -> Scene {
+    let mut scene = chapters::scene(name, aspect, turn)
+        .unwrap_or_else(|| Scene::new(name, "", DMat4::IDENTITY));
+    cull(&mut scene, asked);
+    scene
+}
+
+fn cull(scene: &mut Scene, asked: Option<Cull>) {
+    for item in &mut scene.items {
+        item.cull = asked.unwrap_or(item.cull);
     }
 }

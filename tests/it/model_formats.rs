@@ -705,7 +705,7 @@ fn what_is_not_drawn_of_vertices_and_nodes_is_counted() {
             d["meshes"][0]["primitives"][0]["material"] = json!(0);
             d["meshes"][0]["primitives"][0]["attributes"] = json!({
                 "POSITION": 0, "COLOR_0": 2, "COLOR_1": 2, "TEXCOORD_0": 0, "TEXCOORD_1": 0, "JOINTS_1": 2,
-                "_HEAT": 0,
+                "_HEAT": 0, "HEAT": 0,
             });
             d["nodes"][0]["extensions"] = json!({ "KHR_lights_punctual": { "light": 0 } });
             d["extensionsUsed"] = json!(["KHR_lights_punctual"]);
@@ -846,8 +846,9 @@ fn a_gltf_is_drawn_in_its_rest_pose() {
             "indices": { "bufferView": 2, "byteOffset": 32, "componentType": 5121 },
             "values": { "bufferView": 2, "byteOffset": 36 },
         } }));
+        accessors.push(json!({ "bufferView": 2, "byteOffset": 48, "componentType": 5126, "count": 4, "type": "VEC3" }));
         d["meshes"][0]["primitives"][0] = json!({
-            "attributes": { "POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3 },
+            "attributes": { "POSITION": 0, "NORMAL": 5, "JOINTS_0": 2, "WEIGHTS_0": 3 },
             "indices": 1,
             "material": 0,
             "targets": [{ "POSITION": 4 }, { "POSITION": 4 }],
@@ -857,7 +858,7 @@ fn a_gltf_is_drawn_in_its_rest_pose() {
         d["nodes"] = json!([
             { "mesh": 0, "skin": 0, "translation": [100, 0, 0] },
             { "translation": [1, 0, 0], "children": [2] },
-            { "translation": [0, 0, 4] },
+            { "translation": [0, 0, 4], "scale": [1, 2, 1] },
         ]);
         d["scenes"] = json!([{ "nodes": [0, 1] }]);
     });
@@ -866,11 +867,17 @@ fn a_gltf_is_drawn_in_its_rest_pose() {
     bytes.extend([255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 128, 128, 0, 0]);
     bytes.extend([2, 0, 0, 0]);
     bytes.extend([0.0f32, 8.0, 0.0].map(f32::to_le_bytes).concat());
+    bytes.extend([1.0f32, 1.0, 0.0].map(f32::to_le_bytes).concat().repeat(4));
     bytes.resize(172, 0);
     let (model, [item]) = items("pose.glb", &glb((json, bytes)));
-    assert_eq!((model.warnings.len(), model.not_drawn.as_str()), (0, "1 morph target"));
+    assert_eq!((model.warnings.len(), model.not_drawn.as_str()), (0, ""));
     let found: Vec<_> = item.mesh.positions.iter().map(|position| position.to_array()).collect();
-    assert_eq!(found, [[1.0, 0.0, 0.0], [2.0, 0.0, -4.0], [1.0, 5.0, -4.0], [1.0, 0.0, -3.0]]);
+    assert_eq!(found, [[1.0, 0.0, 0.0], [2.0, 0.0, -4.0], [1.0, 10.0, -4.0], [1.0, 0.0, -3.0]]);
+    // What is stretched along y leans away from it: not at all, twice, and by the mean.
+    for corner in item.mesh.triangles.iter().flatten() {
+        let expected = [1.0, 0.5, 0.5, 1.0 / 1.5][corner.position as usize];
+        assert!((corner.normal.y / corner.normal.x - expected).abs() < 0.01, "{}", corner.normal);
+    }
 }
 
 /// A node at moments of its animation, by each way of interpolating, computed by hand.

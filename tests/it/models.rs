@@ -543,6 +543,48 @@ fn a_double_sided_material_is_lit_on_either_side() {
     assert!(lit > 500, "{lit} pixels are bright");
 }
 
+/// A square with a picture of a clear and an opaque column many times beside each other: its opacity is read at the level of its
+/// colour, where it is a half everywhere; without a mip map each pixel is either.
+#[test]
+fn holes_have_the_level_of_their_colours() {
+    let folder = Folder::new("models-holes");
+    let text = include_str!("../data/models/double-sided-front.gltf");
+    let columns =
+        image::RgbaImage::from_fn(2, 2, |x, _| image::Rgba([255, 255, 255, 255 * x as u8]));
+    columns.save(folder.join("columns.png")).unwrap();
+    let share = |sampler: u32, cutoff: f64, words: &str| {
+        let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
+        let views = document["bufferViews"].as_array_mut().unwrap();
+        views.push(json!({ "buffer": 0, "byteLength": 48, "byteStride": 12 }));
+        let accessors = document["accessors"].as_array_mut().unwrap();
+        accessors
+            .push(json!({ "bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC2" }));
+        document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(3);
+        document["materials"] = json!([{
+            "alphaMode": "MASK", "alphaCutoff": cutoff,
+            "extensions": { "KHR_materials_unlit": {} },
+            "pbrMetallicRoughness": { "baseColorTexture": {
+                "index": 0, "extensions": { "KHR_texture_transform": { "scale": [100, 100] } },
+            } },
+        }]);
+        document["textures"] = json!([{ "source": 0, "sampler": 0 }]);
+        document["samplers"] = json!([{ "minFilter": sampler }]);
+        document["images"] = json!([{ "uri": "columns.png" }]);
+        folder.put("holes.gltf", document.to_string());
+        let (picture, _) = drawn(&folder, &format!("holes.gltf {words}"));
+        let seen = picture.pixels().filter(|pixel| pixel.0[0] > 100).count();
+        folder.check("render holes.gltf --size 96x72 -o out.png", 0).prints("AGREES");
+        seen
+    };
+    let all = share(9987, 0.0, "");
+    assert!(all > 500, "{all}");
+    for words in ["", "--effects all", "--effects usual"] {
+        assert_eq!([0.4, 0.6].map(|cutoff| share(9987, cutoff, words)), [all, 0], "{words}");
+        let some = share(9729, 0.6, words);
+        assert!(some > all / 4 && some < 3 * all / 4, "{some} of {all}");
+    }
+}
+
 /// A square of one unit in the light of its file, computed by hand in its middle; others of its lights reach it nowhere.
 #[test]
 fn lights_of_a_file_are_those_of_the_picture() {

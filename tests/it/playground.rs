@@ -222,6 +222,7 @@ fn playground_survives_any_address() {
         "#case=no-such-case",
         "#case=sliver%23-1&seed=x",
         "#scene=culling&removes=everything",
+        "#scene=weights&snap=0",
     ];
     let taken = [
         "#scene=near&points=null&near=[]",

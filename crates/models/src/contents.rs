@@ -104,6 +104,13 @@ pub(crate) struct FilePart {
     pub polygons: Polygons,
 }
 
+/// What a map of positions does to normals. The cofactors turn them as the transposed inverse does, and exist where it does not.
+pub(crate) fn of_normals(linear: DMat3) -> DMat3 {
+    let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+    let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
+}
+
 impl FilePart {
     /// Moves its positions, normals and the winding of its polygons by a matrix.
     pub(crate) fn place(&mut self, matrix: DMat4) {
@@ -114,12 +121,10 @@ impl FilePart {
             *position = matrix.transform_point3(*position);
         }
         let linear = DMat3::from_mat4(matrix);
-        // The cofactors turn normals as the inverse does, and exist where it does not.
-        let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
-        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         let mirrors = linear.determinant() < 0.0;
+        let of_normals = of_normals(linear);
         for normal in &mut self.normals {
-            *normal = cofactors * *normal * if mirrors { -1.0 } else { 1.0 };
+            *normal = of_normals * *normal;
         }
         for tangent in &mut self.tangents {
             let sign = if mirrors { -tangent.w } else { tangent.w };

@@ -195,7 +195,7 @@ fn is_clear(item: &Item) -> bool {
     // Without a map all of it is as opaque.
     match opacity.map {
         None => opacity.of(DVec2::ZERO) == 0,
-        Some(_) => corners.all(|uvs| opacity.between(uvs) == Drawn::Nothing),
+        Some(_) => corners.all(|uvs| opacity.between(uvs, opacity.farthest()) == Drawn::Nothing),
     }
 }
 

@@ -35,8 +35,7 @@ pub(crate) struct Decoded {
 impl Decoded {
     /// Its opacities, read as the texture is.
     pub(crate) fn opacity(&self) -> Option<Arc<OpacityMap>> {
-        let (filter, wrap) = (self.texture.filter, self.texture.wrap);
-        Some(Arc::new(self.alpha.clone()?.with(filter, wrap)))
+        Some(Arc::new(self.alpha.clone()?.as_read(&self.texture)))
     }
 }
 

@@ -102,6 +102,7 @@ function read(words) {
     const value = typeof state[key] === 'string' ? text : JSON.parse(text);
     if (isLike(state[key], value)) state[key] = value;
   }
+  if (!state.snap && !scene().unsnapped) return word('snapped');
   keepPixel();
   if (!words.has('px') && (wanted || words.has('t')) && state.scene === 'triangle') state.by.some(pointAtWrong);
   return undefined;

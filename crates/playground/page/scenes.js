@@ -1,5 +1,5 @@
 // The scenes: what each asks the engines, how it colours the answer, what it says about a pixel.
-// A scene is {start, ask, panels, look?, tools?, choices?, fields?, breaks?, keeps?, handles?, place?, grips?, values?}.
+// A scene is {start, ask, panels, look?, tools?, choices?, fields?, breaks?, keeps?, handles?, place?, grips?, values?, unsnapped?}.
 
 /** The ranges of values that are dragged: lowest, highest, step. */
 const RANGE_OF_W = [0.25, 8, 0.05];
@@ -59,6 +59,7 @@ const SCENES = {
   triangle: {
     start: { window: [0, 0, 14, 14], triangles: SQUARE, by: ['scanline', 'exclusive-edges'], px: [6, 6], difference: false },
     choices: painters,
+    unsnapped: true,
     ask: () => ask({ ask: 'draw', picture: picture(), by: state.by }),
     keeps: ['difference'],
     panels: (answer) => [...answer.panels.map((panel) => ({

@@ -28,7 +28,7 @@ use serde::Deserialize as _;
 use serde_json::Value;
 
 use crate::cameras::{Camera, Lens};
-use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface};
+use crate::contents::{Contents, FilePart, Numbers, Polygons, Surface, of_normals};
 use crate::text::{self, without_mark};
 use crate::{BadFile, Pose, Warnings, bad};
 use data::Data;
@@ -651,6 +651,8 @@ impl Reader<'_> {
                 // Texture coordinates that no texture is read at change nothing.
                 Some(("TEXCOORD" | "COLOR" | "JOINTS" | "WEIGHTS", _)) => {}
                 _ if ["POSITION", "NORMAL", "TANGENT"].contains(&&**name) => {}
+                // Those of a program, which no other one shows.
+                _ if name.starts_with('_') => {}
                 _ => not_defined = 1,
             }
         }
@@ -742,7 +744,7 @@ impl Reader<'_> {
 
     /// Adds the shapes that are mixed in at rest, and counts the others.
     fn morph(
-        &mut self,
+        &self,
         primitive: &Primitive,
         node: &Node,
         positions: &mut [DVec3],
@@ -754,8 +756,8 @@ impl Reader<'_> {
             |number: usize| weights.and_then(|all| all.get(number)).copied().unwrap_or(0.0);
         for (number, target) in primitive.targets.iter().enumerate() {
             let weight = f64::from(weight(number));
+            // At rest an animation may leave it out.
             if weight == 0.0 {
-                self.count("morph target", 1);
                 continue;
             }
             for (accessor, moved) in
@@ -853,7 +855,7 @@ fn bend(
         }
         positions[at] = matrix.transform_point3(positions[at]);
         if let Some(normal) = normals.get_mut(at) {
-            *normal = DMat3::from_mat4(matrix) * *normal;
+            *normal = of_normals(DMat3::from_mat4(matrix)) * *normal;
         }
     }
     Ok(())

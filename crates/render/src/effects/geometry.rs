@@ -206,7 +206,7 @@ impl<'a> Whole<'a> {
         let corners = positions.map_array(|number| item.vertices[number as usize].place);
         let is_back = item.prepared.is_back(outline.corners);
         let varyings = item.prepared.varyings(self.scene, triangle, is_back);
-        let values = varyings.map_array(|varying| without_place(&varying));
+        let values = [0, 1, 2].map_array(|i: usize| without_place(&varyings(i)));
         Surface { material: &item.material, corners, values }
     }
 

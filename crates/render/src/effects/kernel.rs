@@ -15,7 +15,7 @@ use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{FragmentStage, Way, each, fill, fill_flat};
 use crate::pipeline::fog::{Share, Veil};
-use crate::pipeline::footprint::{Footprint, Reading};
+use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
 use crate::pipeline::physical::{Lights, Map, Parts, Physical, Point};
@@ -111,7 +111,7 @@ pub(super) struct Kernel<'a> {
     shine: [u8; 3],
     /// Where each fragment has its own share of fog.
     veil: Option<&'a Veil>,
-    /// Where the texture is read at levels of detail or several times; the veil gives w, which is 1 where there is none.
+    /// Where textures are read at levels of detail or several times; the veil gives w, which is 1 where there is none.
     reading: Option<(Reading, Option<&'a Veil>)>,
     /// How often the texture was read where it may be read several times.
     taps: Cell<u64>,
@@ -136,7 +136,7 @@ struct Coat<'a> {
     parts: Parts,
     punctual: &'a [PunctualLight],
     /// The maps that are read in each fragment.
-    maps: [Option<(&'a Texture, Option<Reading>)>; Map::ALL.len()],
+    maps: [Option<&'a Texture>; Map::ALL.len()],
     /// The texels of maps that have one colour where the piece reads them.
     texels: [DVec3; Map::ALL.len()],
     eye: DVec4,
@@ -158,20 +158,10 @@ impl<'a> Coat<'a> {
         let [emission, reflection, occlusion, bumps] =
             [plan.emission, plan.reflection, plan.occlusion, plan.normal_maps];
         let (mut maps, mut texels) = ([None; Map::ALL.len()], Map::ALL.map(Map::missing));
-        // Mostly all textures have one size.
-        let mut known: Option<((u32, u32), Footprint)> = None;
         for (map, is_read) in Map::ALL.into_iter().zip([emission, reflection, occlusion, bumps]) {
             let Some(texture) = surface.map(map).filter(|_| is_read) else { continue };
             if plan.interpolates.has(Attributes::UV) {
-                let reading = plan.reads_around().then(|| {
-                    let known = known.filter(|(size, _)| *size == texture.size());
-                    reading(texture, plan, || match known {
-                        Some((_, footprint)) => footprint,
-                        None => footprint(texture, piece, plan.perspective).0,
-                    })
-                });
-                known = reading.map(|reading| (texture.size(), reading.footprint));
-                maps[map as usize] = Some((texture, reading));
+                maps[map as usize] = Some(texture);
             } else if item.carries.has(Attributes::UV) {
                 counters.texels += 1;
                 texels[map as usize] = texture.at(first.uv);
@@ -180,15 +170,6 @@ impl<'a> Coat<'a> {
         let parts = Parts { emission, reflection, occlusion, bumps };
         let punctual = if plan.punctual { item.punctual } else { &[] };
         Self { surface, parts, punctual, maps, texels, eye: item.eye, world, tangent }
-    }
-}
-
-/// How a texture is read around fragments.
-fn reading(texture: &Texture, plan: PiecePlan, footprint: impl FnOnce() -> Footprint) -> Reading {
-    Reading {
-        footprint: footprint(),
-        at_levels: plan.mip_maps,
-        most: if plan.anisotropy { texture.anisotropy } else { 1 },
     }
 }
 
@@ -239,8 +220,9 @@ impl<'a> Kernel<'a> {
             (item.texture, plan.reads_around() && plan.interpolates.has(Attributes::UV))
         {
             let veil = (!is_affine(piece, plan.perspective)).then_some(&item.veil);
-            let own = || footprint(texture, piece, plan.perspective).0;
-            kernel.reading = Some((reading(texture, plan, own), veil));
+            let (footprint, ..) = footprint(texture, piece, plan.perspective);
+            let (at_levels, is_anisotropic) = (plan.mip_maps, plan.anisotropy);
+            kernel.reading = Some((Reading { footprint, at_levels, is_anisotropic }, veil));
         }
         if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
             counters.texels += 1;
@@ -368,17 +350,21 @@ impl<'a> Kernel<'a> {
             .unwrap_or_else(|| opacity.of(Surface::from(piece.vertices[0].varying).uv));
         let has_uv = interpolates.has(Attributes::UV);
         let last = self.last.is_some().then(|| RefCell::new(FourTexels::NONE));
-        let of = |values: &[f64]| {
+        let of = |values: &[f64], depth: f64| {
             let uv = DVec2::from_slice(&values[self.start(Attributes::UV)..]);
-            match &last {
-                Some(last) => opacity.of_again(uv, &mut last.borrow_mut()),
-                None => opacity.of(uv),
+            match (&self.reading, opacity.levels(), &last) {
+                (Some((reading, veil)), Some(texture), _) => {
+                    let w = veil.map_or(1.0, |veil| veil.w(depth));
+                    opacity.of_texel(reading.texel(texture, uv, w).0.x)
+                }
+                (.., Some(last)) => opacity.of_again(uv, &mut last.borrow_mut()),
+                _ => opacity.of(uv),
             }
         };
         let look = Look {
             constant: interpolates.is_empty().then_some(Packed([0.0; N])),
             is_kept: layers,
-            opacity: &|varying| if has_uv { of(&varying.0) } else { of_first },
+            opacity: &|varying, depth| if has_uv { of(&varying.0, depth) } else { of_first },
             colour: &|varying, depth| self.shade_all(&varying.0, depth),
         };
         let way = Way { affine: !perspective, depth_test: depth };
@@ -513,13 +499,17 @@ impl<'a> Kernel<'a> {
                 coat.tangent
             };
             let mut texels = coat.texels;
-            for (texel, (map, reading)) in
+            for (texel, map) in
                 texels.iter_mut().zip(&coat.maps).filter_map(|(texel, map)| Some((texel, (*map)?)))
             {
                 let uv = DVec2::from_slice(&values[self.start(Attributes::UV)..]);
-                let veil = self.reading.and_then(|(_, veil)| veil);
-                let w = veil.map_or(1.0, |veil| veil.w(depth));
-                *texel = reading.map_or_else(|| map.at(uv), |reading| reading.texel(map, uv, w).0);
+                *texel = match self.reading {
+                    None => map.at(uv),
+                    Some((reading, veil)) => {
+                        let w = veil.map_or(1.0, |veil| veil.w(depth));
+                        reading.texel(map, uv, w).0
+                    }
+                };
             }
             let to_eye = coat.eye.truncate() - world * coat.eye.w;
             let base = colour * texel;

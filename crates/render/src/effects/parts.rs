@@ -20,8 +20,8 @@
 use glam::{DVec2, DVec3};
 
 use super::Mode;
-use super::conditions::mip_maps::{footprint, is_affine, is_near};
-use super::conditions::{interpolation, samples_of};
+use super::conditions::mip_maps::{MOST_TEXELS, footprint, is_affine, is_near};
+use super::conditions::samples_of;
 use super::plan::{Attributes, Parts, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w, pixel_box};
 use crate::pipeline::fog::Share;
@@ -399,7 +399,7 @@ impl<'a> Whole<'a> {
         if !plan.replaces_all()
             && let Some(opacity) = opacity
         {
-            let drawn = opacity.between(square.uv);
+            let drawn = opacity.between(square.uv, opacity.farthest());
             for (mode, own) in
                 [(rule.alpha_test, &mut plan.alpha_test), (rule.blending, &mut plan.blending)]
             {
@@ -509,7 +509,7 @@ impl<'a> Whole<'a> {
             }
         }
         if [rule.mip_maps, rule.anisotropy].contains(&Mode::Always)
-            || (plan.reads_around() && !(self.is_exact && longest < interpolation::MOST_TEXELS))
+            || (plan.reads_around() && !(self.is_exact && longest < MOST_TEXELS))
         {
             return;
         }

@@ -189,7 +189,12 @@ impl<'a> Prepared<'a> {
     /// The vertex stage of the corners of a triangle: all but their positions. What the material has no use for is not read.
     /// The normals of a back are reversed.
     #[inline]
-    pub fn varyings(&self, scene: &Scene, triangle: usize, is_back: bool) -> [Packed<PLACED>; 3] {
+    pub fn varyings(
+        &self,
+        scene: &Scene,
+        triangle: usize,
+        is_back: bool,
+    ) -> impl Fn(usize) -> Packed<PLACED> + use<'_> {
         let (material, mesh) = (&self.item.material, &self.item.mesh);
         let (triangles, positions) = (&mesh.triangles, mesh.triangles.positions()[triangle]);
         let mut colours =
@@ -211,7 +216,7 @@ impl<'a> Prepared<'a> {
         }
         let has_uv = material.textures().next().is_some() || material.has_opacity_map();
         let uvs = if has_uv { triangles.uvs(triangle) } else { [DVec2::ZERO; 3] };
-        [0, 1, 2].map_array(|i: usize| {
+        move |i: usize| {
             let view = self.light_view.as_ref();
             let place = view.map_or(DVec3::ZERO, |view| view.place(self.index, positions[i]));
             let (mut world, mut tangent) = (DVec3::ZERO, DVec4::ZERO);
@@ -229,7 +234,7 @@ impl<'a> Prepared<'a> {
             }
             Surface { colour: colours[i], normal: normals[i], uv: uvs[i], place, world, tangent }
                 .into()
-        })
+        }
     }
 
     /// Whether a piece in the window is lit as a back.
@@ -244,7 +249,7 @@ impl<'a> Prepared<'a> {
         let point = |number: u32| self.point(number as usize, mesh.positions[number as usize]);
         let [Ok(a), Ok(b), Ok(c)] = mesh.triangles.positions()[triangle].map(point) else { return };
         let varyings = |is_back| self.varyings(scene, triangle, is_back);
-        self.assembler.assemble([&a, &b, &c], varyings, &mut Counters::default(), emit);
+        self.assembler.assemble_each([&a, &b, &c], varyings, &mut Counters::default(), emit);
     }
 
     /// Emits the pieces of every triangle.
@@ -259,7 +264,7 @@ impl<'a> Prepared<'a> {
             let points = positions.map_array(|number| &self.points[number as usize]);
             let varyings = |is_back| self.varyings(scene, triangle, is_back);
             let emit = |piece: &Piece| emit(piece, &mut fills);
-            self.assembler.assemble(points, varyings, counters, emit);
+            self.assembler.assemble_each(points, varyings, counters, emit);
         }
         *counters += fills;
     }

@@ -221,6 +221,21 @@ impl Assembler {
         triangle: [&ClipPoint; 3],
         varyings: impl Fn(bool) -> [V; 3],
         counters: &mut Counters,
+        emit: impl FnMut(&ScreenTriangle<V>),
+    ) {
+        let each = |is_back| {
+            let varyings = varyings(is_back);
+            move |corner: usize| varyings[corner]
+        };
+        self.assemble_each(triangle, each, counters, emit);
+    }
+
+    /// The same of varyings that are given corner by corner: large ones are written to their place.
+    pub(crate) fn assemble_each<V: Varying, F: Fn(usize) -> V>(
+        &self,
+        triangle: [&ClipPoint; 3],
+        varyings: impl Fn(bool) -> F,
+        counters: &mut Counters,
         mut emit: impl FnMut(&ScreenTriangle<V>),
     ) {
         counters.triangles += 1;
@@ -236,18 +251,19 @@ impl Assembler {
             let (Some(a), Some(b), Some(c)) = (a.place, b.place, c.place) else { return };
             let corners = [a.position, b.position, c.position];
             if self.keeps(corners, counters) {
-                let [of_a, of_b, of_c] = varyings(self.is_back(corners));
-                let vertices = [a.with_varying(of_a), b.with_varying(of_b), c.with_varying(of_c)];
+                let of = varyings(self.is_back(corners));
+                let vertices =
+                    [a.with_varying(of(0)), b.with_varying(of(1)), c.with_varying(of(2))];
                 emit(&ScreenTriangle { vertices });
             }
             return;
         }
         counters.clipped += u64::from(crossed != 0);
         let cut = |is_back: bool| {
-            let [of_a, of_b, of_c] = varyings(is_back);
+            let of = varyings(is_back);
             let vertex =
                 |point: &ClipPoint, varying| ClipVertex { position: point.position, varying };
-            clip::clip(&[vertex(a, of_a), vertex(b, of_b), vertex(c, of_c)], planes)
+            clip::clip(&[vertex(a, of(0)), vertex(b, of(1)), vertex(c, of(2))], planes)
         };
         let (polygon, tests): (Polygon<V>, u64) = cut(false);
         counters.plane_tests += tests;

@@ -214,21 +214,23 @@ pub struct Reading {
     pub footprint: Footprint,
     /// Whether at levels of detail; else at level 0.
     pub at_levels: bool,
-    /// The largest number of reads for one fragment.
-    pub most: u8,
+    /// Whether as often as the texture says; else once.
+    pub is_anisotropic: bool,
 }
 
 impl Reading {
     /// What is read where w and (u, v) are these, and how often the texture is read for it.
     #[must_use]
     pub fn texel(&self, texture: &Texture, uv: DVec2, w: f64) -> (DVec3, u8) {
+        let size = DVec2::new(texture.size().0.into(), texture.size().1.into());
+        let footprint = Footprint { size, ..self.footprint };
         let read = |uv: DVec2, level: f64| {
             if self.at_levels { texture.at_level(uv, level) } else { texture.at(uv) }
         };
-        if self.most <= 1 {
-            return (read(uv, self.footprint.level(uv, w)), 1);
+        if !self.is_anisotropic || texture.anisotropy <= 1 {
+            return (read(uv, footprint.level(uv, w)), 1);
         }
-        let Taps { count, along, level } = self.footprint.taps(uv, w, self.most);
+        let Taps { count, along, level } = footprint.taps(uv, w, texture.anisotropy);
         if count == 1 {
             return (read(uv, level), 1);
         }
@@ -427,7 +429,9 @@ mod tests {
         assert_eq!(taps(2), Taps { count: 2, along, level: 1.0 });
         assert_eq!(taps(1), Taps { count: 1, along, level: footprint.level(point, 1.0) });
         let read = |most: u8, at_levels: bool| {
-            let (texel, count) = Reading { footprint, at_levels, most }.texel(&texture, point, 1.0);
+            let texture = texture.clone().with_anisotropy(most);
+            let reading = Reading { footprint, at_levels, is_anisotropic: true };
+            let (texel, count) = reading.texel(&texture, point, 1.0);
             (texel.x * 255.0, count)
         };
         // At 30.1 - 1.2, - 0.4, + 0.4 and + 1.2 rows, the four rows 28, 29, 30 and 31.
@@ -448,16 +452,16 @@ mod tests {
     fn round_footprints_keep_their_bits() {
         let mut rng = Rng::new("footprint", 4, 0);
         let numbers: Vec<[u8; 3]> = (0..=255).map(|i| [i, 255 - i, i / 2]).collect();
-        let texture = Texture::new(16, 16, &numbers).unwrap().with_mip_map();
+        let texture = Texture::new(16, 16, &numbers).unwrap().with_mip_map().with_anisotropy(16);
         let mut seen = [0; 2];
         for index in 0..2000 {
             let (corners, inv_w, uv) =
                 if index % 2 == 0 { triangle(&mut rng) } else { minified(&mut rng) };
             let footprint = Footprint::new(corners, inv_w, uv, (16, 16));
             let (w, uv) = at([0.3, 0.3, 0.4], inv_w, uv);
-            let reading = |most: u8| Reading { footprint, at_levels: true, most };
-            let [(plain, _), (texel, count)] =
-                [1, 16].map_array(|most: u8| reading(most).texel(&texture, uv, w));
+            let [(plain, _), (texel, count)] = [false, true].map_array(|is_anisotropic: bool| {
+                Reading { footprint, at_levels: true, is_anisotropic }.texel(&texture, uv, w)
+            });
             seen[usize::from(count == 1)] += 1;
             assert!(count > 1 || texel == plain);
         }
@@ -465,7 +469,7 @@ mod tests {
         for odd in [f64::NAN, f64::INFINITY] {
             let (corners, inv_w, uv) = triangle(&mut rng);
             let footprint = Footprint::new(corners, inv_w, uv, (16, 16));
-            let reading = Reading { footprint, at_levels: true, most: 16 };
+            let reading = Reading { footprint, at_levels: true, is_anisotropic: true };
             assert!(reading.texel(&texture, DVec2::splat(odd), 1.0).0.is_finite());
             assert!(!footprint.is_round([1.0; 3], [DVec2::splat(odd); 3]));
         }

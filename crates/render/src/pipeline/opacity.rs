@@ -1,8 +1,8 @@
 //! Opacity: how much a fragment covers of what is behind it, in whole steps of 255.
 //!
 //! The opacity of a fragment is a factor of its material, times what a map has at the texture coordinates, rounded to a
-//! step. The map is read at its full size, whatever level of detail the colours are read at. The alpha test makes
-//! of it all or nothing: a fragment is drawn as any other if its opacity reaches the threshold, and else it
+//! step. The map is read at its full size, but at the level of detail of the colours where it has a mip map, as the fourth channel
+//! of a texture of glTF does. The alpha test makes of it all or nothing: a fragment is drawn as any other if its opacity reaches the threshold, and else it
 //! leaves neither colour nor depth. Of several samples a pixel each is tested by itself.
 //!
 //! Blending mixes the colour of a fragment with what was drawn before ([`over`]), light, highlight and fog included. A
@@ -19,6 +19,7 @@ use super::depth::OFF_FRACTION;
 use super::sample::Colour;
 use super::texture::{Filter, FourTexels, Texture, Wrap};
 use super::wrap::within;
+use rasterproof_core::arrays::MapArray as _;
 
 /// How opaque a material is, and what that decides.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -76,8 +77,7 @@ impl Opacity {
     /// The same as [`Self::of`], with the four texels of the last read.
     #[must_use]
     pub fn of_again(&self, uv: DVec2, last: &mut FourTexels) -> u8 {
-        let texel = self.map.as_ref().map_or(1.0, |map| map.texture.at_again(uv, last).x);
-        self.mode.of(step(self.factor * texel) as u8)
+        self.of_texel(self.map.as_ref().map_or(1.0, |map| map.texture.at_again(uv, last).x))
     }
 
     /// How opaque a fragment with these texture coordinates is.
@@ -86,14 +86,33 @@ impl Opacity {
         self.mode.of(self.read(uv))
     }
 
-    /// What is drawn of a triangle with these texture coordinates at its corners.
+    /// The same of what a mip map has there, in [0, 1].
+    #[must_use]
+    pub fn of_texel(&self, texel: f64) -> u8 {
+        self.mode.of(step(self.factor * texel) as u8)
+    }
+
+    /// The texture whose levels are read; nothing of a map without levels.
+    #[must_use]
+    pub fn levels(&self) -> Option<&Texture> {
+        self.map.as_ref().map(|map| &map.texture).filter(|texture| texture.has_mip_map())
+    }
+
+    /// How far beside a point and up to which level it may be read at most.
+    #[must_use]
+    pub fn farthest(&self) -> [f64; 2] {
+        [if self.levels().is_some() { f64::INFINITY } else { 0.0 }; 2]
+    }
+
+    /// What is drawn of a triangle with these texture coordinates at its corners, where it is read up to so many texels beside
+    /// a point, and up to such a level.
     ///
     /// Those of a fragment lie between, so what is read lies in the interval of the texels that
     /// [`OpacityMap::between`] finds. Product and rounding grow with the texel, and so does what becomes of an
     /// opacity: one at either end decides about all. The margin covers the roundings of a bilinear mean.
     #[must_use]
-    pub fn between(&self, uv: [DVec2; 3]) -> Drawn {
-        let [least, most] = self.map.as_ref().map_or([u8::MAX; 2], |map| map.between(uv));
+    pub fn between(&self, uv: [DVec2; 3], around: [f64; 2]) -> Drawn {
+        let [least, most] = self.map.as_ref().map_or([u8::MAX; 2], |map| map.between(uv, around));
         let read = |texel: u8, margin: f64| {
             self.mode.of((step(self.factor * f64::from(texel) / 255.0) + margin) as u8)
         };
@@ -109,7 +128,7 @@ impl Opacity {
     #[must_use]
     pub fn is_one_between(&self, uv: [DVec2; 3]) -> bool {
         self.map.as_ref().is_none_or(|map| {
-            let [least, most] = map.between(uv);
+            let [least, most] = map.between(uv, self.farthest());
             least == most
         })
     }
@@ -136,6 +155,8 @@ pub struct OpacityMap {
     blocks: Arc<[[u8; 2]]>,
     /// The least and the largest opacity of all texels.
     whole: [u8; 2],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    levels: Vec<OpacityMap>,
 }
 
 const BLOCK: usize = 8;
@@ -160,13 +181,21 @@ impl OpacityMap {
             }
         }
         let whole = blocks.iter().fold(none, |whole, block| join(whole, *block));
-        Self { texture, blocks: blocks.into(), whole }
+        Self { texture, blocks: blocks.into(), whole, levels: Vec::new() }
     }
 
     /// The same, read differently.
     #[must_use]
     pub fn with(self, filter: Filter, wrap: impl Into<[Wrap; 2]>) -> Self {
         Self { texture: self.texture.with(filter, wrap), ..self }
+    }
+
+    /// The same, filtered between texels and read at levels as a texture is.
+    #[must_use]
+    pub fn as_read(self, like: &Texture) -> Self {
+        let texture = self.texture.as_read(like);
+        let levels = texture.levels().iter().map(|level| Self::new(level.clone())).collect();
+        Self { texture, levels, ..self }
     }
 
     /// The least and the largest of each block, row by row.
@@ -182,11 +211,30 @@ impl OpacityMap {
     }
 
     /// The least and the largest texel of the blocks that a triangle with these texture coordinates at its corners
-    /// reads in, and of the whole picture where these are more than 256.
+    /// reads in, up to so many texels beside a point and up to such a level, and of the whole picture where these are more than 256.
     #[must_use]
-    pub fn between(&self, uv: [DVec2; 3]) -> [u8; 2] {
+    pub fn between(&self, uv: [DVec2; 3], [reach, level]: [f64; 2]) -> [u8; 2] {
+        let levels = (level.ceil() as usize).min(self.levels.len());
+        let mut found = self.own_between(uv, reach);
+        for (i, map) in self.levels[..levels].iter().enumerate() {
+            let [least, most] = map.own_between(uv, reach / f64::from(2u32 << i.min(30)));
+            found = [found[0].min(least), found[1].max(most)];
+        }
+        found
+    }
+
+    /// The same of this level alone.
+    fn own_between(&self, uv: [DVec2; 3], reach: f64) -> [u8; 2] {
+        if reach > f64::from(u16::MAX) {
+            return self.whole;
+        }
         let (width, height) = self.texture.size();
-        let [columns, rows] = self.texture.texels_between(uv);
+        // The coordinate of a tap is rounded too, by far less than a texel.
+        let reach = if reach > 0.0 { reach.ceil() as i64 + 1 } else { 0 };
+        let [columns, rows] = self
+            .texture
+            .texels_between(uv)
+            .map_array(|[first, last]| [first - reach, last + reach]);
         let [across_u, along_v] = self.texture.wrap;
         let columns = blocks(across_u, columns, width.into());
         let rows = blocks(along_v, rows, height.into());
@@ -220,11 +268,11 @@ fn blocks(wrap: Wrap, ends: [i64; 2], side: i64) -> [Range<usize>; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasterproof_core::arrays::MapArray as _;
     use rasterproof_verify::cases::Rng;
 
-    /// A picture of mostly opaque and mostly clear parts with a speck here and there, and a triangle in it.
-    fn case(index: u64, is_blended: bool) -> (Opacity, [DVec2; 3]) {
+    /// A picture of mostly opaque and mostly clear parts with a speck here and there, a triangle in it, and how far around its
+    /// fragments and up to which level it is read.
+    fn case(index: u64, is_blended: bool) -> (Opacity, [DVec2; 3], [f64; 2]) {
         let mut rng = Rng::new("opacity", 1, index);
         let (width, height) = (rng.int(1, 70) as u32, rng.int(1, 70) as u32);
         let mut texels = Vec::new();
@@ -239,36 +287,56 @@ mod tests {
         let wrap =
             [0; 2].map(|_| [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][rng.int(0, 2) as usize]);
         let texture = Texture::grey(width, height, texels).unwrap().with(filter, wrap);
-        let map = Some(Arc::new(OpacityMap::new(texture)));
+        let map = OpacityMap::new(texture);
         let factor = if rng.chance(4) { rng.unit() } else { 1.0 };
         let threshold = [0.25, 0.5, 1.0][rng.int(0, 2) as usize];
         let mode = if is_blended { AlphaMode::Blend } else { AlphaMode::Test { threshold } };
         let from = DVec2::new(rng.signed(), rng.signed()) * 3.0;
         let size = rng.unit().powi(2);
         let uv = [0; 3].map_array(|_| from + DVec2::new(rng.signed(), rng.signed()) * size);
-        (Opacity { factor, map, mode }, uv)
+        let around = [0; 2].map_array(|_| if rng.chance(2) { 3.0 * rng.unit() } else { 0.0 });
+        let like = map.texture.clone();
+        let map = if rng.chance(2) { map.as_read(&like.with_mip_map()) } else { map };
+        (Opacity { factor, map: Some(Arc::new(map)), mode }, uv, around)
     }
 
-    type Condition = fn(&Opacity, [DVec2; 3]) -> Drawn;
+    type Condition = fn(&Opacity, [DVec2; 3], [f64; 2]) -> Drawn;
+
+    /// The opacities of fragments all over a triangle: at their places, and beside them at other levels.
+    fn fragments(
+        opacity: &Opacity,
+        [a, b, c]: [DVec2; 3],
+        [reach, level]: [f64; 2],
+        see: &mut dyn FnMut(DVec2, u8) -> bool,
+    ) -> bool {
+        let texture = &opacity.map.as_ref().unwrap().texture;
+        let size = DVec2::new(texture.size().0.into(), texture.size().1.into());
+        let steps = (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
+        let mut points = steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0));
+        points.any(|uv| {
+            let turn = DVec2::from_angle(uv.x * 1e3);
+            let share = (uv.y * 1e3).fract().abs();
+            let share = if share > 0.5 { 1.0 } else { share };
+            let texel = texture.at_level(uv + turn * reach / size, level * share).x;
+            see(uv, opacity.of(uv)) || see(uv, opacity.of_texel(texel))
+        })
+    }
 
     /// How many of random triangles a condition calls opaque or empty, and for how many of these a
     /// fragment says otherwise.
     fn tried(condition: Condition, is_blended: bool) -> [u32; 2] {
         let mut counts = [0; 2];
         for index in 0..3000 {
-            let (opacity, uv) = case(index, is_blended);
-            let drawn = condition(&opacity, uv);
+            let (opacity, uv, around) = case(index, is_blended);
+            let drawn = condition(&opacity, uv, around);
             let wanted = match drawn {
                 Drawn::Mixed => continue,
                 Drawn::All => OPAQUE,
                 Drawn::Nothing => 0,
             };
-            let [a, b, c] = uv;
-            let steps =
-                (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
-            let mut fragments = steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0));
             counts[0] += 1;
-            counts[1] += u32::from(fragments.any(|uv| opacity.of(uv) != wanted));
+            let is_wrong = fragments(&opacity, uv, around, &mut |_, found| found != wanted);
+            counts[1] += u32::from(is_wrong);
         }
         counts
     }
@@ -292,12 +360,13 @@ mod tests {
         }
         // Wrong ones: by the material alone (an alpha test that is wrongly left out), by the corners, by the middle,
         // by the texels that hold the points without those that a filter reads beside them, left out where any
-        // texel is clear (boxes of text vanish), and opaque where any is (what should be seen through it is covered).
+        // texel is clear (boxes of text vanish), opaque where any is (what should be seen through it is covered), by the first
+        // level, by lower levels, and without what taps read beside a fragment.
         let material: Condition =
-            |opacity, uv| Opacity { map: None, ..opacity.clone() }.between(uv);
-        let corners: Condition = |opacity, uv| of_points(opacity, &uv);
-        let middle: Condition = |opacity, [a, b, c]| of_points(opacity, &[(a + b + c) / 3.0]);
-        let unfiltered: Condition = |opacity, uv| {
+            |opacity, uv, around| Opacity { map: None, ..opacity.clone() }.between(uv, around);
+        let corners: Condition = |opacity, uv, _| of_points(opacity, &uv);
+        let middle: Condition = |opacity, [a, b, c], _| of_points(opacity, &[(a + b + c) / 3.0]);
+        let unfiltered: Condition = |opacity, uv, _| {
             let map = opacity.map.as_ref().unwrap();
             let nearest = map.texture.clone().with(Filter::Nearest, map.texture.wrap);
             let steps =
@@ -308,22 +377,26 @@ mod tests {
             let map = Some(Arc::new(OpacityMap::new(nearest)));
             of_points(&Opacity { map, ..opacity.clone() }, &points)
         };
-        let any: Condition = |opacity, uv| {
-            let [least, _] = opacity.map.as_ref().unwrap().between(uv);
-            if least == 0 { Drawn::Nothing } else { opacity.between(uv) }
+        let any: Condition = |opacity, uv, around| {
+            let [least, _] = opacity.map.as_ref().unwrap().between(uv, around);
+            if least == 0 { Drawn::Nothing } else { opacity.between(uv, around) }
         };
-        let one: Condition = |opacity, uv| {
-            let [_, most] = opacity.map.as_ref().unwrap().between(uv);
-            if most == OPAQUE { Drawn::All } else { opacity.between(uv) }
+        let one: Condition = |opacity, uv, around| {
+            let [_, most] = opacity.map.as_ref().unwrap().between(uv, around);
+            if most == OPAQUE { Drawn::All } else { opacity.between(uv, around) }
         };
-        for (number, condition) in
-            [material, corners, middle, unfiltered, any, one].into_iter().enumerate()
-        {
+        let first_level: Condition = |opacity, uv, [reach, _]| opacity.between(uv, [reach, 0.0]);
+        let below: Condition =
+            |opacity, uv, [reach, level]| opacity.between(uv, [reach, level.floor()]);
+        let unmoved: Condition = |opacity, uv, [_, level]| opacity.between(uv, [0.0, level]);
+        let wrong = [material, corners, middle, unfiltered, any, one, first_level, unmoved];
+        for (number, condition) in wrong.into_iter().enumerate() {
             for is_blended in [false, true] {
                 let wrong = tried(condition, is_blended)[1];
                 assert!(wrong > 0, "wrong condition {number} survives, blended {is_blended}");
             }
         }
+        assert!(tried(below, true)[1] > 0, "a level too few survives");
     }
 
     /// Every pair of channels at every opacity, against the definition in doubles, whose error is far from a half.
@@ -356,11 +429,11 @@ mod tests {
         // A last bit of single precision above 127 steps.
         let single = f64::from((127.0f32 / 255.0).next_up());
         assert_eq!(opacity(single).of(left), OPAQUE);
-        assert_eq!(opacity(0.0).between([left; 3]), Drawn::All);
-        assert_eq!(opacity(1.5).between([right; 3]), Drawn::Nothing);
-        assert_eq!(opacity(0.5).between([left, right, left]), Drawn::Mixed);
+        assert_eq!(opacity(0.0).between([left; 3], [0.0; 2]), Drawn::All);
+        assert_eq!(opacity(1.5).between([right; 3], [0.0; 2]), Drawn::Nothing);
+        assert_eq!(opacity(0.5).between([left, right, left], [0.0; 2]), Drawn::Mixed);
         let far = DVec2::new(f64::INFINITY, f64::NAN);
-        assert_eq!(opacity(0.5).between([left, right, far]), Drawn::Mixed);
+        assert_eq!(opacity(0.5).between([left, right, far], [0.0; 2]), Drawn::Mixed);
         let half = Opacity { factor: 0.5, map: None, ..opacity(0.5) };
         assert_eq!((half.read(left), half.of(left)), (128, OPAQUE));
     }
@@ -369,17 +442,13 @@ mod tests {
     fn of_one(condition: fn(&Opacity, [DVec2; 3]) -> bool) -> [u32; 2] {
         let mut counts = [0; 2];
         for index in 0..3000 {
-            let (opacity, uv) = case(index, true);
+            let (opacity, uv, around) = case(index, true);
+            let around = if opacity.levels().is_some() { around } else { [0.0; 2] };
             if condition(&opacity, uv) {
-                let [a, b, c] = uv;
-                let steps =
-                    (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
-                let mut fragments =
-                    steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0));
                 let mut last = FourTexels::NONE;
-                let is_other = fragments.any(|uv| {
-                    assert_eq!(opacity.of_again(uv, &mut last), opacity.of(uv));
-                    opacity.of(uv) != opacity.of(a)
+                let is_other = fragments(&opacity, uv, around, &mut |at, found| {
+                    assert_eq!(opacity.of_again(at, &mut last), opacity.of(at));
+                    found != opacity.of(uv[0])
                 });
                 counts[0] += 1;
                 counts[1] += u32::from(is_other);
@@ -396,7 +465,10 @@ mod tests {
             opacity.of(a) == opacity.of(b) && opacity.of(b) == opacity.of(c)
         };
         let one_end = |opacity: &Opacity, uv: [DVec2; 3]| {
-            opacity.map.as_ref().is_some_and(|map| map.between(uv)[1] == u8::MAX)
+            opacity
+                .map
+                .as_ref()
+                .is_some_and(|map| map.between(uv, opacity.farthest())[1] == u8::MAX)
         };
         for (number, condition) in [corners, one_end].into_iter().enumerate() {
             assert!(of_one(condition)[1] > 0, "wrong condition {number} survives");

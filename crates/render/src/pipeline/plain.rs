@@ -26,12 +26,12 @@ struct Blocks {
 
 impl PlainBlocks {
     /// The one colour of all texels in these columns and rows, of a texture with so many of them.
-    pub fn colour(
+    pub fn colour<T: Copy + PartialEq + Into<u32>>(
         &self,
         [width, height]: [usize; 2],
         columns: &[Option<RangeInclusive<usize>>; 2],
         rows: &[Option<RangeInclusive<usize>>; 2],
-        texel: impl Fn(usize) -> u32,
+        texels: &[T],
     ) -> Option<u32> {
         let across = width.div_ceil(BLOCK);
         let mut looked_at = 0;
@@ -39,7 +39,8 @@ impl PlainBlocks {
         for (rows, columns) in
             rows.iter().flatten().flat_map(|r| columns.iter().flatten().map(move |c| (r, c)))
         {
-            let first = texel(rows.start() * width + columns.start());
+            let own = texels[rows.start() * width + columns.start()];
+            let first = own.into();
             if *found.get_or_insert(first) != first {
                 return None;
             }
@@ -49,7 +50,7 @@ impl PlainBlocks {
                     if looked_at > MOST_BLOCKS {
                         return None;
                     }
-                    match self.blocks([width, height], &texel).colours[row * across + column] {
+                    match self.blocks([width, height], texels).colours[row * across + column] {
                         Some(colour) if colour == first => {}
                         Some(_) => return None,
                         None => {
@@ -59,7 +60,8 @@ impl PlainBlocks {
                             };
                             let (rows, columns) = (part(rows, row), part(columns, column));
                             for y in rows {
-                                if columns.clone().any(|x| texel(y * width + x) != first) {
+                                let line = &texels[y * width..][columns.clone()];
+                                if !all_are(own, line) {
                                     return None;
                                 }
                             }
@@ -72,29 +74,40 @@ impl PlainBlocks {
     }
 
     /// The part of the blocks that has one colour, from 0 to 1, of a texture with so many columns and rows.
-    pub fn part(&self, sides: [usize; 2], texel: impl Fn(usize) -> u32) -> f64 {
-        self.blocks(sides, &texel).plain
+    pub fn part<T: Copy + PartialEq + Into<u32>>(&self, sides: [usize; 2], texels: &[T]) -> f64 {
+        self.blocks(sides, texels).plain
     }
 
-    fn blocks(&self, sides: [usize; 2], texel: &impl Fn(usize) -> u32) -> &Blocks {
+    fn blocks<T: Copy + PartialEq + Into<u32>>(&self, sides: [usize; 2], texels: &[T]) -> &Blocks {
         self.0.get_or_init(|| {
-            let colours = colours(sides, texel);
+            let colours = colours(sides, texels);
             let plain = colours.iter().flatten().count() as f64 / colours.len() as f64;
             Blocks { colours, plain }
         })
     }
 }
 
-fn colours([width, height]: [usize; 2], texel: &impl Fn(usize) -> u32) -> Vec<Option<u32>> {
-    let sides = [width, height].map(|side| side.div_ceil(BLOCK));
-    let block = |column: usize, row: usize| {
-        let first = texel(row * BLOCK * width + column * BLOCK);
-        let columns = column * BLOCK..(column * BLOCK + BLOCK).min(width);
-        let mut rows = row * BLOCK..(row * BLOCK + BLOCK).min(height);
-        let is_plain = rows.all(|y| columns.clone().all(|x| texel(y * width + x) == first));
-        is_plain.then_some(first)
-    };
-    (0..sides[1]).flat_map(|row| (0..sides[0]).map(move |column| block(column, row))).collect()
+/// Without a jump for each texel.
+#[inline]
+fn all_are<T: Copy + PartialEq>(texel: T, line: &[T]) -> bool {
+    line.iter().fold(true, |same, other| same & (*other == texel))
+}
+
+fn colours<T: Copy + PartialEq + Into<u32>>(
+    [width, height]: [usize; 2],
+    texels: &[T],
+) -> Vec<Option<u32>> {
+    let across = width.div_ceil(BLOCK);
+    let mut colours = Vec::with_capacity(across * height.div_ceil(BLOCK));
+    for rows in texels.chunks(BLOCK * width) {
+        for column in 0..across {
+            let columns = column * BLOCK..(column * BLOCK + BLOCK).min(width);
+            let first = rows[columns.start];
+            let is_plain = rows.chunks(width).all(|line| all_are(first, &line[columns.clone()]));
+            colours.push(is_plain.then(|| first.into()));
+        }
+    }
+    colours
 }
 
 #[cfg(test)]

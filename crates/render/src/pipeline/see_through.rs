@@ -18,8 +18,8 @@ pub struct Look<'a, const N: usize> {
     pub constant: Option<Attributes<N>>,
     /// Whether what is mixed waits, to be mixed in the order of depths.
     pub is_kept: bool,
-    /// The opacity of a fragment with these attributes, where 255 is opaque.
-    pub opacity: &'a dyn Fn(&Attributes<N>) -> u8,
+    /// The opacity of a fragment with these attributes at this depth, where 255 is opaque.
+    pub opacity: &'a dyn Fn(&Attributes<N>, f64) -> u8,
     /// The colour of a fragment with these attributes at this depth.
     pub colour: &'a dyn Fn(&Attributes<N>, f64) -> Colour,
 }
@@ -72,11 +72,11 @@ fn draw_run<const N: usize>(
     let colours = plane.colour.span_mut(y_px, x0_px, x1_px);
     let wanted = nearer(format, way, run.depths, stored);
     look.each(run.values, wanted, &mut |i, varying| {
-        let opacity = (look.opacity)(varying);
+        let (x_px, depth) = (x0_px + i as i32, run.depths[i]);
+        let opacity = (look.opacity)(varying, depth);
         if opacity == 0 {
             return;
         }
-        let (x_px, depth) = (x0_px + i as i32, run.depths[i]);
         let colour = shade(x_px, varying, depth);
         if look.is_kept && opacity != OPAQUE {
             let (plane, key) = (number as u8, format.key(depth));

@@ -192,18 +192,7 @@ impl Texture {
             return self;
         }
         let derived = Arc::clone(self.derived.otherwise.get_or_init(Arc::default));
-        let Self { has_single_levels, minified, .. } = self;
-        let first_level = self.levels.first().map(Self::size);
-        let size = self.size();
-        let other = Self { channels, levels: Vec::new(), derived, ..self };
-        let other = match first_level {
-            None => other,
-            Some(level) if level == size => {
-                Self { minified: other.filter, ..other }.with_minified(minified)
-            }
-            Some(_) => other.with_mip_map(),
-        };
-        Self { has_single_levels, ..other }
+        Self { channels, levels: Vec::new(), derived, ..self.clone() }.as_read(&self)
     }
 
     /// The same, read differently.
@@ -238,7 +227,7 @@ impl Texture {
     }
 
     /// The same with a mip map: each level has half the side, and each of its texels the mean of the four that it
-    /// replaces, in whole steps, halves upwards. Of a side that is odd the last texel replaces three.
+    /// covers, in whole steps, halves upwards. Along a side that is odd it covers three, two of them in part, so that nothing moves.
     #[must_use]
     pub fn with_mip_map(mut self) -> Self {
         let levels = self.derived.levels.get_or_init(|| {
@@ -250,6 +239,23 @@ impl Texture {
         Self { has_single_levels: false, ..self }
     }
 
+    /// The same, read as another texture is.
+    #[must_use]
+    pub fn as_read(self, like: &Self) -> Self {
+        let texture = self.with(like.filter, like.wrap);
+        let texture = match like.levels.first() {
+            Some(level) if level.size() != like.size() => texture.with_mip_map(),
+            _ => texture,
+        };
+        let texture = texture.with_minified(like.minified);
+        Self { has_single_levels: like.has_single_levels, anisotropy: like.anisotropy, ..texture }
+    }
+
+    /// Its mip map, from the second level on.
+    pub(super) fn levels(&self) -> &[Self] {
+        &self.levels
+    }
+
     #[must_use]
     pub fn has_mip_map(&self) -> bool {
         !self.levels.is_empty()
@@ -258,28 +264,34 @@ impl Texture {
     /// The next level of a mip map: each texel is the mean of those that it covers, in linear light where it is read so.
     fn half(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        // The texels that one of the next level covers, with how much of each it does.
         let part = |at: u32, half: u32, whole: u32| {
-            2 * at..if at + 1 == half { whole } else { 2 * at + 2 }
+            let (first, end) = (at * whole, (at + 1) * whole);
+            let unit = if whole.is_multiple_of(2) { half } else { 1 };
+            (first / half..end.div_ceil(half)).map(move |texel| {
+                (texel, (end.min((texel + 1) * half) - first.max(texel * half)) / unit)
+            })
         };
         let is_linear = !std::ptr::eq(self.channels, &CHANNELS);
-        let mean = |x: u32, y: u32, channel: u32| {
-            let (mut sum, mut count, mut light) = (0, 0, 0.0);
-            for row in part(y, height, self.height) {
-                for column in part(x, width, self.width) {
+        let mean = |x: u32, y: u32, channel: u32| -> u32 {
+            let (mut sum, mut count, mut light) = (0u64, 0u64, 0.0);
+            for (row, high) in part(y, height, self.height) {
+                for (column, wide) in part(x, width, self.width) {
                     let at = row as usize * self.width as usize + column as usize;
                     let byte = match &self.texels {
                         Texels::Colour(bytes) => bytes[at] >> (8 * channel) & 0xff,
                         Texels::Grey(bytes) => bytes[at].into(),
                     };
-                    light += self.channels[byte as usize];
-                    sum += byte;
-                    count += 1;
+                    let area = u64::from(high) * u64::from(wide);
+                    light += self.channels[byte as usize] * area as f64;
+                    sum += u64::from(byte) * area;
+                    count += area;
                 }
             }
             if is_linear {
-                return encoded_byte(light / f64::from(count)).into();
+                return encoded_byte(light / count as f64).into();
             }
-            (2 * sum + count) / (2 * count)
+            ((2 * sum + count) / (2 * count)) as u32
         };
         let all = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         let texels = match &self.texels {
@@ -510,11 +522,9 @@ impl Texture {
         let rows = within(self.wrap[1], rows, self.height.into());
         match &self.texels {
             Texels::Colour(bytes) => {
-                self.derived.plain.colour(self.sides(), &columns, &rows, |at| bytes[at])
+                self.derived.plain.colour(self.sides(), &columns, &rows, bytes)
             }
-            Texels::Grey(bytes) => {
-                self.derived.plain.colour(self.sides(), &columns, &rows, |at| bytes[at].into())
-            }
+            Texels::Grey(bytes) => self.derived.plain.colour(self.sides(), &columns, &rows, bytes),
         }
     }
 
@@ -522,8 +532,8 @@ impl Texture {
     #[must_use]
     pub fn plain_part(&self) -> f64 {
         match &self.texels {
-            Texels::Colour(bytes) => self.derived.plain.part(self.sides(), |at| bytes[at]),
-            Texels::Grey(bytes) => self.derived.plain.part(self.sides(), |at| bytes[at].into()),
+            Texels::Colour(bytes) => self.derived.plain.part(self.sides(), bytes),
+            Texels::Grey(bytes) => self.derived.plain.part(self.sides(), bytes),
         }
     }
 
@@ -746,12 +756,14 @@ mod tests {
     fn a_mip_map_halves_down_to_one_texel() {
         let bytes: Vec<[u8; 3]> = (0..15).map(|i| [i, 10 * i, 0]).collect();
         let texture = Texture::new(5, 3, &bytes).unwrap().with_mip_map();
-        // 5 x 3, 2 x 1, 1 x 1: the last columns are three, and so are the rows.
+        // 5 x 3, 2 x 1, 1 x 1: each texel covers two columns and a half, and three rows.
         assert_eq!(texture.levels.iter().map(Texture::size).collect::<Vec<_>>(), [(2, 1), (1, 1)]);
         let uv = |x: f64| DVec2::new(x, 0.5);
-        // 0 1 5 6 10 11 in the mean 5.5; 2 3 4 7 8 9 12 13 14 in the mean 8.
+        // The means of columns are 5 6 7 8 9, and (5 + 6 + 7 / 2) / 2.5 = 5.8, (7 / 2 + 8 + 9) / 2.5 = 8.2.
         let red = |x: f64, level: f64| texture.at_level(uv(x), level).x * 255.0;
+        let green = |x: f64| (texture.at_level(uv(x), 1.0).y * 255.0).round();
         assert_eq!([red(0.1, 1.0), red(0.9, 1.0)], [6.0, 8.0]);
+        assert_eq!([green(0.1), green(0.9)], [58.0, 82.0]);
         // Of 6 and 8; the mean of 7 and the texel of level 0.
         assert_eq!([red(0.1, 2.0), red(0.1, 7.0), red(0.1, 1.5)], [7.0, 7.0, 6.5]);
         for level in [0.0, -3.0, f64::NEG_INFINITY, f64::NAN] {

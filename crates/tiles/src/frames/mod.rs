@@ -449,8 +449,8 @@ impl<'a> Drawing<'a> {
             let uv = surface.values.map(|values| DVec2::new(values[6], values[7]));
             let footprint = Footprint::new(outline.corners, inv_w, uv, texture.size());
             // What is magnified is read once, at level 0.
-            let (at_levels, most) = (true, texture.anisotropy);
-            (!footprint.is_magnified(inv_w, uv)).then_some(Reading { footprint, at_levels, most })
+            let reading = Reading { footprint, at_levels: true, is_anisotropic: true };
+            (!footprint.is_magnified(inv_w, uv)).then_some(reading)
         });
         Brush { material: surface.material, planes, fog, reading }
     }

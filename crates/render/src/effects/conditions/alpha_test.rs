@@ -7,6 +7,7 @@
 
 use super::Facts;
 use super::account::Condition;
+use super::mip_maps::{any_reads, around};
 use crate::effects::plan::Rule;
 use crate::effects::primitive::{Piece, Prepared};
 use crate::effects::{Effect, Mode};
@@ -44,9 +45,14 @@ pub const CONDITION: Condition = Condition {
 };
 
 /// What is drawn of a piece by the opacities that it may read.
-pub fn opacity(item: &Prepared<'_>, piece: &Piece) -> Drawn {
-    let uv = || piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
-    item.item.material.opacity.as_ref().map_or(Drawn::All, |opacity| opacity.between(uv()))
+pub fn opacity(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> Drawn {
+    let Some(opacity) = &item.item.material.opacity else { return Drawn::All };
+    let uv = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
+    let around = match opacity.levels() {
+        Some(texture) => around(texture, rule, item, piece, any_reads(rule)),
+        None => Some([0.0; 2]),
+    };
+    opacity.between(uv, around.unwrap_or(opacity.farthest()))
 }
 
 pub fn share(rule: &Rule, facts: &Facts) -> Drawn {

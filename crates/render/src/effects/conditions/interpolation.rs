@@ -7,7 +7,7 @@
 
 use super::account::Account;
 use super::alpha_test;
-use super::mip_maps::{footprint, is_near};
+use super::mip_maps::{any_reads, around};
 use crate::effects::plan::{Attributes, Decision, Rule};
 use crate::effects::primitive::{Piece, Prepared};
 use crate::effects::{Effect, Effects, Mode};
@@ -61,35 +61,25 @@ pub fn may_be_plain(rule: &Rule, opacity: Drawn) -> bool {
         && !is_mixed(rule.blending)
 }
 
-/// Up to so many texels a pixel a texture is looked at.
-pub const MOST_TEXELS: f64 = (1 << 16) as f64;
-
 /// Whether all texels of a texture have one colour that the fragments of a piece may read: those between the texture coordinates
-/// of its corners and beside them, as far as a filter reads. With `levels` that holds of each level of detail up to that of the
-/// longest derivative, and with `taps` of the texels up to half of it away, which is as far as a tap is moved.
+/// of its corners and beside them, as far as a filter reads, and [`around`] them at each level.
 pub fn is_plain(
     texture: &Texture,
     rule: &Rule,
     item: &Prepared<'_>,
     piece: &Piece,
-    [levels, taps]: [bool; 2],
+    reads: [bool; 2],
 ) -> bool {
     let uv = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
-    let is_plain = texture.is_plain_between(uv, 0.0, 0.0);
-    if !is_plain || !(levels || taps) {
-        return is_plain;
-    }
-    let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
-    let longest = footprint.longest(inv_w, uv);
-    let reach = if taps { longest / 2.0 } else { 0.0 };
-    let level = if levels { libm::log2(longest) + 0.5f64.powi(20) } else { 0.0 };
-    is_near(item, piece) && longest < MOST_TEXELS && texture.is_plain_between(uv, reach, level)
+    texture.is_plain_between(uv, 0.0, 0.0)
+        && (reads == [false; 2]
+            || around(texture, rule, item, piece, reads)
+                .is_some_and(|[reach, level]| texture.is_plain_between(uv, reach, level)))
 }
 
 /// The same, however the texture is read by the rule.
 pub fn is_plain_in(texture: &Texture, rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> bool {
-    let reads = [rule.mip_maps, rule.anisotropy].map_array(|mode| mode != Mode::Never);
-    is_plain(texture, rule, item, piece, reads)
+    is_plain(texture, rule, item, piece, any_reads(rule))
 }
 
 pub fn explain(account: &Account<'_>) -> Decision {

@@ -82,3 +82,30 @@ pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> [bool; 2] 
     }
     may_be
 }
+
+/// Up to so many texels a pixel a texture is looked at.
+pub const MOST_TEXELS: f64 = (1 << 16) as f64;
+
+/// How many texels beside the texture coordinates of a fragment a texture is read at most, and up to which level: with `levels` up to
+/// that of the longest derivative, and with `taps` up to half of it away, which is as far as a tap is moved. Nothing where that is not known.
+pub fn around(
+    texture: &Texture,
+    rule: &Rule,
+    item: &Prepared<'_>,
+    piece: &Piece,
+    [levels, taps]: [bool; 2],
+) -> Option<[f64; 2]> {
+    if !(levels || taps) {
+        return Some([0.0; 2]);
+    }
+    let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
+    let longest = footprint.longest(inv_w, uv);
+    let reach = if taps { longest / 2.0 } else { 0.0 };
+    let level = if levels { libm::log2(longest) + 0.5f64.powi(20) } else { 0.0 };
+    (is_near(item, piece) && longest < MOST_TEXELS).then_some([reach, level])
+}
+
+/// Whether a rule lets a texture be read at levels, and several times.
+pub fn any_reads(rule: &Rule) -> [bool; 2] {
+    [rule.mip_maps, rule.anisotropy].map_array(|mode| mode != Mode::Never)
+}

@@ -156,7 +156,7 @@ impl Facts {
         let mut facts = Self { has_one_w: has_one_w(piece), ..Self::UNKNOWN };
         let samples = samples_of(piece);
         if rule.alpha_test.is_open() || rule.blending.is_open() {
-            facts.opacity = alpha_test::opacity(item, piece);
+            facts.opacity = alpha_test::opacity(rule, item, piece);
         }
         if rule.fog.is_open() {
             facts.fog = fog::between(item, piece);
