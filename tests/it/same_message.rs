@@ -124,7 +124,11 @@ fn said(language: &str, fault: [&str; 5], folder: &Folder) -> Option<String> {
                     .arg(&program);
                 run(build.arg(folder.put("mine.cpp", CPP)));
             }
-            Some(folder.check(format!("judge --cases 20 -- ./mine {capability}"), 1).out)
+            Some(
+                folder
+                    .check(format!("judge --cases 20 --timeout 60 -- ./mine {capability}"), 1)
+                    .out,
+            )
         }
         "Python" if has("python3", &["-c", "import numpy"]) => {
             let text = format!(
