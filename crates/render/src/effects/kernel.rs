@@ -350,15 +350,17 @@ impl<'a> Kernel<'a> {
             .unwrap_or_else(|| opacity.of(Surface::from(piece.vertices[0].varying).uv));
         let has_uv = interpolates.has(Attributes::UV);
         let last = self.last.is_some().then(|| RefCell::new(FourTexels::NONE));
+        let levels = self.reading.as_ref().zip(opacity.levels());
+        let start = self.start(Attributes::UV);
         let of = |values: &[f64], depth: f64| {
-            let uv = DVec2::from_slice(&values[self.start(Attributes::UV)..]);
-            match (&self.reading, opacity.levels(), &last) {
-                (Some((reading, veil)), Some(texture), _) => {
+            let uv = DVec2::from_slice(&values[start..]);
+            match (levels, &last) {
+                (Some(((reading, veil), texture)), _) => {
                     let w = veil.map_or(1.0, |veil| veil.w(depth));
                     opacity.of_texel(reading.texel(texture, uv, w).0.x)
                 }
-                (.., Some(last)) => opacity.of_again(uv, &mut last.borrow_mut()),
-                _ => opacity.of(uv),
+                (None, Some(last)) => opacity.of_again(uv, &mut last.borrow_mut()),
+                (None, None) => opacity.of(uv),
             }
         };
         let look = Look {

@@ -247,6 +247,10 @@ impl OpacityMap {
             for column in columns.iter().cloned().flatten() {
                 let [least, most] = self.blocks[row * across(width) + column];
                 found = [found[0].min(least), found[1].max(most)];
+                if found == self.whole {
+                    // No other block changes that.
+                    return found;
+                }
             }
         }
         found

@@ -6,6 +6,7 @@
 
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// Texels along the side of a block.
 const BLOCK: usize = 8;
@@ -13,16 +14,20 @@ const BLOCK: usize = 8;
 /// Of more blocks nothing is known.
 const MOST_BLOCKS: usize = 256;
 
-/// The colour of each block that has one, found when it is first asked for.
-#[derive(Debug, Default)]
-pub(super) struct PlainBlocks(OnceLock<Blocks>);
+/// More blocks than this are counted by so many of them, evenly spread.
+const MOST_COUNTED: usize = 1 << 10;
 
-#[derive(Debug)]
-struct Blocks {
-    colours: Vec<Option<u32>>,
-    /// How many of the blocks have one colour, divided by their number.
-    plain: f64,
+/// What is known of each block: a large texture has many that no triangle ever reads.
+#[derive(Debug, Default)]
+pub(super) struct PlainBlocks {
+    known: OnceLock<Box<[AtomicU8]>>,
+    part: OnceLock<f64>,
 }
+
+/// Nothing, as a fresh block; that all of its texels have one colour, or that they have not.
+const UNKNOWN: u8 = 0;
+const PLAIN: u8 = 1;
+const MIXED: u8 = 2;
 
 impl PlainBlocks {
     /// The one colour of all texels in these columns and rows, of a texture with so many of them.
@@ -40,8 +45,7 @@ impl PlainBlocks {
             rows.iter().flatten().flat_map(|r| columns.iter().flatten().map(move |c| (r, c)))
         {
             let own = texels[rows.start() * width + columns.start()];
-            let first = own.into();
-            if *found.get_or_insert(first) != first {
+            if *found.get_or_insert(own) != own {
                 return None;
             }
             for row in rows.start() / BLOCK..=rows.end() / BLOCK {
@@ -50,10 +54,11 @@ impl PlainBlocks {
                     if looked_at > MOST_BLOCKS {
                         return None;
                     }
-                    match self.blocks([width, height], texels).colours[row * across + column] {
-                        Some(colour) if colour == first => {}
-                        Some(_) => return None,
-                        None => {
+                    let corner = texels[row * BLOCK * width + column * BLOCK];
+                    match self.is_plain([width, height], texels, [column, row]) {
+                        true if corner == own => {}
+                        true => return None,
+                        false => {
                             let part = |of: &RangeInclusive<usize>, block: usize| {
                                 (*of.start()).max(block * BLOCK)
                                     ..=(*of.end()).min(block * BLOCK + BLOCK - 1)
@@ -70,44 +75,53 @@ impl PlainBlocks {
                 }
             }
         }
-        found
+        found.map(T::into)
     }
 
     /// The part of the blocks that has one colour, from 0 to 1, of a texture with so many columns and rows.
-    pub fn part<T: Copy + PartialEq + Into<u32>>(&self, sides: [usize; 2], texels: &[T]) -> f64 {
-        self.blocks(sides, texels).plain
-    }
-
-    fn blocks<T: Copy + PartialEq + Into<u32>>(&self, sides: [usize; 2], texels: &[T]) -> &Blocks {
-        self.0.get_or_init(|| {
-            let colours = colours(sides, texels);
-            let plain = colours.iter().flatten().count() as f64 / colours.len() as f64;
-            Blocks { colours, plain }
+    pub fn part<T: Copy + PartialEq>(&self, [width, height]: [usize; 2], texels: &[T]) -> f64 {
+        *self.part.get_or_init(|| {
+            let across = width.div_ceil(BLOCK);
+            let blocks = across * height.div_ceil(BLOCK);
+            // An odd step meets all columns.
+            let step = blocks.div_ceil(MOST_COUNTED) | 1;
+            let counted = (0..blocks).step_by(step);
+            let is_plain = |number: &usize| {
+                self.is_plain([width, height], texels, [number % across, number / across])
+            };
+            counted.clone().filter(is_plain).count() as f64 / counted.count() as f64
         })
     }
+
+    /// Whether a block has one colour.
+    fn is_plain<T: Copy + PartialEq>(
+        &self,
+        [width, height]: [usize; 2],
+        texels: &[T],
+        [column, row]: [usize; 2],
+    ) -> bool {
+        let across = width.div_ceil(BLOCK);
+        let blocks = across * height.div_ceil(BLOCK);
+        let known = self.known.get_or_init(|| (0..blocks).map(|_| AtomicU8::default()).collect());
+        let known = &known[row * across + column];
+        if known.load(Relaxed) == UNKNOWN {
+            let columns = column * BLOCK..(column * BLOCK + BLOCK).min(width);
+            let first = texels[row * BLOCK * width + columns.start];
+            let mut lines = texels[row * BLOCK * width..].chunks(width).take(BLOCK);
+            let is_plain = lines.all(|line| all_are(first, &line[columns.clone()]));
+            known.store(if is_plain { PLAIN } else { MIXED }, Relaxed);
+        }
+        known.load(Relaxed) == PLAIN
+    }
 }
 
-/// Without a jump for each texel.
 #[inline]
 fn all_are<T: Copy + PartialEq>(texel: T, line: &[T]) -> bool {
-    line.iter().fold(true, |same, other| same & (*other == texel))
-}
-
-fn colours<T: Copy + PartialEq + Into<u32>>(
-    [width, height]: [usize; 2],
-    texels: &[T],
-) -> Vec<Option<u32>> {
-    let across = width.div_ceil(BLOCK);
-    let mut colours = Vec::with_capacity(across * height.div_ceil(BLOCK));
-    for rows in texels.chunks(BLOCK * width) {
-        for column in 0..across {
-            let columns = column * BLOCK..(column * BLOCK + BLOCK).min(width);
-            let first = rows[columns.start];
-            let is_plain = rows.chunks(width).all(|line| all_are(first, &line[columns.clone()]));
-            colours.push(is_plain.then(|| first.into()));
-        }
+    match <&[T; BLOCK]>::try_from(line) {
+        // A comparison of memory.
+        Ok(line) => *line == [texel; BLOCK],
+        Err(_) => line.iter().all(|other| *other == texel),
     }
-    colours
 }
 
 #[cfg(test)]

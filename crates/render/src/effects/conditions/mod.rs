@@ -193,8 +193,8 @@ impl Facts {
         if rule.mip_maps.is_open() || rule.anisotropy.is_open() {
             [facts.is_minified, facts.is_stretched] = mip_maps::footprints(rule, item, piece);
         }
-        let has_many = item.texture.is_some_and(|texture| is_looked_at(texture, samples));
-        if has_many && interpolation::may_be_plain(rule, facts.opacity) {
+        let has_many = || item.texture.is_some_and(|texture| is_looked_at(texture, samples));
+        if interpolation::may_be_plain(rule, facts.opacity) && has_many() {
             let reads =
                 [rule.mip_maps.pays(facts.is_minified), rule.anisotropy.pays(facts.is_stretched)];
             let maps = Map::ALL.into_iter().filter(|map| physical::reads(rule, &facts, *map));

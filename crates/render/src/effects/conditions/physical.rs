@@ -152,7 +152,7 @@ fn all_are(
 ) -> bool {
     let Some(texture) = item.map(map) else { return are_like(map.missing()) };
     let first = || texture.at(Surface::from(piece.vertices[0].varying).uv);
-    is_looked_at(texture, samples) && are_like(first()) && is_plain_in(texture, rule, item, piece)
+    are_like(first()) && is_looked_at(texture, samples) && is_plain_in(texture, rule, item, piece)
 }
 
 /// Whether a light may reach a piece whose normals no map turns.
