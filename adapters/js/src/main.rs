@@ -13,7 +13,7 @@ use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
 use rasterproof_judge::{Options, family_names, judge, polygons};
-use rasterproof_report::{judge_text, polygons_text};
+use rasterproof_report::{judge_text, text};
 
 /// The program that instantiated the module: it answers requests when the standard input is read.
 struct Host {
@@ -114,7 +114,8 @@ impl Job {
         let mut host = Host { declared };
         if host.declared.partition {
             let report = polygons::judge(&mut host, &self.options)?;
-            let text = polygons_text::text(&host.declared, &report, &all, &one, false);
+            let said = judge_text::of_polygons(&host.declared, &report, &all, &one);
+            let text = text::text(&said, false, false);
             return Ok((report.sum().wrong == 0, text));
         }
         let scope = Scope::of(&self.options);
@@ -123,7 +124,7 @@ impl Job {
         if let Some(why) = verdict.judged_nothing(&self.options) {
             return Err(why);
         }
-        let text = judge_text::text(&verdict, &all, &one, (false, false));
+        let text = text::text(&judge_text::report(&verdict, &all, &one, false), false, false);
         Ok((verdict.agrees(), text.replace("--declare '", "declare: '")))
     }
 }

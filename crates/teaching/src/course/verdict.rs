@@ -3,6 +3,7 @@
 use super::examine::Outcome;
 use super::{Step, number};
 use rasterproof_report::judge_text;
+use rasterproof_report::text::hanging;
 
 /// How a step came out, with its smallest failing case.
 pub fn text(step: &Step, outcome: &Outcome) -> String {
@@ -29,16 +30,19 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
         }
     }
     if let Some(picture) = &failure.picture {
-        judge_text::picture(&mut out, &["yours"], picture);
+        out += &judge_text::grid(&["yours"], picture);
+        if !picture.of.is_empty() {
+            out += &(hanging(&format!("({})", picture.of), "  ", "   ") + "\n");
+        }
     }
     if let Some(misconception) = outcome.misconception {
-        out += &(judge_text::hanging(misconception.says, "it looks as if ", "  ") + "\n");
-        out += &(judge_text::hanging(misconception.ask, "think about: ", "  ") + "\n");
+        out += &(hanging(misconception.says, "it looks as if ", "  ") + "\n");
+        out += &(hanging(misconception.ask, "think about: ", "  ") + "\n");
     }
     // What it does, and not what repairs it: that is the exercise.
     if let Some(cause) = outcome.cause.as_ref().and_then(|cause| cause.causes.first()) {
-        out += &(judge_text::hanging(&cause.does, "it looks as if it ", "  ") + "\n");
-        out += &(judge_text::hanging(cause.page, "read: page ", "  ") + "\n");
+        out += &(hanging(&cause.does, "it looks as if it ", "  ") + "\n");
+        out += &(hanging(cause.page, "read: page ", "  ") + "\n");
     }
     out
 }
