@@ -24,7 +24,7 @@
 //!
 //! The rest is public for the program, its tests and the samples under `docs/`, is not shown here,
 //! and may change at any time: the pipeline, scenes, effects, the published algorithms, mutants,
-//! invariants, ladders, reports and the command line. The pages under `docs/` follow the chapters
+//! invariants, costs, reports and the command line. The pages under `docs/` follow the chapters
 //! of a textbook; `docs/index.md` is where to begin, `docs/ARCHITECTURE.md` shows the whole workspace.
 //!
 //! # To judge a rasterizer of your own

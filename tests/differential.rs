@@ -17,8 +17,8 @@ use libtest_mimic::{Arguments, Failed, Trial};
 #[path = "common/next.rs"]
 mod next;
 use rasterproof_registry::comparison::Judged;
-use rasterproof_report::differential;
 use rasterproof_report::summary::chapter;
+use rasterproof_report::{differential, text};
 use rasterproof_verify::cases;
 use rasterproof_verify::comparison::{FamilyReport, Options, Verdict};
 
@@ -45,13 +45,12 @@ fn main() -> ExitCode {
     let all = families.len() == cases::families().count();
     let options = Options::default().cases(CASES);
     let verdict = Verdict { options, families, failures: Vec::new(), cause: None };
-    println!("{}{}", differential::text(&verdict), differential::quota_line(&verdict));
+    println!("{}", text::tables(&differential::tables(&verdict), text::WIDTH, false));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {
         println!("FAILED: a quota is not met, so the families prove less than they claim");
     }
     if conclusion.has_failed() {
-        print!("{}", differential::disagreements(&verdict));
         if all {
             show_snapshots();
         }
@@ -139,9 +138,12 @@ fn judge(
             )
         });
         let failures: Vec<_> = told.collect();
-        return Err(
-            format!("{}\n{}", differential::disagreements(&verdict), failures.join("\n")).into()
-        );
+        return Err(format!(
+            "{}\n{}",
+            differential::disagreements(&verdict).join("\n"),
+            failures.join("\n")
+        )
+        .into());
     }
     Ok(())
 }

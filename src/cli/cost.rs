@@ -7,7 +7,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::files::{self, Output, Use, written};
-use super::page::{PageArguments, as_file, write_page};
+use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
@@ -16,8 +16,8 @@ use rasterproof_precision::cost::{
     Board, ExternalVariant, Ladder, Options, Recorded, Timing, measure_with,
 };
 use rasterproof_report::canvas::{self, Drawing};
-use rasterproof_report::html::{Figure, Report};
-use rasterproof_report::{board, cost_plots, json, picture};
+use rasterproof_report::html::Figure;
+use rasterproof_report::{board, cost_plots, picture};
 
 /// What is measured together under one word.
 const LADDERS: [(&str, &[Ladder]); 7] = [
@@ -46,7 +46,7 @@ fn parse_subject() -> impl TypedValueParser<Value = Subject> {
             None if path.extension().is_some() || path.is_file() => Ok(Subject::Model(path)),
             None => {
                 let names = LADDERS.map(|(name, _)| name).join(", ");
-                Err(format!("neither a file nor one of the ladders {names}"))
+                Err(format!("neither a file nor one of the groups {names}"))
             }
         }
     })
@@ -54,10 +54,10 @@ fn parse_subject() -> impl TypedValueParser<Value = Subject> {
 
 #[derive(clap::Args, Debug)]
 pub struct CostArguments {
-    /// The ladder, all of them without a word; or the file of a model, to measure on its triangles
-    #[arg(value_name = "LADDER|MODEL", value_parser = parse_subject())]
+    /// The group of choices, all of them without a word; or the file of a model, to measure on its triangles
+    #[arg(value_name = "GROUP|MODEL", value_parser = parse_subject())]
     what: Option<Subject>,
-    /// Smaller scenes and fewer rounds: under ten seconds for all ladders
+    /// Smaller scenes and fewer rounds: under ten seconds for all groups
     #[arg(long)]
     quick: bool,
     #[command(flatten)]
@@ -65,7 +65,7 @@ pub struct CostArguments {
     /// Decides every scene
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
-    /// Put this Vulkan device on the ladder of edge functions; may be repeated: vulkan:0
+    /// Put this Vulkan device beside the edge functions; may be repeated: vulkan:0
     #[cfg(feature = "vulkan")]
     #[arg(long, value_name = "NAME", conflicts_with = "from")]
     engine: Vec<String>,
@@ -104,7 +104,7 @@ impl CostArguments {
         files::check(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
     }
 
-    /// The devices that are measured beside the rungs.
+    /// The devices that are measured beside the choices.
     #[cfg(feature = "vulkan")]
     fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
         self.engine.iter().map(|name| super::vulkan::external_variant(name)).collect()
@@ -145,43 +145,16 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
             boards: measure_all(ladders, arguments, streams.progress)?,
         },
     };
-    let (boards, out) = (&recorded.boards, &mut *streams.output);
-    let plots = plots(boards);
-    if arguments.json {
-        out.write_all(json::cost(&recorded).as_bytes())?;
-        write_plots(&plots, arguments, streams);
-        write_report((arguments, typed), &plots, &recorded, streams);
-        return Ok(exit::AGREES);
-    }
-    let Recorded { version, seed, .. } = &recorded;
-    let quick = if recorded.quick { ", quick" } else { "" };
-    writeln!(out, "rasterproof {version} cost, seed {seed}{quick}\n")?;
-    for board in boards {
-        writeln!(out, "{}", board::text(board, streams.colour))?;
-    }
-    let price = board::price_text(boards);
-    if !price.is_empty() {
-        writeln!(out, "{price}")?;
-    }
-    writeln!(out, "repeat with: {}", printable(&recorded.repeat))?;
+    let plots = plots(&recorded.boards);
+    let mut report = board::report(&recorded, figures(&plots, &recorded.boards));
     let written = write_plots(&plots, arguments, streams).join(", ");
     if !written.is_empty() {
         let folder = printable_path(arguments.folder());
-        writeln!(streams.output, "drawn in {folder}, as SVG and PNG: {written}")?;
+        report.notes.push(format!("drawn in {folder}, as SVG and PNG: {written}"));
     }
-    write_report((arguments, typed), &plots, &recorded, streams);
+    let page = arguments.page.page("cost.html");
+    show(report, Shown::all_or_json(arguments.json), page, streams)?;
     Ok(exit::AGREES)
-}
-
-fn write_report(
-    (arguments, typed): (&CostArguments, &Typed),
-    plots: &[(String, Drawing)],
-    recorded: &Recorded,
-    streams: &mut Streams<'_>,
-) {
-    if let Some(path) = arguments.page.page("cost.html") {
-        write_page(&path, report_page(typed, plots, recorded), streams);
-    }
 }
 
 /// What an earlier run printed, as far as it is asked for.
@@ -218,11 +191,11 @@ fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
     plots
 }
 
-fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
-    let boards = &recorded.boards;
+/// The plots as they stand on a page, what answers the question first.
+fn figures(plots: &[(String, Drawing)], boards: &[Board]) -> Vec<Figure> {
     let figure = |(name, drawing): &(String, Drawing)| Figure {
         caption: match name.as_str() {
-            PRICE => "What exact coverage costs over the cheapest rung".to_owned(),
+            PRICE => "What exact coverage costs over the cheapest choice".to_owned(),
             name => format!("Time against error: {}", name.trim_start_matches("cost-")),
         },
         svg: canvas::svg(drawing),
@@ -231,13 +204,7 @@ fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) 
             .find(|board| *name == plot_name(board.ladder))
             .map(|board| canvas::svg(&cost_plots::pareto(board, 1))),
     };
-    Report {
-        title: "What accuracy costs in time".to_owned(),
-        command: typed.line(),
-        seed: Some(recorded.seed),
-        figures: plots.iter().rev().map(figure).collect(),
-        ..Report::default()
-    }
+    plots.iter().rev().map(figure).collect()
 }
 
 /// Writes the plots and returns the names of those that were written.

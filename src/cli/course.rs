@@ -7,8 +7,8 @@ use image::RgbImage;
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
-use super::page::{Place, save_page};
-use super::progress::Progress as Shown;
+use super::page::{Place, Shown, save_page, show};
+use super::progress::Progress as Bar;
 use super::render::NOTHING_DRAWN;
 use super::view::{Purpose, ViewArguments};
 use super::{Failure, Status, Streams, exit, usage, write_file};
@@ -19,6 +19,7 @@ use rasterproof_render::pipeline::target::{Antialias, check_size};
 use rasterproof_render::scene::chapters;
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
+use rasterproof_report::table::Table;
 
 use crate::cli::starters::{self, Language};
 use rasterproof_judge::process::{Limits, Program};
@@ -120,27 +121,41 @@ pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
 /// The steps; those passed are marked where there is a progress file.
 fn list(streams: &mut Streams<'_>) -> Status {
     let progress = Progress::read(Path::new(".")).map_err(usage)?;
-    let out = &mut *streams.output;
-    for step in STEPS.iter() {
+    let row = |step: &Step| {
         let mark = match &progress {
-            Some(progress) if progress.has_passed(step) => '+',
-            Some(progress) if progress.current() == step => '>',
-            _ => ' ',
+            Some(progress) if progress.has_passed(step) => "+",
+            Some(progress) if progress.current() == step => ">",
+            _ => "",
         };
-        let (number, name, title) = (course::number(step), &step.name, &step.title);
-        writeln!(out, "{mark} {number:>2} {name:<14} {title} ({})", step.page)?;
-        out.write_all(indented(&step.judged, 5).as_bytes())?;
         let mut families: Vec<_> =
             step.exercises.iter().flat_map(|e| &e.families).map(String::as_str).collect();
         families.sort_unstable();
         families.dedup();
-        let families = format!("families: {}", families.join(", "));
-        out.write_all(indented(&families, 5).as_bytes())?;
-    }
-    match progress {
-        Some(_) => writeln!(out, "(+ passed, > current; next: rasterproof course check)")?,
-        None => writeln!(out, "begin with: rasterproof course start --language python mine")?,
-    }
+        vec![
+            mark.to_owned(),
+            course::number(step).to_string(),
+            step.name.clone(),
+            format!("{} ({})", step.title, step.page),
+            step.judged.clone(),
+            format!("families: {}", families.join(", ")),
+        ]
+        .into()
+    };
+    let columns = "~state 1 | >~number 2 | ~step 14 | ~page 1 | what is judged | families";
+    let (next, marks) = match &progress {
+        Some(_) => ("check", " (+ passed, > current)"),
+        None => ("start --language python mine", ""),
+    };
+    let report = Report {
+        about: format!(
+            "Twelve steps to a rasterizer of your own{marks}; next: rasterproof course {next}\n\
+             Each is judged by requests that your program answers: L lines, T triangles, I values in them, D depths, N the \
+             near plane, S four samples; see docs/protocol.md"
+        ),
+        tables: vec![Table::new("", columns, STEPS.iter().map(row).collect())],
+        ..Report::default()
+    };
+    show(report, Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -234,7 +249,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     let sheet = arguments.place.output(format!("course-{name}.png"));
     let page = arguments.place.output(format!("course-{name}.html"));
     files::check(&[written("the picture", &sheet), written("the page", &page)])?;
-    let bar = Shown::new(streams.progress, "pictures", Some(steps.len() as u64 + 1));
+    let bar = Bar::new(streams.progress, "pictures", Some(steps.len() as u64 + 1));
     let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
     let mut pictures = Vec::new();
     for step in &steps {
@@ -317,7 +332,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
         None => progress.current(),
         Some(word) => find_step(word, "")?,
     };
-    let shown = Shown::new(streams.progress, "steps", Some(1));
+    let shown = Bar::new(streams.progress, "steps", Some(1));
     let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
     let amount = Amount {
         cases: arguments.cases,

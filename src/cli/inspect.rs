@@ -25,7 +25,7 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Entry, SPECIMENS, Specimen};
 use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::{ascii, page_cases, picture, summary};
+use rasterproof_report::{ascii, page_cases, picture, words};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{Tally, oracle_pixels_each};
 
@@ -212,7 +212,9 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     }
     let unasked = arguments.page.place.output("inspect.png");
     let drawn = picture::png(&shown.picture(&title, &case));
-    write_picture(asked.as_ref(), &unasked, &drawn, streams)?;
+    if let Some(place) = write_picture(asked.as_ref(), &unasked, &drawn, streams)? {
+        writeln!(streams.output, "{place}")?;
+    }
     if let Some(page) = &page {
         let view = page_cases::of_case(name(arguments), title, kind(agrees), &case, &judged);
         write_report((command, page), view, is_compared.then_some(agrees), streams)?;
@@ -266,7 +268,7 @@ fn say(
             0 => String::new(),
             n => {
                 let worst = finding.attribute.max(finding.depth);
-                format!("; {n} values, {}", summary::of_bound(worst))
+                format!("; {n} values, {}", words::of_bound(worst))
             }
         };
         let Decisions { by_filter, by_fallback } = finding.decisions;

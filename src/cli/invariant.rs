@@ -1,14 +1,15 @@
 //! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
 
-use std::io::Write;
-
+use super::page::{Shown, show};
 use super::progress::Progress;
-use super::{Failure, Status, Streams, exit, program, write_entry};
+use super::{Status, Streams, exit, program};
 use rasterproof_faults::planted::{self, Mutant};
 use rasterproof_invariants::matrix::{self, Matrix};
 use rasterproof_invariants::subject::Subject;
 use rasterproof_invariants::{CATALOGUE, Check, Invariant, MOST_LOOKED_THROUGH, Ruling};
-use rasterproof_report::summary;
+use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::table::{Mark, Row, Table};
+use rasterproof_report::words::thousands;
 
 /// Inputs of each invariant where the command line does not say.
 const CASES: u64 = 2_000;
@@ -36,8 +37,7 @@ pub fn run(
         CATALOGUE.iter().filter(|i| all || names.iter().any(|name| name == i.name)).collect();
     let mut outcomes = Outcomes::default();
     let progress = Progress::new(streams.progress, "invariants", Some(wanted.len() as u64));
-    // Standard output may be the terminal of the bar: what is said comes after it.
-    let mut text = Vec::new();
+    let mut rows = Vec::new();
     for (done, invariant) in wanted.iter().enumerate() {
         progress.at(done as u64, invariant.name);
         let planted = plant.map(|name| format!(" --plant {name}")).unwrap_or_default();
@@ -45,13 +45,18 @@ pub fn run(
             let (program, name) = (program(), invariant.name);
             format!("{program} verify --invariant {name} --seed {seed} --cases {cases}{planted}")
         };
-        judge(invariant, &subject, (seed, cases), &repeat, (&mut outcomes, &mut text))?;
+        rows.push(judge(invariant, &subject, (seed, cases), &repeat, &mut outcomes));
     }
     drop(progress);
-    streams.output.write_all(&text)?;
-    if wanted.len() > 1 {
-        writeln!(streams.output, "{}", outcomes.summary())?;
-    }
+    let columns = "invariant 28 | >cases 8 | >left out 8 since they do not fit it | >comparisons 8 | ~outcome 1 | \
+                   what it says | tolerance | what was found";
+    let report = Report {
+        about: format!("Invariants, seed {seed}"),
+        tables: vec![Table::new("", columns, rows).judged()],
+        outcome: (wanted.len() > 1).then(|| outcomes.outcome()),
+        ..Report::default()
+    };
+    show(report, Shown::All, None, streams)?;
     Ok(outcomes.status())
 }
 
@@ -74,71 +79,69 @@ impl Outcomes {
         }
     }
 
-    fn summary(&self) -> String {
+    fn outcome(&self) -> Outcome {
         let Self { holding, failing, not_judged, cases_needed } = *self;
-        let word = match self.status() {
-            exit::AGREES => "AGREES",
-            exit::DISAGREES => "DISAGREES",
-            _ => "NOT JUDGED",
-        };
         let all = holding + failing + not_judged;
-        let mut text = format!("{word}: {holding} of {all} invariants hold, {failing} do not");
+        let mut sentence = format!("{holding} of {all} invariants hold, {failing} do not");
         if not_judged > 0 {
-            text += &format!(", {not_judged} not judged");
+            sentence += &format!(", {not_judged} not judged");
         }
         if cases_needed > 0 {
-            text += &format!(" (--cases {cases_needed} judges them)");
+            sentence += &format!(" (--cases {cases_needed} judges them)");
         }
-        text
+        match self.status() {
+            exit::USAGE => Outcome { good: false, word: "NOT JUDGED".to_owned(), sentence },
+            status => Outcome::of(status == exit::AGREES, sentence),
+        }
     }
 }
 
+/// Judges an invariant: its row, with what was found below it.
 fn judge(
     invariant: &Invariant,
     subject: &Subject,
     (seed, cases): (u64, u64),
     repeat: &dyn Fn(u64) -> String,
-    (outcomes, out): (&mut Outcomes, &mut dyn Write),
-) -> Result<(), Failure> {
-    writeln!(out, "{} {}: {}", invariant.number, invariant.name, invariant.statement)?;
+    outcomes: &mut Outcomes,
+) -> Row {
     let report = invariant.run(subject, seed, cases);
-    writeln!(out, "  tolerance: {}", invariant.tolerance)?;
-    let skipped = match report.skipped {
-        0 => String::new(),
-        n => format!(", {n} left out that do not fit it"),
+    let (word, found) = match (report.ruling(), &report.failure) {
+        (Ruling::Holds, _) => ("holds", String::new()),
+        (Ruling::Fails, None) => ("FAILS", String::new()),
+        (_, Some(failure)) => {
+            let what = format!("FAILS in case {}: {}", failure.index, failure.message);
+            let repeat = repeat(cases);
+            ("FAILS", format!("{what}\nsmallest found: {}\nrepeat with: {repeat}", failure.input))
+        }
+        (Ruling::NotJudged, None) => ("NOT JUDGED", match invariant.cases_needed(subject, seed) {
+            Some(needed) => {
+                outcomes.cases_needed = outcomes.cases_needed.max(needed);
+                let repeat = repeat(needed);
+                format!("none of these cases fits it; the first that fits needs more\njudge it with: {repeat}")
+            }
+            None if matches!(invariant.check, Check::Run(..) | Check::Matrix) => {
+                "the system refuses the threads whose verdicts it compares\nallow this user more processes (ulimit -u)".to_owned()
+            }
+            None => format!("none of the first {MOST_LOOKED_THROUGH} cases fits it\ntry another --seed"),
+        }),
     };
-    writeln!(
-        out,
-        "  seed {seed}, {} cases{skipped}, {} comparisons",
-        report.cases, report.compared
-    )?;
-    match report.ruling() {
-        Ruling::Holds => outcomes.holding += 1,
-        Ruling::Fails => outcomes.failing += 1,
-        Ruling::NotJudged => outcomes.not_judged += 1,
-    }
-    if let Some(failure) = &report.failure {
-        writeln!(out, "  FAILS in case {}: {}", failure.index, failure.message)?;
-        writeln!(out, "  smallest found: {}", failure.input)?;
-        writeln!(out, "  repeat with: {}", repeat(cases))?;
-    } else if report.ruling() == Ruling::Holds {
-        writeln!(out, "  holds")?;
-    } else if let Some(needed) = invariant.cases_needed(subject, seed) {
-        outcomes.cases_needed = outcomes.cases_needed.max(needed);
-        writeln!(
-            out,
-            "  NOT JUDGED: none of these cases fits it; the first that fits needs more:"
-        )?;
-        writeln!(out, "  judge it with: {}", repeat(needed))?;
-    } else if matches!(invariant.check, Check::Run(..) | Check::Matrix) {
-        writeln!(out, "  NOT JUDGED: the system refuses the threads whose verdicts it compares;")?;
-        writeln!(out, "  allow this user more processes (ulimit -u)")?;
-    } else {
-        writeln!(out, "  NOT JUDGED: none of the first {MOST_LOOKED_THROUGH} cases fits it;")?;
-        writeln!(out, "  try another --seed")?;
-    }
-    writeln!(out)?;
-    Ok(())
+    *match report.ruling() {
+        Ruling::Holds => &mut outcomes.holding,
+        Ruling::Fails => &mut outcomes.failing,
+        Ruling::NotJudged => &mut outcomes.not_judged,
+    } += 1;
+    let counts = [report.cases, report.skipped, report.compared].map(thousands);
+    let name = format!("{} {}", invariant.number, invariant.name);
+    let mut cells = vec![name];
+    cells.extend(counts);
+    cells.extend([
+        word.to_owned(),
+        invariant.statement.to_owned(),
+        format!("tolerance: {}", invariant.tolerance),
+        found,
+    ]);
+    let mark = if word == "holds" { Mark::Plain } else { Mark::Wrong };
+    Row { cells, mark, ..Row::default() }
 }
 
 #[derive(clap::Args, Debug)]
@@ -154,34 +157,39 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     let progress = Progress::new(streams.progress, "faults", Some(rows));
     let matrix = Matrix::compute(matrix::SEED, matrix::CASES, &|| progress.done(1));
     drop(progress);
-    let (out, problems) = (&mut *streams.output, matrix.problems());
-    let mark = |is_right: bool| summary::mark(is_right, streams.colour);
+    let problems = matrix.problems();
     let (rows, columns) = (matrix.rows.len(), matrix.columns.len());
     let answer = match problems.is_empty() {
         true => format!("each of {columns} invariants kills a fault, each of {rows} faults dies"),
         false => problems.join("; "),
     };
-    writeln!(out, "{} {answer}\n", mark(problems.is_empty()))?;
-    if arguments.table || !problems.is_empty() {
-        writeln!(out, "{}", matrix.text())?;
-    }
-    writeln!(out, "each fault, the number of invariants that it breaks, and what it is:")?;
-    for (name, marks) in &matrix.rows {
+    let row = |(name, marks): &(String, Vec<bool>)| {
         let kills = marks.iter().filter(|&&mark| mark).count();
-        let about = planted::about(name).unwrap_or("a check that cannot fail");
-        writeln!(out, "  {} {name:<26} {kills:>2}  {about}", mark(kills > 0))?;
-    }
+        let about = planted::about(name).unwrap_or("a check that cannot fail").to_owned();
+        let mark = if kills > 0 { Mark::Plain } else { Mark::Wrong };
+        Row { cells: vec![name.clone(), kills.to_string(), about], mark, ..Row::default() }
+    };
+    let columns = "fault 30 | >broken 2 the invariants that it breaks | what it is 1";
+    let faults = Table::new("", columns, matrix.rows.iter().map(row).collect()).judged();
+    let mut notes = vec![format!("see one judged: {} --plant NAME", program())];
     if !arguments.table {
-        writeln!(out, "which invariant kills which: add --table")?;
+        notes.push("which invariant kills which: add --table".to_owned());
     }
-    writeln!(out, "see one judged: {} --plant NAME", program())?;
+    if arguments.table || !problems.is_empty() {
+        write!(streams.output, "{}", matrix.text())?;
+    }
+    let report = Report {
+        about: "planted faults, and the invariants that they break".to_owned(),
+        outcome: Some(Outcome::of(problems.is_empty(), answer)),
+        tables: vec![faults],
+        notes,
+        ..Report::default()
+    };
+    show(report, Shown::All, None, streams)?;
     Ok(if problems.is_empty() { exit::AGREES } else { exit::DISAGREES })
 }
 
-pub fn list(out: &mut dyn Write) -> Result<(), Failure> {
-    writeln!(out, "\nInvariants (rasterproof verify --invariant NAME, or all):")?;
-    for i in CATALOGUE {
-        write_entry(out, &format!("{:>2} {:<20}", i.number, i.name), i.statement)?;
-    }
-    Ok(())
+/// The invariants with what they say, by their numbers.
+pub fn listed() -> impl Iterator<Item = (String, &'static str)> {
+    CATALOGUE.iter().map(|i| (format!("{} {}", i.number, i.name), i.statement))
 }

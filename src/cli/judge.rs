@@ -7,7 +7,7 @@ use rasterproof_host::output::Over;
 use rasterproof_host::text::printable_path;
 
 use super::files::{self, Output, Use};
-use super::page::{PageArguments, as_file, write_page};
+use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Status, Streams, exit, league, usage};
@@ -19,7 +19,7 @@ use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::{Options, family_names, polygons, process_group};
 use rasterproof_report::formats::{self, Format};
-use rasterproof_report::{against_text, judge_text, polygons_text};
+use rasterproof_report::judge_text;
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
@@ -162,17 +162,15 @@ fn tessellator(
     }
     let report = polygons::judge(program, options).map_err(usage)?;
     let (repeat_all, repeat_case) = again(arguments, typed);
-    let text = match arguments.format() {
-        Format::Text => {
-            polygons_text::text(&declared, &report, &repeat_all, &repeat_case, streams.colour)
-        }
-        other => {
-            let verdict = polygons::verdict(&declared, options, &report);
-            formats::write(&verdict, other, &repeat_all, &repeat_case)
-        }
-    };
-    streams.output.write_all(text.as_bytes())?;
-    streams.output.flush()?;
+    let format = arguments.format();
+    if format == Format::Text {
+        let said = judge_text::of_polygons(&declared, &report, &repeat_all, &repeat_case);
+        show(said, Shown::Screen, None, streams)?;
+    } else {
+        let verdict = polygons::verdict(&declared, options, &report);
+        let text = formats::write(&verdict, format, &repeat_all, &repeat_case);
+        streams.output.write_all(text.as_bytes())?;
+    }
     Ok(if report.sum().wrong == 0 { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -247,31 +245,18 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         baseline.apply(&mut verdict);
     }
     let (repeat_all, repeat_case) = again(arguments, typed);
-    let format = arguments.format();
-    let text = match format {
-        Format::Text => match &verdict.against {
-            Some(second) => {
-                against_text::text(&verdict, second, &repeat_all, &repeat_case, streams.colour)
+    let report = judge_text::report(&verdict, &repeat_all, &repeat_case, arguments.table);
+    match arguments.format() {
+        Format::Text => show(report, Shown::Screen, page, streams)?,
+        Format::Json => show(report, Shown::Json, page, streams)?,
+        other => {
+            let text = formats::write(&verdict, other, &repeat_all, &repeat_case);
+            streams.output.write_all(text.as_bytes())?;
+            streams.output.flush()?;
+            if let Some(page) = page {
+                write_page(&page, report, streams);
             }
-            None => {
-                let shown = (arguments.table, streams.colour);
-                judge_text::text(&verdict, &repeat_all, &repeat_case, shown)
-            }
-        },
-        other => formats::write(&verdict, other, &repeat_all, &repeat_case),
-    };
-    streams.output.write_all(text.as_bytes())?;
-    streams.output.flush()?;
-    if let Some(page) = page {
-        write_page(
-            &page,
-            judge_text::page(
-                &verdict,
-                &typed.clone().set("seed", arguments.seed).line(),
-                &repeat_case,
-            ),
-            streams,
-        );
+        }
     }
     let mut agrees = verdict.agrees();
     // It was read, and is written anew.

@@ -55,6 +55,8 @@ use rasterproof_host::{output, read_files, shell};
 use typed::Typed;
 
 use rasterproof_registry::engines;
+use rasterproof_report::html::Report;
+use rasterproof_report::table::Table;
 use rasterproof_verify::cases;
 
 pub mod exit {
@@ -125,7 +127,7 @@ enum Command {
     Merge(exhaust::MergeArguments),
     /// Show snapshots that changed, and how to accept them
     Review(review::ReviewArguments),
-    /// Show what accuracy costs in time: every rung of every ladder, verified, then timed
+    /// Show what accuracy costs in time: every choice of arithmetic, verified, then timed
     Cost(Box<cost::CostArguments>),
     /// Hash everything the engines compute for a seed, to compare machines
     #[command(after_help = help!("digest"))]
@@ -276,11 +278,26 @@ fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
     } else {
         error
     };
-    let mut words = printable_lines(&error.render().to_string()).into_owned();
+    let mut text = printable_lines(&error.render().to_string()).into_owned();
     if is_not_text {
-        words += &format!("not UTF-8: {}\n", not_text.join(", "));
+        text += &format!("not UTF-8: {}\n", not_text.join(", "));
     }
-    Refusal { words, is_error }
+    if error.kind() == clap::error::ErrorKind::MissingRequiredArgument {
+        text += &examples(words);
+    }
+    Refusal { words: text, is_error }
+}
+
+/// The first examples of the help of the command that is called, for who has not said enough.
+fn examples(words: &[OsString]) -> String {
+    const MOST: usize = 3;
+    let name = words.get(1).and_then(|word| word.to_str()).unwrap_or_default();
+    let all = Arguments::command();
+    let help = all.find_subcommand(name).and_then(clap::Command::get_after_help);
+    let help = help.map(ToString::to_string).unwrap_or_default();
+    let begins = format!("  rasterproof {name} ");
+    let lines: Vec<_> = help.lines().filter(|l| l.starts_with(&begins)).take(MOST).collect();
+    if lines.is_empty() { String::new() } else { format!("For example:\n{}\n", lines.join("\n")) }
 }
 
 /// Runs a command line, the program's name first, and returns the exit status.
@@ -462,46 +479,36 @@ pub fn quiet_engines() {
 }
 
 fn list(streams: &mut Streams<'_>) -> Status {
-    let out = &mut *streams.output;
-    let off_grid = &cases::unsnapped::FAMILIES;
-    let named = rasterproof_render::scene::named::named();
     let speaking = engines::ENTRIES.iter().chain(&engines::SPECIMENS);
+    let speaking = speaking.map(|entry| (entry.name.to_owned(), entry.about));
+    let owned = |(name, about): (&str, &'static str)| (name.to_owned(), about);
+    let families = cases::families().map(|f| owned((f.name, f.about)));
+    let off_grid = cases::unsnapped::FAMILIES.iter().map(|f| owned((f.name, f.about)));
+    let named = rasterproof_render::scene::named::named().into_iter();
+    let named = named.map(|case| owned((case.name, case.about)));
+    let faults = rasterproof_faults::planted::all().map(owned);
     let scenes = rasterproof_render::scene::chapters::entries();
-    let title = "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER)";
-    write_list(out, title, 16, cases::families().map(|f| (f.name, f.about)))?;
-    let title = "\nFamilies off the grid, for the engines that do not snap";
-    write_list(out, title, 16, off_grid.iter().map(|f| (f.name, f.about)))?;
-    let title = "\nNamed cases (rasterproof inspect NAME)";
-    write_list(out, title, 5, named.iter().map(|case| (case.name, case.about)))?;
-    let title = "\nEngines (rasterproof engine NAME)";
-    write_list(out, title, 19, speaking.map(|entry| (entry.name, entry.about)))?;
+    let scenes = scenes.map(|entry| owned((entry.name, entry.about)));
+    #[allow(unused_mut, reason = "with devices there are more")]
+    let mut tables = vec![
+        listed("Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER)", families),
+        listed("Families off the grid, for the engines that do not snap", off_grid),
+        listed("Named cases (rasterproof inspect NAME)", named),
+        listed("Engines (rasterproof engine NAME)", speaking),
+        listed("Planted faults (rasterproof --plant NAME; rasterproof mutants)", faults),
+        listed("Invariants (rasterproof verify --invariant NAME, or all)", invariant::listed()),
+        listed("Scenes (rasterproof render NAME)", scenes),
+    ];
     #[cfg(feature = "vulkan")]
-    vulkan::list(out)?;
-    let title = "\nPlanted faults (rasterproof --plant NAME; rasterproof mutants)";
-    write_list(out, title, 26, rasterproof_faults::planted::all())?;
-    invariant::list(out)?;
-    let title = "\nScenes (rasterproof render --scene NAME)";
-    write_list(out, title, 19, scenes.map(|entry| (entry.name, entry.about)))?;
+    tables.extend(vulkan::listed());
+    page::show(Report { tables, ..Report::default() }, page::Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 
-/// Writes a list under a title, what an entry is about beside its name.
-fn write_list<'a>(
-    out: &mut dyn Write,
-    title: &str,
-    width: usize,
-    entries: impl Iterator<Item = (&'a str, &'a str)>,
-) -> io::Result<()> {
-    writeln!(out, "{title}:")?;
-    for (name, about) in entries {
-        write_entry(out, &format!("{name:<width$}"), about)?;
-    }
-    Ok(())
-}
-
-/// Writes an entry of a list, what it is about beside its name.
-fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
-    writeln!(out, "  {name}  {about}")
+/// A list under a title, what an entry is about beside its name.
+fn listed<'a>(title: &str, entries: impl Iterator<Item = (String, &'a str)>) -> Table {
+    let row = |(name, about): (String, &str)| vec![name, about.to_owned()].into();
+    Table::new(title, "~name 1 | ~about 1", entries.map(row).collect())
 }
 
 fn write_file(output: &Output, bytes: &[u8]) -> Result<(), Failure> {
@@ -552,14 +559,14 @@ fn png_name(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Writes a picture and says where: a file that was asked for, or else one that costs a warning, and not the
+/// Writes a picture and returns where, in words: a file that was asked for, or else one that costs a warning, and not the
 /// verdict, where it cannot be written.
 fn write_picture(
     asked: Option<&Output>,
     unasked: &Output,
     bytes: &[u8],
     streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
+) -> Result<Option<String>, Failure> {
     let written = match asked {
         Some(output) => streams.save(output, bytes).then_some(output),
         None => match write_file(unasked, bytes) {
@@ -570,10 +577,7 @@ fn write_picture(
             }
         },
     };
-    if let Some(Output { path, .. }) = written {
-        writeln!(streams.output, "drawn in {}", printable_path(path))?;
-    }
-    Ok(())
+    Ok(written.map(|Output { path, .. }| format!("drawn in {}", printable_path(path))))
 }
 
 /// How this program was called, for commands that can be copied: through cargo where cargo started

@@ -12,6 +12,17 @@ use super::files::{Named, Output, written};
 use super::typed::Typed;
 use super::{Failure, Streams, usage};
 use rasterproof_report::html::{self, Report};
+use rasterproof_report::{json, text};
+
+impl Shown {
+    pub(super) fn screen_or_json(is_json: bool) -> Self {
+        if is_json { Self::Json } else { Self::Screen }
+    }
+
+    pub(super) fn all_or_json(is_json: bool) -> Self {
+        if is_json { Self::Json } else { Self::All }
+    }
+}
 
 /// Options of every command that writes pages or pictures.
 #[derive(clap::Args, Debug)]
@@ -70,6 +81,35 @@ impl PageArguments {
 /// A page as an entry of the files that a command line names.
 pub(super) fn as_file(page: &Option<Output>) -> Option<Named<'_>> {
     page.as_ref().map(|page| written("the page of --report", page))
+}
+
+/// What is printed of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// The first screen, where there is one.
+    Screen,
+    All,
+    Json,
+}
+
+/// Prints a report, then writes its page where one was asked for.
+pub(super) fn show(
+    report: Report,
+    shown: Shown,
+    page: Option<Output>,
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
+    let text = match shown {
+        Shown::Json => json::text(&report.data),
+        Shown::Screen | Shown::All => text::text(&report, shown == Shown::All, streams.colour),
+    };
+    streams.output.write_all(text.as_bytes())?;
+    // What was asked for may fail, but not before the verdict is said.
+    streams.output.flush()?;
+    if let Some(page) = page {
+        write_page(&page, report, streams);
+    }
+    Ok(())
 }
 
 /// Writes the page of a command and says on standard error where it is.

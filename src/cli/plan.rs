@@ -1,10 +1,9 @@
 //! `rasterproof plan`: what a scene calls for, why, and what leaving out the rest saves.
 
-use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use super::files;
-use super::page::{PageArguments, as_file, write_page};
+use super::page::{PageArguments, Shown, as_file, show};
 use super::plan_table::{self, grouped};
 use super::progress::Progress;
 use super::render::NOTHING_DRAWN;
@@ -16,11 +15,11 @@ use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::{Canvas, Plan, SceneDigest};
 use rasterproof_render::effects::render::{Rendered, survey_again};
 use rasterproof_render::effects::{Effect, Effects, Mode};
-use rasterproof_render::pipeline::Counters;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison;
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::table::{Column, Table};
+use rasterproof_report::table::Table;
+use rasterproof_report::words::thousands;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("plan"))]
@@ -174,20 +173,15 @@ impl Savings {
             .into()
         };
         let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
-        let number = |label, about, least| Column::numbers(label, about).least(least);
-        Table {
-            caption: caption.to_owned(),
-            columns: vec![
-                Column::words("planned").least(14),
-                number("alone us", "it is planned, the rest paid for", 10),
-                number("saves", "compared with paying for everything", 9),
-                number("last us", "it is paid for, the rest planned", 10),
-                number("saves", "when it is planned too", 9),
-                number("wrong without", "pixels that change when it is left out everywhere", 14),
-            ],
-            rows: self.effects.iter().map(row).collect(),
-            ..Table::default()
-        }
+        let columns = "planned 14 | >alone us 10 it is planned, the rest paid for | >saves 9 compared with paying for \
+                       everything | >last us 10 it is paid for, the rest planned | >saves 9 when it is planned too | \
+                       >wrong without 14 pixels that change when it is left out everywhere";
+        let notes = [
+            "noise: the middle halves of the rounds of both overlap, or there are fewer than four",
+            "wrong without: pixels that change when it is left out everywhere; --without EFFECT draws them",
+        ];
+        let rows = self.effects.iter().map(row).collect();
+        Table::new(caption, columns, rows).noted(notes.map(str::to_owned).to_vec())
     }
 
     /// How many times as fast the plan is as everything on, and as usual.
@@ -212,10 +206,15 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     let survey_us = time_survey(arguments, &scene)?;
     let same = measured.all().all(|mixture| mixture.same);
     let is_compared = everything.counters.fragments > 0 || !same;
+    let frames = [&everything, &planned];
+    let mut report = report(arguments, typed, &scene, frames, (&measured, survey_us));
+    if page.is_some() {
+        report.frames = vec![view(typed, &scene, frames)];
+    }
     if arguments.json {
         // With its scene it can be drawn by.
         let plan = Plan { scene: Some(SceneDigest::of(&scene)), ..planned.plan.clone() };
-        let json = serde_json::json!({
+        report.data = serde_json::json!({
             "scene": scene.name,
             "plan": plan,
             "everything": everything.counters,
@@ -224,33 +223,8 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
             "survey_us": survey_us,
             "same": is_compared.then_some(same),
         });
-        writeln!(streams.output, "{json}")?;
-    } else {
-        let text = describe(&scene, &planned, &everything.counters, &measured, arguments.whole);
-        streams.output.write_all(text.as_bytes())?;
-        if let Some(us) = survey_us {
-            let share = 100.0 * us / measured.planned.time_us;
-            writeln!(
-                streams.output,
-                "looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame"
-            )?;
-        }
-        match (is_compared, same) {
-            (false, _) => {
-                writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
-            }
-            (_, true) => writeln!(
-                streams.output,
-                "AGREES: planned and everything-on pictures have the same bits"
-            )?,
-            (_, false) => writeln!(streams.output, "DISAGREES: a plan changed the picture")?,
-        }
     }
-    streams.output.flush()?;
-    if let Some(page) = page {
-        let report = report_page(typed, &scene, [&everything, &planned], &measured, same);
-        write_page(&page, report, streams);
-    }
+    show(report, Shown::all_or_json(arguments.json), page, streams)?;
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -386,71 +360,76 @@ fn measure(
     Ok((savings, everything, planned))
 }
 
-fn describe(
-    scene: &Scene,
-    planned: &Rendered,
-    everything: &Counters,
-    savings: &Savings,
-    is_whole: bool,
-) -> String {
-    let mut text = format!("{}: {}\n\n", scene.name, scene.about);
-    text += &plan_table::table(&planned.plan.decisions).text([0, 4]);
-    text += "open: decided while it is drawn; several items: the sums of them\n";
-    text += "\ncounts               everything     planned\n";
-    for ((name, all), (_, planned)) in everything.shown().into_iter().zip(planned.counters.shown())
-    {
-        let _ = writeln!(text, "{name:<18} {all:>12} {planned:>11}");
-    }
-    if is_whole {
-        text.push('\n');
-        text += &whole(savings);
-        return text;
-    }
-    if savings.effects.is_empty() {
-        text += "\nOne effect at a time is not measured, since a round of all mixtures takes\nmore than 5 s here: --rounds 9 measures them.\n\n";
-        text += &whole(savings);
-        return text;
-    }
-    text.push('\n');
-    text += &savings.table().text([0; 2]);
-    text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap, or there are fewer than four\nwrong without: pixels that change when it is left out everywhere;\n  --without EFFECT draws them\n\n";
-    text + &whole(savings)
-}
-
 /// The times of everything, usual and planned, and the mixtures that changed the picture.
-fn whole(savings: &Savings) -> String {
-    let mut text = String::new();
-    for m in savings.all() {
-        if !m.same {
-            let _ = writeln!(text, "DIFFERENT PICTURE with the effects {}", m.effects);
-        }
-    }
-    for (name, m) in [
+fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
+    let rows = [
         ("everything", &savings.everything),
         ("usual", &savings.usual),
         ("planned", &savings.planned),
-    ] {
+    ];
+    let row = |(name, m): (&str, &Measured)| {
         let [low, high] = m.range_us;
-        let _ = writeln!(text, "{name:<14} {:>10.0} us  ({low:.0} to {high:.0})", m.time_us);
-    }
+        let range = format!("{low:.0}-{high:.0}");
+        vec![name.to_owned(), format!("{:.0}", m.time_us), range].into()
+    };
+    let changed = savings.all().filter(|m| !m.same);
+    let mut notes: Vec<_> =
+        changed.map(|m| format!("DIFFERENT PICTURE with the effects {}", m.effects)).collect();
     let [all, usual] = savings.factors();
-    let _ = writeln!(
-        text,
+    notes.push(format!(
         "planned as a whole: {all:.2} times as fast as everything, {usual:.2} as usual"
-    );
-    text += "usual: what a renderer does without a planner (cuts what crosses, culls, one depth test)\n";
-    text
+    ));
+    let renderer = "usual: what a renderer does without a planner";
+    notes.push(format!("{renderer} (cuts what crosses, culls, one depth test)"));
+    if savings.effects.is_empty() && !is_whole {
+        notes.push(
+            "one effect at a time is not measured, since a round of all mixtures takes more than 5 s \
+             here: --rounds 9 measures them"
+                .to_owned(),
+        );
+    }
+    notes.extend(survey_us.map(|us| {
+        let share = 100.0 * us / savings.planned.time_us;
+        format!("looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame")
+    }));
+    let columns =
+        "paid for 14 | >us 10 median of the rounds | >from-to 14 the fastest round and the slowest";
+    Table::new("The frame as a whole", columns, rows.map(row).to_vec()).noted(notes)
 }
 
-fn report_page(
+/// What was counted in both frames.
+fn counts([everything, planned]: [&Rendered; 2]) -> Table {
+    let both = everything.counters.shown().into_iter().zip(planned.counters.shown());
+    let row = |((name, all), (_, planned)): ((&str, u64), (_, u64))| {
+        vec![name.to_owned(), thousands(all), thousands(planned)].into()
+    };
+    let columns = "~counts 20 | >everything 12 | >planned 12";
+    Table::new("What was counted", columns, both.map(row).collect())
+}
+
+/// The frames side by side.
+fn view(typed: &Typed, scene: &Scene, frames: [&Rendered; 2]) -> PictureView {
+    let layer = |(name, frame): (_, &Rendered)| {
+        PictureLayer::new(name, &frame_comparison::rgb(&frame.picture))
+    };
+    PictureView {
+        name: scene.name.clone(),
+        about: scene.about.clone(),
+        command: typed.line(),
+        chapter: Chapter { title: "effects", path: "effects.md" },
+        layers: ["everything", "planned"].into_iter().zip(frames).map(layer).collect(),
+    }
+}
+
+fn report(
+    arguments: &PlanArguments,
     typed: &Typed,
     scene: &Scene,
     frames: [&Rendered; 2],
-    savings: &Savings,
-    same: bool,
+    (savings, survey_us): (&Savings, Option<f64>),
 ) -> Report {
-    let command = typed.line();
     let [all, usual] = savings.factors();
+    let same = savings.all().all(|mixture| mixture.same);
     let sentence = if same {
         format!(
             "Planned, it was drawn {all:.1} times as fast as with everything on, and {usual:.1} \
@@ -459,27 +438,17 @@ fn report_page(
     } else {
         "A plan changed the picture.".to_owned()
     };
+    let savings_of_each = (!savings.effects.is_empty()).then(|| savings.table());
+    let whole = whole(savings, survey_us, arguments.whole);
     Report {
         title: format!("What the scene {} calls for", scene.name),
+        about: format!("{}: {}", scene.name, scene.about),
         outcome: Some(match frames[0].counters.fragments {
             0 if same => Outcome::not_compared(NOTHING_DRAWN),
             _ => Outcome::of(same, sentence),
         }),
-        command: command.clone(),
-        tables: Some(savings.table()).filter(|table| !table.rows.is_empty()).into_iter().collect(),
-        frames: vec![PictureView {
-            name: scene.name.clone(),
-            about: scene.about.clone(),
-            command,
-            chapter: Chapter { title: "effects", path: "effects.md" },
-            layers: ["everything", "planned"]
-                .into_iter()
-                .zip(frames)
-                .map(|(name, frame)| {
-                    PictureLayer::new(name, &frame_comparison::rgb(&frame.picture))
-                })
-                .collect(),
-        }],
+        command: typed.line(),
+        tables: [counts(frames)].into_iter().chain(savings_of_each).chain([whole]).collect(),
         plan: Some(plan_table::table(&frames[1].plan.decisions)),
         ..Report::default()
     }

@@ -2,7 +2,7 @@
 
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::plan::{Decision, Unit};
-use rasterproof_report::table::{Column, Table};
+use rasterproof_report::table::Table;
 
 /// A decision that some items share, or one about the frame.
 pub(super) struct Line<'a> {
@@ -70,21 +70,11 @@ pub(super) fn table(decisions: &[Decision]) -> Table {
         cells.extend([format!(" {}", line.unit.name()), line.reason.to_owned()]);
         cells.into()
     };
-    let number = |label| Column::numbers(label, "how many of the unit").least(8);
-    Table {
-        caption: "Effects, in order".to_owned(),
-        columns: vec![
-            Column::words("effect").least(13),
-            Column::words("item").least(9),
-            number("on"),
-            number("off"),
-            number("open"),
-            Column::words("unit").short(" unit").least(5),
-            Column::words("reason"),
-        ],
-        rows: grouped(decisions).into_iter().map(row).collect(),
-        ..Table::default()
-    }
+    let columns = "effect 13 | item 9 | >on 8 how many of the unit | >off 8 how many of the unit | >open 8 how many of the unit \
+                   | ~unit 6 | reason";
+    let rows = grouped(decisions).into_iter().map(row).collect();
+    let note = "open: decided while it is drawn; several items: the sums of them";
+    Table::new("Effects, in order", columns, rows).noted(vec![note.to_owned()])
 }
 
 #[cfg(test)]

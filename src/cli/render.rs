@@ -1,6 +1,5 @@
 //! `rasterproof render`: a scene or a model to a picture, by either rasterizer or by both.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -10,7 +9,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::files::{self, Output, Use, written};
-use super::page::{PageArguments, as_file, write_page};
+use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
@@ -31,6 +30,8 @@ use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
+use rasterproof_report::table::Table;
+use rasterproof_report::words::thousands;
 use rasterproof_study::ties::classify;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
@@ -157,29 +158,28 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         loading_s: maker.loading_s(),
         drawing_s: drawings.iter().map(|drawing| drawing.time.as_secs_f64()).collect(),
     };
+    let mut data = serde_json::Value::Null;
     if arguments.json {
         // With its scene the plan can be drawn by.
         drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
-        let json = frame_comparison::json(
-            &scene.name,
-            &names(&drawings),
-            &drawings[0].rendered,
-            &comparison,
-            &by_rounding,
-            &times,
-        );
-        writeln!(streams.output, "{json}")?;
-    } else {
-        let files = [drawn_in, difference_in];
-        let mut text =
-            describe(scene, &drawings, &times, comparison.as_ref(), files, maker.why_empty());
-        text += &rounding_text(by_rounding.unwrap_or_default(), ROUNDING);
-        streams.output.write_all(text.as_bytes())?;
+        let (name, names, first) = (&scene.name, names(&drawings), &drawings[0].rendered);
+        data = frame_comparison::json(name, &names, first, &comparison, &by_rounding, &times);
     }
-    streams.output.flush()?;
-    if let Some(path) = page {
-        let report = report_page(typed, scene, &drawings, comparison.as_ref(), by_rounding);
-        write_page(&path, report, streams);
+    let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
+    if is_empty(&drawings[0].rendered) {
+        notes.push("EMPTY: nothing of it is seen; the picture is background alone".to_owned());
+        let why = Some(maker.why_empty()).filter(|why| !why.is_empty());
+        notes.extend(why.map(|why| format!("the cause is that {why}")));
+    }
+    notes.extend(by_rounding.and_then(|found| rounding(found, ROUNDING)));
+    let difference_in = difference_in.map(printable_path);
+    let outcome = outcome(&drawings, comparison.as_ref(), difference_in);
+    let about = format!("{}: {}", scene.name, scene.about);
+    let mut report = Report { about, data, notes, outcome, ..Report::default() };
+    show(report.clone(), Shown::screen_or_json(arguments.json), None, streams)?;
+    if let Some(page) = page {
+        add_to_page(&mut report, typed, scene, &drawings, comparison.as_ref());
+        write_page(&page, report, streams);
     }
     Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
 }
@@ -248,68 +248,66 @@ const ROUNDING: [&str; 2] = ["rounding alone", "snapped corners move a depth"];
 const ROUNDING_IN_TILES: [&str; 2] =
     ["rounding to f32 or snapping", "snapping and f32 move a depth"];
 
-/// The same in words, as two lines; nothing where nothing is.
-fn rounding(found: ByRounding, [what, reach]: [&str; 2]) -> Option<[String; 2]> {
+/// The same in words; nothing where nothing is.
+fn rounding(found: ByRounding, [what, reach]: [&str; 2]) -> Option<String> {
     let (x, y) = found.first?;
     let pixels = match found.pixels {
         1 => "1 pixel has".to_owned(),
         count => format!("{count} pixels have"),
     };
-    Some([
-        format!("{pixels} two surfaces nearer to each other than {reach};"),
-        format!("{what} decides which one is seen; the first is at {x}, {y}"),
-    ])
+    Some(format!(
+        "ROUNDING: {pixels} two surfaces nearer to each other than {reach}; {what} decides which one is \
+         seen; the first is at {x}, {y} (see docs/ties.md)"
+    ))
 }
 
-fn rounding_text(found: ByRounding, words: [&str; 2]) -> String {
-    rounding(found, words).map_or(String::new(), |[first, second]| {
-        format!("ROUNDING: {first}\n  {second} (see docs/ties.md)\n")
-    })
+/// What two drawings come to, or that nothing was drawn.
+fn outcome(
+    drawings: &[Drawing],
+    comparison: Option<&Comparison>,
+    difference: Option<String>,
+) -> Option<Outcome> {
+    let Some(c) = comparison else {
+        return is_nothing_drawn(drawings).then(|| Outcome::not_compared(NOTHING_DRAWN));
+    };
+    let names = names(drawings).join(" and ");
+    let (wrong, pixels, wrong_depths, depths) =
+        (c.wrong_pixels, c.pixels, c.wrong_depths, c.depths);
+    let sentence = if c.agrees() {
+        format!("{names}, {pixels} pixels and {depths} depths, 0 differ")
+    } else if is_plan_alone(c, drawings) {
+        format!("{names} draw alike, and by this plan {wrong} of {pixels} pixels wrong; plan again")
+    } else {
+        let place = difference.map(|path| format!(", drawn in {path}")).unwrap_or_default();
+        let depths = format!("{wrong_depths} of {depths} depths differ{place}");
+        format!("{names}: {wrong} of {pixels} pixels and {depths}")
+    };
+    Some(Outcome::of(c.agrees(), sentence))
 }
 
-/// The frames side by side, with the plan that was followed.
-fn report_page(
+/// What a page has besides: the frames side by side, and the plan that was followed.
+fn add_to_page(
+    report: &mut Report,
     typed: &Typed,
     scene: &Scene,
     drawings: &[Drawing],
     comparison: Option<&Comparison>,
-    by_rounding: Option<ByRounding>,
-) -> Report {
-    let command = typed.line();
-    let decided =
-        by_rounding.and_then(|found| rounding(found, ROUNDING)).map(|lines| lines.join(" "));
-    let outcome = comparison.map(|c| {
-        let open = [undecided(c), far_texture(c), decided].into_iter().flatten();
-        let open: String = open.map(|words| format!(" {words}.")).collect();
-        let (names, pixels) = (names(drawings).join(" and "), c.pixels);
-        let (wrong, wrong_depths, depths) = (c.wrong_pixels, c.wrong_depths, c.depths);
-        let pixels = format!("{wrong} of {pixels} pixels");
-        let sentence =
-            format!("{names}: {pixels} and {wrong_depths} of {depths} depths differ.{open}");
-        Outcome::of(c.agrees(), sentence)
-    });
-    let nothing = || is_nothing_drawn(drawings).then(|| Outcome::not_compared(NOTHING_DRAWN));
-    let outcome = outcome.or_else(nothing);
+) {
     let layer =
         |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
     let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
     let marked =
         marked.map(|c| PictureLayer::map("what differs", &frame_comparison::rgb(&c.picture)));
-    let view = PictureView {
+    report.title = format!("The scene {}", scene.name);
+    report.command = typed.line();
+    report.plan = drawings.first().map(|d| plan_table::table(&d.rendered.plan.decisions));
+    report.frames = vec![PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),
-        command: command.clone(),
+        command: typed.line(),
         chapter: Chapter { title: "chapter 9, the pipeline", path: "ch09.md" },
         layers: drawings.iter().map(layer).chain(marked).collect(),
-    };
-    Report {
-        title: format!("The scene {}", scene.name),
-        outcome,
-        command,
-        frames: vec![view],
-        plan: drawings.first().map(|d| plan_table::table(&d.rendered.plan.decisions)),
-        ..Report::default()
-    }
+    }];
 }
 
 /// A plan from a file: the plan alone, or all that `plan --json` writes.
@@ -388,105 +386,57 @@ fn leaves_open(c: &Comparison) -> bool {
     c.undecided > 0 || c.far_texture > 0
 }
 
-/// What is undecided by either, in words; nothing where nothing is.
-fn undecided(c: &Comparison) -> Option<String> {
-    let Comparison { undecided, undecided_differ, .. } = c;
-    (*undecided > 0).then(|| {
-        format!("{undecided} pixels are undecided by either, {undecided_differ} of them differ")
-    })
-}
-
-/// What texture coordinates leave open, in words; nothing where they do not.
-fn far_texture(c: &Comparison) -> Option<String> {
-    (c.far_texture > 0).then(|| {
-        let count = c.far_texture;
-        format!(
-            "{count} pixels differ by large texture coordinates, whose bound holds several texels"
-        )
-    })
-}
-
-fn describe(
+/// What was drawn, how long that took, and what is right in either of two colours.
+fn notes(
     scene: &Scene,
     drawings: &[Drawing],
     times: &Times,
     comparison: Option<&Comparison>,
     [output, difference]: [Option<&Path>; 2],
-    why_empty: &str,
-) -> String {
-    let mut text = String::new();
+) -> Vec<String> {
     let c = &drawings[0].rendered.counters;
-    let _ = writeln!(text, "{}: {}", scene.name, scene.about);
-    let _ = writeln!(
-        text,
-        "  vertices {}, triangles {} (rejected {}, clipped {}), in the window {}, culled {}",
-        c.vertices, c.triangles, c.rejected, c.clipped, c.pieces, c.culled
-    );
-    let _ = writeln!(
-        text,
-        "  fragments {}, depth tests {} (failed {}), shaded {}",
-        c.fragments, c.depth_tests, c.depth_failed, c.shaded
-    );
+    let mut notes = vec![
+        format!(
+            "vertices {}, triangles {} (rejected {}, clipped {}), in the window {}, culled {}",
+            c.vertices, c.triangles, c.rejected, c.clipped, c.pieces, c.culled
+        ),
+        format!(
+            "fragments {}, depth tests {} (failed {}), shaded {}",
+            c.fragments, c.depth_tests, c.depth_failed, c.shaded
+        ),
+    ];
     if let (Some(most), true) = (scene.layers, c.layers > 0) {
-        let _ = writeln!(
-            text,
-            "  layers {}, of which {} lie behind the {most} nearest of their sample and are left out",
+        notes.push(format!(
+            "layers {}, of which {} lie behind the {most} nearest of their sample and are left out",
             c.layers, c.layers_left_out
-        );
+        ));
     }
-    text += &times_text(times, &names(drawings));
-    if let Some(output) = output {
-        let _ = writeln!(text, "  drawn in {}", printable_path(output));
-    }
-    if is_empty(&drawings[0].rendered) {
-        let _ = writeln!(text, "  EMPTY: nothing of it is seen; the picture is background alone");
-        if !why_empty.is_empty() {
-            let _ = writeln!(text, "  the cause is that {why_empty}");
-        }
-    }
-    if is_nothing_drawn(drawings) {
-        let _ = writeln!(text, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.");
-    }
+    notes.push(times_text(times, &names(drawings)));
+    notes.extend(output.map(|output| format!("drawn in {}", printable_path(output))));
     let changed = changed(drawings);
     if changed > 0 {
-        let _ = writeln!(text, "  what is switched off is called for: it changes {changed} pixels");
+        notes.push(format!("what is switched off is called for: it changes {changed} pixels"));
     }
-    if let Some(c) = comparison {
-        let names = names(drawings).join(" and ");
-        let (wrong, pixels, wrong_depths, depths) =
-            (c.wrong_pixels, c.pixels, c.wrong_depths, c.depths);
-        let _ = if c.agrees() {
-            writeln!(text, "AGREES: {names}, {pixels} pixels and {depths} depths, 0 differ")
-        } else if is_plan_alone(c, drawings) {
-            writeln!(
-                text,
-                "DISAGREES: {names} draw alike, and by this plan {wrong} of {pixels} pixels wrong; \
-                 plan again"
-            )
-        } else {
-            let place = difference.map(|path| format!(", drawn in {}", printable_path(path)));
-            writeln!(
-                text,
-                "DISAGREES: {names}: {wrong} of {pixels} pixels and {wrong_depths} of {depths} depths \
-                 differ{}",
-                place.unwrap_or_default()
-            )
-        };
-    }
-    if let Some(words) = comparison.and_then(undecided) {
-        let place = difference.map(|path| format!(", drawn in\n  {}", printable_path(path)));
+    let Some(c) = comparison else { return notes };
+    let Comparison { undecided, undecided_differ, far_texture, .. } = c;
+    if *undecided > 0 {
+        let place = difference.map(|path| format!(", drawn in {}", printable_path(path)));
         let place = place.unwrap_or_default();
-        let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie{place} (see docs/ties.md)");
+        notes.push(format!(
+            "UNDECIDED: {undecided} pixels are undecided by either, {undecided_differ} of them differ: \
+             surfaces that tie{place} (see docs/ties.md)"
+        ));
     }
-    if let Some((first, rest)) =
-        comparison.and_then(far_texture).as_deref().and_then(|words| words.split_once(", "))
-    {
-        let _ = writeln!(text, "UNDECIDED: {first},\n  {rest} (see docs/ties.md)");
+    if *far_texture > 0 {
+        notes.push(format!(
+            "UNDECIDED: {far_texture} pixels differ by large texture coordinates, whose bound holds \
+             several texels (see docs/ties.md)"
+        ));
     }
-    text
+    notes
 }
 
-/// `  loaded in 12 ms; drawn in 3.1 ms by scanline, 4.0 ms by edge-function`, as one line.
+/// `loaded in 12 ms; drawn in 3.1 ms by scanline, 4.0 ms by edge-function`.
 fn times_text(times: &Times, names: &[&str]) -> String {
     let shown = |seconds: f64| match seconds * 1e3 {
         ms if ms < 10.0 => format!("{ms:.1} ms"),
@@ -496,7 +446,7 @@ fn times_text(times: &Times, names: &[&str]) -> String {
     let loaded = times.loading_s.map(|time| format!("loaded in {}; ", shown(time)));
     let by = times.drawing_s.iter().zip(names);
     let drawn: Vec<_> = by.map(|(&time, name)| format!("{} by {name}", shown(time))).collect();
-    format!("  {}drawn in {}\n", loaded.unwrap_or_default(), drawn.join(", "))
+    format!("{}drawn in {}", loaded.unwrap_or_default(), drawn.join(", "))
 }
 
 /// Whether every pixel of the picture has the colour of the first.
@@ -547,44 +497,43 @@ fn draw_in_tiles(
     let picture = picture.map_err(usage)?;
     let times =
         Times { loading_s: maker.loading_s(), drawing_s: vec![start.elapsed().as_secs_f64()] };
-    writeln!(streams.output, "{}: {}", scene.name, scene.about)?;
     let all = scene.triangles();
     let name = match handed_over.triangles() {
         0 => "tiles",
         handed_over if handed_over == all => "scanline",
         _ => "tiles and scanline",
     };
-    write!(streams.output, "{}", times_text(&times, &[name]))?;
+    let mut notes = vec![times_text(&times, &[name])];
     for (count, reason) in [
         (handed_over.in_shadows, "are in a scene with shadows"),
         (handed_over.not_opaque, "are of a material that is not opaque"),
         (handed_over.physical, "are of a physical material"),
         (
             handed_over.beyond_f32,
-            "are of an item with values beyond 2^62,\n  which may overflow in f32",
+            "are of an item with values beyond 2^62, which may overflow in f32",
         ),
     ] {
         if count > 0 {
-            writeln!(streams.output, "  {count} of {all} triangles {reason}: handed to scanline")?;
+            notes.push(format!("{count} of {all} triangles {reason}: handed to scanline"));
         }
     }
+    let is_handed_over = handed_over.triangles() == all;
     if streams.save(output, &frame_comparison::png(&picture)?) {
         let (side, path) = (frames::SIDE_PX, printable_path(&output.path));
-        match handed_over.triangles() {
-            count if count == all => writeln!(streams.output, "  drawn in {path}")?,
-            _ => writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?,
+        let tiles = format!("in tiles of {side} x {side} px ");
+        notes.push(format!("drawn {}in {path}", if is_handed_over { "" } else { &tiles }));
+    }
+    if !is_handed_over {
+        let differing = frame_comparison::differing(&picture, &exact()?);
+        if differing > 0 {
+            let pixels = u64::from(size.width()) * u64::from(size.height());
+            notes.push(format!("{differing} of {pixels} pixels differ from those of scanline"));
         }
+        let found = TiedPieces::new(scene, &target).map_err(usage)?.by_planes_in_f32();
+        notes.extend(rounding(found, ROUNDING_IN_TILES));
     }
-    if handed_over.triangles() == all {
-        return Ok(exit::AGREES);
-    }
-    let differing = frame_comparison::differing(&picture, &exact()?);
-    if differing > 0 {
-        let pixels = u64::from(size.width()) * u64::from(size.height());
-        writeln!(streams.output, "  {differing} of {pixels} pixels differ from those of scanline")?;
-    }
-    let found = TiedPieces::new(scene, &target).map_err(usage)?.by_planes_in_f32();
-    streams.output.write_all(rounding_text(found, ROUNDING_IN_TILES).as_bytes())?;
+    let about = format!("{}: {}", scene.name, scene.about);
+    show(Report { about, notes, ..Report::default() }, Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -610,22 +559,21 @@ fn map(
     let title = format!("{}: what each pixel pays for", scene.name);
     let picture = picture::png(&frame_comparison::map_picture(&title, &rendered.picture, &map));
     let drawn_in = saved(output, &picture, streams);
-    writeln!(streams.output, "{}: effects paid for{drawn_in}", scene.name)?;
-    for effect in frame_comparison::mapped() {
-        writeln!(
-            streams.output,
-            "  {:<12} {} px",
-            effect.name(),
-            frame_comparison::paid(&map.effects, effect)
-        )?;
-    }
-    for (what, counts) in [("fragments", &map.fragments), ("effects of fragments", &map.payments)] {
+    let row = |effect: Effect| {
+        let paid = frame_comparison::paid(&map.effects, effect);
+        vec![effect.name().to_owned(), thousands(paid)].into()
+    };
+    let amounts = [("fragments", &map.fragments), ("effects of fragments", &map.payments)];
+    let notes = amounts.map(|(what, counts)| {
         let Amount { mean, most, at: [x, y], pixels } = Amount::of(counts);
-        writeln!(
-            streams.output,
+        format!(
             "{what}: {mean:.2} a pixel on average, at most {most} (in {pixels} px, first {x},{y})"
-        )?;
-    }
+        )
+    });
+    let rows = frame_comparison::mapped().map(row).collect();
+    let table = Table::new("", "effect 15 | >px 9", rows).noted(notes.to_vec());
+    let about = format!("{}: effects paid for{drawn_in}", scene.name);
+    show(Report { about, tables: vec![table], ..Report::default() }, Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 

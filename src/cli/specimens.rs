@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::files::{self, Output, written};
-use super::page::{PageArguments, as_file, write_page};
+use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Status, Streams, exit, png_name, write_picture};
@@ -55,25 +55,22 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
         .inspect(|_| progress.done(1))
         .collect();
     drop(progress);
-    let (drawn, text) = match (cards.as_slice(), reports.as_slice()) {
-        ([card], [report]) => (specimen_sheet::alone(card).image, specimens::detail(report)),
-        _ => (specimen_sheet::contact_sheet(), specimens::text(&reports)),
+    let drawn = match cards.as_slice() {
+        [card] => specimen_sheet::alone(card).image,
+        _ => specimen_sheet::contact_sheet(),
     };
-    if arguments.json {
-        let json = json::specimens(arguments.seed, arguments.cases, &reports);
-        write!(streams.output, "{json}")?;
-    } else {
-        writeln!(streams.output, "{text}")?;
-    }
     let (png, unasked) = (picture::png(&drawn), arguments.page.place.output("specimens.png"));
-    match &sheet {
-        Some(sheet) if arguments.json => drop(streams.save(sheet, &png)),
-        None if arguments.json => {}
+    let place = match &sheet {
+        Some(sheet) if arguments.json => {
+            streams.save(sheet, &png);
+            None
+        }
+        None if arguments.json => None,
         asked => write_picture(asked.as_ref(), &unasked, &png, streams)?,
-    }
-    if let Some(page) = page {
-        write_page(&page, report_page(arguments, typed, &reports), streams);
-    }
+    };
+    let mut report = report(arguments, typed, &reports, page.is_some());
+    report.notes.extend(place);
+    show(report, Shown::all_or_json(arguments.json), page, streams)?;
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -82,11 +79,12 @@ fn are_caught(reports: &[SpecimenReport]) -> bool {
     reports.iter().all(|r| r.case_wrong > 0 && r.harmless_wrong == 0)
 }
 
-/// The survey as a page: how often each is wrong, the exposing cases, the pictures.
-fn report_page(
+/// How often each is wrong; on a page also the exposing cases and the pictures.
+fn report(
     arguments: &SpecimensArguments,
     typed: &Typed,
     reports: &[SpecimenReport],
+    is_page: bool,
 ) -> Report {
     let good = are_caught(reports);
     let sentence = if good {
@@ -96,10 +94,10 @@ fn report_page(
     };
     let word = if good { "CAUGHT" } else { "NOT CAUGHT" };
     let is_asked = |name: &str| reports.iter().any(|r| r.name == name.trim_end_matches(" picture"));
-    let mut cases = page_cases::of_specimens();
+    let mut cases = if is_page { page_cases::of_specimens() } else { Vec::new() };
     cases.retain(|case| is_asked(&case.name));
     let taken: Vec<_> = cases.iter().map(|case| case.name.clone()).collect();
-    let mut frames = specimen_sheet::views(&taken);
+    let mut frames = if is_page { specimen_sheet::views(&taken) } else { Vec::new() };
     frames.retain(|view| is_asked(&view.name));
     Report {
         title: "Published algorithms and their faults".to_owned(),
@@ -109,7 +107,8 @@ fn report_page(
             typed.first("seed", arguments.seed).line()
         },
         seed: Some(arguments.seed),
-        tables: vec![specimens::table(reports)],
+        tables: specimens::tables(reports),
+        data: json::specimens(arguments.seed, arguments.cases, reports),
         cases,
         frames,
         ..Report::default()

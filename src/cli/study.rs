@@ -14,23 +14,23 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_models::Origin;
 use rasterproof_registry::comparison::Judged;
 use rasterproof_render::scene::{Hidden, Scene};
-use rasterproof_report::board::number;
+use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::study::{
     self as report, Subject, costs, costs_json, hard_cases, hard_cases_json,
 };
-use rasterproof_report::summary::{thousands, word};
-use rasterproof_report::table::{Column, Table};
-use rasterproof_report::text::{self, WIDTH};
+use rasterproof_report::table::{Mark, Row, Table};
+use rasterproof_report::words::{number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::hard::{self, HardCases, Kind};
 use rasterproof_study::view::{Piece, Sampled};
 use rasterproof_study::{face_of, faces, triangle_of};
 use rasterproof_verify::cases::{Case, Shape};
+use serde_json::Value;
 
 use super::files;
 use super::inspect_case::{self, Found};
-use super::page::{PageArguments, as_file, write_page};
+use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, Purpose, SceneArguments, VIEW_OPTIONS, ViewArguments};
@@ -129,13 +129,13 @@ pub(super) fn cost(
     let groups = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
-    let out = &mut *streams.output;
-    if is_json {
-        writeln!(out, "{}", costs_json(&subject, &groups))?;
-    } else {
-        writeln!(out, "{}\n", head(&studied))?;
-        out.write_all(text::tables(&costs(&subject, &groups), WIDTH).as_bytes())?;
-    }
+    let report = Report {
+        about: head(&studied),
+        tables: costs(&subject, &groups),
+        data: costs_json(&subject, &groups),
+        ..Report::default()
+    };
+    show(report, Shown::all_or_json(is_json), None, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -186,25 +186,17 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
             format!("read in {:.1} ms, which is no part of the times above", loading_s * 1e3);
         report.notes.push(read);
     }
-    let out = &mut *streams.output;
-    if arguments.json {
-        let mut json = serde_json::json!({
-            "scene": studied.scene.name,
-            "triangles": studied.scene.triangles(),
-            "pieces": pieces.len(),
-            "loading_s": maker.loading_s(),
-        });
-        if let (Some(json), Some(data)) = (json.as_object_mut(), report.data.as_object()) {
-            json.extend(data.clone());
-        }
-        writeln!(out, "{json}")?;
-    } else {
-        out.write_all(text::text(&report, arguments.all).as_bytes())?;
+    let about_it = serde_json::json!({
+        "scene": studied.scene.name,
+        "triangles": studied.scene.triangles(),
+        "pieces": pieces.len(),
+        "loading_s": maker.loading_s(),
+    });
+    if let (Some(data), Value::Object(about_it)) = (report.data.as_object_mut(), about_it) {
+        data.extend(about_it);
     }
-    out.flush()?;
-    if let Some(output) = page {
-        write_page(&output, report, streams);
-    }
+    let shown = if arguments.all { Shown::All } else { Shown::Screen };
+    show(report, if arguments.json { Shown::Json } else { shown }, page, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -244,29 +236,37 @@ fn all_around(
         progress.done(1);
     }
     drop(progress);
-    let out = &mut *streams.output;
-    if arguments.json {
-        let best = best.iter().map(|((place, name), count)| (titles[*place], name, count));
-        let json =
-            serde_json::json!({ "views": lines, "cheapest_exact": best.collect::<Vec<_>>() });
-        writeln!(out, "{json}")?;
-        return Ok(exit::AGREES);
-    }
-    let columns = ["turn", "kinds", "slivers", "order", "by_rounding", "equal"];
-    writeln!(out, "pixels that hard cases touch, by the turn of the model in degrees\n")?;
-    let cells = |line: &serde_json::Value| {
-        columns.map(|column| number(line[column].as_f64().unwrap_or(0.0), 9)).to_vec().into()
+    let cells = |line: &Value| {
+        let keys = ["turn", "kinds", "slivers", "order", "by_rounding", "equal"];
+        keys.map(|key| number(line[key].as_f64().unwrap_or(0.0), 9)).to_vec().into()
     };
-    let rows = lines.iter().map(cells).collect();
-    let least = |label: &str| if label == "turn" { 12 } else { 11 };
-    let columns = columns.map(|label| Column::numbers(label, "").least(least(label))).to_vec();
-    write!(out, "{}", Table { columns, rows, ..Table::default() }.text([0; 2]))?;
-    writeln!(out, "\ncheapest exact choice, and in how many of the views")?;
-    for ((place, name), count) in best {
-        writeln!(out, "  {:<28}{name:<24}{count:>6}", titles[place])?;
-    }
+    let columns =
+        ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11";
+    let hard = Table::new(
+        "Hard cases by the turn of the model",
+        columns,
+        lines.iter().map(cells).collect(),
+    );
+    let hard = hard.noted(vec![COUNTED.to_owned()]);
+    let row = |((place, name), count): (&(usize, String), &u32)| {
+        vec![titles[*place].to_owned(), name.clone(), count.to_string()].into()
+    };
+    let columns = "job 28 | choice 24 | >views 6 in how many of the views";
+    let cheapest = Table::new("Cheapest exact choice", columns, best.iter().map(row).collect());
+    let best = best.iter().map(|((place, name), count)| (titles[*place], name, count));
+    let report = Report {
+        about: format!("{}: seen from {views} sides", maker.scene.name),
+        data: serde_json::json!({ "views": lines, "cheapest_exact": best.collect::<Vec<_>>() }),
+        tables: vec![hard, cheapest],
+        ..Report::default()
+    };
+    show(report, Shown::all_or_json(arguments.json), None, streams)?;
     Ok(exit::AGREES)
 }
+
+/// What the columns of `--views` mean.
+const COUNTED: &str = "turn in degrees; kinds of hard cases that are seen; px of slivers; px by drawing order; px in which \
+                       rounding alone decides, and of them those of equal depths";
 
 fn head(studied: &Studied<'_>) -> String {
     let (triangles, pieces) =
@@ -340,56 +340,56 @@ pub(super) fn verify(
         }
     };
     let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
-    let out = &mut *streams.output;
-    if is_json {
-        let engine = |(name, fault): &(&str, Option<Fault>)| {
-            let face = fault.as_ref().and_then(|fault| fault.triangle);
-            let face = face.map(|one| face_of(&studied.scene, studied.origins, one));
-            let what = fault.as_ref().map(|fault| &fault.what);
-            serde_json::json!({ "engine": name, "fault": what, "face": face })
-        };
-        let json = serde_json::json!({
+    let engine = |(name, fault): &(&str, Option<Fault>)| {
+        let face = fault.as_ref().and_then(|fault| fault.triangle);
+        let face = face.map(|one| face_of(&studied.scene, studied.origins, one));
+        let what = fault.as_ref().map(|fault| &fault.what);
+        serde_json::json!({ "engine": name, "fault": what, "face": face })
+    };
+    let row = |(name, fault): &(&str, Option<Fault>)| {
+        let what = fault.as_ref().map_or("agrees", |fault| &fault.what).to_owned();
+        let first = fault.as_ref().and_then(|fault| fault.triangle);
+        let first =
+            first.map(|one| format!("first at {}\n{}", subject.place(one), subject.command(one)));
+        let mark = if fault.is_some() { Mark::Wrong } else { Mark::Plain };
+        let name = format!("{name} against the oracle:");
+        Row { cells: vec![name, what, first.unwrap_or_default()], mark, ..Row::default() }
+    };
+    let is_left = (left > 0).then(|| {
+        let left = thousands(left as u64);
+        format!(
+            "not judged: {left} pieces, whose texture coordinates are too large for the engines"
+        )
+    });
+    let engines =
+        Table::new("", "~engine 1 | ~found 1 | first fault", faults.iter().map(row).collect());
+    let engines = engines.judged().noted(is_left.into_iter().collect());
+    let (pieces, shown) = (thousands(count as u64), printable_path(path));
+    let report = Report {
+        about: head(&studied),
+        tables: vec![hard_cases(&subject, &studied.hard, &[]), engines],
+        outcome: Some(match agrees {
+            Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
+            None => Outcome {
+                good: false,
+                word: "NOT JUDGED".to_owned(),
+                sentence: format!(
+                    "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
+                     look at it from another side (--yaw, --pitch, --zoom)"
+                ),
+            },
+        }),
+        data: serde_json::json!({
             "scene": studied.scene.name,
             "hard_cases": hard_cases_json(&subject, &studied.hard),
             "engines": faults.iter().map(engine).collect::<Vec<_>>(),
             "pieces": count,
             "not_judged": left,
             "agrees": agrees,
-        });
-        writeln!(out, "{json}")?;
-        return Ok(status);
-    }
-    writeln!(out, "{}\n", head(&studied))?;
-    let hard = hard_cases(&subject, &studied.hard, &[]);
-    write!(out, "{}", text::tables(&[hard], WIDTH))?;
-    for (name, fault) in &faults {
-        let Some(Fault { what, triangle }) = fault else {
-            writeln!(out, "{name} against the oracle: agrees")?;
-            continue;
-        };
-        writeln!(out, "{name} against the oracle: {what}")?;
-        if let Some(triangle) = *triangle {
-            writeln!(out, "    first at {}", subject.place(triangle))?;
-            writeln!(out, "    {}", subject.command(triangle))?;
-        }
-    }
-    if left > 0 {
-        let left = thousands(left as u64);
-        writeln!(
-            out,
-            "not judged: {left} pieces, whose texture coordinates are too large for the engines"
-        )?;
-    }
-    let count = thousands(count as u64);
-    let shown = printable_path(path);
-    match agrees {
-        Some(agrees) => writeln!(out, "{}: {count} pieces of {shown}", word(agrees))?,
-        None => writeln!(
-            out,
-            "NOT JUDGED: the {count} pieces of {shown} in the window have no pixel, so nothing was compared; \
-             look at it from another side (--yaw, --pitch, --zoom)"
-        )?,
-    }
+        }),
+        ..Report::default()
+    };
+    show(report, Shown::all_or_json(is_json), None, streams)?;
     Ok(status)
 }
 

@@ -1,12 +1,16 @@
 //! `rasterproof tolerances`: what the acceptance rules of test suites let through.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use rasterproof_invariants::acceptance::rules::RULES;
+use rasterproof_host::text::printable_path;
+use rasterproof_invariants::acceptance::rules::{RULES, Rule};
 use rasterproof_invariants::acceptance::{Report, Row, report};
 use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
+use rasterproof_report::html::Report as Page;
+use rasterproof_report::table::Table;
 
 use super::files::Output;
+use super::page::{Shown, show};
 use super::progress::Progress;
 use super::{Status, Streams, exit, usage};
 
@@ -36,19 +40,11 @@ pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status
     if let Some(path) = &arguments.plot {
         super::write_file(&Output::typed(path), canvas::svg(&plot(&report)).as_bytes())?;
     }
-    if arguments.json {
-        writeln!(streams.output, "{}", json(arguments.seed, &report))?;
-    } else {
-        write!(streams.output, "{}", text(arguments.seed, &report))?;
-        if let Some(path) = &arguments.plot {
-            writeln!(streams.output, "drawn in {}", shown(path))?;
-        }
+    show(page(arguments.seed, &report), Shown::all_or_json(arguments.json), None, streams)?;
+    if let (Some(path), false) = (&arguments.plot, arguments.json) {
+        writeln!(streams.output, "drawn in {}", printable_path(path))?;
     }
     Ok(exit::AGREES)
-}
-
-fn shown(path: &Path) -> String {
-    rasterproof_host::text::printable_path(path)
 }
 
 /// Both sets of scenes, with what they are called.
@@ -59,64 +55,64 @@ fn sets(report: &Report) -> [(&'static str, &[Row], usize, usize); 2] {
     ]
 }
 
-fn text(seed: u64, report: &Report) -> String {
+fn page(seed: u64, report: &Report) -> Page {
     let (faults, right) = (report.faults.len(), report.right.len());
-    let mut out = format!(
-        "{faults} faults and {right} right rasterizers with another permitted convention, seed {seed}\n"
-    );
-    for (title, rows, scenes, visible) in sets(report) {
-        out += &format!(
-            "\n{title}: {scenes} pictures, {visible} faults change at least one\n\
-             rule             faults   wrong pictures   right ones   right pictures   not\n\
-             \u{20}                caught   refused          refused      refused          used\n"
-        );
-        for (rule, row) in RULES.iter().zip(rows) {
-            out += &format!(
-                "{:<15}  {:>2}/{faults}    {:<15}  {:<11}  {:<15}  {}\n",
-                rule.name,
-                row.caught.len(),
-                format!("{}/{}", row.refused_pictures, row.wrong_pictures),
-                format!("{}/{right}", row.refused_right.len()),
-                format!("{}/{}", row.refused_right_pictures, row.right_pictures),
-                row.unusable_pictures,
-            );
-        }
-    }
-    for (title, rows, ..) in sets(report) {
-        out += &format!("\nwhat passes, on {title}:\n");
-        for (rule, row) in RULES.iter().zip(rows) {
+    let caught = sets(report).map(|(title, rows, scenes, visible)| {
+        let row = |(rule, row): (&Rule, &Row)| {
+            let of = |part: u64, whole: u64| format!("{part}/{whole}");
+            vec![
+                rule.name.to_owned(),
+                of(row.caught.len() as u64, faults as u64),
+                of(row.refused_pictures, row.wrong_pictures),
+                of(row.refused_right.len() as u64, right as u64),
+                of(row.refused_right_pictures, row.right_pictures),
+                row.unusable_pictures.to_string(),
+            ]
+            .into()
+        };
+        let columns = "rule 15 | >caught 8 faults that it refuses in at least one picture | >wrong refused 8 of the pictures \
+                       that a fault changes | >right refused 8 right rasterizers that it refuses in at least one picture | \
+                       >pictures 8 of right rasterizers, that it refuses | >unused 8 pictures on which it is not used, \
+                       since it refuses the right one";
+        let caption = format!("{title}: {scenes} pictures, {visible} faults change at least one");
+        Table::new(&caption, columns, RULES.iter().zip(rows).map(row).collect())
+    });
+    let passes = sets(report).map(|(title, rows, ..)| {
+        let row = |(rule, row): (&Rule, &Row)| {
             let Some((smallest, worst)) = row.smallest().zip(row.most_harmful()) else {
-                out += &format!("{}: no fault that changes a pixel\n", rule.name);
-                continue;
+                return vec![rule.name.to_owned(), "no fault that changes a pixel".to_owned()]
+                    .into();
             };
-            out += &format!(
-                "{}:\n  smallest      {}, {} of {} px\n  most harmful  {}, {} of {} px ({})\n",
-                rule.name,
-                smallest.name,
-                smallest.wrong_pixels,
-                smallest.pixels,
-                worst.name,
-                worst.wrong_pixels,
-                worst.pixels,
-                percent(worst.wrong_pixels, worst.pixels),
-            );
-            if let Some(picture) = &row.worst_picture {
-                out += &format!(
-                    "  one picture   {}, {} of {} px: {}\n",
-                    picture.name, picture.wrong_pixels, picture.pixels, picture.scene
-                );
-            }
-        }
+            let of = |name: &str, wrong: u64, all: u64| format!("{name}, {wrong} of {all} px");
+            let share = 100.0 * worst.wrong_pixels as f64 / worst.pixels as f64;
+            let picture = row.worst_picture.as_ref().map_or(String::new(), |one| {
+                let what = of(one.name, one.wrong_pixels, one.pixels);
+                format!("one picture: {what}: {}", one.scene)
+            });
+            let smallest = of(smallest.name, smallest.wrong_pixels, smallest.pixels);
+            let worst = of(worst.name, worst.wrong_pixels, worst.pixels);
+            vec![
+                rule.name.to_owned(),
+                format!("smallest: {smallest}"),
+                format!("most harmful: {worst} ({share:.2}%)"),
+                picture,
+            ]
+            .into()
+        };
+        let columns = "rule 15 | smallest | most harmful | one picture";
+        let rows = RULES.iter().zip(rows).map(row).collect();
+        Table::new(&format!("What passes, on {title}"), columns, rows)
+    });
+    let rule = |rule: &Rule| vec![rule.name.to_owned(), rule.about.to_owned()].into();
+    let rules = Table::new("The rules", "rule 15 | accepts 1", RULES.iter().map(rule).collect());
+    Page {
+        about: format!(
+            "{faults} faults and {right} right rasterizers with another permitted convention, seed {seed}"
+        ),
+        tables: caught.into_iter().chain(passes).chain([rules]).collect(),
+        data: json(seed, report),
+        ..Page::default()
     }
-    out += "\nthe rules:\n";
-    for rule in &RULES {
-        out += &format!("{:<15}  {}\n", rule.name, rule.about);
-    }
-    out
-}
-
-fn percent(part: u64, whole: u64) -> String {
-    format!("{:.2}%", 100.0 * part as f64 / whole as f64)
 }
 
 fn json(seed: u64, report: &Report) -> serde_json::Value {

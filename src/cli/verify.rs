@@ -1,6 +1,5 @@
 //! `rasterproof verify`: the differential table and the verdict.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -8,18 +7,19 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
 use super::case_view;
-use super::files::{self, Output};
-use super::page::{PageArguments, as_file, write_page};
+use super::files;
+use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, invariant, program, study, usage, write_picture};
 use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
-use rasterproof_report::html::Report;
+use rasterproof_report::html::{Excerpt, Report};
+use rasterproof_report::table::Table;
 use rasterproof_report::{ascii, differential, json, page_cases, picture, summary};
-use rasterproof_verify::cases::{self, Kind, Shape};
-use rasterproof_verify::comparison::{self, Options, Shard, Verdict};
+use rasterproof_verify::cases::{self, Case, Kind, Shape};
+use rasterproof_verify::comparison::{self, FamilyReport, Options, PairReport, Shard, Verdict};
 
 /// `verify` with its name, which can also judge the engines on a model.
 #[derive(clap::Args, Debug)]
@@ -205,18 +205,16 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
         ));
     }
     let run = Run { arguments, typed, judged, verdict };
-    if arguments.json {
-        let repeat = |family: &str, index| run.repeat(family, index);
-        let text = json::verdict(&run.verdict, repeat);
-        streams.output.write_all(text.as_bytes())?;
-    } else {
-        run.print(streams)?;
+    let mut report = run.report(page.is_some());
+    if !arguments.json {
+        let place = run.write_sheet(streams)?;
+        report
+            .first_screen
+            .last_mut()
+            .into_iter()
+            .for_each(|last| last.notes.extend(place.clone()));
     }
-    // What was asked for may fail, but not before the verdict is said.
-    streams.output.flush()?;
-    if let Some(page) = page {
-        write_page(&page, run.report_page(), streams);
-    }
+    show(report, Shown::screen_or_json(arguments.json), page, streams)?;
     Ok(if run.verdict.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -282,109 +280,81 @@ impl Run<'_> {
         all.first("seed", self.arguments.seed)
     }
 
-    /// The run as a page: counts, failing cases, those closest to a bound, the named cases.
-    fn report_page(&self) -> Report {
-        let Self { judged, verdict, .. } = self;
-        let mut tables = differential::tables(verdict);
-        tables.push(differential::refused());
-        let quotas = differential::quota_line(verdict).trim_end().to_owned();
-        let repeat = |family: &str, index| self.repeat(family, index);
+    /// The answer and what it rests on: where something is wrong, the smallest case that shows it, and the table of all
+    /// families; on a page also the cases.
+    fn report(&self, is_page: bool) -> Report {
+        let Self { arguments, judged, verdict, .. } = self;
+        let agrees = verdict.agrees();
+        let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
+        let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
+        let answer = if agrees { "every engine is right" } else { "not every engine is right" };
+        let (version, seed) = (env!("CARGO_PKG_VERSION"), arguments.seed);
+        let families = differential::tables(verdict);
+        let mut first_screen = vec![summary::table(verdict)];
+        if arguments.table || !agrees {
+            first_screen.extend(families.iter().cloned().chain(self.others()));
+        } else {
+            let hint = "every family as a table: add --table".to_owned();
+            first_screen.push(Table::of_notes("", self.closest().chain([hint]).collect()));
+        }
+        let repeat = |family: &str, index: u64| self.repeat(family, index);
+        let cases = is_page.then(|| page_cases::of_verdict(verdict, judged, repeat));
         Report {
             title: "Verdict of rasterproof".to_owned(),
+            about: format!("rasterproof {version}, seed {seed}{shard}: {answer}"),
             outcome: Some(differential::outcome(verdict)),
-            command: self.repeat_all().line(),
-            seed: Some(self.arguments.seed),
-            notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
-            tables,
-            cases: page_cases::of_verdict(verdict, judged, repeat),
+            excerpts: verdict
+                .failures
+                .first()
+                .map(|first| self.excerpt(first))
+                .into_iter()
+                .collect(),
+            command: self.repeat_all().without_output().line(),
+            seed: Some(seed),
+            first_screen,
+            tables: families.into_iter().chain([differential::refused()]).collect(),
+            cases: cases.unwrap_or_default(),
+            data: json::verdict(verdict, &repeat),
             ..Report::default()
         }
     }
 
-    /// The answer and what it rests on. Where something is wrong, the smallest case that shows it comes
-    /// first; the last line is the verdict in a word.
-    fn print(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let Self { arguments, verdict, .. } = self;
-        let agrees = verdict.agrees();
-        let failures = if agrees { Vec::new() } else { self.failures(streams.output)? };
-        let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
-        let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
-        let out = &mut *streams.output;
-        let answer = if agrees { "every engine is right" } else { "not every engine is right" };
-        let (mark, version) = (summary::mark(agrees, streams.colour), env!("CARGO_PKG_VERSION"));
-        let seed = arguments.seed;
-        writeln!(out, "{mark} rasterproof {version}, seed {seed}{shard}: {answer}\n")?;
-        writeln!(out, "{}", summary::lines(verdict, streams.colour))?;
-        if arguments.table || !agrees {
-            let table = differential::text(verdict);
-            writeln!(out, "{table}{}", differential::quota_line(verdict))?;
-            write!(out, "{}", differential::disagreements(verdict))?;
+    /// The smallest failure with its pixels.
+    fn excerpt(&self, failure: &comparison::Failure) -> Excerpt {
+        let shown = case_view::draw(&failure.case, &self.judged);
+        let blocks = shown.judged_blocks(&failure.pair[0]);
+        let grid = blocks.map_or(String::new(), |blocks| {
+            format!("{}\n{}", ascii::side_by_side(&blocks, 60), ascii::LEGEND)
+        });
+        Excerpt {
+            title: failure.to_string(),
+            grid,
+            notes: self
+                .judged
+                .cause(&failure.pair[0])
+                .map(|cause| cause.headline())
+                .into_iter()
+                .collect(),
+            places: vec![
+                ("repeat with", self.repeat(&failure.family, failure.index)),
+                ("explain it", self.explain(failure)),
+                ("read on in", summary::chapter(failure).to_owned()),
+            ],
+            ..Excerpt::default()
         }
-        let (name, drawn) = match agrees {
-            true => ("worst.png", self.worst_cases(out)?),
-            false => ("failures.png", failures),
-        };
-        write_sheet(&arguments.page.place.output(name), &drawn, streams)?;
-        let out = &mut *streams.output;
-        if !arguments.table && agrees {
-            writeln!(out, "every family as a table: add --table")?;
-        }
-        writeln!(out, "repeat with: {}", self.repeat_all().without_output().line())?;
-        let fragments = match verdict.comparisons().fragments.total() {
-            0 => String::new(),
-            n => format!("{n} pixels where fragments and coverage of one engine differ, "),
-        };
-        writeln!(
-            out,
-            "{}: {}, {fragments}{} wrong pixels",
-            summary::word(agrees),
-            differential::judged_shapes(verdict),
-            verdict.mismatches()
-        )?;
-        Ok(())
     }
 
-    /// The smallest failure with its pixels, then a line for each other family; all of them as pictures.
-    fn failures(&self, out: &mut dyn Write) -> Result<Vec<RgbImage>, Failure> {
-        let mut drawn = Vec::new();
-        for (rank, failure) in self.verdict.failures.iter().enumerate() {
-            let shown = case_view::draw(&failure.case, &self.judged);
-            if drawn.len() < MOST_DRAWN {
-                drawn.push(shown.picture(&heading(failure), &failure.case));
-            }
-            if rank > 0 {
-                continue;
-            }
-            writeln!(out, "{failure}")?;
-            if let Some(blocks) = shown.judged_blocks(&failure.pair[0]) {
-                writeln!(out, "\n{}", ascii::side_by_side(&blocks, 60))?;
-                writeln!(out, "{}\n", ascii::LEGEND)?;
-            }
-            if let Some(cause) = self.judged.cause(&failure.pair[0]) {
-                writeln!(out, "{}\n", cause.headline())?;
-            }
-            writeln!(out, "  repeat with: {}", self.repeat(&failure.family, failure.index))?;
-            writeln!(out, "  explain it:  {}", self.explain(failure))?;
-            writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;
-        }
-        self.others(out)?;
-        Ok(drawn)
-    }
-
-    /// A line for each failure but the first.
-    fn others(&self, out: &mut dyn Write) -> Result<(), Failure> {
-        let Some([_, others @ ..]) = self.verdict.failures.get(..) else { return Ok(()) };
-        if others.is_empty() {
-            return Ok(());
-        }
-        writeln!(out, "the smallest case of each other family:")?;
-        for failure in others {
+    /// A row for each failure but the first.
+    fn others(&self) -> Option<Table> {
+        let [_, others @ ..] = &self.verdict.failures[..] else { return None };
+        let row = |failure: &comparison::Failure| {
             let case = format!("{}#{}", failure.family, failure.index);
-            let (engine, points) = (&failure.pair[0], comparison::shrink::describe(&failure.case));
-            writeln!(out, "  {case:<21} {engine}: {} on\n      {points}", failure.what)?;
-        }
-        writeln!(out)?;
-        Ok(())
+            let what = format!("{}: {} on", failure.pair[0], failure.what);
+            vec![case, what, comparison::shrink::describe(&failure.case)].into()
+        };
+        let caption = "The smallest case of each other family";
+        let columns = "~case 23 | ~what is wrong 1 | corners";
+        (!others.is_empty()).then(|| Table::new(caption, columns, others.iter().map(row).collect()))
     }
 
     /// The command that shows the shrunk case, or, where the command line cannot say it, the case that it is
@@ -405,8 +375,8 @@ impl Run<'_> {
         }
     }
 
-    /// Names and draws the cases whose values came closest to their bounds.
-    fn worst_cases(&self, out: &mut dyn Write) -> Result<Vec<RgbImage>, Failure> {
+    /// The cases whose values came closest to their bounds, each with its family and the engine.
+    fn worst(&self) -> Vec<(&FamilyReport, &PairReport)> {
         let all = self.verdict.families.iter();
         let mut worst: Vec<_> = all
             .flat_map(|f| f.pairs.iter().map(move |pair| (f, pair)))
@@ -414,38 +384,51 @@ impl Run<'_> {
             .collect();
         worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
         worst.dedup_by_key(|(f, pair)| (f.family.clone(), pair.worst_case));
-        let mut pictures = Vec::new();
-        for (rank, (family, pair)) in worst.into_iter().take(3).enumerate() {
+        worst.truncate(3);
+        worst
+    }
+
+    /// The command that shows the value closest to its bound.
+    fn closest(&self) -> impl Iterator<Item = String> {
+        let closest = self.worst().first().map(|(family, pair)| {
             let (name, index, engine) = (&family.family, pair.worst_case, &pair.actual);
             let (program, seed) = (program(), self.arguments.seed);
-            if rank == 0 {
-                writeln!(out, "the value closest to its bound is of {engine}; see it with")?;
-                writeln!(out, "  {program} inspect {name}#{index} --seed {seed}")?;
-            }
-            let found = cases::families().find(|f| f.name == name);
-            if let Some(case) = found.map(|f| f.case(seed, index)) {
-                let worst = pair.worst();
-                let title = format!("{name}#{index}: {engine} at {worst:.2} of a bound");
-                pictures.push(case_view::draw(&case, &self.judged).picture(&title, &case));
-            }
+            let said = format!("the value closest to its bound is of {engine}; see it with");
+            [said, format!("{program} inspect {name}#{index} --seed {seed}")]
+        });
+        closest.into_iter().flatten()
+    }
+
+    /// Draws the failures, or else the cases that came closest to a bound. Nobody asked for it: where that fails, the
+    /// verdict stands.
+    fn write_sheet(&self, streams: &mut Streams<'_>) -> Result<Option<String>, Failure> {
+        let drawn =
+            |title: String, case: &Case| case_view::draw(case, &self.judged).picture(&title, case);
+        let (name, pictures): (_, Vec<RgbImage>) = if self.verdict.agrees() {
+            let worst = self.worst().into_iter().filter_map(|(family, pair)| {
+                let (name, index, engine) = (&family.family, pair.worst_case, &pair.actual);
+                let case =
+                    cases::families().find(|f| f.name == name)?.case(self.arguments.seed, index);
+                let title = format!("{name}#{index}: {engine} at {:.2} of a bound", pair.worst());
+                Some(drawn(title, &case))
+            });
+            ("worst.png", worst.collect())
+        } else {
+            let failures = self.verdict.failures.iter().take(MOST_DRAWN);
+            (
+                "failures.png",
+                failures.map(|failure| drawn(heading(failure), &failure.case)).collect(),
+            )
+        };
+        if pictures.is_empty() {
+            return Ok(None);
         }
-        Ok(pictures)
+        let png = picture::png(&picture::stack(&pictures));
+        write_picture(None, &self.arguments.page.place.output(name), &png, streams)
     }
 }
 
 /// The first line of what is said of a failure.
 fn heading(failure: &impl std::fmt::Display) -> String {
     failure.to_string().lines().next().unwrap_or_default().to_owned()
-}
-
-/// Draws what nobody asked for: where that fails, the verdict stands.
-fn write_sheet(
-    output: &Output,
-    drawn: &[RgbImage],
-    streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
-    if drawn.is_empty() {
-        return Ok(());
-    }
-    write_picture(None, output, &picture::png(&picture::stack(drawn)), streams)
 }

@@ -30,7 +30,7 @@ use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
-use rasterproof_report::summary::thousands;
+use rasterproof_report::words::thousands;
 use rasterproof_study::work::Work;
 
 #[derive(clap::Args, Debug)]
@@ -235,7 +235,7 @@ pub(super) enum Purpose {
     Planned,
     /// Each of its triangles is judged.
     Judged,
-    /// Each of its triangles is drawn by every rung of the ladders, and it is drawn by every planner.
+    /// Each of its triangles is drawn by every choice of arithmetic, and it is drawn by every planner.
     Measured,
 }
 

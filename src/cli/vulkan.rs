@@ -1,7 +1,5 @@
 //! `rasterproof verify --engine vulkan:0`: a Vulkan device on the stand; and which devices there are.
 
-use std::io::Write;
-
 use rasterproof_vulkan::device::find;
 use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
 use rasterproof_vulkan::gpu::engine::{Gpu, PREFIX};
@@ -10,14 +8,15 @@ use rasterproof_vulkan::gpu::plant::Plant;
 use rasterproof_vulkan::gpu::rung::OnLadder;
 use rasterproof_vulkan::gpu::text;
 
-use super::page::{PageArguments, write_page};
+use super::page::{PageArguments, Shown, show};
 use super::progress::Progress;
-use super::{Failure, Status, Streams, exit, program, usage, write_entry};
+use super::{Failure, Status, Streams, exit, program, usage};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::Options;
 use rasterproof_precision::cost::ExternalVariant;
+use rasterproof_report::table::Table;
 
 /// Cases of each family where nothing is said.
 const CASES: u64 = 1000;
@@ -86,19 +85,10 @@ fn print(
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
     let (command, all) = (job.command(), job.all(cases));
-    let case = |family: &str, index: u64| format!(" --family {family} --case {index}");
-    let repeat = |family: &str, index: u64| format!("{command}{}", case(family, index));
-    let said = match job.json {
-        true => text::json(stand, &repeat),
-        false => text::text(stand, &command, &all, &case),
-    };
-    streams.output.write_all(said.as_bytes())?;
-    streams.output.flush()?;
-    if let Some(path) = job.page.page("vulkan.html") {
-        let page = text::page(stand, &format!("{command}{all}"), &repeat);
-        write_page(&path, page, streams);
-    }
-    Ok(())
+    let repeat = |family: &str, index: u64| format!("{command} --family {family} --case {index}");
+    let report = text::report(stand, &format!("{command}{all}"), &repeat);
+    let page = job.page.page("vulkan.html");
+    show(report, Shown::all_or_json(job.json), page, streams)
 }
 
 /// The hits of triangles in a window as a device draws them.
@@ -113,22 +103,19 @@ pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, Failur
 }
 
 /// The devices that there are, or why there are none.
-pub fn list(out: &mut dyn Write) -> Result<(), Failure> {
-    writeln!(out, "\nVulkan devices (rasterproof verify --engine NAME):")?;
-    match find::list() {
-        Ok(all) => {
-            for device in all {
-                let name = format!("{PREFIX}{}", device.number);
-                write_entry(out, &format!("{name:<19}"), &text::device(&device.about))?;
-            }
-        }
+pub fn listed() -> [Table; 2] {
+    let found = find::list();
+    let (devices, notes) = match &found {
+        Ok(all) => (&all[..], Vec::new()),
         Err(error) => {
-            for line in error.to_string().lines() {
-                writeln!(out, "  {}", line.trim())?;
-            }
+            (&[][..], error.to_string().lines().map(|line| line.trim().to_owned()).collect())
         }
-    }
-    writeln!(out, "\nFaults to plant in a device (rasterproof verify --engine NAME+FAULT):")?;
-    let names = Plant::ALL.map(Plant::name).join(" ");
-    Ok(write_entry(out, "", &names)?)
+    };
+    let about: Vec<_> = devices.iter().map(|device| text::device(&device.about)).collect();
+    let named = devices.iter().map(|device| format!("{PREFIX}{}", device.number));
+    let title = "Vulkan devices (rasterproof verify --engine NAME)";
+    let devices = super::listed(title, named.zip(about.iter().map(String::as_str)));
+    let title = "Faults to plant in a device (rasterproof verify --engine NAME+FAULT)";
+    let faults = Table::of_notes(title, vec![Plant::ALL.map(Plant::name).join(" ")]);
+    [devices.noted(notes), faults]
 }

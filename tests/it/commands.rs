@@ -40,6 +40,19 @@ fn text_fits_a_narrow_terminal() {
     }
 }
 
+/// What stands below the options was laid out by hand, for a usual terminal.
+#[test]
+fn examples_fit_eighty_columns() {
+    for path in crate::pages::files(&crate::pages::root().join("src/cli/help"), ".txt") {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let wide: Vec<_> = text.lines().filter(|line| line.chars().count() > 80).collect();
+        assert!(wide.is_empty(), "{}: {wide:#?}", path.display());
+    }
+    // Who has not said enough sees how it is said.
+    check("plan", 2).says("For example:\n  rasterproof plan panels ");
+    check("judge", 2).says("For example:\n  rasterproof judge -- ./mine");
+}
+
 /// Help and messages are broken for a terminal of twenty columns, too, but for commands and the heads of options.
 #[test]
 fn help_and_messages_fit_twenty_columns() {
@@ -188,11 +201,12 @@ fn off_grid_cases_are_drawn() {
     check("verify --family f32-random --cases 40", 0).omits("drawn in");
 }
 
-/// The first thing that is printed is the smallest case: corners on halves, one pixel too many.
+/// What follows the answer is the smallest case: corners on halves, one pixel too many.
 #[test]
 fn a_planted_fault_is_told_first_and_smallest_first() {
     let out = check("--plant inclusive-edges --cases 40", 1).out;
-    let first = out.lines().next().unwrap();
+    assert!(out.lines().next().unwrap().ends_with(": not every engine is right"), "{out}");
+    let first = out.lines().nth(2).unwrap();
     let rest = first.strip_prefix("inclusive-edges against oracle: 1 extra on ").expect(first);
     let corners = rest.split(" (from ").next().unwrap();
     let numbers: Vec<f64> = corners.split([' ', ',']).map(|n| n.parse().unwrap()).collect();
@@ -238,7 +252,7 @@ fn a_right_verdict_is_short_and_narrow() {
     assert!(groups.iter().all(|line| line.chars().count() <= 60), "{out}");
     assert!(out.contains("ties on edges             60 cases, all right"), "{out}");
     assert!(out.contains("% of the bound") && !out.contains("half-integer "), "{out}");
-    check(format!("{words} --table"), 0).prints("\nhalf-integer ");
+    check(format!("{words} --table"), 0).prints("\n  half-integer ");
 }
 
 /// A pixel is explained by its edges: T2's corners lie on centres.

@@ -8,6 +8,7 @@ use rasterproof_registry::fixtures::{Drawer, FORMAT, Fault, Fixtures, POLYGONS, 
 use serde_json::Value;
 
 use crate::pages::read;
+use crate::schema::violation;
 
 pub(crate) fn fixtures() -> Fixtures {
     serde_json::from_str(&read("crates/verify/fixtures/fixtures.json")).unwrap()
@@ -83,56 +84,6 @@ fn fixtures_kill_planted_faults() {
     let mut expected: Vec<_> = NOT_SHOWN.iter().map(|(name, _)| *name).collect();
     expected.sort_unstable();
     assert_eq!(alive, expected, "{kills:?}");
-}
-
-/// The parts of JSON Schema that the schema uses.
-fn violation(value: &Value, schema: &Value, root: &Value, at: &str) -> Option<String> {
-    let here = |what: &str| Some(format!("{at}: {what}"));
-    let is_type = match schema["type"].as_str() {
-        Some("object") => value.is_object(),
-        Some("array") => value.is_array(),
-        Some("string") => value.is_string(),
-        Some("number") => value.is_number(),
-        Some("integer") => value.is_i64() || value.is_u64(),
-        Some(other) => panic!("{other} is not checked"),
-        None => true,
-    };
-    let is_one = schema["enum"].as_array().is_none_or(|all| all.contains(value));
-    if !is_type || !is_one || schema.get("const").is_some_and(|only| only != value) {
-        return here(&format!("{value} is not what it should be"));
-    }
-    let number = value.as_f64().unwrap_or(0.0);
-    let length = value.as_array().map_or(0.0, |items| items.len() as f64);
-    for (least, most, size) in [("minimum", "maximum", number), ("minItems", "maxItems", length)] {
-        if schema[least].as_f64().is_some_and(|v| size < v)
-            || schema[most].as_f64().is_some_and(|v| size > v)
-        {
-            return here(&format!("{size} is out of range"));
-        }
-    }
-    let mut required = schema["required"].as_array().into_iter().flatten();
-    if let Some(name) = required.find(|name| value.get(name.as_str().unwrap()).is_none()) {
-        return here(&format!("{name} is missing"));
-    }
-    // What else a value has to follow: the schema that this one names, and those of its parts.
-    let named = schema["$ref"].as_str();
-    let named = named.map(|name| root.pointer(name.trim_start_matches('#')).unwrap());
-    let mut parts: Vec<_> =
-        named.map(|schema| (value, schema, at.to_owned())).into_iter().collect();
-    for (name, part) in value.as_object().into_iter().flatten() {
-        match schema["properties"].get(name) {
-            Some(schema) => parts.push((part, schema, format!("{at}/{name}"))),
-            None if schema["additionalProperties"] == false => {
-                return here(&format!("{name} is not known"));
-            }
-            None => {}
-        }
-    }
-    let items = schema.get("items").into_iter().flat_map(|schema| {
-        let items = value.as_array().into_iter().flatten().enumerate();
-        items.map(move |(i, item)| (item, schema, format!("{at}/{i}")))
-    });
-    parts.into_iter().chain(items).find_map(|(part, schema, at)| violation(part, schema, root, &at))
 }
 
 #[test]

@@ -20,6 +20,7 @@ use rasterproof_judge::verdict::Outcome;
 use rasterproof_judge::{Options, Step, adapt_case, judge};
 use rasterproof_registry::engines;
 use rasterproof_report::html::page;
+use rasterproof_report::text::text;
 use rasterproof_report::{ascii, judge_text as shown};
 use rasterproof_teaching::quiz::{self, Language, page as quiz_page};
 use rasterproof_verify::cases::near_plane::clip_corners;
@@ -88,8 +89,8 @@ fn judge_pictures_every_stage() {
         assert!(list.len() == triangles && used <= bits, "{property}: {used} {:?}", failure.case);
     }
     let repeat = |family: &str, index: u64| format!("{family} {index}");
-    let text = shown::text(&verdict, "", &repeat, (false, false));
-    let page = page(&shown::page(&verdict, "", &repeat));
+    let report = shown::report(&verdict, "", &repeat, false);
+    let (text, page) = (text(&report, false, false), page(&report));
     for part in ["depth-order#", "near-plane#", "The picture: the four samples", "ch07.md"] {
         assert!(page.contains(part), "{part}");
     }
@@ -151,7 +152,7 @@ fn judge_sees_the_first_request() {
     });
     let verdict = judged(Box::new(dies), &options(8, &["uniform"]));
     assert_eq!(property(&verdict, "protocol"), Outcome::Fail);
-    let text = shown::text(&verdict, "", &|_, _| String::new(), (false, false));
+    let text = text(&shown::report(&verdict, "", &|_, _| String::new(), false), false, false);
     assert!(
         text.contains("before the families: it crashes: signal 11\n  request:  T 1 "),
         "{text}"
@@ -254,8 +255,7 @@ fn judge_shows_what_differs() {
                 let said = "both pictures are the same; what differs is ";
                 assert!(picture.of.contains(said), "{name}: {failure:?}");
             }
-            let mut text = String::new();
-            shown::picture(&mut text, &["judged"], picture);
+            let text = shown::grid(&["judged"], picture);
             let grids = [
                 ascii::grid(&picture.drawn, &picture.expected),
                 ascii::grid(&picture.expected, &picture.expected),

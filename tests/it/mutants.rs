@@ -6,6 +6,7 @@ use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varyin
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_report::text::{self, WIDTH};
 use rasterproof_report::{differential, json};
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{FamilyName, Shape, lines};
@@ -63,8 +64,7 @@ fn recount(actual: &Hits, target: &Hits, sums: &mut [u64; 3]) {
 fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
     let Tally { missing, extra, twice, order } = verdict.comparisons().oracle;
     assert_eq!([missing, extra, twice], sums, "{name}");
-    let text = json::verdict(verdict, |_, _| String::new());
-    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let json = json::verdict(verdict, &|_, _| String::new());
     let mismatches = missing + extra + twice + order;
     assert_eq!(json["mismatches"], mismatches, "{name}");
     let kinds = ["missing", "extra", "twice"];
@@ -81,7 +81,11 @@ fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
     }
     // The terminal's table: the fourth column of counts.
     let mut printed = 0;
-    for line in differential::text(verdict).lines().filter(|line| !line.starts_with("all ")) {
+    for line in text::tables(&differential::tables(verdict), WIDTH, false)
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.starts_with("all "))
+    {
         let cells: Vec<_> = line.split_whitespace().collect();
         let is_row = cells.len() > 5 && cells[4].ends_with('%');
         printed += if is_row { cells[5].parse().unwrap_or(0) } else { 0 };

@@ -21,7 +21,7 @@ fn the_named_number_of_cases_judges_it() {
     let out = shared().run("verify --invariant clip-inside --cases 1 --seed 1").out;
     let line = out.lines().find_map(|line| line.split_once("judge it with: ")).expect(&out).1;
     let words: Vec<&str> = line.split_whitespace().skip(1).collect();
-    check(&words, 0).prints("  holds\n");
+    check(&words, 0).prints(" holds\n");
     // No smaller number does.
     let needed: u64 = words.last().unwrap().parse().unwrap();
     let fewer = needed - 1;

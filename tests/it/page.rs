@@ -707,6 +707,7 @@ pub fn every_section() -> Report {
     let hostile = || HOSTILE.to_owned();
     Report {
         title: hostile(),
+        about: hostile(),
         outcome: Some(Outcome { good: true, word: hostile(), sentence: hostile() }),
         answers: vec![Answer { about: HOSTILE, sentence: hostile(), command: hostile() }],
         command: hostile(),
@@ -720,6 +721,7 @@ pub fn every_section() -> Report {
                 ..Row::default()
             }],
             notes: vec![hostile()],
+            ..Table::default()
         }],
         frames: vec![PictureView {
             name: hostile(),
@@ -738,7 +740,7 @@ pub fn every_section() -> Report {
             caption: format!("plan {}", hostile()),
             columns: ["effect", "reason"].map(Column::words).to_vec(),
             rows: vec![vec![hostile(), hostile()].into()],
-            notes: Vec::new(),
+            ..Table::default()
         }),
         diffs: vec![TextDiff {
             name: hostile(),

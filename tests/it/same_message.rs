@@ -9,7 +9,7 @@ use rasterproof_judge::declared::Declared;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_registry::engines::find_planted;
-use rasterproof_report::judge_text;
+use rasterproof_report::{judge_text, text};
 use rasterproof_verify::cases::FamilyName;
 use rasterproof_verify::comparison::{Options, judge_coverage};
 use rasterproof_verify::partition::{self, Polygon, judge_partitions_of};
@@ -101,7 +101,7 @@ fn in_rust(capability: &str, engine: &str) -> String {
     let scope = Scope::of(&options);
     let verdict =
         rasterproof_judge::judge(&mut askers, &options, &|asked| recognise(asked, scope), &|_| ());
-    judge_text::text(&verdict, "-", &|_, _| "-".to_owned(), (false, false))
+    text::text(&judge_text::report(&verdict, "-", &|_, _| "-".to_owned(), false), false, false)
 }
 
 /// What is said of a fault in this language, or nothing where it is not installed.

@@ -11,7 +11,8 @@ use rasterproof_registry::published_check::{
     SpecimenReport, exposing_name, judge_recorded, survey, wrong,
 };
 use rasterproof_report::specimen_sheet::{SHEETS, alone, sheet};
-use rasterproof_report::specimens::{detail, text};
+use rasterproof_report::specimens::tables;
+use rasterproof_report::text::{self, WIDTH};
 
 use crate::snapshots::{check_sheet, each, settings};
 
@@ -55,8 +56,9 @@ fn specimens_are_caught_by_families_as_recorded() {
     for report in reports.iter().filter(|report| report.all.shapes > 0) {
         assert!(report.all.percent() > 10.0, "{}: {:?}", report.name, report.all);
     }
-    let details: Vec<_> = reports.iter().map(detail).collect();
-    let texts = [("specimens-text", text(&reports)), ("specimens-detail", details.join("\n"))];
+    let text = |reports: &[SpecimenReport]| text::tables(&tables(reports), WIDTH, false);
+    let details = reports.chunks(1).map(text).collect::<Vec<_>>().join("");
+    let texts = [("specimens-text", text(&reports)), ("specimens-detail", details)];
     each(texts, |(name, text)| {
         let widest = text.lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(100), "{widest:?} columns");

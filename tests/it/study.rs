@@ -704,5 +704,5 @@ fn a_study_answers_in_three_sentences_that_other_commands_confirm() {
 }
 
 fn thousands(number: f64) -> String {
-    rasterproof_report::summary::thousands(number as u64)
+    rasterproof_report::words::thousands(number as u64)
 }

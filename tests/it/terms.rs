@@ -116,3 +116,30 @@ fn a_term_that_comes_too_early_is_found() {
         assert!(check(free, 0).is_empty(), "{free}");
     }
 }
+
+/// One thing has one word: what was a step of a ladder in one page and a choice in another is a choice of a group.
+#[test]
+fn a_choice_has_one_word() {
+    let dropped = |text: &str| {
+        let code = text.split('`').step_by(2).collect::<String>().to_lowercase();
+        ["rung", "ladder", "阶梯"].into_iter().find(|word| {
+            without_links(&code).replace("](", " ").split(|c: char| !c.is_alphanumeric()).any(
+                |one| one.trim_end_matches('s') == *word || !word.is_ascii() && one.contains(word),
+            )
+        })
+    };
+    let mut found = Vec::new();
+    for folder in ["docs", "docs/zh", "src/cli/help"] {
+        for path in crate::pages::files(&crate::pages::root().join(folder), "") {
+            let text = std::fs::read_to_string(&path).unwrap_or_default();
+            let is_text = [".md", ".txt"].iter().any(|end| path.to_str().unwrap().ends_with(end));
+            if let Some(word) = dropped(&text).filter(|_| is_text) {
+                found.push(format!("{}: {word}", path.display()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    assert_eq!(dropped("The rungs of it."), Some("rung"));
+    assert_eq!(dropped("各组阶梯"), Some("阶梯"));
+    assert_eq!(dropped("`ladder` and [ladder](a.md)"), None);
+}

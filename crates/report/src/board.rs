@@ -1,17 +1,22 @@
-//! The board of a ladder as text, at most 100 columns: errors, times and counted work, rung by class
+//! The board of a ladder as tables, at most 100 columns wide: errors, times and counted work, rung by class
 //! of scenes.
 //!
 //! Marks say what colours repeat: `*` the cheapest rung whose error is as good as none, `+` another
-//! such rung, `<` the fastest of all. Colours only where the caller says that they can be seen.
+//! such rung, `<` the fastest of all.
 
-use std::fmt::Write as _;
-
-use super::judge_text::hanging;
-use super::table::{Column, Table};
-use rasterproof_precision::cost::{Board, Cell, Measure, Price, Priced, Run, Time, prices};
+use super::html::{Figure, Report};
+use super::json;
+use super::table::{Column, Row, Table};
+use super::words::number;
+use rasterproof_host::text::printable;
+use rasterproof_precision::cost::{
+    Board, Cell, Measure, Price, Priced, Recorded, Run, Time, prices,
+};
 
 const WIDTH: usize = 100;
-const NAME: usize = 16;
+/// The width of the names of rungs, which are indented.
+const NAME: usize = 18;
+const INDENT: usize = 2;
 
 /// A cell of a block: the number, its mark, and whether it is good.
 struct Mark {
@@ -20,27 +25,33 @@ struct Mark {
     good: bool,
 }
 
-pub fn text(board: &Board, colour: bool) -> String {
-    let mut out = format!("{}\n", board.ladder.title());
+/// A table for each measure of the error, for each kind of time and for each count of work.
+#[must_use]
+pub fn tables(board: &Board) -> Vec<Table> {
+    let mut tables = Vec::new();
     let columns: Vec<usize> = board.columns_run().collect();
     for (number, measure) in board.measures.iter().enumerate() {
         let applies =
             |&c: &usize| (0..board.rungs.len()).any(|r| board.error(r, c, number).is_some());
         let shown: Vec<usize> = columns.iter().copied().filter(applies).collect();
-        let title = title(measure);
-        block(&mut out, board, &shown, &title, colour, |rung, column| {
+        tables.push(block(board, &shown, title(measure), &|rung, column| {
             error_cell(board, rung, column, number)
-        });
+        }));
     }
     if board.rounds > 0 {
-        times(&mut out, board, &columns, colour);
+        times(&mut tables, board, &columns);
     }
-    work(&mut out, board, &columns, colour);
-    not_run(&mut out, board);
-    if board.rounds > 0 {
-        verdicts(&mut out, board);
+    work(&mut tables, board, &columns);
+    if let (Some(first), title) = (tables.first_mut(), board.ladder.title()) {
+        first.caption = format!("{title}: {}", first.caption);
     }
-    out
+    if let Some(last) = tables.last_mut() {
+        last.notes.extend(not_run(board));
+        if board.rounds > 0 {
+            last.notes.extend(dominated(board));
+        }
+    }
+    tables
 }
 
 fn title(measure: &Measure) -> String {
@@ -66,7 +77,7 @@ fn error_cell(board: &Board, rung: usize, column: usize, measure: usize) -> Opti
     Some(Mark { text: number(error, cell_width(board)), mark, good })
 }
 
-fn times(out: &mut String, board: &Board, columns: &[usize], colour: bool) {
+fn times(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
     let cell = |rung: usize, column: usize, value: fn(&Time) -> f64| {
         let time = board.time(rung, column)?;
         let fastest = (0..board.rungs.len())
@@ -76,10 +87,10 @@ fn times(out: &mut String, board: &Board, columns: &[usize], colour: bool) {
         Some(Mark { text: number(value(time), cell_width(board)), mark, good: false })
     };
     let title =
-        format!("ns for each covered pixel, median of {} rounds  (< the fastest)", board.rounds);
-    block(out, board, columns, &title, colour, |r, c| cell(r, c, |t| t.pixel_ns.median));
-    let title = "ns for each triangle or line";
-    block(out, board, columns, title, colour, |r, c| cell(r, c, |t| t.item_ns.median));
+        format!("ns for each covered pixel, median of {} rounds (< the fastest)", board.rounds);
+    tables.push(block(board, columns, title, &|r, c| cell(r, c, |t| t.pixel_ns.median)));
+    let title = "ns for each triangle or line".to_owned();
+    let mut items = block(board, columns, title, &|r, c| cell(r, c, |t| t.item_ns.median));
     let mut spreads: Vec<f64> = board
         .cells
         .iter()
@@ -89,16 +100,16 @@ fn times(out: &mut String, board: &Board, columns: &[usize], colour: bool) {
         .collect();
     spreads.sort_by(f64::total_cmp);
     if let (Some(middle), Some(worst)) = (spreads.get(spreads.len() / 2), spreads.last()) {
-        let _ = writeln!(
-            out,
-            "\n  quartiles lie {:.0}% of the median apart in the middle cell, {:.0}% in the worst",
+        items.notes.push(format!(
+            "quartiles lie {:.0}% of the median apart in the middle cell, {:.0}% in the worst",
             middle * 100.0,
             worst * 100.0
-        );
+        ));
     }
+    tables.push(items);
 }
 
-fn work(out: &mut String, board: &Board, columns: &[usize], colour: bool) {
+fn work(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
     type Count = fn(&Run) -> Option<u64>;
     let counts: [(&str, Count); 3] = [
         ("edges asked, or crossings computed, for each covered pixel", |r| {
@@ -111,68 +122,61 @@ fn work(out: &mut String, board: &Board, columns: &[usize], colour: bool) {
         let any =
             board.cells.iter().flatten().any(|c| c.run().and_then(count).is_some_and(|n| n > 0));
         if any {
-            block(out, board, columns, title, colour, |rung, column| {
+            tables.push(block(board, columns, title.to_owned(), &|rung, column| {
                 let pixels = board.columns[column].pixels.max(1) as f64;
                 // Rungs that do none of it have no row.
                 let any =
                     board.cells[rung].iter().any(|c| c.run().and_then(count).unwrap_or(0) > 0);
                 let each = any.then_some(count(board.run(rung, column)?)? as f64 / pixels)?;
                 Some(Mark { text: number(each, cell_width(board)), mark: ' ', good: false })
-            });
+            }));
         }
     }
 }
 
 fn cell_width(board: &Board) -> usize {
-    ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10)
+    // A gap stands before each.
+    ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10) - 1
 }
 
-/// A heading, and a row for each rung that has a cell to show.
+/// A row for each rung that has a cell to show.
 fn block(
-    out: &mut String,
     board: &Board,
     columns: &[usize],
-    title: &str,
-    colour: bool,
-    cell: impl Fn(usize, usize) -> Option<Mark>,
-) {
-    let width = cell_width(board);
-    let _ = write!(out, "\n{}\n{:NAME$}", wrap(title), "");
-    for &column in columns {
-        let _ = write!(out, "{:>1$} ", board.columns[column].name, width - 1);
-    }
-    out.truncate(out.trim_end().len());
-    out.push('\n');
-    for (rung, info) in board.rungs.iter().enumerate() {
-        if columns.iter().all(|&column| cell(rung, column).is_none()) {
-            continue;
-        }
-        let _ = write!(out, "{:NAME$}", info.name);
-        for &column in columns {
-            let Some(Mark { text, mark, good }) = cell(rung, column) else {
-                let nothing = if board.run(rung, column).is_some() { "-" } else { "not run" };
-                let _ = write!(out, "{nothing:>width$}");
-                continue;
-            };
-            let (plain, room) = (format!("{text}{mark}"), width);
-            let plain = format!("{plain:>room$}");
-            match (colour && good, mark) {
-                (false, _) => out.push_str(&plain),
-                (true, '*') => {
-                    let _ = write!(out, "\x1b[1;32m{plain}\x1b[0m");
+    caption: String,
+    cell: &dyn Fn(usize, usize) -> Option<Mark>,
+) -> Table {
+    let row = |rung: usize| {
+        let mut row = Row::from(vec![board.rungs[rung].name.to_string()]);
+        for (place, &column) in (1..).zip(columns) {
+            row.cells.push(match cell(rung, column) {
+                Some(Mark { text, mark, good }) => {
+                    row.good.extend(good.then_some(place));
+                    format!("{text}{mark}")
                 }
-                (true, _) => {
-                    let _ = write!(out, "\x1b[32m{plain}\x1b[0m");
-                }
-            }
+                None if board.run(rung, column).is_some() => "-".to_owned(),
+                None => "not run".to_owned(),
+            });
         }
-        out.truncate(out.trim_end().len());
-        out.push('\n');
+        row
+    };
+    let has_cell = |&rung: &usize| columns.iter().any(|&column| cell(rung, column).is_some());
+    // A mark stands behind each number.
+    let head = |&column: &usize| {
+        let name = &board.columns[column].name;
+        Column::numbers(name, "").short(format!("{name} ")).least(cell_width(board))
+    };
+    let first = Column::words("choice").short("").least(NAME - INDENT);
+    Table {
+        caption,
+        columns: [first].into_iter().chain(columns.iter().map(head)).collect(),
+        rows: (0..board.rungs.len()).filter(has_cell).map(row).collect(),
+        ..Table::default()
     }
 }
 
 /// Says which columns nobody ran and why, and why single cells were not run.
-fn not_run(out: &mut String, board: &Board) {
+fn not_run(board: &Board) -> Vec<String> {
     let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
     let mut add = |why, what: String| match reasons.iter_mut().find(|(known, _)| *known == why) {
         Some((_, list)) => list.push(what),
@@ -190,39 +194,30 @@ fn not_run(out: &mut String, board: &Board) {
             }
         }
     }
-    for (why, list) in reasons {
-        let _ = writeln!(out, "\n{}", wrap(&format!("not run: {}: {why}", list.join(", "))));
-    }
+    let line = |(why, list): (&str, Vec<String>)| format!("not run: {}: {why}", list.join(", "));
+    reasons.into_iter().map(line).collect()
 }
 
-fn verdicts(out: &mut String, board: &Board) {
-    for measure in board.ranking() {
-        let list: Vec<_> = board
-            .dominated(measure)
-            .into_iter()
-            .map(|d| {
-                let by: Vec<_> = d.by.iter().map(|&r| &*board.rungs[r].name).collect();
-                format!("{} (by {})", board.rungs[d.rung].name, by.join(", "))
-            })
-            .collect();
+/// By each measure the rungs that nobody needs.
+fn dominated(board: &Board) -> Vec<String> {
+    let line = |measure: usize| {
+        let list = board.dominated(measure).into_iter().map(|d| {
+            let by: Vec<_> = d.by.iter().map(|&r| &*board.rungs[r].name).collect();
+            format!("{} (by {})", board.rungs[d.rung].name, by.join(", "))
+        });
+        let list: Vec<_> = list.collect();
         let list = if list.is_empty() { "none".to_owned() } else { list.join("; ") };
-        let line =
-            format!("dominated in every class, by {}: {list}", board.measures[measure].title);
-        let _ = writeln!(out, "\n{}", wrap(&line));
-    }
+        format!("dominated in every class, by {}: {list}", board.measures[measure].title)
+    };
+    board.ranking().map(line).collect()
 }
 
-/// What exact coverage costs over the cheapest rung, for each class.
-pub fn price_text(boards: &[Board]) -> String {
+/// What exact coverage costs over the cheapest rung, for each class; nothing where that was not measured.
+#[must_use]
+pub fn price(boards: &[Board]) -> Option<Table> {
     let prices = prices(boards);
-    let mut out = String::new();
-    if prices.is_empty() {
-        return out;
-    }
-    out += "Exact coverage over the cheapest rung, by ns for each covered pixel\n\n";
     let columns =
-        [("cheapest in floats", 30), ("exact on the lattice", 28), ("exact as given", 31)];
-    let columns = columns.map(|(label, least)| Column::numbers(label, "").least(least));
+        "~class 8 | >cheapest in floats 29 | >exact on the lattice 28 | >exact as given 30";
     let cell = |p: &Option<Priced>| {
         p.as_ref().map_or("not run".to_owned(), |p| format!("{} {:.2}x", p.name, p.ratio))
     };
@@ -230,60 +225,23 @@ pub fn price_text(boards: &[Board]) -> String {
         let costs = [&price.unpromised, &price.snapped, &price.given].map(cell);
         [price.column.to_string()].into_iter().chain(costs).collect::<Vec<_>>().into()
     };
-    let columns = [Column::words("").least(8)].into_iter().chain(columns).collect();
-    let rows = prices.iter().map(row).collect();
-    out + &Table { columns, rows, ..Table::default() }.text([0; 2])
+    let caption = "Exact coverage over the cheapest choice, by ns for each covered pixel";
+    (!prices.is_empty()).then(|| Table::new(caption, columns, prices.iter().map(row).collect()))
 }
 
-/// Breaks a line at spaces so that it fits, with an indent of two.
-fn wrap(line: &str) -> String {
-    hanging(line, "  ", "    ")
-}
-
-/// A number in less than `width` characters: three digits where there is room.
-pub fn number(value: f64, width: usize) -> String {
-    let digits = if width < 8 { 0 } else { 1 };
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        v if !v.is_finite() => "inf".to_owned(),
-        v if v < 99_999.5 && v.fract() == 0.0 => format!("{value:.0}"),
-        v if v >= 99_999.5 => format!("{value:.*e}", digits),
-        v if v >= 99.95 => format!("{value:.0}"),
-        v if v >= 9.995 => format!("{value:.1}"),
-        v if v >= 0.0995 => format!("{value:.2}"),
-        v if v >= 0.000_995 && width >= 8 => format!("{value:.4}"),
-        _ => format!("{value:.*e}", digits),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        for (value, text) in [
-            (0.0, "0"),
-            (0.1234, "0.12"),
-            (12.34, "12.3"),
-            (1234.4, "1234"),
-            (0.0012, "0.0012"),
-            (1.28e7, "1.3e7"),
-            (3.2e-8, "3.2e-8"),
-            (0.5, "0.50"),
-            (99.97, "100"),
-        ] {
-            assert_eq!(number(value, 10), text);
-        }
-        assert_eq!(number(1.28e7, 7), "1e7");
-        for exponent in -300..300 {
-            assert!(number(9.996 * 10f64.powi(exponent), 7).len() <= 6);
-        }
-    }
-
-    #[test]
-    fn long_lines_break() {
-        let line = "word ".repeat(60);
-        assert!(wrap(line.trim()).lines().all(|line| line.len() <= WIDTH));
+/// What was measured, with plots that are given.
+#[must_use]
+pub fn report(recorded: &Recorded, figures: Vec<Figure>) -> Report {
+    let Recorded { version, repeat, seed, quick, boards } = recorded;
+    let quick = if *quick { ", quick" } else { "" };
+    Report {
+        title: "What accuracy costs in time".to_owned(),
+        about: format!("rasterproof {version} cost, seed {seed}{quick}"),
+        command: printable(repeat).into_owned(),
+        seed: Some(*seed),
+        tables: boards.iter().flat_map(tables).chain(price(boards)).collect(),
+        figures,
+        data: json::cost(recorded),
+        ..Report::default()
     }
 }

@@ -4,10 +4,9 @@
 //! choices without any error, each in a row of its own. A line joins what is best at each price. Labels stand beside their
 //! dots and never overlap.
 
-use super::board::number;
 use super::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
 use super::lettering;
-use super::summary::thousands;
+use super::words::{number, thousands};
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced, prices};
 use rasterproof_study::cost::Group;
 
@@ -117,8 +116,8 @@ pub fn effects(rows: &[(&str, Option<f64>, bool, u64)], width: f64) -> Drawing {
     let bar = room - canvas::width("1,234,567 px") - 8.0;
     let most_ms = rows.iter().filter_map(|row| row.1).fold(1e-9, f64::max);
     let most_px = rows.iter().map(|row| row.3).max().unwrap_or(1).max(1) as f64;
-    for (number, (name, ms, is_saved, wrong)) in rows.iter().enumerate() {
-        let y = head + 20.0 * number as f64;
+    for (place, (name, ms, is_saved, wrong)) in rows.iter().enumerate() {
+        let y = head + 20.0 * place as f64;
         drawing.text([12.0, y], name, INK);
         let mut draw = |x: f64, length: f64, text: &str, ink: Ink| {
             drawing.filled_box([x, y - 6.0], [length.max(1.0), 12.0], ink);
@@ -126,7 +125,7 @@ pub fn effects(rows: &[(&str, Option<f64>, bool, u64)], width: f64) -> Drawing {
         };
         let ink = if *is_saved { GOOD } else { OTHER };
         match ms {
-            Some(ms) => draw(names, bar * ms / most_ms, &super::board::number(*ms, 8), ink),
+            Some(ms) => draw(names, bar * ms / most_ms, &number(*ms, 8), ink),
             None => draw(names, 0.0, "noise", SOFT),
         }
         let pixels = *wrong as f64;
@@ -449,16 +448,16 @@ fn crosses([from, to]: [[f64; 2]; 2], area: &Area) -> bool {
     })
 }
 
-/// What exact coverage costs over the cheapest rung, for each class of scenes: the one picture.
+/// What exact coverage costs over the cheapest choice, for each class of scenes: the one picture.
 pub fn price(boards: &[Board]) -> Drawing {
     const BAND: f64 = 48.0;
     let prices = prices(boards);
     let (x0, x1, head) = (84.0, WIDTH - 24.0, 104.0);
     let bottom = head + BAND * prices.len() as f64;
-    let title = "What exact coverage costs over the cheapest rung";
+    let title = "What exact coverage costs over the cheapest choice";
     let mut drawing = Drawing::new(title, [WIDTH, bottom + 44.0]);
     drawing.text([12.0, 16.0], title, INK);
-    let legend = "time over that of the cheapest rung of any accuracy, by class of scenes";
+    let legend = "time over that of the cheapest choice of any accuracy, by class of scenes";
     drawing.text([12.0, 32.0], legend, SOFT);
     for (row, kind) in KINDS.iter().enumerate() {
         let y = 50.0 + 15.0 * row as f64;
@@ -494,7 +493,7 @@ struct Kind {
 
 const KINDS: [Kind; 3] = [
     Kind {
-        about: "the cheapest rung that promises nothing (floats)",
+        about: "the cheapest choice that promises nothing (floats)",
         of: |price| price.unpromised.as_ref(),
         ink: OTHER,
         is_ring: false,

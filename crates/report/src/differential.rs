@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use super::html::Outcome;
-use super::table::{Column, Mark, Row, Table};
+use super::table::{self, Column, Mark, Row, Table};
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_render::scene::named;
@@ -12,25 +12,7 @@ use rasterproof_verify::cases::Kind;
 use rasterproof_verify::cases::named::Input;
 use rasterproof_verify::comparison::{FamilyReport, PairReport, Tally, Verdict};
 
-/// The families as text, by kind, with their legends and sums; at most 100 columns wide for two engines.
-pub fn text(verdict: &Verdict) -> String {
-    let section = |families: Vec<&FamilyReport>| {
-        let (kind, judged) = (families[0].kind, judged(families[0]));
-        let what = match kind {
-            Kind::Unsnapped => {
-                "(A:O wrong pixels of A against O; decided: sides of edges; exact: those in exact arithmetic)"
-            }
-            _ => {
-                "(A:O wrong pixels of A against O; val, dep: worst value and depth as a fraction of its bound)"
-            }
-        };
-        let (shapes, legend) = (shapes(kind), legend(judged.map(|pair| pair.actual.as_str())));
-        format!("{shapes}: {legend}, O oracle\n{what}\n{}\n", table(&families).text([0; 2]))
-    };
-    by_kind(verdict).map(section).collect()
-}
-
-/// All families as tables of a page, worst first.
+/// All families as tables, worst first; at most 100 columns wide for two engines.
 pub fn tables(verdict: &Verdict) -> Vec<Table> {
     let wrong = |f: &FamilyReport| {
         let pixels = |p: &PairReport| p.tally.total() + p.fragments.total() + p.panics;
@@ -45,7 +27,12 @@ pub fn tables(verdict: &Verdict) -> Vec<Table> {
         });
         table(&families)
     };
-    by_kind(verdict).map(sorted).collect()
+    let mut tables: Vec<Table> = by_kind(verdict).map(sorted).collect();
+    if let Some(last) = tables.last_mut() {
+        last.notes.extend(quotas(verdict));
+        last.notes.extend(disagreements(verdict));
+    }
+    tables
 }
 
 fn sum(a: [u64; 2], b: [u64; 2]) -> [u64; 2] {
@@ -84,14 +71,11 @@ fn table(families: &[&FamilyReport]) -> Table {
         let known = ('A'..).zip(judged(first)).find(|(_, pair)| pair.actual == name);
         known.map_or('O', |(letter, _)| letter)
     };
-    let mut columns = vec![
-        Column::words("family").least(15),
-        Column::numbers("cases", "cases judged").least(6),
-        Column::numbers(shapes, "shapes judged").short(short.to_owned()).least(9),
-        Column::numbers("pixels", "covered pixels, by the oracle").least(9),
-        Column::numbers("ties", "percent of the cases, in which a sample lies exactly on an edge")
-            .least(4),
-    ];
+    let mut columns = table::columns(&format!(
+        "family 15 | >cases 6 cases judged | >{shapes} 9 shapes judged | >pixels 9 covered pixels, by the oracle | >ties 4 \
+         percent of the cases, in which a sample lies exactly on an edge"
+    ));
+    columns[2] = columns[2].clone().short(short);
     for PairReport { actual, target, .. } in &first.pairs {
         let about = "wrong pixels of the first, judged by the second";
         let column = Column::numbers(&format!("{actual} : {target}"), about).least(6);
@@ -143,7 +127,13 @@ fn table(families: &[&FamilyReport]) -> Table {
         (cells, f.pairs.iter().any(|p| p.wrong_cases > 0) || f.oracle_faults > 0)
     };
     let caption = format!("Wrong pixels: {shapes}, by family and pair, worst first");
-    Table { caption, columns, rows: rows(families, row), ..Table::default() }
+    let what = match first.kind {
+        Kind::Unsnapped => "decided: sides of edges; exact: those in exact arithmetic",
+        _ => "val, dep: worst value and depth as a fraction of its bound",
+    };
+    let engines = legend(judged(first).map(|pair| pair.actual.as_str()));
+    let legend = format!("{engines}, O oracle; A:O wrong pixels of A against O; {what}");
+    Table { caption, columns, rows: rows(families, row), legend, ..Table::default() }
 }
 
 fn wrong(tally: Tally, panics: u64) -> String {
@@ -161,7 +151,7 @@ fn rows(
     let one = |family: &&FamilyReport| {
         let (cells, is_wrong) = row(family);
         let mark = if is_wrong { Mark::Wrong } else { Mark::Plain };
-        Row { search: Some(cells[0].clone()), cells, mark }
+        Row { search: Some(cells[0].clone()), cells, mark, ..Row::default() }
     };
     let mut rows: Vec<Row> = families.iter().map(one).collect();
     if let [first, others @ ..] = families
@@ -171,7 +161,7 @@ fn rows(
         others.iter().for_each(|family| all += FamilyReport::clone(family));
         let (mut cells, _) = row(&all);
         cells[0] = "all".to_owned();
-        rows.push(Row { cells, mark: Mark::Sum, search: None });
+        rows.push(Row { cells, mark: Mark::Sum, ..Row::default() });
     }
     rows
 }
@@ -192,7 +182,7 @@ pub fn outcome(verdict: &Verdict) -> Outcome {
     let (good, judged) = (verdict.agrees(), judged_shapes(verdict));
     let wrong = verdict.mismatches();
     let sentence = match (good, wrong) {
-        (true, _) => format!("Every engine drew what the oracle drew: {judged}, 0 wrong pixels."),
+        (true, _) => format!("{judged}, 0 wrong pixels"),
         (false, 0) => {
             let pairs = verdict.families.iter().flat_map(|f| &f.pairs);
             let cases: u64 = pairs.map(|p| p.wrong_cases).sum();
@@ -220,49 +210,39 @@ pub fn refused() -> Table {
         reasons.dedup();
         Some(vec![named.name.to_owned(), named.about.to_owned(), reasons.join("; ")].into())
     });
-    Table {
-        caption: "Inputs that are refused, with the reason given".to_owned(),
-        columns: ["case", "input", "answer"].map(Column::words).to_vec(),
-        rows: rows.collect(),
-        ..Table::default()
-    }
+    let columns = "case 6 | input | answer";
+    Table::new("Inputs that are refused, with the reason given", columns, rows.collect())
 }
 
-/// The quotas in a sentence; empty where no triangles were judged.
-pub fn quota_line(verdict: &Verdict) -> String {
-    if verdict.sum(Kind::Triangles, |f| f.cases) == 0 {
-        return String::new();
-    }
+/// The quotas in a sentence; nothing where no triangles were judged.
+fn quotas(verdict: &Verdict) -> Option<String> {
     let parts =
         verdict.quotas().map(|(what, is, wanted)| format!("{what} {is}% (quota {wanted}%)"));
-    format!("of the triangle cases: {}\n", parts.join(", "))
+    let has_triangles = verdict.sum(Kind::Triangles, |f| f.cases) > 0;
+    has_triangles.then(|| format!("of the triangle cases: {}", parts.join(", ")))
 }
 
 /// A sentence for each pair that disagrees, and for oracles that are wrong by themselves.
-pub fn disagreements(verdict: &Verdict) -> String {
-    let mut out = String::new();
+#[must_use]
+pub fn disagreements(verdict: &Verdict) -> Vec<String> {
+    let mut out = Vec::new();
     for f in &verdict.families {
         let (family, cases) = (&f.family, f.cases);
         for pair in f.pairs.iter().filter(|pair| !pair.agrees()) {
             let PairReport { actual, target, wrong_cases, .. } = pair;
             let kinds = kinds(pair);
-            let _ = writeln!(
-                out,
+            out.push(format!(
                 "{family}: {actual} against {target}: wrong in {wrong_cases} of {cases} cases{kinds}"
-            );
+            ));
         }
         if f.oracle_faults > 0 {
             let pixels = f.oracle_faults;
-            let _ = match f.kind {
-                Kind::Unsnapped => writeln!(
-                    out,
+            out.push(match f.kind {
+                Kind::Unsnapped => format!(
                     "{family}: the oracle does not hit {pixels} pixels of tiled windows exactly once"
                 ),
-                _ => writeln!(
-                    out,
-                    "{family}: the oracle hits {pixels} pixels of disjoint shapes twice"
-                ),
-            };
+                _ => format!("{family}: the oracle hits {pixels} pixels of disjoint shapes twice"),
+            });
         }
     }
     out
@@ -279,12 +259,12 @@ fn kinds(pair: &PairReport) -> String {
     }
     for (what, worst) in [("attribute", pair.worst_attribute), ("depth", pair.worst_depth)] {
         if worst > 1.0 {
-            let _ = write!(out, "\n    worst {what} {worst:.3e} times its bound");
+            let _ = write!(out, "; worst {what} {worst:.3e} times its bound");
         }
     }
     if pair.fragments.total() > 0 {
         let what = pair.fragments.describe();
-        let _ = write!(out, "\n    its fragments against its own coverage: {what}");
+        let _ = write!(out, "; its fragments against its own coverage: {what}");
     }
     out
 }

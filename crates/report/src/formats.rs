@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use super::html;
-use super::json::pretty;
+use super::json::{self as json_text, pretty};
 use rasterproof_judge::verdict::{Outcome, Property, Verdict};
 use rasterproof_verify::comparison::shrink;
 
@@ -51,7 +51,7 @@ pub fn write(
 ) -> String {
     match format {
         Format::Text => String::new(),
-        Format::Json => pretty(&everything(verdict, repeat_all, repeat)),
+        Format::Json => json_text::text(&everything(verdict, repeat_all, repeat)),
         Format::Junit => junit(verdict, repeat),
         Format::Tap => tap(verdict, repeat),
         Format::Gradescope => pretty(&gradescope(verdict, repeat)),
@@ -86,7 +86,13 @@ fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) ->
     out
 }
 
-fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+/// Everything that was found.
+#[must_use]
+pub fn everything(
+    verdict: &Verdict,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> Value {
     let d = &verdict.declared;
     let failures: Vec<Value> = verdict
         .failures

@@ -366,7 +366,7 @@ pub fn json(
     comparison: &Option<Comparison>,
     by_rounding: &Option<ByRounding>,
     times: &Times,
-) -> String {
+) -> serde_json::Value {
     serde_json::json!({
         "scene": scene,
         "engines": engines,
@@ -376,5 +376,4 @@ pub fn json(
         "comparison": comparison,
         "by_rounding": by_rounding,
     })
-    .to_string()
 }

@@ -9,7 +9,7 @@ use std::io::{self, Write as _};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use super::{judge_text, polygons_text};
+use super::{judge_text, text};
 use rasterproof_judge::ask::{Answer, Ask, Breach, Question};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
@@ -144,7 +144,8 @@ impl Job {
         let mut host = Host { declared };
         if host.declared.partition {
             let report = polygons::judge(&mut host, &self.options)?;
-            let text = polygons_text::text(&host.declared, &report, &all, &one, false);
+            let said = judge_text::of_polygons(&host.declared, &report, &all, &one);
+            let text = text::text(&said, false, false);
             return Ok((report.sum().wrong == 0, text));
         }
         let scope = Scope::of(&self.options);
@@ -153,7 +154,7 @@ impl Job {
         if let Some(why) = verdict.judged_nothing(&self.options) {
             return Err(why);
         }
-        let text = judge_text::text(&verdict, &all, &one, (false, false));
+        let text = text::text(&judge_text::report(&verdict, &all, &one, false), false, false);
         Ok((verdict.agrees(), text.replace("--declare '", &format!("declare{}'", self.is()))))
     }
 }

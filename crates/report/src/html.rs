@@ -20,6 +20,7 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 use super::table::{Mark, Table};
+use super::words::{same, word};
 
 const CONTEXT: usize = 3;
 const MOST_LEFT_OUT_NAMES: usize = 20;
@@ -35,7 +36,7 @@ pub struct Report {
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
-    /// The subject in a line or two, which begins the text in a terminal.
+    /// The subject in a line or two.
     pub about: String,
     /// What the reader wants to know, shown below the verdict.
     pub answers: Vec<Answer>,
@@ -49,6 +50,8 @@ pub struct Report {
     pub tables: Vec<Table>,
     /// Cases to look into, worst first.
     pub cases: Vec<CaseView>,
+    /// What a terminal shows of cases.
+    pub excerpts: Vec<Excerpt>,
     pub frames: Vec<PictureView>,
     pub figures: Vec<Figure>,
     /// The same for machines, where it is made of this value.
@@ -70,6 +73,19 @@ pub struct Answer {
     pub command: String,
 }
 
+/// A case as a terminal shows it.
+#[derive(Clone, Debug, Default)]
+pub struct Excerpt {
+    pub title: String,
+    /// What was asked and answered, each with what it is.
+    pub exchanges: Vec<(&'static str, String)>,
+    /// Pixels as characters; its lines are not broken.
+    pub grid: String,
+    pub notes: Vec<String>,
+    /// Commands and pages, each with what it is for.
+    pub places: Vec<(&'static str, String)>,
+}
+
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Whether all is well; decides the colour.
@@ -82,8 +98,13 @@ impl Outcome {
     /// The outcome of a comparison: `AGREES` or `DISAGREES`.
     #[must_use]
     pub fn of(agrees: bool, sentence: impl Into<String>) -> Self {
-        let word = super::summary::word(agrees).to_owned();
+        let word = word(agrees).to_owned();
         Self { good: agrees, word, sentence: sentence.into() }
+    }
+
+    /// Whether something was judged, and not only counted.
+    pub(super) fn is_verdict(&self) -> bool {
+        [word(self.good), same(self.good)].contains(&&*self.word)
     }
 
     /// The outcome where there was nothing to compare.
@@ -294,6 +315,9 @@ fn head(report: &Report) -> String {
             out,
             "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{sentence}</span></p>"
         );
+    }
+    for line in report.about.lines() {
+        let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(line));
     }
     for Answer { about, sentence, command: more } in &report.answers {
         let (about, sentence) = (escape(about), escape(sentence));

@@ -1,11 +1,20 @@
 //! A verdict for machines.
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use rasterproof_precision::cost::{Recorded, prices};
 use rasterproof_registry::published_check::SpecimenReport;
 use rasterproof_verify::cases::Kind;
 use rasterproof_verify::comparison::{Comparisons, FamilyReport, Verdict, shrink};
+
+/// What `--json` prints: lines that can be read, or one line for what is as long as the plan of a large model.
+#[must_use]
+pub fn text(data: &Value) -> String {
+    const MOST_READ_BYTES: usize = 1 << 16;
+    let line = data.to_string();
+    if line.len() > MOST_READ_BYTES { line + "\n" } else { pretty(data) }
+}
 
 pub fn pretty(value: &impl Serialize) -> String {
     // Numbers and strings only: this cannot fail.
@@ -41,7 +50,7 @@ struct FailureJson<'a> {
 }
 
 /// The verdict as JSON; `repeat` gives the command that repeats a failing case.
-pub fn verdict(verdict: &Verdict, repeat: impl Fn(&str, u64) -> String) -> String {
+pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value {
     let failures = verdict.failures.iter().map(|f| FailureJson {
         family: &f.family,
         index: f.index,
@@ -66,20 +75,19 @@ pub fn verdict(verdict: &Verdict, repeat: impl Fn(&str, u64) -> String) -> Strin
         failures: failures.collect(),
         off_grid_triangles: verdict.sum(Kind::Unsnapped, |f| f.shapes),
     };
-    pretty(&json)
+    // Numbers and strings only: this cannot fail.
+    serde_json::to_value(json).unwrap_or_default()
 }
 
 /// The survey of the specimens as JSON; an infinite error is `null`.
-pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
-    let json = serde_json::json!({
-        "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports,
-    });
-    pretty(&json)
+pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> Value {
+    json!({ "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports })
 }
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the rungs that nobody needs.
 /// [`Recorded::read`] takes it back.
-pub fn cost(recorded: &Recorded) -> String {
+#[must_use]
+pub fn cost(recorded: &Recorded) -> Value {
     let boards = &recorded.boards;
     let verdicts: Vec<_> = boards
         .iter()
@@ -89,26 +97,25 @@ pub fn cost(recorded: &Recorded) -> String {
             let best = |column: usize| {
                 let best = board.best(column, measure)?;
                 let name = |rung: Option<usize>| rung.map(named);
-                Some(serde_json::json!({
+                Some(json!({
                     "column": board.columns[column].name, "fastest": named(best.fastest),
                     "cheapest_good": name(best.good), "cheapest_certain": name(best.certain),
                 }))
             };
             let dominated = board.dominated(measure).into_iter().map(|d| {
                 let by: Vec<_> = d.by.into_iter().map(named).collect();
-                serde_json::json!({ "rung": named(d.rung), "by": by })
+                json!({ "rung": named(d.rung), "by": by })
             });
-            serde_json::json!({
+            json!({
                 "ladder": board.ladder, "measure": board.measures[measure].title,
                 "best": board.columns_run().filter_map(best).collect::<Vec<_>>(),
                 "dominated": dominated.collect::<Vec<_>>(),
             })
         })
         .collect();
-    let json = serde_json::json!({
+    json!({
         "version": recorded.version, "repeat": recorded.repeat, "seed": recorded.seed,
         "quick": recorded.quick, "boards": boards,
         "verdicts": verdicts, "price_of_exact_coverage": prices(boards),
-    });
-    pretty(&json)
+    })
 }

@@ -1,108 +1,181 @@
-//! The verdict on a program that was judged through the line protocol: as text, and as a page.
+//! The verdict on a program that was judged through the line protocol, on two that were compared, and on a tessellator.
 
-use std::fmt::Write as _;
-
-use super::html::{Chapter, Outcome, Report};
-use super::table::{Column, Mark, Row, Table};
+use super::formats;
+use super::html::{Chapter, Excerpt, Outcome, Report};
+use super::table::{Mark, Row, Table};
+use super::words::{of_bound, same, thousands};
 use super::{ascii, page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::check::Check;
+use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
-use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow};
+use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow, Sides};
 use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
+use rasterproof_verify::partition::{self, Family, Polygon};
 
 const MOST_EXCHANGES: usize = 3;
 const MOST_INCIDENTS: usize = 2;
 
-/// The verdict as text: the answer, a line for each danger, the table where something is wrong or it is
-/// asked for, what is wrong, and the verdict in a word.
+/// The verdict: the answer, what each program says of itself, the smallest failing cases, why it is wrong, a row for each
+/// danger, both scores, and the table of families where something is wrong or it is asked for.
 #[must_use]
-pub fn text(
+pub fn report(
     verdict: &Verdict,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
-    (with_table, colour): (bool, bool),
-) -> String {
+    with_table: bool,
+) -> Report {
     let (d, agrees) = (&verdict.declared, verdict.agrees());
-    let answer = if agrees { "is right" } else { "is not right" };
-    let mut out = format!(
-        "{} rasterproof {}, seed {}: {} {answer}\n\n",
-        summary::mark(agrees, colour),
-        env!("CARGO_PKG_VERSION"),
-        verdict.seed,
-        d.name
-    );
-    let _ = writeln!(out, "{} speaks version {}: {d}", d.name, d.version);
-    if let Some(reach) = verdict.reach {
-        let _ = writeln!(
-            out,
-            "it walks along its lines, so lines of at most {} steps are asked for",
-            summary::thousands(reach.unsigned_abs().into())
-        );
+    let names = verdict.against.as_ref().map(|second| against::names([d, second]));
+    let speaks = |name: &str, declared: &Declared| {
+        let said = format!("{name} speaks version {}: {declared}", declared.version);
+        let unknown = match declared.unknown.as_slice() {
+            [] => String::new(),
+            words => format!("\nnot understood, left aside: {}", words.join(" ")),
+        };
+        said + &unknown
+    };
+    let answer = match (&names, agrees) {
+        (Some(names), _) => difference(verdict, names),
+        (None, true) => format!("{} is right", d.name),
+        (None, false) => format!("{} is not right", d.name),
+    };
+    let mut about =
+        vec![format!("rasterproof {}, seed {}: {answer}", env!("CARGO_PKG_VERSION"), verdict.seed)];
+    if let (Some([first, second]), Some(other)) = (&names, &verdict.against) {
+        about.extend([speaks(first, d), speaks(second, other)]);
+        about.push("asked is what both can answer; each is judged by what it declares".to_owned());
+    } else {
+        about.push(speaks(&d.name, d));
     }
-    if !d.unknown.is_empty() {
-        let _ = writeln!(out, "not understood, left aside: {}", d.unknown.join(" "));
+    about.extend(verdict.reach.map(|reach| {
+        let most = thousands(reach.unsigned_abs().into());
+        format!("it walks along its lines, so lines of at most {most} steps are asked for")
+    }));
+    let mut first_screen: Vec<Table> = verdict.causes.iter().map(cause).collect();
+    match &names {
+        Some(names) => first_screen.extend([who_is_right(&verdict.sides(), names), sides(verdict)]),
+        None => {
+            first_screen.extend([dangers(verdict), scores(verdict)]);
+            if with_table || !agrees {
+                first_screen.push(families(verdict));
+            } else if let Some(last) = first_screen.last_mut() {
+                last.notes.push("every family as a table: add --table".to_owned());
+            }
+        }
     }
-    out.push('\n');
-    causes(&mut out, verdict);
-    dangers(&mut out, verdict, colour);
-    out.push('\n');
-    scores(&mut out, verdict);
-    if with_table || !agrees {
-        out.push('\n');
-        table(&mut out, verdict);
-    }
-    incidents(&mut out, verdict, repeat);
-    failures(&mut out, verdict, &["judged"], repeat);
     if verdict.known > 0 {
-        let known = summary::thousands(verdict.known);
-        let _ = writeln!(out, "\nnot shown: {known} failing cases that the baseline knows");
+        let known = thousands(verdict.known);
+        let note = format!("not shown: {known} failing cases that the baseline knows");
+        first_screen.push(Table::of_notes("", vec![note]));
     }
-    complaints(&mut out, verdict);
-    let _ = writeln!(out, "\nrepeat with: {repeat_all}");
-    if !with_table && agrees {
-        out += "every family as a table: add --table\n";
+    let drawn_by =
+        names.as_ref().map_or(vec!["judged"], |names| names.iter().map(|n| &**n).collect());
+    let failures = verdict.failures.iter();
+    let failures =
+        failures.map(|failure| excerpt(failure, &drawn_by, repeat(failure.family, failure.index)));
+    let title = match &names {
+        Some([first, second]) => format!("{first} against {second}"),
+        None => format!("Verdict on {}", d.name),
+    };
+    Report {
+        title,
+        about: about.join("\n"),
+        outcome: Some(outcome(verdict, names.as_ref())),
+        excerpts: incidents(verdict, repeat)
+            .into_iter()
+            .chain(failures)
+            .chain(complaints(verdict))
+            .collect(),
+        tables: first_screen.iter().cloned().chain([properties(verdict)]).collect(),
+        first_screen,
+        command: repeat_all.to_owned(),
+        seed: Some(verdict.seed),
+        cases: views(verdict, names.as_ref(), repeat),
+        data: formats::everything(verdict, repeat_all, repeat),
+        ..Report::default()
     }
-    let _ = writeln!(out, "{}: {}", summary::word(agrees), closing(verdict));
-    out
 }
 
-pub(super) fn complaints(out: &mut String, verdict: &Verdict) {
-    if !verdict.complaints.is_empty() {
-        let _ = writeln!(out, "\nthe end of its standard error:");
-        for line in &verdict.complaints {
-            let _ = writeln!(out, "  | {line}");
+fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
+    let good = verdict.agrees();
+    match names {
+        Some(names) => {
+            Outcome { good, word: same(good).to_owned(), sentence: difference(verdict, names) }
+        }
+        // The mistake says more than the properties that fail.
+        None => {
+            let cause = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
+            let cause = cause.map_or_else(String::new, |cause| format!("it {}; ", cause.does));
+            Outcome::of(good, cause + &closing(verdict))
         }
     }
 }
 
-/// The failing cases; `drawn_by` names the one or the two programs.
-pub(super) fn failures(
-    out: &mut String,
-    verdict: &Verdict,
-    drawn_by: &[&str],
+/// The verdict on a tessellator: what is wrong with the smallest polygons.
+#[must_use]
+pub fn of_polygons(
+    declared: &Declared,
+    report: &partition::Report,
+    repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
-) {
-    for failure in &verdict.failures {
-        one_failure(out, failure, drawn_by, &repeat(failure.family, failure.index));
+) -> Report {
+    let (sum, name) = (report.sum(), &declared.name);
+    let agrees = sum.wrong == 0;
+    let answer = if agrees { "is right" } else { "is not right" };
+    let mut about = format!(
+        "rasterproof {}, seed {}: {name} {answer}\n{name} speaks version {}: {declared}",
+        env!("CARGO_PKG_VERSION"),
+        report.options.seed,
+        declared.version,
+    );
+    if !declared.unknown.is_empty() {
+        about += &format!("\nnot understood, left aside: {}", declared.unknown.join(" "));
+    }
+    let mut grid = String::new();
+    if !agrees {
+        // As most languages write lists.
+        let show = |polygon: &Polygon| format!("{:?}", polygon.contours);
+        let of = |family: Family, index| repeat(family.name(), index);
+        let _ = report.write(&mut grid, &show, &of);
+    }
+    let [polygons, triangles, left_out, wrong] =
+        [sum.polygons, sum.triangles, sum.left_out, sum.wrong].map(thousands);
+    let sentence = format!(
+        "{polygons} polygons, {triangles} triangles, {left_out} polygons not taken; {wrong} are not covered exactly once"
+    );
+    Report {
+        about,
+        excerpts: if agrees { Vec::new() } else { vec![Excerpt { grid, ..Excerpt::default() }] },
+        command: repeat_all.to_owned(),
+        outcome: Some(Outcome::of(agrees, sentence)),
+        ..Report::default()
     }
 }
 
-/// A line for how it keeps the protocol, for its winding, for each danger and for each other check.
-fn dangers(out: &mut String, verdict: &Verdict, colour: bool) {
-    let mut entry = |is_good, name, what: &str| {
-        *out += &summary::entry(summary::mark(is_good, colour), name, what);
-    };
+/// The end of what it said on standard error.
+fn complaints(verdict: &Verdict) -> Option<Excerpt> {
+    let lines = verdict.complaints.iter().map(|line| format!("  | {line}"));
+    (!verdict.complaints.is_empty()).then(|| Excerpt {
+        title: "the end of its standard error:".to_owned(),
+        grid: lines.collect::<Vec<_>>().join("\n"),
+        ..Excerpt::default()
+    })
+}
+
+/// A row for how it keeps the protocol, for its winding, for each danger and for each other check.
+fn dangers(verdict: &Verdict) -> Table {
     let is_good =
         |name: &str| verdict.properties.iter().all(|p| p.name != name || p.outcome.is_good());
+    let mut out = Vec::new();
     for p in verdict.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
         let what = match (p.name, p.outcome.is_good()) {
             ("winding", true) => format!("{}, as it declares", verdict.declared.winding.word()),
             _ => p.detail.clone(),
         };
-        entry(p.outcome.is_good(), p.name, &what);
+        out.push(summary::row(p.outcome.is_good(), p.name, &what));
     }
     let rows = &verdict.found.rows;
     for danger in summary::DANGERS {
@@ -114,38 +187,19 @@ fn dangers(out: &mut String, verdict: &Verdict, colour: bool) {
             sum.tally += row.tally;
         }
         if of().next().is_some() {
-            entry(of().all(|row| is_good(row.name)), danger.name, &sum.describe());
+            let is_right = of().all(|row| is_good(row.name));
+            out.push(summary::row(is_right, danger.name, &sum.describe()));
         }
     }
     let in_a_danger = |name: &str| summary::DANGERS.iter().any(|d| d.families.contains(&name));
     for row in rows.iter().filter(|row| !in_a_danger(row.name)) {
         let what = match row.wrong_cases {
-            0 => format!("{} cases, all right", summary::thousands(row.cases)),
+            0 => format!("{} cases, all right", thousands(row.cases)),
             _ => verdict::sentence(row),
         };
-        entry(is_good(row.name), row.name, &what);
+        out.push(summary::row(is_good(row.name), row.name, &what));
     }
-}
-
-/// Breaks a line at spaces; the lines after the first begin with `indent`.
-pub fn wrapped(text: &str, indent: &str) -> String {
-    let (first, words) = text.split_at(text.len() - text.trim_start().len());
-    hanging(words, first, indent) + "\n"
-}
-
-/// The words in lines of at most 80 columns: the first begins with `first`, the others with `rest`.
-pub fn hanging(words: &str, first: &str, rest: &str) -> String {
-    let mut lines = vec![first.to_owned()];
-    for (i, word) in words.split(' ').enumerate() {
-        let line = lines.last_mut().expect("there is a first line");
-        if i > 0 && line.chars().count() + 1 + word.chars().count() > 80 {
-            lines.push(format!("{rest}{word}"));
-        } else {
-            *line += if i == 0 { "" } else { " " };
-            *line += word;
-        }
-    }
-    lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
+    summary::judged("", out)
 }
 
 /// The score, with the wrong pixels of the shapes that it leaves out.
@@ -160,44 +214,36 @@ fn score(of: Score, left_out_wrong: u64) -> String {
     format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
 }
 
-fn scores(out: &mut String, verdict: &Verdict) {
-    let said = score(verdict.as_declared(), 0);
-    let _ = writeln!(out, "as declared:         {said}");
-    let line = |out: &mut String, first: &str, text: &str| {
-        let _ = writeln!(out, "{first:<21}{text}");
+fn scores(verdict: &Verdict) -> Table {
+    let found = match (&verdict.recognised, verdict.by_convention()) {
+        (None, _) => "the same: no other one was recognised".to_owned(),
+        (Some(_), Some(found)) => score(found, verdict.left_out_wrong()),
+        (Some(_), None) => "unexplained, so there is no score".to_owned(),
     };
-    let Some(recognised) = &verdict.recognised else {
-        return line(out, "by its convention:", "the same: no other one was recognised");
-    };
-    match verdict.by_convention() {
-        Some(found) => line(out, "by its convention:", &score(found, verdict.left_out_wrong())),
-        None => line(out, "by its convention:", "unexplained, so there is no score"),
+    let mut notes = Vec::new();
+    if let Some(recognised) = &verdict.recognised {
+        notes.extend(recognised.sentences.iter().chain(&recognised.compass).cloned());
+        if !recognised.declare.is_empty() {
+            let turned = if verdict.declared.yup { " (in its words, y up)" } else { "" };
+            let declare = &recognised.declare;
+            notes.push(format!("to be judged by it: --declare '{declare}'{turned}"));
+        }
     }
-    recognised.sentences.iter().chain(&recognised.compass).for_each(|text| line(out, "", text));
-    if !recognised.declare.is_empty() {
-        let turned = if verdict.declared.yup { " (in its words, y up)" } else { "" };
-        line(out, "", &format!("to be judged by it: --declare '{}'{turned}", recognised.declare));
-    }
+    let row = |(what, score): (&str, String)| vec![what.to_owned(), score].into();
+    let rows = [("as declared:", score(verdict.as_declared(), 0)), ("by its convention:", found)];
+    Table::new("", "~score 22 | ~found 1", rows.map(row).to_vec()).noted(notes)
 }
 
 /// Why it is wrong, where that was looked for.
-pub fn causes(out: &mut String, verdict: &Verdict) {
-    for why in &verdict.causes {
-        let known = if why.why.is_known() { "probable cause" } else { "no cause recognised" };
-        let _ = writeln!(out, "{known}, of the wrong {}:", why.whose());
-        let why = &why.why;
-        why.sentences().iter().for_each(|said| *out += &wrapped(&format!("  {said}"), "    "));
-        out.push('\n');
-    }
+fn cause(why: &Why) -> Table {
+    let known = if why.why.is_known() { "probable cause" } else { "no cause recognised" };
+    Table::of_notes(&format!("{known}, of the wrong {}:", why.whose()), why.why.sentences())
 }
 
-fn table(out: &mut String, verdict: &Verdict) {
-    let numbers = ["cases", "shapes", "pixels", "missing", "extra", "twice", "order", "refused"];
-    let numbers = numbers.map(|label| Column::numbers(label, "").least(8));
-    let columns = [Column::words("property").least(16)].into_iter().chain(numbers);
-    let columns = columns.chain([Column::numbers("wrong", "").least(7)]).collect();
-    let mut rows: Vec<_> = verdict.found.rows.iter().collect();
-    rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
+/// Every family, with what was wrong.
+fn families(verdict: &Verdict) -> Table {
+    let columns = "property 18 | >cases 8 | >shapes 8 | >pixels 8 | >missing 8 | >extra 8 | >twice 8 | >order 8 | \
+                   >refused 8 | >wrong 7";
     let row = |row: &FamilyRow| {
         let t = &row.tally;
         let numbers =
@@ -207,33 +253,36 @@ fn table(out: &mut String, verdict: &Verdict) {
         cells.push(format!("{:.2}%", 100.0 * row.share()));
         cells.into()
     };
-    let rows = rows.into_iter().map(row).collect();
-    *out += &Table { columns, rows, ..Table::default() }.text([0; 2]);
-    *out += "(wrong: share of the cases with anything wrong; of meshes, missing are holes)\n";
+    let mut notes = vec![
+        "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
+    ];
     for row in verdict.found.rows.iter().filter(|row| row.values > 0) {
-        let _ = writeln!(
-            out,
+        notes.push(format!(
             "{}: {} compared, {}, which is {:e}",
             row.name,
             row.values,
-            summary::of_bound(row.worst).replace("bound", "tolerance"),
+            of_bound(row.worst).replace("bound", "tolerance"),
             verdict.declared.tolerance
-        );
+        ));
     }
-    for row in verdict.found.rows.iter().filter(|row| row.stopped) {
-        let _ = writeln!(out, "{}: given up after {MOST_DEATHS} times without an answer", row.name);
-    }
+    let stopped = verdict.found.rows.iter().filter(|row| row.stopped);
+    notes.extend(
+        stopped
+            .map(|r| format!("{}: given up after {MOST_DEATHS} times without an answer", r.name)),
+    );
     if verdict.found.gave_up {
-        let _ = writeln!(
-            out,
-            "given up for good: {} times without an answer, or no answer at all",
-            run::MOST_DEATHS_IN_ALL
-        );
+        let most = run::MOST_DEATHS_IN_ALL;
+        notes.push(format!(
+            "given up for good: {most} times without an answer, or no answer at all"
+        ));
     }
+    Table::new("", columns, by_share(verdict).into_iter().map(row).collect()).noted(notes)
 }
 
-pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) {
+/// What broke the protocol: the first of each kind.
+pub fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
     let mut shown: Vec<&str> = Vec::new();
+    let mut out = Vec::new();
     for incident in &verdict.found.incidents {
         let word = incident.what.breach.name();
         if shown.iter().filter(|w| **w == word).count() == MOST_INCIDENTS {
@@ -245,74 +294,117 @@ pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64)
             "" => "before the families".to_owned(),
             _ => format!("{family} #{index}"),
         };
-        let _ = writeln!(out, "\n{place}: it {}", incident.what);
-        let _ = writeln!(out, "  request:  {}", incident.request);
-        if !family.is_empty() {
-            let _ = writeln!(out, "  repeat with: {}", repeat(family, index));
-        }
+        let of_family = Some(family).filter(|family| !family.is_empty());
+        out.push(Excerpt {
+            title: format!("{place}: it {}", incident.what),
+            exchanges: vec![("request", incident.request.clone())],
+            places: of_family.map(|_| ("repeat with", repeat(family, index))).into_iter().collect(),
+            ..Excerpt::default()
+        });
     }
-    for stray in &verdict.found.strays {
-        let flight = "with several requests in flight it";
-        let _ = writeln!(out, "\n{flight} {stray}; each alone was answered");
-    }
+    let flight = "with several requests in flight it";
+    let strays = verdict.found.strays.iter();
+    out.extend(strays.map(|stray| Excerpt {
+        title: format!("{flight} {stray}; each alone was answered"),
+        ..Excerpt::default()
+    }));
+    out
 }
 
-/// A failing case: what was asked and answered, with its pixel grid.
-pub fn one_failure(out: &mut String, failure: &Failure, drawn_by: &[&str], command: &str) {
+/// A failing case: what was asked and answered, with its pixel grid. `drawn_by` names the one or the two programs.
+#[must_use]
+pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt {
     let (family, index) = (failure.family, failure.index);
     let (property, what) = (failure.property, &failure.what);
-    let _ = writeln!(out, "\n{property}: {what} (from {family} #{index}, {})", failure.shrunk);
-    for exchange in failure.exchanges.iter().take(MOST_EXCHANGES) {
-        for (what, line) in [
+    let exchanges = failure.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
+        let lines = [
             ("request", &exchange.request),
             ("answer", &exchange.answer),
             ("other", &exchange.other),
             ("expected", &exchange.expected),
-        ] {
-            if !line.is_empty() {
-                let _ = writeln!(out, "  {:<10}{line}", format!("{what}:"));
-            }
-        }
-    }
+        ];
+        lines
+            .into_iter()
+            .filter(|(_, line)| !line.is_empty())
+            .map(|(what, line)| (what, line.clone()))
+    });
     let more = failure.exchanges.len().saturating_sub(MOST_EXCHANGES);
+    let mut notes = Vec::new();
     if more > 0 {
-        let _ = writeln!(out, "  and {more} requests more");
+        notes.push(format!("and {more} requests more"));
     }
-    if let Some(pictured) = &failure.picture {
-        picture(out, drawn_by, pictured);
+    let picture = failure.picture.as_ref();
+    if let Some(of) = picture.map(|picture| &picture.of).filter(|of| !of.is_empty()) {
+        notes.push(format!("({of})"));
     }
-    let _ = writeln!(out, "  repeat with: {command}");
+    Excerpt {
+        title: format!("{property}: {what} (from {family} #{index}, {})", failure.shrunk),
+        exchanges: exchanges.collect(),
+        grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
+        notes,
+        places: vec![("repeat with", command)],
+    }
 }
 
 /// What was drawn beside what was expected, as characters.
-pub fn picture(out: &mut String, drawn_by: &[&str], picture: &Pictured) {
-    let Pictured { drawn, other, expected, of, .. } = picture;
+#[must_use]
+pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
+    let Pictured { drawn, other, expected, .. } = picture;
     let drawn = drawn_by.iter().zip([drawn].into_iter().chain(other));
     let judged = drawn.map(|(by, drawn)| ((*by).to_owned(), ascii::grid(drawn, expected)));
     let exact = ("expected".to_owned(), ascii::grid(expected, expected));
     let blocks: Vec<_> = judged.chain([exact]).collect();
-    for line in ascii::side_by_side(&blocks, 98).lines() {
-        let _ = writeln!(out, "{}", format!("  {line}").trim_end());
-    }
-    let _ = writeln!(out, "  ({})", ascii::LEGEND);
-    if !of.is_empty() {
-        *out += &wrapped(&format!("  ({of})"), "   ");
-    }
+    let lines = ascii::side_by_side(&blocks, 98);
+    let lines = lines.lines().map(|line| format!("  {line}").trim_end().to_owned() + "\n");
+    lines.collect::<String>() + &format!("  ({})\n", ascii::LEGEND)
 }
 
 /// Whether both of two compared programs answer the same.
-pub(super) fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
+fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
     let rows = &verdict.found.rows;
     let sum = |of: fn(&FamilyRow) -> u64| rows.iter().map(of).sum::<u64>();
-    let cases = summary::thousands(sum(|row| row.cases));
+    let cases = thousands(sum(|row| row.cases));
     let until = if verdict.found.out_of_time { " until the time was up" } else { "" };
     match sum(|row| row.wrong_cases) {
         0 => format!("{first} and {second} answer the same in {cases} cases{until}"),
-        n => format!(
-            "{first} and {second} differ in {} of {cases} cases{until}",
-            summary::thousands(n)
-        ),
+        n => format!("{first} and {second} differ in {} of {cases} cases{until}", thousands(n)),
     }
+}
+
+/// Which of two programs is right where they differ.
+fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
+    let lines = [
+        (sides.first, format!("cases: {first} is right and {second} is not")),
+        (sides.second, format!("cases: {second} is right and {first} is not")),
+        (sides.neither, "cases: neither is right".to_owned()),
+        (sides.both, "cases: both are right as they declare".to_owned()),
+        (sides.same_but_wrong, "cases: they answer the same, and it is wrong".to_owned()),
+    ];
+    let row = |(n, what): (u64, String)| vec![thousands(n), what].into();
+    let rows = lines.into_iter().filter(|(n, _)| *n > 0).map(row).collect();
+    Table::new("", ">~cases 9 | ~who is right 1", rows)
+}
+
+/// For each family which of two programs is right.
+fn sides(verdict: &Verdict) -> Table {
+    let columns =
+        "property 18 | >cases 7 | >differ 7 | >1st right 7 | >2nd right 7 | >neither 7 | >both 7";
+    let row = |row: &FamilyRow| {
+        let sides = row.sides.unwrap_or_default();
+        let numbers =
+            [row.cases, row.wrong_cases, sides.first, sides.second, sides.neither, sides.both];
+        let mut cells = vec![row.name.to_owned()];
+        cells.extend(numbers.map(|n| n.to_string()));
+        cells.into()
+    };
+    Table::new("", columns, by_share(verdict).into_iter().map(row).collect())
+}
+
+/// The families, those with the largest share of wrong cases first.
+fn by_share(verdict: &Verdict) -> Vec<&FamilyRow> {
+    let mut rows: Vec<_> = verdict.found.rows.iter().collect();
+    rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    rows
 }
 
 fn closing(verdict: &Verdict) -> String {
@@ -346,16 +438,17 @@ fn closing(verdict: &Verdict) -> String {
     }
 }
 
-/// The run as a page: properties and counts, then each failing case with what everybody draws there.
-#[must_use]
-pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
-    let d = &verdict.declared;
-    let both = verdict.against.as_ref().map(|second| against::names([d, second]));
-    let programs = match &both {
+/// What each program draws of each failing case.
+fn views(
+    verdict: &Verdict,
+    names: Option<&[String; 2]>,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> Vec<page_cases::CaseView> {
+    let programs = match names {
         Some([first, second]) => vec![first.as_str(), second],
-        None => vec![d.name.as_str()],
+        None => vec![verdict.declared.name.as_str()],
     };
-    let views = verdict.failures.iter().map(|f| {
+    let view = |f: &Failure| {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("{}: found in {} #{}, {}", f.property, f.family, f.index, f.shrunk);
         let mut view = page_cases::of_program(name, about, &f.case, &programs, f.picture.as_ref());
@@ -371,35 +464,8 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
             view.chapter = Chapter { title, path };
         }
         view
-    });
-    let mut notes = vec![format!("{} speaks version {}: {d}", d.name, d.version)];
-    for why in &verdict.causes {
-        let known = if why.why.is_known() { "Probable cause" } else { "No cause recognised" };
-        notes.push(format!("{known}, of the wrong {}: {}", why.whose(), why.why));
-    }
-    if let Some(said) = &verdict.recognised {
-        notes.extend(said.sentences.iter().chain(&said.compass).cloned());
-    }
-    // The mistake says more than the properties that fail.
-    let cause = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
-    let cause = cause.map_or_else(String::new, |cause| format!("it {}; ", cause.does));
-    let (title, headline) = match &both {
-        Some(names) => {
-            let title = format!("{} against {}", names[0], names[1]);
-            (title, difference(verdict, names))
-        }
-        None => (format!("Verdict on {}", d.name), cause + &closing(verdict)),
     };
-    Report {
-        title,
-        outcome: Some(Outcome::of(verdict.agrees(), headline)),
-        command: command.to_owned(),
-        seed: Some(verdict.seed),
-        notes,
-        tables: vec![properties(verdict)],
-        cases: views.collect(),
-        ..Report::default()
-    }
+    verdict.failures.iter().map(view).collect()
 }
 
 fn properties(verdict: &Verdict) -> Table {
@@ -412,13 +478,11 @@ fn properties(verdict: &Verdict) -> Table {
         ],
         mark: if p.outcome.is_good() { Mark::Plain } else { Mark::Wrong },
         search: verdict.failures.iter().any(|f| f.property == p.name).then(|| p.name.to_owned()),
+        ..Row::default()
     };
     let (bad, good): (Vec<_>, Vec<_>) =
         verdict.properties.iter().partition(|p| !p.outcome.is_good());
-    Table {
-        caption: "Properties, those that fail first".to_owned(),
-        columns: ["property", "", "what it says", "found"].map(Column::words).to_vec(),
-        rows: bad.into_iter().chain(good).map(row).collect(),
-        ..Table::default()
-    }
+    let columns = "property 18 | holds 6 | what it says | found";
+    let rows = bad.into_iter().chain(good).map(row).collect();
+    Table::new("Properties, those that fail first", columns, rows)
 }

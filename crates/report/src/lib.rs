@@ -1,6 +1,5 @@
 //! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
 
-pub mod against_text;
 pub mod ascii;
 pub mod board;
 pub mod canvas;
@@ -20,10 +19,10 @@ pub mod page_cases;
 pub mod panels;
 pub mod phrases;
 pub mod picture;
-pub mod polygons_text;
 pub mod specimen_sheet;
 pub mod specimens;
 pub mod study;
 pub mod summary;
 pub mod table;
 pub mod text;
+pub mod words;

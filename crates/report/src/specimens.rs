@@ -1,38 +1,26 @@
-//! The survey of the specimens: a summary of all, as text and as a table of a page, or all families of one.
+//! The survey of the specimens as tables: a summary of all, or all families of one.
 
-use std::fmt::Write as _;
-
-use super::table::{Column, Row, Table};
+use super::table::{self, Column, Row, Table};
 use rasterproof_registry::published_check::{Counts, SpecimenReport};
 
 const UNITS: &str = "\
-differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong
-pixels per million covered, each triangle for itself; value, depth: worst error as a fraction of the
-corner values' spread; shared: as twice, but pixels that two triangles of a mesh draw
-";
+differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong \
+pixels per million covered, each triangle for itself; value, depth: worst error as a fraction of the \
+corner values' spread; shared: as twice, but pixels that two triangles of a mesh draw";
 
-/// The survey: a block for each specimen with its sums and its worst family, then coverage by family
-/// in percent; at most 100 columns.
-pub fn text(reports: &[SpecimenReport]) -> String {
-    let all: Vec<_> = reports.iter().collect();
-    let mut out = format!("{UNITS}{}", of_specimens(&all).text([0, 2]));
-    for lines in [false, true] {
-        let columns: Vec<_> = reports
-            .iter()
-            .filter(|r| {
-                r.families.first().is_some_and(|(name, _)| name.starts_with("line") == lines)
-            })
-            .collect();
-        by_family(&mut out, &columns, if lines { "lines" } else { "triangles" });
+/// The survey, the most often wrong first, then coverage by family in percent; of a single one, every family and every
+/// recorded input.
+pub fn tables(reports: &[SpecimenReport]) -> Vec<Table> {
+    if let [one] = reports {
+        return detail(one);
     }
-    out
-}
-
-/// The survey as a table of a page, the most often wrong first.
-pub fn table(reports: &[SpecimenReport]) -> Table {
     let mut sorted: Vec<_> = reports.iter().collect();
     sorted.sort_by(|a, b| b.all.percent().total_cmp(&a.all.percent()));
-    of_specimens(&sorted)
+    let is_of_lines = |r: &&SpecimenReport| Some(r.families.first()?.0.starts_with("line"));
+    let of = |lines| reports.iter().filter(move |r| is_of_lines(r) == Some(lines)).collect();
+    let of_shapes = |(lines, shapes)| by_family(of(lines), shapes);
+    let by_family = [(false, "triangles"), (true, "lines")].into_iter().filter_map(of_shapes);
+    [of_specimens(&sorted)].into_iter().chain(by_family).collect()
 }
 
 fn of_specimens(reports: &[&SpecimenReport]) -> Table {
@@ -51,45 +39,44 @@ fn of_specimens(reports: &[&SpecimenReport]) -> Table {
         ]);
         Row { search: Some(r.name.to_owned()), ..cells.into() }
     };
-    let mut columns = columns("specimen", 16);
-    columns.push(Column::words("worst family").least(12));
-    columns.extend(["from, and its fault", "cure", "shown by"].map(Column::words));
+    let mut columns = counted("specimen 16");
+    columns.extend(table::columns("worst family 12 | from, and its fault | cure | shown by"));
     Table {
         caption: "Published algorithms and how often each is wrong, worst first".to_owned(),
         columns,
         rows: reports.iter().map(row).collect(),
+        notes: vec![UNITS.to_owned()],
         ..Table::default()
     }
 }
 
 /// One specimen: its card, every family, every recorded input.
-pub fn detail(report: &SpecimenReport) -> String {
+fn detail(report: &SpecimenReport) -> Vec<Table> {
     let r = report;
-    let mut out = format!("{}: {}\n{}\ncure: {}\n", r.name, r.source, r.fault, r.cure);
-    let _ = writeln!(
-        out,
-        "shown by: {}: {} pixels; harmless case: {} pixels\n",
-        r.case, r.case_wrong, r.harmless_wrong
-    );
-    out.push_str(UNITS);
-    if r.families.is_empty() {
-        out.push_str("no rasterizer and no line drawer: its fault shows in its case alone\n");
-        return out;
-    }
-    let _ = writeln!(out, "pixels, values: percent with a wrong pixel, with a wrong value");
-    let mut columns = columns("family", 23);
-    columns.extend(["pixels", "values"].map(|what| Column::numbers(what, "").least(6)));
+    let mut notes = vec![
+        format!("cure: {}", r.cure),
+        format!(
+            "shown by: {}: {} pixels; harmless case: {} pixels",
+            r.case, r.case_wrong, r.harmless_wrong
+        ),
+    ];
+    notes.extend(match r.families.is_empty() {
+        true => vec!["no rasterizer and no line drawer: its fault shows in its case alone".into()],
+        false => {
+            vec![format!("{UNITS}; pixels, values: percent with a wrong pixel, with a wrong value")]
+        }
+    });
+    let mut columns = counted("family 21");
+    columns.extend(table::columns(">pixels 6 | >values 6"));
     let row = |(name, c): (&str, &Counts)| {
         let percents = [c.wrong_pixels, c.wrong_values].map(|n| format!("{:.1}%", c.percent_of(n)));
         cells(name, c).into_iter().chain(percents).collect::<Vec<_>>().into()
     };
     let families = r.families.iter().map(|(name, counts)| (*name, counts));
-    let rows = families.chain([("all", &r.all)]).map(row).collect();
-    out += &Table { columns, rows, ..Table::default() }.text([0; 2]);
-    if !r.recorded.is_empty() {
-        let _ = writeln!(out, "\nrecorded inputs of the book's code, wrong pixels:");
-    }
-    for (name, c) in &r.recorded {
+    let all = [("all", &r.all)].into_iter().filter(|_| !r.families.is_empty());
+    let rows = families.chain(all).map(row).collect();
+    let caption = format!("{}: {}: {}", r.name, r.source, r.fault);
+    let recorded = r.recorded.iter().map(|(name, c)| {
         let tally = &c.tally;
         let what = match c.refused {
             0 => format!(
@@ -98,26 +85,29 @@ pub fn detail(report: &SpecimenReport) -> String {
             ),
             _ => "refused: undefined in the published code, or without end".to_owned(),
         };
-        let _ = writeln!(out, "{name:<24} {what}");
-    }
-    out
+        vec![(*name).to_owned(), what].into()
+    });
+    let title = "Recorded inputs of the book's code";
+    let recorded = Table::new(title, "input 22 | wrong pixels 12", recorded.collect());
+    let recorded = Some(recorded).filter(|table| !table.rows.is_empty());
+    [Table { caption, columns, rows, notes, ..Table::default() }]
+        .into_iter()
+        .chain(recorded)
+        .collect()
 }
 
-fn columns(of: &str, least: usize) -> Vec<Column> {
-    let numbers = [
-        ("differ", "percent of the triangles or lines with a wrong pixel or value"),
-        ("extra", "pixels outside the shape, per million covered"),
-        ("missing", "missing pixels, per million covered"),
-        ("twice", "hits beyond the first, each triangle for itself, per million covered"),
-        ("value", "worst error of a value as a fraction of the corner values' spread"),
-        ("depth", "worst error of a depth as a fraction of the corner values' spread"),
-        ("shared", "as twice, but pixels that two triangles of a mesh draw"),
-    ];
-    let numbers = numbers.map(|(label, about)| Column::numbers(label, about).least(7));
-    [Column::words(of).least(least)].into_iter().chain(numbers).collect()
+/// A column for what was counted of, as it is written, and those of the counts.
+fn counted(of: &str) -> Vec<Column> {
+    table::columns(&format!(
+        "{of} | >differ 7 percent of the triangles or lines with a wrong pixel or value | >extra 7 pixels outside the \
+         shape, per million covered | >missing 7 missing pixels, per million covered | >twice 7 hits beyond the first, \
+         each triangle for itself, per million covered | >value 7 worst error of a value as a fraction of the corner \
+         values' spread | >depth 7 worst error of a depth as a fraction of the corner values' spread | >shared 7 as \
+         twice, but pixels that two triangles of a mesh draw"
+    ))
 }
 
-/// A row of [`columns`], in which dashes stand where nothing was drawn.
+/// A row of [`counted`], in which dashes stand where nothing was drawn.
 fn cells(name: &str, counts: &Counts) -> Vec<String> {
     let drawn = counts.shapes > 0;
     let rate = |n: u64| match (drawn, counts.per_million(n)) {
@@ -146,21 +136,23 @@ fn cells(name: &str, counts: &Counts) -> Vec<String> {
 }
 
 /// Percent of shapes with a wrong pixel, a row for each family, a letter for each specimen.
-fn by_family(out: &mut String, reports: &[&SpecimenReport], shapes: &str) {
-    let Some(first) = reports.first() else { return };
+fn by_family(reports: Vec<&SpecimenReport>, shapes: &str) -> Option<Table> {
+    let first = reports.first()?;
     let letters = || ('A'..).map(String::from);
     let legend: Vec<_> =
-        letters().zip(reports).map(|(letter, r)| format!("{letter} {}", r.name)).collect();
-    let _ = writeln!(out, "\n{shapes} with a wrong pixel in percent, by family:");
-    for names in legend.chunks(5) {
-        let _ = writeln!(out, "  {}", names.join(", "));
-    }
-    let columns = letters().take(reports.len()).map(|of| Column::numbers(&of, "").least(5));
+        letters().zip(&reports).map(|(letter, r)| format!("{letter} {}", r.name)).collect();
+    let named = letters().zip(&reports);
+    let columns = named.map(|(letter, r)| Column::numbers(&letter, r.name).least(5));
     let rows = first.families.iter().enumerate().map(|(row, (family, _))| {
         let counts = reports.iter().map(|report| &report.families[row].1);
         let cells = counts.map(|c| format!("{:.1}", c.percent_of(c.wrong_pixels)));
         [(*family).to_owned()].into_iter().chain(cells).collect::<Vec<_>>().into()
     });
-    let columns = [Column::words("family").least(16)].into_iter().chain(columns).collect();
-    *out += &Table { columns, rows: rows.collect(), ..Table::default() }.text([0; 2]);
+    Some(Table {
+        caption: format!("{shapes} with a wrong pixel in percent, by family"),
+        columns: [Column::words("family").least(16)].into_iter().chain(columns).collect(),
+        rows: rows.collect(),
+        notes: vec![legend.join(", ")],
+        ..Table::default()
+    })
 }

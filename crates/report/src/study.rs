@@ -14,13 +14,12 @@ use rasterproof_study::ties::{Class, Classes, TiedPair};
 use rasterproof_study::{face_of, triangle_of};
 use serde_json::{Value, json};
 
-use super::board::number;
 use super::canvas::{self, Drawing};
 use super::chapter::Chapter;
 use super::cost_plots;
 use super::html::{Answer, Figure, Outcome, PictureLayer, PictureView, Report};
-use super::summary::{count, thousands};
-use super::table::{Column, Row, Table};
+use super::table::{self, Column, Row, Table};
+use super::words::{count, number, thousands};
 
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
@@ -264,13 +263,12 @@ const MOST_ROWS: usize = 4;
 
 /// What is seen, what is called for, and the cheapest exact choices: a table for each question.
 fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> Vec<Table> {
-    let short = |columns: Vec<Column>, mut rows: Vec<Row>, note: &str| {
+    let short = |columns: &str, mut rows: Vec<Row>, note: &str| {
         let left_out = rows.len().saturating_sub(MOST_ROWS);
         rows.truncate(MOST_ROWS);
         let more = (left_out > 0).then(|| format!("and {left_out} more"));
         let note = (!note.is_empty()).then(|| note.to_owned());
-        let notes = more.into_iter().chain(note).collect();
-        Table { columns, rows, notes, ..Table::default() }
+        Table::new("", columns, rows).noted(more.into_iter().chain(note).collect())
     };
     let mut seen: Vec<_> = found.hard.in_view().collect();
     seen.sort_by_key(|case| std::cmp::Reverse(case.pixels));
@@ -281,12 +279,7 @@ fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> Vec<Table> {
         let [number, pixels] = [case.in_view, case.pixels].map(thousands);
         vec![case.kind.name().to_owned(), number, pixels, face.unwrap_or_default()].into()
     };
-    let columns = vec![
-        Column::words("hard cases in this view").least(32),
-        Column::numbers("number", "").least(11),
-        Column::numbers("px", "").least(11),
-        Column::words("first or worst").least(14),
-    ];
+    let columns = "hard cases in this view 32 | >number 11 | >px 11 | first or worst 14";
     let hidden = found.hard.cases.iter().filter(|case| case.in_view == 0);
     let hidden: Vec<_> =
         hidden.map(|case| format!("{} {}", thousands(case.count), case.kind.name())).collect();
@@ -300,11 +293,7 @@ fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> Vec<Table> {
         let time = takes(found.needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
         vec![need.effect.name().to_owned(), thousands(need.wrong), time].into()
     };
-    let columns = vec![
-        Column::words("effects called for").least(32),
-        Column::numbers("px wrong without", "").least(17),
-        Column::numbers("takes ms", "").least(11),
-    ];
+    let columns = "effects called for 32 | >px wrong without 17 | >takes ms 11";
     let mut called: Vec<_> = of(State::CalledFor).collect();
     called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
     let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name()).collect();
@@ -329,15 +318,10 @@ fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> Vec<Table> {
         cells.push(times.unwrap_or("-".to_owned()));
         cells.into()
     };
-    let columns = vec![
-        Column::words("what exactness costs").least(26),
-        Column::words("cheapest exact").least(33),
-        Column::numbers("ms", "").least(7),
-        Column::numbers("times", "").least(7),
-    ];
+    let columns = "what exactness costs 26 | cheapest exact 33 | >ms 7 | >times 7";
     let rows = found.costs.iter().map(row).collect();
     let more = "times: against the cheapest of all. More: --all; with pictures: --report";
-    let costs = Table { columns, rows, notes: vec![more.to_owned()], ..Table::default() };
+    let costs = Table::new("", columns, rows).noted(vec![more.to_owned()]);
     vec![seen, called, costs]
 }
 
@@ -764,21 +748,11 @@ pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> 
         let (kind, about) = (case.kind.name().to_owned(), case.kind.about().to_owned());
         vec![kind, in_view, others, pixels, about, place, command, wrong].into()
     };
-    Table {
-        caption: if found.cases.is_empty() { "Hard cases: none" } else { "Hard cases" }.to_owned(),
-        notes: about_hard_cases(found, costs),
-        columns: vec![
-            Column::words("kind").least(32),
-            Column::numbers("in view", "how many are seen").least(11),
-            Column::numbers("only in the mesh", "how many are culled, hidden or outside").least(17),
-            Column::numbers("pixels", "pixels of the picture in which they are seen").least(11),
-            Column::words("what one sees"),
-            Column::words("where"),
-            Column::words("command"),
-            Column::words("wrong choices"),
-        ],
-        rows: found.cases.iter().map(row).collect(),
-    }
+    let caption = if found.cases.is_empty() { "Hard cases: none" } else { "Hard cases" };
+    let columns = "kind 32 | >in view 11 how many are seen | >only in the mesh 17 how many are culled, hidden or outside | \
+                   >pixels 11 pixels of the picture in which they are seen | what one sees | where | command | wrong choices";
+    let rows = found.cases.iter().map(row).collect();
+    Table::new(caption, columns, rows).noted(about_hard_cases(found, costs))
 }
 
 fn needs_table(needs: &Needs, state: State) -> Table {
@@ -791,20 +765,10 @@ fn needs_table(needs: &Needs, state: State) -> Table {
         vec![name, pixels, wrong, time, who, reasons(need)].into()
     };
     let is_here = |need: &&Need| need.state() == state;
-    Table {
-        caption: format!("Effects {}", state.name()),
-        columns: vec![
-            Column::words("effect").least(28),
-            Column::numbers("pixels", "pixels that pay for it").least(11),
-            Column::numbers("wrong without", "pixels that change when it is switched off")
-                .least(17),
-            Column::numbers("takes ms", "what it takes of a planned frame").least(11),
-            Column::words("by"),
-            Column::words("why"),
-        ],
-        rows: needs.needs.iter().filter(is_here).map(row).collect(),
-        ..Table::default()
-    }
+    let columns = "effect 28 | >pixels 11 pixels that pay for it | >wrong without 17 pixels that change when it is \
+                   switched off | >takes ms 11 what it takes of a planned frame | by | why";
+    let rows = needs.needs.iter().filter(is_here).map(row).collect();
+    Table::new(&format!("Effects {}", state.name()), columns, rows)
 }
 
 /// What each choice costs, a table for each group, with what to choose.
@@ -834,21 +798,17 @@ fn cost_table(subject: &Subject<'_>, group: &Group) -> Table {
         cells.push(choice.about.clone());
         cells.into()
     };
-    let mut columns = vec![Column::words("choice").short("").least(23)];
+    let mut columns = table::columns("~choice 23");
     columns.extend(group.measures.iter().map(|m| Column::numbers(m.short, m.title).least(9)));
-    let quartiles = "a quarter of the rounds took less, a quarter more, in ms";
-    let bytes = "at the peak, from the sizes of its buffers; the scene is not in it";
-    columns.extend([
-        Column::numbers("ms", "median").least(7),
-        Column::numbers("quartiles", quartiles).least(13),
-        Column::numbers("times", "times the cheapest").least(6),
-        Column::numbers("MB", bytes).least(6),
-        Column::words("how"),
-    ]);
+    columns.extend(table::columns(
+        ">ms 7 median | >quartiles 13 a quarter of the rounds took less, a quarter more, in ms | >times 6 times the cheapest \
+         | >MB 6 at the peak, from the sizes of its buffers; the scene is not in it | how",
+    ));
     let [items, pixels] = group.timed.map(thousands);
     let caption = format!("{}, ms for {items} triangles and {pixels} pixels", group.title);
     let measures = group.measures.iter();
     let mut notes: Vec<_> = measures.map(|m| format!("{}: {}", m.short, m.title)).collect();
     notes.extend(advice(subject, group));
-    Table { caption, columns, rows: group.choices.iter().map(row).collect(), notes }
+    let rows = group.choices.iter().map(row).collect();
+    Table { caption, columns, rows, notes, ..Table::default() }
 }

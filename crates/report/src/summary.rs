@@ -1,8 +1,8 @@
 //! The verdict for people: a line for each danger, with what came of it and where to read on; at most
 //! 60 columns.
 
-use std::fmt::Write as _;
-
+use super::table::{Mark, Row, Table};
+use super::words::{of_bound, thousands};
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
 pub struct Danger {
@@ -108,68 +108,31 @@ impl Sum {
     }
 }
 
-/// With commas between groups of three digits.
-pub fn thousands(n: u64) -> String {
-    let digits = n.to_string();
-    let groups = digits.as_bytes().rchunks(3).rev();
-    groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
+/// A row for something that was judged; what there is to say beyond a line stands below it.
+pub(super) fn row(is_right: bool, name: &str, what: &str) -> Row {
+    let (first, more) = what.split_once('\n').unwrap_or((what, ""));
+    let mark = if is_right { Mark::Plain } else { Mark::Wrong };
+    Row { cells: [name, first, more].map(str::to_owned).to_vec(), mark, ..Row::default() }
 }
 
-/// A number with what is counted: `1 kind`, `2 kinds`.
-pub fn count(number: u64, one: &str, several: &str) -> String {
-    format!("{} {}", thousands(number), if number == 1 { one } else { several })
+/// The table of such rows.
+pub(super) fn judged(caption: &str, rows: Vec<Row>) -> Table {
+    Table::new(caption, "~what 29 | ~found 1 | more", rows).judged()
 }
 
-pub fn word(agrees: bool) -> &'static str {
-    if agrees { "AGREES" } else { "DISAGREES" }
-}
-
-/// A tick or a cross, coloured where that can be seen.
-pub fn mark(is_right: bool, colour: bool) -> &'static str {
-    match (is_right, colour) {
-        (true, false) => "✓",
-        (true, true) => "\x1b[32m✓\x1b[0m",
-        (false, false) => "✗",
-        (false, true) => "\x1b[1;31m✗\x1b[0m",
-    }
-}
-
-/// A line for something that was judged; more lines below it where there is more to say.
-pub fn entry(mark: &str, name: &str, what: &str) -> String {
-    let mut rows = what.lines();
-    let mut out = format!("  {mark} {name:<25} {}\n", rows.next().unwrap_or(""));
-    rows.for_each(|row| {
-        let _ = writeln!(out, "      {row}");
-    });
-    out
-}
-
-/// A line for each danger that was judged, then one for the values.
-pub fn lines(verdict: &Verdict, colour: bool) -> String {
-    let mut out = String::new();
-    let mut entry = |is_right, name, what: &str| out += &entry(mark(is_right, colour), name, what);
-    for danger in DANGERS {
-        let sum = sum(danger, verdict);
-        if sum.cases > 0 {
-            entry(sum.wrong_cases == 0 && sum.oracle == 0, danger.name, &sum.describe());
-        }
-    }
+/// A row for each danger that was judged, then one for the values.
+#[must_use]
+pub fn table(verdict: &Verdict) -> Table {
+    let dangers = DANGERS.iter().map(|danger| (danger, sum(danger, verdict)));
+    let dangers = dangers.filter(|(_, sum)| sum.cases > 0);
+    let of_danger = |(danger, sum): (&Danger, Sum)| {
+        row(sum.wrong_cases == 0 && sum.oracle == 0, danger.name, &sum.describe())
+    };
     let pairs = verdict.families.iter().flat_map(|f| &f.pairs);
     let (values, worst) =
         pairs.fold((0, 0.0), |(n, worst), pair| (n + pair.values, pair.worst().max(worst)));
-    if values > 0 {
-        entry(worst <= 1.0, "values and depths", &of_bound(worst));
-    }
-    out
-}
-
-/// How near a difference of values came to the bound that is derived for it.
-pub fn of_bound(worst: f64) -> String {
-    match worst {
-        w if w <= 1.0 => format!("at most {:.0}% of the bound", (100.0 * w).ceil()),
-        w if w < 1e4 => format!("up to {w:.1} times the bound"),
-        w => format!("up to {w:.0e} times the bound"),
-    }
+    let values = (values > 0).then(|| row(worst <= 1.0, "values and depths", &of_bound(worst)));
+    judged("", dangers.map(of_danger).chain(values).collect())
 }
 
 #[cfg(test)]
@@ -186,18 +149,5 @@ mod tests {
         }
         let listed = DANGERS.iter().flat_map(|d| d.families).count();
         assert_eq!(listed, names.len());
-    }
-
-    #[test]
-    fn digits_in_groups() {
-        assert_eq!([0, 999, 1000, 1_234_567].map(thousands), ["0", "999", "1,000", "1,234,567"]);
-    }
-
-    #[test]
-    fn bounds_in_words() {
-        assert_eq!(of_bound(0.034), "at most 4% of the bound");
-        assert_eq!(of_bound(1.0), "at most 100% of the bound");
-        assert_eq!(of_bound(2.5), "up to 2.5 times the bound");
-        assert_eq!(of_bound(f64::INFINITY), "up to inf times the bound");
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use super::words::mark;
+
 /// A table with a header and a row head in its first column.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
@@ -10,6 +12,10 @@ pub struct Table {
     pub rows: Vec<Row>,
     /// What is said below it, a line each.
     pub notes: Vec<String>,
+    /// What the short heads of a terminal mean; a page has the long ones.
+    pub legend: String,
+    /// Whether each row was judged, so that a tick or a cross stands before it in a terminal.
+    pub is_judged: bool,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -22,6 +28,28 @@ pub struct Column {
     pub is_number: bool,
     /// How many characters it has at least in a terminal; 0 where its cells stand below the row there.
     least: usize,
+}
+
+/// Columns as a line, parted by ` | `. Each has a label, its least width in a terminal, and what it is about. Before the
+/// label stand `>` where the cells are numbers and `~` where a terminal has no head; without a width the cells stand below
+/// their row there.
+#[must_use]
+pub fn columns(all: &str) -> Vec<Column> {
+    let column = |text: &str| {
+        let (text, is_number) = text.strip_prefix('>').map_or((text, false), |text| (text, true));
+        let (text, has_head) = text.strip_prefix('~').map_or((text, true), |text| (text, false));
+        let words: Vec<&str> = text.split(' ').collect();
+        let width = words.iter().position(|word| word.parse::<usize>().is_ok());
+        let label = words[..width.unwrap_or(words.len())].join(" ");
+        Column {
+            short: if has_head { label.clone() } else { String::new() },
+            label,
+            about: width.map_or(String::new(), |at| words[at + 1..].join(" ")),
+            is_number,
+            least: width.map_or(0, |at| words[at].parse().unwrap_or_default()),
+        }
+    };
+    all.split(" | ").map(column).collect()
 }
 
 impl Column {
@@ -56,6 +84,8 @@ pub struct Row {
     pub mark: Mark,
     /// What to search the cases for when its head is chosen, if anything.
     pub search: Option<String>,
+    /// The columns of its cells that are as good as can be, shown in green.
+    pub good: Vec<usize>,
 }
 
 impl From<Vec<String>> for Row {
@@ -74,10 +104,35 @@ pub enum Mark {
 }
 
 impl Table {
+    /// A table with columns as [`columns`] reads them.
+    #[must_use]
+    pub fn new(caption: &str, columns: &str, rows: Vec<Row>) -> Self {
+        let (caption, columns) = (caption.to_owned(), self::columns(columns));
+        Self { caption, columns, rows, ..Self::default() }
+    }
+
+    /// With notes below it.
+    #[must_use]
+    pub fn noted(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
+    }
+
+    /// Of rows that were judged.
+    #[must_use]
+    pub fn judged(self) -> Self {
+        Self { is_judged: true, ..self }
+    }
+
+    /// Nothing but notes.
+    #[must_use]
+    pub fn of_notes(caption: &str, notes: Vec<String>) -> Self {
+        Self { caption: caption.to_owned(), notes, ..Self::default() }
+    }
+
     /// The table in a terminal: a line of heads, and for each row a line of cells side by side, then a line for
     /// each of its other cells that is not empty. Rows begin at column `rows`, their other cells at column `below`.
     #[must_use]
-    pub fn text(&self, [rows, below]: [usize; 2]) -> String {
+    pub fn text(&self, [rows, below]: [usize; 2], colour: bool) -> String {
         let heads = self.columns.iter().map(|column| match column.least {
             0 => String::new(),
             _ => column.short.clone(),
@@ -85,7 +140,10 @@ impl Table {
         let indented = |row: &Row| {
             let mut cells = row.cells.clone();
             if let Some(first) = cells.first_mut() {
-                first.insert_str(0, &" ".repeat(rows));
+                let is_right = row.mark != Mark::Wrong;
+                let mark = if self.is_judged { mark(is_right, false) } else { "" };
+                let gap = if self.is_judged { " " } else { "" };
+                *first = format!("{:rows$}{mark}{gap}{first}", "");
             }
             cells
         };
@@ -98,7 +156,9 @@ impl Table {
         };
         let widths: Vec<usize> = self.columns.iter().enumerate().map(width).collect();
         let mut out = String::new();
-        for cells in &lines {
+        for (number, cells) in lines.iter().enumerate() {
+            let row = number.checked_sub(1).map(|row| &self.rows[row]);
+            let is_green = |i| colour && row.is_some_and(|row| row.good.contains(&i));
             let mut line = String::new();
             let mut others = String::new();
             for (i, ((cell, column), &width)) in
@@ -110,11 +170,19 @@ impl Table {
                     (0, _) => {
                         cell.lines().try_for_each(|part| writeln!(others, "{:below$}{part}", ""))
                     }
+                    (_, true) if is_green(i) => write!(line, "{gap}\x1b[32m{cell:>width$}\x1b[0m"),
                     (_, true) => write!(line, "{gap}{cell:>width$}"),
                     (_, false) => write!(line, "{gap}{cell:<width$}"),
                 };
             }
-            let _ = writeln!(out, "{}", line.trim_end());
+            if let Some(row) = row.filter(|_| self.is_judged && colour) {
+                let is_right = row.mark != Mark::Wrong;
+                line = line.replacen(mark(is_right, false), mark(is_right, true), 1);
+            }
+            // Columns without heads have no line of heads.
+            if !line.trim_end().is_empty() {
+                let _ = writeln!(out, "{}", line.trim_end());
+            }
             out += &others;
         }
         out
@@ -127,17 +195,14 @@ mod tests {
 
     #[test]
     fn text_stands_in_columns() {
-        let columns = vec![
-            Column::words("name").least(6),
-            Column::numbers("pixels", "").short("px").least(3),
-            Column::words("why"),
-        ];
         let row =
             |cells: &[&str]| Row::from(cells.iter().map(ToString::to_string).collect::<Vec<_>>());
         let rows =
             vec![row(&["a", "12345", "one\ntwo"]), row(&["b", "not run"]), row(&["c", "7", ""])];
-        let table = Table { columns, rows, ..Table::default() };
+        let mut table = Table::new("", "name 6 | >pixels 3 covered ones | why", rows);
+        assert_eq!((table.columns[1].is_number, &*table.columns[1].about), (true, "covered ones"));
+        table.columns[1].short = "px".to_owned();
         let text = "name      px\n  a    12345\n    one\n    two\n  b    not run\n  c        7\n";
-        assert_eq!(table.text([2, 4]), text);
+        assert_eq!(table.text([2, 4], false), text);
     }
 }

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::html::{Answer, Report};
+use super::html::{Answer, Excerpt, Outcome, Report};
 use super::lettering;
 use super::table::Table;
+use super::words::mark;
 
 /// Columns of a terminal that a first screen has.
 const SCREEN: usize = 80;
@@ -12,18 +13,39 @@ const SCREEN: usize = 80;
 /// Columns of everything else.
 pub const WIDTH: usize = 100;
 
-/// What it is about, the answers, and below them the first screen or all of it.
+/// What it is about, the answers, below them the first screen or all of it, how to repeat it, and the verdict in a word.
 #[must_use]
-pub fn text(report: &Report, all: bool) -> String {
-    let mut out = format!("{}\n\n{}\n", report.about, answers(&report.answers));
+pub fn text(report: &Report, all: bool, colour: bool) -> String {
+    let verdict = report.outcome.as_ref().filter(|outcome| outcome.is_verdict());
+    let mut out = match verdict {
+        Some(outcome) => format!("{} ", mark(outcome.good, colour)),
+        None => String::new(),
+    };
+    for part in report.about.lines() {
+        lines(&mut out, part, WIDTH, ["", "  "]);
+    }
+    if !report.answers.is_empty() {
+        out += &format!("\n{}", answers(&report.answers));
+    }
+    if !out.is_empty() {
+        out.push('\n');
+    }
+    report.excerpts.iter().for_each(|one| excerpt(&mut out, one));
+    let all = all || report.first_screen.is_empty();
     out += &match all {
-        true => tables(&report.tables, WIDTH),
-        false => tables(&report.first_screen, SCREEN),
+        true => tables(report.plan.iter().chain(&report.tables), WIDTH, colour),
+        false => tables(&report.first_screen, SCREEN, colour),
     };
     if all {
-        for note in &report.notes {
-            lines(&mut out, note, WIDTH, ["", "  "]);
+        for words in &report.notes {
+            note(&mut out, words, WIDTH, ["", "  "]);
         }
+    }
+    if !report.command.is_empty() {
+        let _ = writeln!(out, "repeat with: {}", report.command);
+    }
+    if let Some(Outcome { word, sentence, .. }) = &report.outcome {
+        lines(&mut out, &format!("{word}: {sentence}"), WIDTH, ["", "  "]);
     }
     out.truncate(out.trim_end().len());
     out + "\n"
@@ -41,35 +63,83 @@ fn answers(answers: &[Answer]) -> String {
     out
 }
 
+/// A case with its pixels, what is said of it, and where to go on.
+fn excerpt(out: &mut String, of: &Excerpt) {
+    of.title.lines().for_each(|line| lines(out, line, WIDTH, ["", "  "]));
+    labelled(out, &of.exchanges);
+    if !of.grid.is_empty() {
+        let gap = if of.exchanges.is_empty() { "\n" } else { "" };
+        let _ = writeln!(out, "{gap}{}", of.grid.trim_end_matches('\n'));
+    }
+    for words in &of.notes {
+        out.push('\n');
+        note(out, words, WIDTH, ["", "  "]);
+    }
+    labelled(out, &of.places);
+    out.push('\n');
+}
+
+/// Lines that are not broken, each behind what it is.
+fn labelled(out: &mut String, lines: &[(&str, String)]) {
+    let widest = lines.iter().map(|(what, _)| what.len() + 1).fold(9, usize::max);
+    for (what, line) in lines {
+        let _ = writeln!(out, "  {:<widest$} {line}", format!("{what}:"));
+    }
+}
+
 /// Tables below each other, each with its caption and notes.
-#[must_use]
-pub fn tables(tables: &[Table], width: usize) -> String {
+pub fn tables<'a>(
+    tables: impl IntoIterator<Item = &'a Table>,
+    width: usize,
+    colour: bool,
+) -> String {
     let mut out = String::new();
     for table in tables {
         if !table.caption.is_empty() {
-            let _ = writeln!(out, "{}", table.caption);
+            lines(&mut out, &table.caption, width, ["", "  "]);
         }
         if !table.rows.is_empty() {
-            out += &table.text([2, 4]);
+            out += &table.text([2, 4], colour);
         }
-        for note in &table.notes {
-            lines(&mut out, note, width, ["  ", "    "]);
+        let legend = Some(&table.legend).filter(|legend| !legend.is_empty());
+        for words in legend.into_iter().chain(&table.notes) {
+            note(&mut out, words, width, ["  ", "    "]);
         }
         out.push('\n');
     }
     out
 }
 
-/// Words in lines of at most `width` columns: the first begins with one word, the others with another. A command is not
-/// broken, so that it can be copied.
-fn lines(out: &mut String, words: &str, width: usize, [first, rest]: [&str; 2]) {
-    if words.starts_with("rasterproof ") {
-        let _ = writeln!(out, "{rest}{words}");
-        return;
+/// A note in lines; a command is not broken, so that it can be copied.
+fn note(out: &mut String, words: &str, width: usize, indents: [&str; 2]) {
+    let (program, more) = words.split_once(' ').unwrap_or((words, ""));
+    if !more.is_empty() && (program.ends_with("rasterproof") || program == "cargo") {
+        let _ = writeln!(out, "{}{words}", indents[1]);
+    } else {
+        lines(out, words, width, indents);
     }
+}
+
+/// Words in lines of at most `width` columns: the first begins with one word, the others with another.
+fn lines(out: &mut String, words: &str, width: usize, [first, rest]: [&str; 2]) {
     let room = width - first.chars().count().max(rest.chars().count());
     let all = lettering::lines(words, room, |line| line.chars().count());
     for (number, line) in all.iter().enumerate() {
         let _ = writeln!(out, "{}{line}", if number == 0 { first } else { rest });
     }
+}
+
+/// The words in lines of at most 80 columns: the first begins with `first`, the others with `rest`.
+pub fn hanging(words: &str, first: &str, rest: &str) -> String {
+    let mut lines = vec![first.to_owned()];
+    for (i, word) in words.split(' ').enumerate() {
+        let line = lines.last_mut().expect("there is a first line");
+        if i > 0 && line.chars().count() + 1 + word.chars().count() > 80 {
+            lines.push(format!("{rest}{word}"));
+        } else {
+            *line += if i == 0 { "" } else { " " };
+            *line += word;
+        }
+    }
+    lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
 }

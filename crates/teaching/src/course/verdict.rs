@@ -4,6 +4,7 @@ use super::examine::Outcome;
 use super::{Step, number};
 use rasterproof_judge::failures::{Exchange, Failure};
 use rasterproof_report::judge_text;
+use rasterproof_report::text::hanging;
 
 /// How a step came out, with its smallest failing case and how to ask for it again.
 pub fn text(step: &Step, outcome: &Outcome, command: &str) -> String {
@@ -30,19 +31,22 @@ pub fn text(step: &Step, outcome: &Outcome, command: &str) -> String {
         }
     }
     if let Some(picture) = &failure.picture {
-        judge_text::picture(&mut out, &["yours"], picture);
+        out += &judge_text::grid(&["yours"], picture);
+        if !picture.of.is_empty() {
+            out += &(hanging(&format!("({})", picture.of), "  ", "   ") + "\n");
+        }
     }
     if let [Exchange { request, .. }] = &exchanges[..] {
         out += &indented(&format!("again:    echo '{request}' | {command}"), 2);
     }
     if let Some(misconception) = outcome.misconception {
-        out += &(judge_text::hanging(misconception.says, "it looks as if ", "  ") + "\n");
-        out += &(judge_text::hanging(misconception.ask, "think about: ", "  ") + "\n");
+        out += &(hanging(misconception.says, "it looks as if ", "  ") + "\n");
+        out += &(hanging(misconception.ask, "think about: ", "  ") + "\n");
     }
     // What it does, and not what repairs it: that is the exercise.
     let known = outcome.cause.as_ref().and_then(|cause| cause.causes.first());
     if let Some(cause) = known {
-        out += &(judge_text::hanging(&cause.does, "it looks as if it ", "  ") + "\n");
+        out += &(hanging(&cause.does, "it looks as if it ", "  ") + "\n");
         out += &format!("read: docs/{}.md\n", cause.page);
     } else if outcome.misconception.is_none() {
         out += "no known mistake explains its answers\n";

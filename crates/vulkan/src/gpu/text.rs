@@ -1,13 +1,11 @@
-//! The verdict on a device as text, as JSON and as a page.
-
-use std::fmt::Write as _;
+//! The verdict on a device.
 
 use super::campaign::DeviceReport;
 use super::rules::{Class, Finding};
 use crate::device::find::About;
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::judge_text::{self, wrapped};
-use rasterproof_report::table::{Column, Mark, Row, Table};
+use rasterproof_report::judge_text;
+use rasterproof_report::table::{Mark, Row, Table};
 
 pub fn device(about: &About) -> String {
     let lines = [
@@ -35,70 +33,6 @@ pub fn device(about: &About) -> String {
     )
 }
 
-/// The verdict as text of at most 100 columns, the command left out, with what follows it for all and for a
-/// case.
-pub fn text(
-    stand: &DeviceReport,
-    command: &str,
-    all: &str,
-    repeat: &dyn Fn(&str, u64) -> String,
-) -> String {
-    let repeat = |family: &str, index: u64| format!("...{}", repeat(family, index));
-    let repeat: &dyn Fn(&str, u64) -> String = &repeat;
-    let verdict = &stand.verdict;
-    let mut out = format!("rasterproof {}, seed {}\n\n", env!("CARGO_PKG_VERSION"), verdict.seed);
-    let name = &verdict.declared.name;
-    out += &wrapped(&format!("{name}: {}", device(&stand.about)), "  ");
-    if let Some(plant) = stand.plant {
-        let _ = writeln!(out, "a fault is planted: {plant}");
-    }
-    out.push('\n');
-    for finding in &stand.findings {
-        let line = format!("{:<18} {:<22} {}", finding.name, finding.class.words(), finding.detail);
-        out += &wrapped(&line, &" ".repeat(42));
-    }
-    if let Some(row) = verdict.found.rows.iter().find(|row| row.values > 0) {
-        let _ = writeln!(
-            out,
-            "values: {} compared, the worst at {:.3} of the derived bound",
-            row.values, row.worst
-        );
-    }
-    out += "\nby these rules of the specification:\n";
-    for (section, names) in sections(&stand.findings) {
-        out += &wrapped(&format!("  {section} ({})", names.join(", ")), "      ");
-    }
-    if let Some(said) = &verdict.recognised {
-        out.push('\n');
-        for text in said.sentences.iter().chain(&said.compass) {
-            out += &wrapped(&format!("it draws as one who says: {text}"), "  ");
-        }
-    }
-    if !verdict.causes.is_empty() {
-        out.push('\n');
-        judge_text::causes(&mut out, verdict);
-    }
-    judge_text::incidents(&mut out, verdict, repeat);
-    for failure in &verdict.failures {
-        judge_text::one_failure(
-            &mut out,
-            failure,
-            &["judged"],
-            &repeat(failure.family, failure.index),
-        );
-    }
-    if !verdict.complaints.is_empty() {
-        out += "\nthe device said:\n";
-        verdict.complaints.iter().for_each(|line| out += &wrapped(&format!("  | {line}"), "  | "));
-    }
-    for about in &stand.known {
-        out += &wrapped(&format!("known of this driver: {about}"), "  ");
-    }
-    let _ = writeln!(out, "\nrepeat with: ...{all}\nwhere ... is: {command}");
-    out += &wrapped(&format!("{}: {}", word(stand), closing(stand)), "  ");
-    out
-}
-
 /// Sections in order, with what each says, and the names of what was judged by it.
 fn sections(findings: &[Finding]) -> Vec<(String, Vec<&str>)> {
     let mut sections: Vec<(String, Vec<&str>)> = Vec::new();
@@ -111,10 +45,6 @@ fn sections(findings: &[Finding]) -> Vec<(String, Vec<&str>)> {
         }
     }
     sections
-}
-
-fn word(stand: &DeviceReport) -> &'static str {
-    if stand.agrees() { "AGREES" } else { "DISAGREES" }
 }
 
 fn closing(stand: &DeviceReport) -> String {
@@ -136,7 +66,7 @@ fn closing(stand: &DeviceReport) -> String {
     said
 }
 
-pub fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> String {
+fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> serde_json::Value {
     let failures: Vec<_> = stand
         .verdict
         .failures
@@ -151,7 +81,7 @@ pub fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> Strin
             })
         })
         .collect();
-    let all = serde_json::json!({
+    serde_json::json!({
         "rasterproof": env!("CARGO_PKG_VERSION"),
         "engine": stand.verdict.declared.name,
         "device": stand.about,
@@ -163,38 +93,58 @@ pub fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> Strin
         "findings": stand.findings,
         "failures": failures,
         "complaints": stand.verdict.complaints,
-    });
-    format!("{all:#}\n")
+    })
 }
 
+/// The verdict: each finding with the rule by which it was judged, and the cases that fail.
 #[must_use]
-pub fn page(
+pub fn report(
     stand: &DeviceReport,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Report {
+    let verdict = &stand.verdict;
     let row = |f: &Finding| Row {
         cells: vec![
             f.name.clone(),
             f.class.words().to_owned(),
-            format!("{}: {}", f.rule.section, f.rule.says),
             f.detail.clone(),
+            format!("{}: {}", f.rule.section, f.rule.says),
         ],
         mark: if f.class.is_good() { Mark::Plain } else { Mark::Wrong },
-        search: stand.verdict.failures.iter().any(|x| x.property == f.name).then(|| f.name.clone()),
+        search: verdict.failures.iter().any(|x| x.property == f.name).then(|| f.name.clone()),
+        ..Row::default()
     };
-    let table = Table {
-        caption: "What was judged, and by which rule of the specification".to_owned(),
-        columns: ["property", "", "rule", "found"].map(Column::words).to_vec(),
-        rows: stand.findings.iter().map(row).collect(),
-        ..Table::default()
-    };
-    let good = stand.agrees();
-    let mut page = judge_text::page(&stand.verdict, repeat_all, repeat);
-    page.title = format!("Verdict on {}", stand.about.device);
-    page.outcome = Some(Outcome { good, word: word(stand).to_owned(), sentence: closing(stand) });
-    page.command = format!("{repeat_all} --report");
-    page.notes.insert(0, device(&stand.about));
-    page.tables = vec![table];
-    page
+    let mut notes = Vec::new();
+    if let Some(row) = verdict.found.rows.iter().find(|row| row.values > 0) {
+        let (values, worst) = (row.values, row.worst);
+        notes.push(format!(
+            "values: {values} compared, the worst at {worst:.3} of the derived bound"
+        ));
+    }
+    if let Some(said) = &verdict.recognised {
+        let said = said.sentences.iter().chain(&said.compass);
+        notes.extend(said.map(|text| format!("it draws as one who says: {text}")));
+    }
+    notes.extend(stand.known.iter().map(|about| format!("known of this driver: {about}")));
+    let columns = "property 22 | ~class 22 | found 1 | rule";
+    let rows = stand.findings.iter().map(row).collect();
+    let findings =
+        Table::new("What was judged, and by which rule of the specification", columns, rows);
+    let sections = sections(&stand.findings).into_iter();
+    let rules = sections.map(|(section, names)| format!("{section} ({})", names.join(", ")));
+    let rules = Table::of_notes("Rules of the specification", rules.collect());
+    let mut about = format!("{}: {}", verdict.declared.name, device(&stand.about));
+    if let Some(plant) = &stand.plant {
+        about += &format!("\na fault is planted: {plant}");
+    }
+    Report {
+        title: format!("Verdict on {}", stand.about.device),
+        about,
+        outcome: Some(Outcome::of(stand.agrees(), closing(stand))),
+        first_screen: Vec::new(),
+        tables: vec![findings.noted(notes).judged(), rules],
+        data: json(stand, repeat),
+        ..judge_text::report(verdict, repeat_all, repeat, false)
+    }
 }

@@ -1,0 +1,96 @@
+//! Numbers, plurals, verdicts and how near a value came to its bound, in words.
+
+/// With commas between groups of three digits.
+pub fn thousands(n: u64) -> String {
+    let digits = n.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev();
+    groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
+}
+
+/// A number with what is counted: `1 kind`, `2 kinds`.
+pub fn count(number: u64, one: &str, several: &str) -> String {
+    format!("{} {}", thousands(number), if number == 1 { one } else { several })
+}
+
+pub fn word(agrees: bool) -> &'static str {
+    if agrees { "AGREES" } else { "DISAGREES" }
+}
+
+/// The same for two programs, neither of which is right by definition.
+pub fn same(agrees: bool) -> &'static str {
+    if agrees { "SAME" } else { "DIFFERENT" }
+}
+
+/// A tick or a cross, coloured where that can be seen.
+pub fn mark(is_right: bool, colour: bool) -> &'static str {
+    match (is_right, colour) {
+        (true, false) => "✓",
+        (true, true) => "\x1b[32m✓\x1b[0m",
+        (false, false) => "✗",
+        (false, true) => "\x1b[1;31m✗\x1b[0m",
+    }
+}
+
+/// How near a difference of values came to the bound that is derived for it.
+pub fn of_bound(worst: f64) -> String {
+    match worst {
+        w if w <= 1.0 => format!("at most {:.0}% of the bound", (100.0 * w).ceil()),
+        w if w < 1e4 => format!("up to {w:.1} times the bound"),
+        w => format!("up to {w:.0e} times the bound"),
+    }
+}
+
+/// A number in less than `width` characters: three digits where there is room.
+pub fn number(value: f64, width: usize) -> String {
+    let digits = if width < 8 { 0 } else { 1 };
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        v if !v.is_finite() => "inf".to_owned(),
+        v if v < 99_999.5 && v.fract() == 0.0 => format!("{value:.0}"),
+        v if v >= 99_999.5 => format!("{value:.*e}", digits),
+        v if v >= 99.95 => format!("{value:.0}"),
+        v if v >= 9.995 => format!("{value:.1}"),
+        v if v >= 0.0995 => format!("{value:.2}"),
+        v if v >= 0.000_995 && width >= 8 => format!("{value:.4}"),
+        _ => format!("{value:.*e}", digits),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_in_groups() {
+        assert_eq!([0, 999, 1000, 1_234_567].map(thousands), ["0", "999", "1,000", "1,234,567"]);
+    }
+
+    #[test]
+    fn bounds_in_words() {
+        assert_eq!(of_bound(0.034), "at most 4% of the bound");
+        assert_eq!(of_bound(1.0), "at most 100% of the bound");
+        assert_eq!(of_bound(2.5), "up to 2.5 times the bound");
+        assert_eq!(of_bound(f64::INFINITY), "up to inf times the bound");
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (0.1234, "0.12"),
+            (12.34, "12.3"),
+            (1234.4, "1234"),
+            (0.0012, "0.0012"),
+            (1.28e7, "1.3e7"),
+            (3.2e-8, "3.2e-8"),
+            (0.5, "0.50"),
+            (99.97, "100"),
+        ] {
+            assert_eq!(number(value, 10), text);
+        }
+        assert_eq!(number(1.28e7, 7), "1e7");
+        for exponent in -300..300 {
+            assert!(number(9.996 * 10f64.powi(exponent), 7).len() <= 6);
+        }
+    }
+}
