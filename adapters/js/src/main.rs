@@ -1,4 +1,4 @@
-//! The judge as a WebAssembly module, which is asked through its standard streams.
+//! The judge as a WebAssembly module, which reads and writes its standard streams.
 
 fn main() -> std::process::ExitCode {
     rasterproof_report::hosted::main()

@@ -66,40 +66,42 @@ pub(super) fn sides(
         [one, other] if one == other || one.is_eq() => Some(other),
         _ => None,
     };
-    let of_triangles: Vec<[[Point; 2]; 3]> =
-        triangles.iter().map(|&(_, [a, b, c])| [[a, b], [b, c], [c, a]]).collect();
-    let edges = || of_triangles.as_flattened().iter().chain(boundary).copied();
-    let passing: Vec<[Point; 2]> = edges().filter(|&edge| side(edge).is_none()).collect();
-    let unit = edges().chain([ends]).flatten().flatten().map(|value| take_apart(value).1).min();
-    let mut frame = Frame::new(ends, unit.unwrap_or(0), 1, 1);
+    let mut edges: Vec<[Point; 2]> =
+        triangles.iter().flat_map(|&(_, [a, b, c])| [[a, b], [b, c], [c, a]]).collect();
+    edges.extend(boundary);
+    let sides: Vec<Option<Ordering>> = edges.iter().map(|&edge| side(edge)).collect();
+    let sides = || edges.iter().copied().zip(sides.iter().copied());
+    let values = edges.iter().chain([&ends]).flatten().flatten();
+    let unit = values.map(|&value| take_apart(value).1).min().unwrap_or(0);
+    let mut frame = Frame::new(ends, unit, 1, 1);
     // A point between the ends at 1/2, 1/4, 3/4, 1/8 and so on of the way. An edge that is not on the line of the piece
     // contains one of these points at most, so the search ends.
-    while passing.iter().any(|&edge| frame.side(edge).is_eq()) {
-        let Frame { unit, bits, part, .. } = frame;
+    while sides().any(|(edge, side)| side.is_none() && frame.side(edge).is_eq()) {
+        let Frame { bits, part, .. } = frame;
         frame = match (part + 2) >> bits {
             0 => Frame::new(ends, unit, bits, part + 2),
             _ => Frame::new(ends, unit, bits + 1, 1),
         };
     }
-    // Beside the point, an edge on the line of the piece has its left side where the piece has it, or opposite.
-    let contains =
-        |edge: [Point; 2], is_left: bool| match side(edge).unwrap_or_else(|| frame.side(edge)) {
-            Ordering::Equal => order(&key(edge[0]), &key(edge[1])).is_lt() == is_left,
-            side => side.is_gt(),
-        };
-    let covering = |is_left: bool| {
-        let inside = of_triangles.iter().zip(triangles);
-        let inside = inside.filter(|(edges, _)| edges.iter().all(|&edge| contains(edge, is_left)));
+    // Whether an edge has on its left what lies beside the point, on the left of the piece and on its right.
+    let beside = sides().map(|([a, b], side)| match side.unwrap_or_else(|| frame.side([a, b])) {
+        Ordering::Equal => [true, false].map(|is_left| order(&key(a), &key(b)).is_lt() == is_left),
+        side => [side.is_gt(); 2],
+    });
+    let beside: Vec<[bool; 2]> = beside.collect();
+    let (of_triangles, of_boundary) = beside.split_at(3 * triangles.len());
+    let covering = |which: usize| {
+        let inside = of_triangles.chunks(3).zip(triangles);
+        let inside = inside.filter(|(edges, _)| edges.iter().all(|beside| beside[which]));
         inside.map(|(_, &(number, _))| number).collect()
     };
     // Straight down from the point, edges to the right have the region above them, edges to the left below them.
-    let is_inside = |is_left: bool| {
-        let rounds = boundary.iter().map(|&[a, b]| {
+    let is_inside = |which: usize| {
+        let rounds = boundary.iter().zip(of_boundary).map(|(&[a, b], beside)| {
             let goes_on = order(&key(a), &key(b)).is_lt();
             let (low, high, round) = if goes_on { (a, b, 1) } else { (b, a, -1) };
-            let is_passed =
-                frame.follows(low) && !frame.follows(high) && contains([low, high], is_left);
-            if is_passed { round } else { 0 }
+            let is_above = beside[which] == goes_on;
+            if is_above && frame.follows(low) && !frame.follows(high) { round } else { 0 }
         });
         rounds.sum::<i32>() > 0
     };
@@ -107,8 +109,8 @@ pub(super) fn sides(
     Sides {
         // Halves first, since the difference of two large numbers overflows.
         near: [0, 1].map(|axis| start[axis] * (1.0 - part) + end[axis] * part),
-        covering: [covering(true), covering(false)],
-        is_inside: [is_inside(true), is_inside(false)],
+        covering: [covering(0), covering(1)],
+        is_inside: [is_inside(0), is_inside(1)],
     }
 }
 
