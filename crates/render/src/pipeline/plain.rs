@@ -38,7 +38,6 @@ impl PlainBlocks {
         rows: &[Option<RangeInclusive<usize>>; 2],
         texels: &[T],
     ) -> Option<u32> {
-        let across = width.div_ceil(BLOCK);
         let mut looked_at = 0;
         let mut found = None;
         for (rows, columns) in
