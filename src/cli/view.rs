@@ -305,7 +305,6 @@ impl SceneArguments {
         self.source().map_or_else(stem, str::to_owned)
     }
 
-    /// The scene, with what turns it.
     pub(super) fn maker(
         &self,
         typed: &Typed,
@@ -655,7 +654,7 @@ enum Base {
 }
 
 pub(super) struct Maker {
-    /// Before it is turned.
+    /// As it stands where it is not turned, culled as asked.
     pub(super) scene: Scene,
     base: Base,
     aspect: f64,

@@ -223,7 +223,6 @@ impl OpacityMap {
         found
     }
 
-    /// The same of this level alone.
     fn own_between(&self, uv: [DVec2; 3], reach: f64) -> [u8; 2] {
         if reach > f64::from(u16::MAX) {
             return self.whole;

@@ -92,7 +92,6 @@ impl PlainBlocks {
         })
     }
 
-    /// Whether a block has one colour.
     fn is_plain<T: Copy + PartialEq>(
         &self,
         [width, height]: [usize; 2],
