@@ -138,9 +138,12 @@ fn judge(
             )
         });
         let failures: Vec<_> = told.collect();
-        return Err(
-            format!("{}\n{}", differential::disagreements(&verdict).join("\n"), failures.join("\n")).into()
-        );
+        return Err(format!(
+            "{}\n{}",
+            differential::disagreements(&verdict).join("\n"),
+            failures.join("\n")
+        )
+        .into());
     }
     Ok(())
 }

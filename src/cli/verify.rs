@@ -208,7 +208,11 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     let mut report = run.report(page.is_some());
     if !arguments.json {
         let place = run.write_sheet(streams)?;
-        report.first_screen.last_mut().into_iter().for_each(|last| last.notes.extend(place.clone()));
+        report
+            .first_screen
+            .last_mut()
+            .into_iter()
+            .for_each(|last| last.notes.extend(place.clone()));
     }
     show(report, Shown::screen_or_json(arguments.json), page, streams)?;
     Ok(if run.verdict.agrees() { exit::AGREES } else { exit::DISAGREES })
@@ -305,7 +309,8 @@ impl Run<'_> {
                 .map(|first| self.excerpt(first))
                 .into_iter()
                 .collect(),
-            command: self.repeat_all().without_output().line(),
+            command: self.repeat_all().line(),
+            repeat: self.repeat_all().without_output().line(),
             seed: Some(seed),
             first_screen,
             tables: families.into_iter().chain([differential::refused()]).collect(),
