@@ -147,6 +147,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
     };
     let plots = plots(&recorded.boards);
     let mut report = board::report(&recorded, figures(&plots, &recorded.boards));
+    report.command = typed.line();
     let written = write_plots(&plots, arguments, streams).join(", ");
     if !written.is_empty() {
         let folder = printable_path(arguments.folder());

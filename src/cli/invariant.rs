@@ -107,23 +107,30 @@ fn judge(
     let report = invariant.run(subject, seed, cases);
     let (word, found) = match (report.ruling(), &report.failure) {
         (Ruling::Holds, _) => ("holds", String::new()),
-        (Ruling::Fails, None) => ("FAILS", String::new()),
+        (Ruling::Fails, None) => ("", "FAILS".to_owned()),
         (_, Some(failure)) => {
             let what = format!("FAILS in case {}: {}", failure.index, failure.message);
             let repeat = repeat(cases);
-            ("FAILS", format!("{what}\nsmallest found: {}\nrepeat with: {repeat}", failure.input))
+            ("", format!("{what}\nsmallest found: {}\nrepeat with: {repeat}", failure.input))
         }
-        (Ruling::NotJudged, None) => ("NOT JUDGED", match invariant.cases_needed(subject, seed) {
-            Some(needed) => {
-                outcomes.cases_needed = outcomes.cases_needed.max(needed);
-                let repeat = repeat(needed);
-                format!("none of these cases fits it; the first that fits needs more\njudge it with: {repeat}")
-            }
-            None if matches!(invariant.check, Check::Run(..) | Check::Matrix) => {
-                "the system refuses the threads whose verdicts it compares\nallow this user more processes (ulimit -u)".to_owned()
-            }
-            None => format!("none of the first {MOST_LOOKED_THROUGH} cases fits it\ntry another --seed"),
-        }),
+        (Ruling::NotJudged, None) => {
+            let why = match invariant.cases_needed(subject, seed) {
+                Some(needed) => {
+                    outcomes.cases_needed = outcomes.cases_needed.max(needed);
+                    let repeat = repeat(needed);
+                    format!("no case fits it; the first that fits needs more\njudge it with: {repeat}")
+                }
+                None if matches!(invariant.check, Check::Run(..) | Check::Matrix) => {
+                    "the system refuses the threads whose verdicts it compares\nallow this user more \
+                     processes (ulimit -u)"
+                        .to_owned()
+                }
+                None => {
+                    format!("none of the first {MOST_LOOKED_THROUGH} cases fits it\ntry another --seed")
+                }
+            };
+            ("", format!("NOT JUDGED: {why}"))
+        }
     };
     *match report.ruling() {
         Ruling::Holds => &mut outcomes.holding,

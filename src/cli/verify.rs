@@ -309,7 +309,8 @@ impl Run<'_> {
                 .map(|first| self.excerpt(first))
                 .into_iter()
                 .collect(),
-            command: self.repeat_all().without_output().line(),
+            command: self.repeat_all().line(),
+            repeat: self.repeat_all().without_output().line(),
             seed: Some(seed),
             first_screen,
             tables: families.into_iter().chain([differential::refused()]).collect(),

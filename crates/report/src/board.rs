@@ -237,7 +237,7 @@ pub fn report(recorded: &Recorded, figures: Vec<Figure>) -> Report {
     Report {
         title: "What accuracy costs in time".to_owned(),
         about: format!("rasterproof {version} cost, seed {seed}{quick}"),
-        command: printable(repeat).into_owned(),
+        repeat: printable(repeat).into_owned(),
         seed: Some(*seed),
         tables: boards.iter().flat_map(tables).chain(price(boards)).collect(),
         figures,

@@ -42,7 +42,10 @@ pub struct Report {
     pub answers: Vec<Answer>,
     /// The tables of the text in a terminal that is not asked for all of them.
     pub first_screen: Vec<Table>,
+    /// The command that was typed, with the options that make the page.
     pub command: String,
+    /// The command that repeats it without pages, where that is another one.
+    pub repeat: String,
     /// Decides the generated cases, where there are any.
     pub seed: Option<u64>,
     pub notes: Vec<String>,

@@ -91,7 +91,7 @@ pub fn report(
             .collect(),
         tables: first_screen.iter().cloned().chain([properties(verdict)]).collect(),
         first_screen,
-        command: repeat_all.to_owned(),
+        repeat: repeat_all.to_owned(),
         seed: Some(verdict.seed),
         cases: views(verdict, names.as_ref(), repeat),
         data: formats::everything(verdict, repeat_all, repeat),
@@ -149,7 +149,7 @@ pub fn of_polygons(
     Report {
         about,
         excerpts: if agrees { Vec::new() } else { vec![Excerpt { grid, ..Excerpt::default() }] },
-        command: repeat_all.to_owned(),
+        repeat: repeat_all.to_owned(),
         outcome: Some(Outcome::of(agrees, sentence)),
         ..Report::default()
     }

@@ -41,8 +41,9 @@ pub fn text(report: &Report, all: bool, colour: bool) -> String {
             note(&mut out, words, WIDTH, ["", "  "]);
         }
     }
-    if !report.command.is_empty() {
-        let _ = writeln!(out, "repeat with: {}", report.command);
+    let repeat = if report.repeat.is_empty() { &report.command } else { &report.repeat };
+    if !repeat.is_empty() {
+        let _ = writeln!(out, "repeat with: {repeat}");
     }
     if let Some(Outcome { word, sentence, .. }) = &report.outcome {
         lines(&mut out, &format!("{word}: {sentence}"), WIDTH, ["", "  "]);

@@ -142,6 +142,7 @@ pub fn report(
         title: format!("Verdict on {}", stand.about.device),
         about,
         outcome: Some(Outcome::of(stand.agrees(), closing(stand))),
+        command: format!("{repeat_all} --report"),
         first_screen: Vec::new(),
         tables: vec![findings.noted(notes).judged(), rules],
         data: json(stand, repeat),
