@@ -17,13 +17,13 @@ use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::Fragment;
+use rasterproof_core::triangle::{Corners, Fragment};
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::area2;
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
-use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, of_answers};
+use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
 use rasterproof_verify::oracle::Oracle;
 
 /// A case with its answers, and whether they are wrong.
@@ -97,7 +97,7 @@ pub fn mistakes(
     let all = answered(program, check, families(check), truth, goes_on);
     let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
     let tolerance = truth.declared.tolerance;
-    let mut hypotheses = hypotheses(check, &all, truth);
+    let mut hypotheses = hypotheses(check, &all, &is_wrong, truth);
     for known in programs {
         let name = known.borrow().name();
         let about = format!("draws as the planted fault or published algorithm {name}");
@@ -110,10 +110,15 @@ pub fn mistakes(
     of_answers(hypotheses, &is_wrong)
 }
 
-fn hypotheses<'a>(check: Check, all: &'a [Answered], truth: &Truth) -> Vec<Hypothesis<'a>> {
+fn hypotheses<'a>(
+    check: Check,
+    all: &'a [Answered],
+    is_wrong: &[bool],
+    truth: &Truth,
+) -> Vec<Hypothesis<'a>> {
     match check {
         Check::Values => of_values(all, truth.declared.tolerance),
-        Check::Samples => of_samples(all),
+        Check::Samples => of_samples(all, is_wrong),
         Check::Depth => of_depth(all),
         Check::Near | Check::Carried => of_near(all, &truth.declared),
         _ => Vec::new(),
@@ -124,7 +129,8 @@ fn hypotheses<'a>(check: Check, all: &'a [Answered], truth: &Truth) -> Vec<Hypot
 #[must_use]
 pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<String> {
     let explains = |known: &Hypothesis<'_>| (0..all.len()).all(|i| (known.predicts)(i));
-    let all = hypotheses(check, all, truth).into_iter().filter(explains);
+    let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
+    let all = hypotheses(check, all, &is_wrong, truth).into_iter().filter(explains);
     all.map(|known| known.says.does).collect()
 }
 
@@ -145,40 +151,41 @@ fn hypothesis<'a>(
 fn agree(question: &Question, answer: &Answer, predicted: &Answer, tolerance: f64) -> bool {
     match (&question.of, answer, predicted) {
         (Asked::Values(triangle), Answer::Values(here), Answer::Values(there)) => {
-            let at =
-                |f: &Fragment<DVec2>| there.iter().find(|t| (t.x_px, t.y_px) == (f.x_px, f.y_px));
-            picks(here).all(|f| {
-                at(f).is_none_or(|t| {
-                    is_near(triangle, f, [t.depth, t.varying.x, t.varying.y], tolerance)
-                })
-            })
+            let at = |pixel: (i32, i32)| {
+                let found = there.iter().find(|t| (t.x_px, t.y_px) == pixel)?;
+                Some([found.depth, found.varying.x, found.varying.y])
+            };
+            are_near(triangle, here, &at, tolerance)
         }
         _ => answer == predicted,
     }
 }
 
-/// Whether values are the predicted ones: within ten times the tolerance, as predictions are rounded too.
-fn is_near(
+/// Whether a prediction explains the values of an answer.
+fn are_near(
     triangle: &Triangle,
-    fragment: &Fragment<DVec2>,
-    predicted: [f64; 3],
+    answer: &[Fragment<DVec2>],
+    predict: &dyn Fn((i32, i32)) -> Option<[f64; 3]>,
     tolerance: f64,
 ) -> bool {
     let v = &triangle.vertices;
     let sizes = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)];
-    let values = [fragment.depth, fragment.varying.x, fragment.varying.y];
-    values.into_iter().zip(predicted).zip(sizes).all(|((value, predicted), size)| {
-        let largest = size.into_iter().fold(predicted.abs(), |m: f64, v| m.max(v.abs()));
-        (value - predicted).abs() <= 10.0 * tolerance * largest + f64::MIN_POSITIVE
-    })
+    let allowed = |predicted: [f64; 3]| {
+        [0, 1, 2].map(|i| {
+            let largest = sizes[i].into_iter().fold(predicted[i].abs(), |m, v| m.max(v.abs()));
+            tolerance * largest + f64::MIN_POSITIVE
+        })
+    };
+    values::are_explained(triangle, &mut picks(answer), predict, &allowed)
 }
 
 fn of_values(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
     let of = |known: ValueHypothesis| {
         hypothesis(all, known.says.clone(), move |question, answer| match (&question.of, answer) {
-            (Asked::Values(triangle), Answer::Values(fragments)) => picks(fragments).all(|f| {
-                is_near(triangle, f, known.predict(triangle, (f.x_px, f.y_px)), tolerance)
-            }),
+            (Asked::Values(triangle), Answer::Values(fragments)) => {
+                let predict = |pixel| Some(known.predict(triangle, pixel));
+                are_near(triangle, fragments, &predict, tolerance)
+            }
             _ => true,
         })
     };
@@ -232,12 +239,92 @@ fn patterns() -> Vec<(Pattern, String)> {
     all
 }
 
-fn of_samples(all: &[Answered]) -> Vec<Hypothesis<'_>> {
-    let gated = "tests the samples of pixels whose centre is covered, and of no others".to_owned();
-    let patterns = patterns().into_iter().map(|(pattern, does)| (pattern, does, false));
+/// What becomes of the mask of a pixel, whose bit 4 is its centre.
+type Gate = fn(u8, [i32; 2], &Corners) -> u8;
+const GATES: [(Gate, &str); 6] = [
+    (
+        |mask, _, _| if mask < 16 { 0 } else { mask & 15 },
+        "tests the samples of pixels whose centre is covered, and of no others",
+    ),
+    (
+        |mask, _, _| if mask & 15 == 0 { 0 } else { 15 },
+        "draws all four samples of a pixel where any is covered",
+    ),
+    (
+        |mask, _, _| if mask & 15 == 15 { 15 } else { 0 },
+        "draws a pixel only where all four samples are covered",
+    ),
+    (
+        |mask, at, corners| if is_centre_in_box(at, corners, 0) { mask & 15 } else { 0 },
+        "tests the samples of columns whose centre lies in the box around the triangle, and of no others",
+    ),
+    (
+        |mask, at, corners| if is_centre_in_box(at, corners, 1) { mask & 15 } else { 0 },
+        "tests the samples of rows whose centre lies in the box around the triangle, and of no others",
+    ),
+    (
+        |mask, at, corners| match [0, 1].map(|axis| is_centre_in_box(at, corners, axis)) {
+            [true, true] => mask & 15,
+            _ => 0,
+        },
+        "tests the samples of pixels whose centre lies in the box around the triangle, and of no others",
+    ),
+];
+
+fn is_centre_in_box(at: [i32; 2], corners: &Corners, axis: usize) -> bool {
+    let v = corners.map(|c| i64::from([c.x, c.y][axis]));
+    let centre = i64::from(at[axis]) * 256 + 128;
+    v.iter().any(|v| *v <= centre) && v.iter().any(|v| *v >= centre)
+}
+
+/// Answers by which the places of samples are looked for.
+const LOOKED_AT: usize = 24;
+
+/// Where the samples seem to be tested, each on its own among all places of the pixel.
+fn found_pattern(all: &[Answered], is_wrong: &[bool]) -> Option<Pattern> {
+    let places: Vec<(i32, i32)> = (0..=16).flat_map(|y| (0..=16).map(move |x| (x, y))).collect();
+    let mut left = vec![15_u8; places.len()];
+    for &i in chosen_by(is_wrong).iter().take(LOOKED_AT) {
+        let (Some(question), Some(Answer::Samples(runs))) =
+            (all[i].questions.first(), all[i].answers.first())
+        else {
+            continue;
+        };
+        let Asked::Samples(corners) = &question.of else { continue };
+        let window = window_of(question);
+        let drawn = masks_of(runs, window);
+        let open: Vec<usize> = (0..places.len()).filter(|&place| left[place] > 0).collect();
+        for some in open.chunks(8) {
+            let at: Vec<_> = some.iter().map(|&place| places[place]).collect();
+            let masks = masks_at(&Oracle, *corners, window, &at)?;
+            for ((_, masks), (_, drawn)) in masks.rows().zip(drawn.rows()) {
+                for (mask, drawn) in masks.iter().zip(drawn) {
+                    for (bit, &place) in some.iter().enumerate() {
+                        left[place] &= if mask >> bit & 1 == 1 { *drawn } else { !*drawn };
+                    }
+                }
+            }
+        }
+    }
+    let [a, b, c, d] = [0, 1, 2, 3]
+        .map(|bit| left.iter().position(|left| left >> bit & 1 == 1).map(|place| places[place]));
+    Some([a?, b?, c?, d?])
+}
+
+fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
+    let same: Gate = |mask, _, _| mask & 15;
+    let found = found_pattern(all, is_wrong).filter(|pattern| *pattern != SAMPLES);
+    let found = found.map(|pattern| {
+        let [a, b, c, d] = pattern.map(|(x, y)| format!("({x}, {y})"));
+        let does = format!("tests samples at {a}, {b}, {c} and {d} of 1/16 px");
+        (pattern, does, same)
+    });
+    let patterns = patterns().into_iter().map(|(pattern, does)| (pattern, does, same));
+    let gates = GATES.map(|(gate, does)| (SAMPLES, does.to_owned(), gate));
     patterns
-        .chain([(SAMPLES, gated, true)])
-        .map(|([a, b, c, d], does, gated)| {
+        .chain(gates)
+        .chain(found)
+        .map(|([a, b, c, d], does, gate)| {
             let says = Explanation::new(
                 "places of the samples",
                 does,
@@ -254,9 +341,10 @@ fn of_samples(all: &[Answered]) -> Vec<Hypothesis<'_>> {
                 let window = window_of(question);
                 let Some(masks) = masks_at(&Oracle, *corners, window, &places) else { return true };
                 let drawn = masks_of(runs, window);
-                let expected = |mask: u8| if gated && mask < 16 { 0 } else { mask & 15 };
-                masks.rows().zip(drawn.rows()).all(|((_, masks), (_, drawn))| {
-                    masks.iter().zip(drawn).all(|(mask, drawn)| expected(*mask) == *drawn)
+                masks.rows().zip(drawn.rows()).all(|((y, masks), (_, drawn))| {
+                    (window.x0..).zip(masks.iter().zip(drawn)).all(|(x, (mask, drawn))| {
+                        gate(*mask, [x, y], corners) == *drawn
+                    })
                 })
             })
         })
@@ -279,8 +367,10 @@ struct DepthMistake {
     does: &'static str,
     repair: &'static str,
     refuted: &'static str,
-    /// Whether the second one, drawn later, replaces the first.
-    replaces: fn(&Layer<'_>, &Layer<'_>) -> bool,
+    /// What is compared: less is seen.
+    key: fn(&Layer<'_>) -> f64,
+    /// Whether of equal ones the last is seen, or the first; nothing where it may be either.
+    last: Option<bool>,
     /// Where in the pixel depth is computed.
     place: [f64; 2],
 }
@@ -289,20 +379,33 @@ fn extreme(t: &Triangle, start: f64, of: fn(f64, f64) -> f64) -> f64 {
     depths(t).into_iter().fold(start, of)
 }
 
-fn mean(t: &Triangle) -> f64 {
-    depths(t).iter().sum::<f64>() / 3.0
-}
-
 fn size(t: &Triangle) -> f64 {
     area2(&t.corners()).unsigned_abs() as f64
 }
 
 type Quantise = fn(f64, i32) -> f64;
 /// How a depth is brought to so many bits.
-const QUANTISED: [(Quantise, &str); 2] = [
+const QUANTISED: [(Quantise, &str); 5] = [
     (|depth, bits| (depth * f64::from(2).powi(bits)).floor(), "cut down"),
     (|depth, bits| (depth * (f64::from(2).powi(bits) - 1.0)).round(), "rounded"),
+    (
+        |depth, bits| (depth * (f64::from(2).powi(bits) - 1.0)).floor(),
+        "cut down, the largest being 1",
+    ),
+    (|depth, bits| mantissa(depth, bits).round(), "of a float after the first one, rounded"),
+    (|depth, bits| mantissa(depth, bits).floor(), "of a float after the first one, cut"),
 ];
+
+/// A positive number that increases with depth as a float does, in steps of its last bit.
+fn mantissa(depth: f64, bits: i32) -> f64 {
+    if depth < f64::EPSILON {
+        return 0.0;
+    }
+    let exponent = values::exponent(depth);
+    let [scale, first] = [bits, exponent].map(|power| f64::from(2).powi(power));
+    (f64::from(64 + exponent) + depth / first - 1.0) * scale
+}
+
 /// Depth buffers of more bits are not distinguished.
 const MOST_BITS: i32 = 24;
 
@@ -312,99 +415,111 @@ const DEPTHS: &[DepthMistake] = &[
         does: "shows the farthest triangle",
         repair: "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth",
         refuted: "a pixel that shows the nearest one",
-        replaces: |a, b| b.depth > a.depth,
+        key: |a| -a.depth,
+        last: None,
         place: CENTRE,
     },
     DepthMistake {
         does: "shows the triangle that was drawn last, without a test of depth",
         repair: "compare depths before a pixel is written",
         refuted: "a pixel that shows an earlier one",
-        replaces: |_, _| true,
+        key: |_| 0.0,
+        last: Some(true),
         place: CENTRE,
     },
     DepthMistake {
         does: "shows the triangle that was drawn first, without a test of depth",
         repair: "compare depths before a pixel is written",
         refuted: "a pixel that shows a later one",
-        replaces: |_, _| false,
+        key: |_| 0.0,
+        last: Some(false),
         place: CENTRE,
     },
     DepthMistake {
         does: "sorts whole triangles by the mean depth of their corners (painter's algorithm)",
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
-        replaces: |a, b| mean(b.triangle) <= mean(a.triangle),
-        place: CENTRE,
-    },
-    DepthMistake {
-        does: "compares the mean depths of whole triangles",
-        repair: "compare depths at every pixel",
-        refuted: "two triangles through each other that are both seen",
-        replaces: |a, b| mean(b.triangle) < mean(a.triangle),
+        key: |a| depths(a.triangle).iter().sum::<f64>() / 3.0,
+        last: None,
         place: CENTRE,
     },
     DepthMistake {
         does: "sorts whole triangles by their nearest corner",
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
-        replaces: |a, b| {
-            extreme(b.triangle, f64::MAX, f64::min) <= extreme(a.triangle, f64::MAX, f64::min)
-        },
+        key: |a| extreme(a.triangle, f64::MAX, f64::min),
+        last: None,
         place: CENTRE,
     },
     DepthMistake {
         does: "sorts whole triangles by their farthest corner",
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
-        replaces: |a, b| {
-            extreme(b.triangle, f64::MIN, f64::max) <= extreme(a.triangle, f64::MIN, f64::max)
-        },
+        key: |a| extreme(a.triangle, f64::MIN, f64::max),
+        last: None,
         place: CENTRE,
     },
     DepthMistake {
         does: "compares the depth of the first corner for the whole triangle",
         repair: "interpolate depth",
         refuted: "a leaning triangle that is cut by another",
-        replaces: |a, b| depths(b.triangle)[0] < depths(a.triangle)[0],
+        key: |a| depths(a.triangle)[0],
+        last: None,
+        place: CENTRE,
+    },
+    DepthMistake {
+        does: "compares the depth of the last corner for the whole triangle",
+        repair: "interpolate depth",
+        refuted: "a leaning triangle that is cut by another",
+        key: |a| depths(a.triangle)[2],
+        last: None,
         place: CENTRE,
     },
     DepthMistake {
         does: "compares depths that are not divided by the area of their triangle",
         repair: "divide the weighted sum by the area",
         refuted: "a large triangle that is seen before a small one",
-        replaces: |a, b| b.depth * size(b.triangle) < a.depth * size(a.triangle),
+        key: |a| a.depth * size(a.triangle),
+        last: None,
         place: CENTRE,
     },
     DepthMistake {
         does: "computes depth at the upper left corner of the pixel",
         repair: "compute depth where coverage is sampled",
         refuted: "a pixel near a crossing that shows the right triangle",
-        replaces: |a, b| b.depth < a.depth,
+        key: |a| a.depth,
+        last: None,
         place: [0.0, 0.0],
     },
     DepthMistake {
         does: "computes depth at the lower right corner of the pixel",
         repair: "compute depth where coverage is sampled",
         refuted: "a pixel near a crossing that shows the right triangle",
-        replaces: |a, b| b.depth < a.depth,
+        key: |a| a.depth,
+        last: None,
         place: [1.0, 1.0],
     },
 ];
 
 fn of_depth(all: &[Answered]) -> Vec<Hypothesis<'_>> {
-    let mut hypotheses: Vec<_> = DEPTHS
-        .iter()
-        .map(|mistake| {
-            let DepthMistake { does, repair, refuted, replaces, place } = mistake;
-            let does = (*does).to_owned();
-            let says = Explanation::new("order of depths", does, repair, "ch06", refuted);
-            hypothesis(all, says, move |question, answer| {
+    let mut hypotheses = Vec::new();
+    for mistake in DEPTHS {
+        let DepthMistake { does, repair, refuted, key, last, place } = *mistake;
+        for is_last in
+            [true, false].into_iter().filter(|is_last| last.is_none_or(|l| l == *is_last))
+        {
+            let says =
+                Explanation::new("order of depths", does.to_owned(), repair, "ch06", refuted);
+            hypotheses.push(hypothesis(all, says, move |question, answer| {
                 let Asked::Depth(list) = &question.of else { return true };
-                let layers = layers(list, window_of(question), *place);
-                is_seen(&layers, answer, &|a, b| replaces(a, b))
-            })
-        })
-        .collect();
+                let layers = layers(list, window_of(question), place);
+                is_seen(&layers, answer, &|a, b| {
+                    let (a, b) = (key(a), key(b));
+                    b < a || (is_last && b == a)
+                })
+            }));
+        }
+    }
     // All at the same place, so the depths are computed once.
     let piles: Rc<Vec<_>> = Rc::new(all.iter().map(pile).collect());
     for bits in 4..=MOST_BITS {
@@ -569,40 +684,6 @@ const NEAR: &[NearMistake] = &[
         clip: |c, near| clip(c, |p| -near(p), between),
     },
     NearMistake {
-        does: "divides an edge from the wrong end: t is 1 - t",
-        repair: "t counts from the end whose distance is the numerator",
-        refuted: "a new corner that lies in the plane",
-        clip: |c, near| clip(c, near, |kept, lost, t| between(kept, lost, 1.0 - t)),
-    },
-    NearMistake {
-        does: "puts the new corner in the middle of the edge",
-        repair: "divide the edge as the distances of its ends do",
-        refuted: "a new corner that lies in the plane",
-        clip: |c, near| clip(c, near, |kept, lost, _| between(kept, lost, 0.5)),
-    },
-    NearMistake {
-        does: "keeps the old w at a new corner",
-        repair: "interpolate w as x, y and z",
-        refuted: "a new corner with a w of its own",
-        clip: |c, near| {
-            clip(c, near, |kept, lost, t| {
-                let new = between(kept, lost, t);
-                [new[0], new[1], new[2], kept[3], new[4]]
-            })
-        },
-    },
-    NearMistake {
-        does: "keeps the old x and y at a new corner",
-        repair: "interpolate x and y as z and w",
-        refuted: "a new corner with a position of its own",
-        clip: |c, near| {
-            clip(c, near, |kept, lost, t| {
-                let new = between(kept, lost, t);
-                [kept[0], kept[1], new[2], new[3], new[4]]
-            })
-        },
-    },
-    NearMistake {
         does: "keeps at most three corners, so that a quadrilateral loses one",
         repair: "a triangle that is cut can have four corners",
         refuted: "an answer with four corners",
@@ -619,59 +700,154 @@ const NEAR: &[NearMistake] = &[
         clip: |c, near| c.map(|p @ [x, y, z, w, a]| [x, y, z - near(p).min(0.0), w, a]).to_vec(),
     },
     NearMistake {
-        does: "keeps the attribute of the corner that stays at a new corner",
-        repair: "interpolate attributes as x, y, z and w",
-        refuted: "a new corner with an attribute of its own",
-        clip: |c, near| carried(c, near, |kept, _, _| kept[4]),
-    },
-    NearMistake {
-        does: "keeps the attribute of the corner that is cut off at a new corner",
-        repair: "interpolate attributes as x, y, z and w",
-        refuted: "a new corner with an attribute of its own",
-        clip: |c, near| carried(c, near, |_, lost, _| lost[4]),
-    },
-    NearMistake {
-        does: "divides attributes from the wrong end: t is 1 - t",
-        repair: "use the same t for attributes as for x, y, z and w",
-        refuted: "a new corner with the attribute of its place",
-        clip: |c, near| carried(c, near, |kept, lost, t| lost[4] + (kept[4] - lost[4]) * t),
-    },
-    NearMistake {
-        does: "gives a new corner the mean of both attributes",
-        repair: "divide attributes as the distances of the ends do",
-        refuted: "a new corner with the attribute of its place",
-        clip: |c, near| carried(c, near, |kept, lost, _| (kept[4] + lost[4]) / 2.0),
-    },
-    NearMistake {
-        does: "interpolates attributes at a new corner with a correction for perspective",
-        repair: "attributes are linear in clip space, before the division by w: interpolate them as x, y, z and w",
-        refuted: "a new corner between unequal w with the attribute of its place",
-        clip: |c, near| {
-            carried(c, near, |kept, lost, t| {
-                let (k, l) = ((1.0 - t) / kept[3], t / lost[3]);
-                (k * kept[4] + l * lost[4]) / (k + l)
-            })
+        does: "moves corners behind the plane onto it (clamps z), cuts nothing, and drops what lies wholly behind",
+        repair: "divide the edges",
+        refuted: "a new corner on an edge",
+        clip: |c, near| match behind(&c, near) {
+            3 => Vec::new(),
+            _ => c.map(|p @ [x, y, z, w, a]| [x, y, z - near(p).min(0.0), w, a]).to_vec(),
         },
     },
     NearMistake {
-        does: "gives a new corner the attribute 0",
-        repair: "interpolate attributes as x, y, z and w",
-        refuted: "a new corner with an attribute",
-        clip: |c, near| carried(c, near, |_, _, _| 0.0),
+        does: "drops triangles with two corners behind the near plane",
+        repair: "keep the part before the plane",
+        refuted: "a triangle with one corner before the plane that is cut",
+        clip: |c, near| if behind(&c, near) == 2 { Vec::new() } else { clip(c, near, between) },
+    },
+    NearMistake {
+        does: "drops triangles with one corner behind the near plane",
+        repair: "keep the part before the plane",
+        refuted: "a triangle with two corners before the plane that is cut",
+        clip: |c, near| if behind(&c, near) == 1 { Vec::new() } else { clip(c, near, between) },
+    },
+    NearMistake {
+        does: "does not clip triangles with one corner behind the near plane",
+        repair: "cut what crosses the plane",
+        refuted: "a triangle with two corners before the plane that is cut",
+        clip: |c, near| if behind(&c, near) == 1 { c.to_vec() } else { clip(c, near, between) },
+    },
+    NearMistake {
+        does: "does not clip triangles with two corners behind the near plane",
+        repair: "cut what crosses the plane",
+        refuted: "a triangle with one corner before the plane that is cut",
+        clip: |c, near| if behind(&c, near) == 2 { c.to_vec() } else { clip(c, near, between) },
+    },
+    NearMistake {
+        does: "clips at z = -1, as if z were divided by w already",
+        repair: "clip at z = -w",
+        refuted: "a corner between both planes that is cut off",
+        clip: |c, _| clip(c, |[_, _, z, _, _]| z + 1.0, between),
+    },
+    NearMistake {
+        does: "divides x, y, z and w by w where only the clipped polygon should be divided",
+        repair: "clip in clip space, and leave the division to the stage after it",
+        refuted: "a corner whose w is not 1",
+        clip: |c, near| {
+            let left = clip(c, near, between);
+            left.into_iter().map(|[x, y, z, w, a]| [x / w, y / w, z / w, 1.0, a]).collect()
+        },
+    },
+    NearMistake {
+        does: "gives the corners of a quadrilateral in a wrong order, so that its sides cross",
+        repair: "go round the triangle, and make each new corner where its edge crosses the plane",
+        refuted: "a quadrilateral whose sides do not cross",
+        clip: |c, near| {
+            let mut left = clip(c, near, between);
+            if left.len() > 3 {
+                left.swap(2, 3);
+            }
+            left
+        },
+    },
+    NearMistake {
+        does: "does not cut the edge from the first corner to the second",
+        repair: "cut all three edges",
+        refuted: "a corner on that edge",
+        clip: |c, near| uncut(c, near, 0),
+    },
+    NearMistake {
+        does: "does not cut the edge from the second corner to the third",
+        repair: "cut all three edges",
+        refuted: "a corner on that edge",
+        clip: |c, near| uncut(c, near, 1),
+    },
+    NearMistake {
+        does: "does not cut the edge from the third corner to the first",
+        repair: "cut all three edges",
+        refuted: "a corner on that edge",
+        clip: |c, near| uncut(c, near, 2),
     },
 ];
 
-/// Right corners, with another attribute at new ones.
-fn carried(
-    corners: [ClipCorner; 3],
-    near: Plane,
-    attribute: fn(ClipCorner, ClipCorner, f64) -> f64,
-) -> Vec<ClipCorner> {
-    clip(corners, near, |kept, lost, t| {
-        let [x, y, z, w, _] = between(kept, lost, t);
-        [x, y, z, w, attribute(kept, lost, t)]
-    })
+/// How many corners lie behind the plane.
+fn behind(corners: &[ClipCorner; 3], near: Plane) -> usize {
+    corners.iter().filter(|p| near(**p) < 0.0).count()
 }
+
+/// Without the new corner on an edge.
+fn uncut(corners: [ClipCorner; 3], near: Plane, edge: usize) -> Vec<ClipCorner> {
+    let [from, to] = [corners[edge], corners[(edge + 1) % 3]];
+    let mut left = clip(corners, near, between);
+    let [a, b] = [near(from), near(to)];
+    if (a >= 0.0) != (b >= 0.0) {
+        let (kept, lost, t) =
+            if a >= 0.0 { (from, to, a / (a - b)) } else { (to, from, b / (b - a)) };
+        let new = between(kept, lost, t);
+        // An edge that begins in the plane gives its corner once more.
+        if let Some(at) = left.iter().rposition(|corner| *corner == new) {
+            left.remove(at);
+        }
+    }
+    left
+}
+
+/// Which numbers of a new corner are wrong.
+const NUMBERS: [(&[usize], &str); 9] = [
+    (&[0, 1, 2, 3, 4], "all numbers"),
+    (&[0, 1], "x and y"),
+    (&[0], "x"),
+    (&[1], "y"),
+    (&[2], "z"),
+    (&[3], "w"),
+    (&[0, 1, 2], "x, y and z"),
+    (&[2, 3], "z and w"),
+    (&[4], "attributes"),
+];
+
+/// What a new corner gets in place of a number, from that of the corner that stays, of the one that goes, and the part of the way.
+type New = fn(ClipCorner, ClipCorner, f64, usize) -> f64;
+const NEW: [(New, &str); 9] = [
+    (|kept, _, _, k| kept[k], "keeps {} of the corner that stays at a new corner"),
+    (|_, lost, _, k| lost[k], "keeps {} of the corner that is cut off at a new corner"),
+    (
+        |kept, lost, t, k| lost[k] + (kept[k] - lost[k]) * t,
+        "divides {} of an edge from the wrong end: t is 1 - t",
+    ),
+    (
+        |kept, lost, _, k| (kept[k] + lost[k]) / 2.0,
+        "gives a new corner the mean of both ends for {}",
+    ),
+    (
+        |kept, lost, t, k| {
+            let (a, b) = ((1.0 - t) / kept[3], t / lost[3]);
+            (a * kept[k] + b * lost[k]) / (a + b)
+        },
+        "interpolates {} at a new corner with a correction for perspective",
+    ),
+    (
+        |kept, lost, t, k| {
+            let (a, b) = (kept[k] / kept[3], lost[k] / lost[3]);
+            (a + (b - a) * t) * (kept[3] + (lost[3] - kept[3]) * t)
+        },
+        "divides {} by w before it interpolates at a new corner, and multiplies by the new w",
+    ),
+    (|_, _, _, _| 0.0, "gives a new corner 0 for {}"),
+    (|_, _, _, _| 1.0, "gives a new corner 1 for {}"),
+    (
+        |kept, lost, _, k| kept[k] + (lost[k] - kept[k]) * (kept[2] / (kept[2] - lost[2])),
+        "divides {} of an edge by z alone, as if the plane were z = 0",
+    ),
+];
 
 fn of_near<'a>(all: &'a [Answered], declared: &Declared) -> Vec<Hypothesis<'a>> {
     let tolerance = declared.tolerance;
@@ -679,18 +855,39 @@ fn of_near<'a>(all: &'a [Answered], declared: &Declared) -> Vec<Hypothesis<'a>> 
         true => |[_, _, z, _, _]| z,
         false => |[_, _, z, w, _]| z + w,
     };
-    let of = |mistake: &'static NearMistake| {
-        let NearMistake { does, repair, refuted, clip } = mistake;
-        let says = Explanation::new("the near plane", (*does).to_owned(), repair, "ch07", refuted);
+    type Clip<'a> = Box<dyn Fn([ClipCorner; 3]) -> Vec<ClipCorner> + 'a>;
+    let of = |does: String, repair: &'static str, refuted: &'static str, clip: Clip<'a>| {
+        let says = Explanation::new("the near plane", does, repair, "ch07", refuted);
         hypothesis(all, says, move |question, answer| {
             let (Some(triangle), Some(polygon)) = (asked(&question.of), answer.polygon()) else {
                 return true;
             };
             let corners = clip_corners(&triangle);
-            same_polygon(&clip(corners, near), polygon, &corners, tolerance)
+            same_polygon(&clip(corners), polygon, &corners, tolerance)
         })
     };
-    NEAR.iter().map(of).collect()
+    let mut hypotheses: Vec<_> = NEAR
+        .iter()
+        .map(|m| of(m.does.to_owned(), m.repair, m.refuted, Box::new(move |c| (m.clip)(c, near))))
+        .collect();
+    for (numbers, said) in NUMBERS {
+        // A corner in the plane may be given once more as a new one, or not.
+        for ((new, does), again) in NEW.into_iter().flat_map(|new| [(new, true), (new, false)]) {
+            let repair = "a new corner divides the edge as the distances of its ends to the plane do, in all of x, y, z, w and attributes";
+            let clip = move |corners| {
+                clip(corners, near, |kept, lost, t| {
+                    let mut made = between(kept, lost, t);
+                    for &k in numbers.iter().filter(|_| again || t > 0.0) {
+                        made[k] = new(kept, lost, t, k);
+                    }
+                    made
+                })
+            };
+            let refuted = "a new corner that is right in these numbers";
+            hypotheses.push(of(does.replace("{}", said), repair, refuted, Box::new(clip)));
+        }
+    }
+    hypotheses
 }
 
 /// Whether both are the same corners one way round; what has fewer than three may be left out.

@@ -177,7 +177,7 @@ const KNOWN: &[Known] = known![
 
     "mean-depth", "you order whole triangles by their mean depth",
     "Two triangles go through one another. Which of them is in front?",
-    [] ["sorts whole triangles by the mean depth of their corners (painter's algorithm)", "compares the mean depths of whole triangles"];
+    [] ["sorts whole triangles by the mean depth of their corners (painter's algorithm)"];
 
     "unclipped", "you return the triangle as it came: nothing is cut at the near plane",
     "A corner lies behind the eye. What is x / w there, and on which side of the picture does it appear?",

@@ -1,5 +1,5 @@
 //! Families for stages beside the rasterizer: which of several triangles is seen, what the near plane leaves of one, and
-//! meshes across the border of the window, where programs clip. They are asked of programs, and of no engine here.
+//! meshes across the border of the window, where programs clip, and windows of hundreds of pixels. They are asked of programs, and of no engine here.
 //!
 //! Numbers are few bits long, so that a request reads easily and f32 holds it exactly.
 
@@ -15,6 +15,7 @@ pub const FAMILIES: &[Family] = &[
     family("near-plane", "corners before, behind and in the near plane", near),
     family("depth-near-tie", "triangles that lie almost in one plane", near_ties),
     family("mesh-border", "meshes across the border of the window", across),
+    family("wide-window", "triangles far to the right or far below in their window", far_inside),
 ];
 
 /// Side of the window of a pile, in pixels.
@@ -134,6 +135,27 @@ fn across(rng: &mut Rng) -> Case {
     };
     let disjoint = list.iter().all(turns);
     Case { window: PixelRect::window(SIDE_PX, SIDE_PX), shape: Shape::Triangles { list, disjoint } }
+}
+
+/// The largest side of a window, in pixels: programs that declare none draw windows of 1024.
+const WIDEST_PX: i64 = 1024;
+
+/// Some triangle whose columns, or rows, pass what short words hold.
+fn far_inside(rng: &mut Rng) -> Case {
+    let (side, far) = (i64::from(SIDE_PX), 1 << rng.int(6, 10));
+    let at = rng.int(far / 2, far).min(WIDEST_PX - side);
+    let is_wide = rng.chance(2);
+    let vertices = [(); 3].map(|()| {
+        let [along, across] = [at, 0].map(|px| (px * 4 + rng.int(0, side * 4)) * QUARTER);
+        let position = if is_wide { sub(along, across) } else { sub(across, along) };
+        ScreenVertex { position, depth: 0.0, inv_w: 1.0, varying: DVec2::ZERO }
+    });
+    let long = (at + side) as u32;
+    let [width, height] = if is_wide { [long, SIDE_PX] } else { [SIDE_PX, long] };
+    Case {
+        window: PixelRect::window(width, height),
+        shape: Shape::Triangles { list: vec![ScreenTriangle { vertices }], disjoint: true },
+    }
 }
 
 /// x, y, z, w in clip space, and an attribute.

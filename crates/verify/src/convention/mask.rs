@@ -30,6 +30,12 @@ impl Mask {
         self.0[y_px as usize] |= 1 << x_px;
     }
 
+    pub(crate) fn put(&mut self, x_px: i32, y_px: i32, is_in: bool) {
+        let bit = 1 << x_px;
+        let row = &mut self.0[y_px as usize];
+        *row = if is_in { *row | bit } else { *row & !bit };
+    }
+
     pub(crate) fn has(&self, x_px: i32, y_px: i32) -> bool {
         self.0[y_px as usize] >> x_px & 1 == 1
     }

@@ -68,9 +68,15 @@ pub(super) fn by_all_edges(
         let [p, q] = [points[i], points[(i + 1) % 3]];
         (p, sign * (p[1] - q[1]), sign * (q[0] - p[0]))
     });
+    // The products of most fit in 64 bits.
+    let is_near = points.as_flattened().iter().all(|v| v.abs() < 1 << 29);
     each_sample(window, super::sample_of(base), &|at| {
         test(edges.map_array(|(p, a, b)| {
-            i128::from(a) * i128::from(at[0] - p[0]) + i128::from(b) * i128::from(at[1] - p[1])
+            let [x, y] = [at[0] - p[0], at[1] - p[1]];
+            match is_near {
+                true => i128::from(a * x + b * y),
+                false => i128::from(a) * i128::from(x) + i128::from(b) * i128::from(y),
+            }
         }))
     })
 }
@@ -81,20 +87,17 @@ fn wrap(v: i128, bits: i64) -> i128 {
     v << shift >> shift
 }
 
-/// Edge functions of coordinates with so many bits of fraction, in words of so many bits; the winding may be known otherwise.
-pub(super) fn wrapping(
-    corners: &Corners,
-    window: PixelRect,
-    base: &Convention,
-    fraction: i64,
-    bits: i64,
-    knows_winding: bool,
-) -> Mask {
+/// Edge functions of coordinates with so many bits of fraction, in words of so many bits; the winding may be known otherwise, and
+/// the words of the difference may be long enough.
+pub(super) fn wrapping(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+    let (fraction, bits) = (p / 100 % 10, p % 100);
+    let (knows_winding, products_alone) = (p / 1000 % 2 == 1, p >= 2000);
     let cut = |v: i64| i128::from((v + (256 >> fraction) / 2).div_euclid(256 >> fraction));
     let points = points(corners).map_array(|p| p.map_array(cut));
     let word = |v: i128| wrap(v, bits);
+    let sum = |v: i128| if products_alone { v } else { word(v) };
     let cross = |a: [i128; 2], b: [i128; 2], c: [i128; 2]| {
-        word(word((b[0] - a[0]) * (c[1] - a[1])) - word((b[1] - a[1]) * (c[0] - a[0])))
+        sum(word((b[0] - a[0]) * (c[1] - a[1])) - word((b[1] - a[1]) * (c[0] - a[0])))
     };
     let [a, b, c] = points;
     let area = if knows_winding { area2(corners) } else { cross(a, b, c) };
@@ -106,7 +109,7 @@ pub(super) fn wrapping(
     each_sample(window, super::sample_of(base), &|at| {
         let at = at.map_array(cut);
         [[a, b], [b, c], [c, a]].iter().all(|&[p, q]| {
-            let value = word(sign * cross(p, q, at));
+            let value = sum(sign * cross(p, q, at));
             let [x, y] = [sign * (p[1] - q[1]), sign * (q[0] - p[0])].map_array(small);
             let owns = (x, y) != (0, 0) && base.ties.edges[facing(x, y)];
             value > 0 || (value == 0 && owns)
@@ -176,10 +179,43 @@ pub(super) fn clipped(corners: &Corners, window: PixelRect, step: i64, how: i64)
 }
 
 /// The corners from top to bottom.
-fn sorted(corners: &Corners) -> [Point; 3] {
+pub(super) fn sorted(corners: &Corners) -> [Point; 3] {
     let mut points = points(corners);
     points.sort_by_key(|p| p[1]);
     points
+}
+
+/// The corners by their heights in whole pixels: cut down, rounded, or rounded up. Equal ones keep their order.
+pub(super) fn sorted_by_rows(corners: &Corners, how: i64) -> [Point; 3] {
+    let mut points = points(corners);
+    points.sort_by_key(|p| (p[1] + [0, 128, 255][how as usize]).div_euclid(256));
+    points
+}
+
+/// The row of the first sample below the middle corner.
+pub(super) fn middle_row(corners: &Corners) -> i64 {
+    (sorted(corners)[1][1] + 127).div_euclid(256)
+}
+
+/// The pixels that programs look at around a triangle: from the first column to the last and from the first row to the last.
+/// The last ones hold the largest coordinates, or these are rounded up; or the ends are rounded to samples.
+pub(super) fn boxes(corners: &Corners) -> [[[i64; 2]; 2]; 3] {
+    let of = |least: i64, most: i64| {
+        let points = points(corners);
+        let mut axes = [[0; 2]; 2];
+        for (axis, ends) in axes.iter_mut().enumerate() {
+            let v = points.map_array(|p| p[axis]);
+            let (low, high) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
+            *ends = [(low + least).div_euclid(256), (high + most).div_euclid(256)];
+        }
+        axes
+    };
+    [of(0, 0), of(0, 255), of(127, -129)]
+}
+
+pub(super) fn in_box([columns, rows]: [[i64; 2]; 2], x: i32, y: i32) -> bool {
+    let (x, y) = (i64::from(x), i64::from(y));
+    columns[0] <= x && x <= columns[1] && rows[0] <= y && y <= rows[1]
 }
 
 /// The two halves, where the point on the long edge is put on a grid.
@@ -322,23 +358,155 @@ pub(super) fn without_border(mask: &mut Mask, window: PixelRect, which: i64) {
     });
 }
 
-/// Tiles of p mod 100 pixels, tested at their corners, in their middle, or at their first pixel.
-pub(super) fn tiles(mask: &mut Mask, _: &Corners, window: PixelRect, p: i64) {
+/// Tiles of p mod 100 pixels, by one of the tests that the table names.
+pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i64) {
     let (side, full) = ((p % 100) as i32, *mask);
     let has = |x: i32, y: i32| full.has(x.min(window.x1 - 1), y.min(window.y1 - 1));
-    mask.retain(window, &|x, y| {
-        let [x, y] = [x / side * side, y / side * side];
-        let last = side - 1;
-        match p / 100 {
-            0 => has(x, y) || has(x + last, y) || has(x, y + last) || has(x + last, y + last),
-            1 => has(x + side / 2, y + side / 2),
-            _ => has(x, y),
+    let (points, sign) = (points(corners), area2(corners).signum() as f64);
+    // Whether no edge has the point farther outside than this.
+    let holds = |x: i32, y: i32, most_px: f64| {
+        (0..3).all(|i| {
+            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
+            let [dx, dy] = [bx - ax, by - ay].map_array(|v| v as f64);
+            let [px, py] =
+                [i64::from(x) * 256 - ax, i64::from(y) * 256 - ay].map_array(|v| v as f64);
+            sign * (dx * py - dy * px) >= -most_px * 256.0 * (dx * dx + dy * dy).sqrt()
+        })
+    };
+    let last = side - 1;
+    let is_kept = |x: i32, y: i32| match p / 100 {
+        0 => has(x, y) || has(x + last, y) || has(x, y + last) || has(x + last, y + last),
+        1 => has(x + side / 2, y + side / 2),
+        3 => [(0, 0), (side, 0), (0, side), (side, side)]
+            .iter()
+            .any(|(dx, dy)| holds(x + dx, y + dy, 0.0)),
+        4 => holds(x + side / 2, y + side / 2, f64::from(side) / 2.0),
+        5 => holds(x, y, 0.0),
+        8 => true,
+        9 => [(0, 0), (last, 0), (0, last), (last, last)].iter().any(|(dx, dy)| {
+            let (x, y) = (x + dx, y + dy);
+            window.contains(x, y) && full.has(x, y)
+        }),
+        7 => (y..y + side).any(|y| (x..x + side).any(|x| window.contains(x, y) && full.has(x, y))),
+        _ => has(x, y),
+    };
+    let is_whole = matches!(p / 100, 6 | 7);
+    for y in (window.y0..window.y1).step_by(side as usize) {
+        for x in (window.x0..window.x1).step_by(side as usize) {
+            let kept = is_kept(x, y);
+            let (rows, columns) = (y..(y + side).min(window.y1), x..(x + side).min(window.x1));
+            if p / 100 == 8 {
+                let count = |x: i32| rows.clone().filter(|&y| full.has(x, y)).count();
+                let last = columns.clone().rev().find(|&x| count(x) > 0);
+                let is_full = columns.clone().all(|x| count(x) == rows.len());
+                for y in rows.filter(|_| !is_full) {
+                    last.into_iter().for_each(|x| mask.put(x, y, false));
+                }
+            } else if !kept || is_whole {
+                for y in rows {
+                    columns.clone().for_each(|x| mask.put(x, y, kept));
+                }
+            }
+        }
+    }
+}
+
+/// The first pixel of a row and one past the last; nothing where the row is empty.
+fn span(mask: &Mask, window: PixelRect, y: i32) -> Option<[i32; 2]> {
+    let mut columns = (window.x0..window.x1).filter(|&x| mask.has(x, y));
+    let first = columns.next()?;
+    Some([first, columns.next_back().unwrap_or(first) + 1])
+}
+
+/// Groups of 2, 4, 8 or 16 pixels, by p mod 4; see the table.
+pub(super) fn groups(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i64) {
+    let n = 2 << (p % 4);
+    let [[x0, x1], [y0, y1]] = boxes(corners)[0];
+    let seen = |low: i64, high: i64, end: i32| {
+        let end = i64::from(end);
+        [low.clamp(0, end) as i32, (high + 1).clamp(0, end) as i32]
+    };
+    let ([x0, x1], [y0, y1]) = (seen(x0, x1, window.x1), seen(y0, y1, window.y1));
+    for y in window.y0..window.y1 {
+        let Some([first, end]) = span(mask, window, y) else { continue };
+        let [start, stop] = match p / 4 {
+            0 => [first, first + (end - first) / n * n],
+            1 => [(first + n - 1) / n * n, end],
+            2 => [first, end / n * n],
+            3 => [first, x0 + (x1 - x0).max(0) / n * n],
+            4 => [(x0 + n - 1) / n * n, end],
+            5 => [first, window.x1 / n * n],
+            6 => [first, first + (end - first + n - 1) / n * n],
+            7 => [first / n * n, (end + n - 1) / n * n],
+            8 if y >= y0 + (y1 - y0).max(0) / n * n => [end, end],
+            9 if y >= window.y1 / n * n => [end, end],
+            _ => [first, end],
+        };
+        for x in window.x0..window.x1 {
+            let is_added = p / 4 == 6 || p / 4 == 7;
+            mask.put(x, y, start <= x && x < stop && (is_added || mask.has(x, y)));
+        }
+    }
+}
+
+/// Which pixels are drawn twice; see the table.
+pub(super) fn twice(mask: &Mask, corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    let rows: Vec<i32> =
+        (window.y0..window.y1).filter(|&y| span(mask, window, y).is_some()).collect();
+    let column = rows.iter().filter_map(|&y| span(mask, window, y)).map(|span| span[1] - 1).max();
+    let [_, [_, low]] = boxes(corners)[0];
+    let has = |x: i32, y: i32| window.contains(x, y) && mask.has(x, y);
+    let mut twice = *mask;
+    twice.retain(window, &|x, y| {
+        let span = || span(mask, window, y).unwrap_or_default();
+        match p {
+            0 => Some(&y) == rows.last(),
+            1 => Some(&y) == rows.first(),
+            2 => i64::from(y) == middle_row(corners),
+            3 => i64::from(y) == low.min(i64::from(window.y1) - 1),
+            4 => x == span()[0],
+            5 => x == span()[1] - 1,
+            6 => Some(x) == column,
+            7 => true,
+            _ => !(has(x - 1, y) && has(x + 1, y) && has(x, y - 1) && has(x, y + 1)),
         }
     });
+    twice
+}
+
+/// Edge functions whose steps are cut toward zero to a multiple of a step, from the first sample of the box on; p mod 4 is
+/// the step, and from 4 on the value there is a whole number, too.
+pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+    let step = [256, 128, 64, 16][(p % 4) as usize];
+    let sign = area2(corners).signum() as i64;
+    if sign == 0 {
+        return Mask::default();
+    }
+    let (points, owns) = (points(corners), owned(corners, base));
+    let [[x0, _], [y0, _]] = boxes(corners)[0];
+    let sample = super::sample_of(base);
+    let start = [x0.max(0) * 256 + i64::from(sample[0]), y0.max(0) * 256 + i64::from(sample[1])];
+    let way = |[a, b]: [i64; 2], from: Point, to: Point| {
+        i128::from(a) * i128::from(to[0] - from[0]) + i128::from(b) * i128::from(to[1] - from[1])
+    };
+    let edges = [0, 1, 2].map_array(|i: usize| {
+        let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
+        let steps = [sign * (ay - by), sign * (bx - ax)].map_array(|v| v / step * step);
+        let value = way(steps, [ax, ay], start);
+        let whole = i128::from(256 * step);
+        (steps, if p < 4 { value } else { value / whole * whole })
+    });
+    each_sample(window, sample, &|at| {
+        (0..3).all(|i| {
+            let (steps, value) = edges[i];
+            let value = value + way(steps, start, at);
+            value > 0 || (value == 0 && owns[i])
+        })
+    })
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 11] = [
+pub(super) const FORMULAS: [&str; 20] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -350,6 +518,15 @@ pub(super) const FORMULAS: [&str; 11] = [
     "the edge function with a fused multiplication and addition",
     "barycentric weights from corners relative to the sample, divided by the area first",
     "barycentric weights from corners relative to the sample, of which the third is 1 minus the others",
+    "barycentric weights from differences to the first corner, whose weight is 1 minus the others",
+    "barycentric weights from differences to the second corner, whose weight is 1 minus the others",
+    "barycentric weights from differences to the last corner, whose weight is 1 minus the others",
+    "barycentric weights from differences to the first corner, times the reciprocal of the area, its weight being 1 minus the others",
+    "barycentric weights from differences to the last corner, times the reciprocal of the area, its weight being 1 minus the others",
+    "barycentric weights from dot products of the edges, the first being 1 minus the others",
+    "barycentric weights from dot products of the edges and a reciprocal, the first being 1 minus the others",
+    "the edge function in steps that are added up from the first pixel of the box around the triangle on",
+    "the edge function as a x + b y + c with c computed once, of each edge from its upper end",
 ];
 
 /// One of `FORMULAS`, with a rounding to f32 after every operation or without. Of corners that turn the other way, two are
@@ -390,6 +567,7 @@ pub(super) fn float(
         let [p, q] = [p, q].map_array(|p| [r(p[0] - at[0]), r(p[1] - at[1])]);
         r(r(p[0] * q[1]) - r(p[1] * q[0]))
     };
+    let original = corners;
     let corners = ordered.map_array(px);
     let sides = [[0, 1], [1, 2], [2, 0]];
     let owns = sides.map_array(|[i, j]| {
@@ -398,21 +576,26 @@ pub(super) fn float(
         base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))]
     });
     // Weights that are divided by the area have its sign already.
-    let sign = if matches!(formula, 3..6 | 9 | 10) { 1.0 } else { sign };
+    let sign = if matches!(formula, 3..6 | 9..18) { 1.0 } else { sign };
     let passes = |value: f64, owns: bool| sign * value > 0.0 || (value == 0.0 && owns);
     let [a, b, c] = corners;
     let area = edge(a, b, c);
     let at_sample = super::sample_of(base);
-    if formula == 2 {
-        let start = px(at_sample.map_array(i64::from));
+    if matches!(formula, 2 | 18) {
+        let [[x0, _], [y0, _]] = boxes(original)[0];
+        let first = |v: i64, end: i32| {
+            if formula == 2 { 0 } else { v.clamp(0, i64::from(end)) as i32 }
+        };
+        let (x0, y0) = (first(x0, window.x1), first(y0, window.y1));
+        let start = px([x0 * 256 + at_sample[0], y0 * 256 + at_sample[1]].map_array(i64::from));
         let mut mask = Mask::default();
         let mut rows = sides.map_array(|[i, j]| edge(corners[i], corners[j], start));
         let steps = sides.map_array(|[i, j]| {
             [r(corners[i][1] - corners[j][1]), r(corners[j][0] - corners[i][0])]
         });
-        for y in window.y0..window.y1 {
+        for y in y0..window.y1 {
             let mut values = rows;
-            for x in window.x0..window.x1 {
+            for x in x0..window.x1 {
                 if (0..3).all(|i| passes(values[i], owns[i])) {
                     mask.set(x, y);
                 }
@@ -427,15 +610,27 @@ pub(super) fn float(
         return mask;
     }
     let reciprocal = r(1.0 / area);
+    // The weights of two corners and what is left for a third one, each at the side opposite to its corner.
+    let opposite = |rest: usize, v: f64, w: f64| {
+        let mut values = [w; 3];
+        values[(rest + 1) % 3] = r(r(1.0 - v) - w);
+        values[(rest + 2) % 3] = v;
+        values
+    };
     each_sample(window, at_sample, &|at| {
         let at = px(at);
         let values = match formula {
             0 | 7 | 8 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
-            1 => sides.map_array(|[i, j]| {
-                let [p, q] = [corners[i], corners[j]];
+            1 | 19 => sides.map_array(|[i, j]| {
+                let [mut p, mut q] = [corners[i], corners[j]];
+                let turns = formula == 19 && p[1] > q[1];
+                if turns {
+                    (p, q) = (q, p);
+                }
                 let [a, b] = [r(p[1] - q[1]), r(q[0] - p[0])];
                 let c = r(-r(r(a * p[0]) + r(b * p[1])));
-                r(r(r(a * at[0]) + r(b * at[1])) + c)
+                let value = r(r(r(a * at[0]) + r(b * at[1])) + c);
+                if turns { -value } else { value }
             }),
             3 => sides.map_array(|[i, j]| r(edge(corners[i], corners[j], at) / area)),
             4 | 5 | 10 => {
@@ -447,6 +642,30 @@ pub(super) fn float(
                 let [u, v] = [weight(1, 2), weight(2, 0)];
                 [r(r(1.0 - u) - v), u, v]
             }
+            11..=15 => {
+                // Of which corner the weight is left over.
+                let rest = [0, 1, 2, 0, 2][formula - 11];
+                let [a, b, c] = [0, 1, 2].map_array(|i| corners[(rest + i) % 3]);
+                let minus = |p: [f64; 2]| [r(p[0] - a[0]), r(p[1] - a[1])];
+                let [b, c, at] = [minus(b), minus(c), minus(at)];
+                let cross = |p: [f64; 2], q: [f64; 2]| r(r(p[0] * q[1]) - r(p[1] * q[0]));
+                let area = cross(b, c);
+                let part = |v: f64| if formula < 14 { r(v / area) } else { r(v * r(1.0 / area)) };
+                opposite(rest, part(cross(at, c)), part(cross(b, at)))
+            }
+            16 | 17 => {
+                let [a, b, c] = corners;
+                let minus = |p: [f64; 2]| [r(p[0] - a[0]), r(p[1] - a[1])];
+                let [b, c, at] = [minus(b), minus(c), minus(at)];
+                let dot = |p: [f64; 2], q: [f64; 2]| r(r(p[0] * q[0]) + r(p[1] * q[1]));
+                let [bb, bc, cc] = [dot(b, b), dot(b, c), dot(c, c)];
+                let [ab, ac] = [dot(at, b), dot(at, c)];
+                let whole = r(r(bb * cc) - r(bc * bc));
+                let part =
+                    |v: f64| if formula == 16 { r(v / whole) } else { r(v * r(1.0 / whole)) };
+                let v = part(r(r(cc * ab) - r(bc * ac)));
+                opposite(0, v, part(r(r(bb * ac) - r(bc * ab))))
+            }
             9 => sides.map_array(|[i, j]| r(relative(corners[i], corners[j], at) / area)),
             _ => sides.map_array(|[i, j]| relative(corners[i], corners[j], at)),
         };
@@ -455,150 +674,185 @@ pub(super) fn float(
 }
 
 /// In which numbers the slope of an edge is added.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) enum Slope {
     Single,
     Double,
-    /// 1/65536 px, the slope cut toward zero.
-    Fixed,
-    /// 1/65536 px, the slope cut down.
-    FixedDown,
-    /// 1/65536 px, both the first crossing and the slope cut toward zero.
-    FixedStart,
-    /// 1/256 px, the slope cut toward zero.
-    Coarse,
     /// Not added: computed for each row in single precision.
     Computed,
+    /// Not added: computed for each row in single precision, from a reciprocal of the height.
+    Reciprocal,
     /// Not added: interpolated between the corners for each row, in single precision.
     Between,
     /// The same in double precision.
     BetweenDouble,
+    /// In so many bits of fraction, the slope by one of `CUTS` and the first crossing by one of `STARTS`.
+    Fixed {
+        bits: u32,
+        cut: i64,
+        start: i64,
+    },
 }
 
-impl Slope {
-    pub(super) const ALL: [Self; 9] = [
-        Self::Single,
-        Self::Double,
-        Self::Fixed,
-        Self::FixedDown,
-        Self::FixedStart,
-        Self::Coarse,
-        Self::Computed,
-        Self::Between,
-        Self::BetweenDouble,
-    ];
+const FLOATS: [Slope; 6] = [
+    Slope::Single,
+    Slope::Double,
+    Slope::Computed,
+    Slope::Reciprocal,
+    Slope::Between,
+    Slope::BetweenDouble,
+];
+const BITS: [u32; 5] = [16, 8, 10, 12, 14];
+const CUTS: [&str; 4] = [
+    "cut toward zero",
+    "cut down",
+    "rounded to the nearest",
+    "a product with a reciprocal that is cut",
+];
+const STARTS: [&str; 3] = [
+    "",
+    ", from a first crossing that is cut toward zero",
+    ", from an exact first crossing that is cut toward zero",
+];
 
-    pub(super) fn about(self) -> &'static str {
-        match self {
+impl Slope {
+    pub(super) const COUNT: i64 = 6 + 5 * 4 * 3;
+
+    pub(super) fn of(p: i64) -> Self {
+        match p - 6 {
+            p @ 0.. => Self::Fixed { bits: BITS[(p / 12) as usize], cut: p % 4, start: p / 4 % 3 },
+            _ => FLOATS[p as usize],
+        }
+    }
+
+    pub(super) fn about(self) -> String {
+        let said = match self {
             Self::Single => "in floats of 32 bits",
             Self::Double => "in floats of 64 bits",
-            Self::Fixed => "in 1/65536 px, cut toward zero",
-            Self::FixedDown => "in 1/65536 px, cut down",
-            Self::FixedStart => "in 1/65536 px, from an exact first crossing, both cut toward zero",
-            Self::Coarse => "in 1/256 px, cut toward zero",
             Self::Computed => "(or computes it for each row) in floats of 32 bits",
+            Self::Reciprocal => {
+                "(or computes it for each row, times the reciprocal of the height) in floats of 32 bits"
+            }
             Self::Between => {
                 "(or interpolates between its corners for each row) in floats of 32 bits"
             }
             Self::BetweenDouble => {
                 "(or interpolates between its corners for each row) in floats of 64 bits"
             }
-        }
+            Self::Fixed { bits, cut, start } => {
+                let (cut, start) = (CUTS[cut as usize], STARTS[start as usize]);
+                return format!("in 1/{} px, {cut}{start}", 1 << bits);
+            }
+        };
+        said.to_owned()
     }
 }
 
 /// How a row is filled between its crossings.
+pub(super) const ROWS: [&str; 5] = [
+    "fills the samples between the crossings",
+    "fills from the pixel of the left crossing to that of the right one",
+    "fills the samples between the crossings, the right one included and the left one not",
+    "fills from the pixel of the left crossing to the one before that of the right one",
+    "fills from the pixel nearest to the left crossing to the one nearest to the right one",
+];
+
+/// A walk along edges.
 #[derive(Clone, Copy)]
-pub(super) enum Row {
-    /// The samples between them, the left crossing included.
-    HalfOpen,
-    /// Both crossings are rounded to the nearest pixel, and both are drawn.
-    BothEnds,
+pub(super) struct Stepped {
+    pub(super) slope: Slope,
+    /// The first crossing is the corner itself.
+    pub(super) late: bool,
+    /// One of `ROWS`.
+    pub(super) row: i64,
+    /// Whether the long edge begins anew at the middle corner.
+    pub(super) restarts: bool,
+    /// What becomes of rows above the window: 0, they are walked; 1, their steps are forgotten; 2, edges begin anew in row 0.
+    pub(super) above: i64,
 }
 
-impl Row {
-    pub(super) const ALL: [Self; 2] = [Self::HalfOpen, Self::BothEnds];
-
-    pub(super) fn about(self) -> &'static str {
-        match self {
-            Self::HalfOpen => "fills the samples between the crossings",
-            Self::BothEnds => "fills from the pixel of the left crossing to that of the right one",
-        }
-    }
-}
-
-/// A crossing that is moved from row to row, in pixels or parts of them.
+/// A crossing that is moved from row to row, in pixels.
 struct Walk {
     x: f64,
     slope: f64,
     from: [f64; 2],
     to: [f64; 2],
     of: Slope,
+    /// The row of the first crossing.
+    row: i64,
 }
 
 impl Walk {
-    fn new(of: Slope, from: Point, to: Point, first_row: i64, late: bool) -> Self {
+    fn new(from: Point, to: Point, first_row: i64, how: Stepped) -> Self {
         let single = |v: f64| f64::from(v as f32);
+        let row = if how.above == 2 { first_row.max(0) } else { first_row };
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         let dy = if dy == 0 { 1 } else { dy };
-        let ahead = if late { 0 } else { first_row * 256 + 128 - from[1] };
+        let ahead = if how.late { (row - first_row) * 256 } else { row * 256 + 128 - from[1] };
         let px = |v: i64| v as f64 / 256.0;
-        let (x, slope) = match of {
+        let (x, slope) = match how.slope {
             Slope::Single | Slope::Computed => {
                 let slope = single(single(px(dx)) / single(px(dy)));
                 (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
             }
+            Slope::Reciprocal => (0.0, single(single(px(dx)) * single(1.0 / single(px(dy))))),
             Slope::Double | Slope::Between | Slope::BetweenDouble => {
                 let slope = px(dx) / px(dy);
                 (px(from[0]) + slope * px(ahead), slope)
             }
-            Slope::Fixed | Slope::FixedDown | Slope::FixedStart | Slope::Coarse => {
-                let unit: i64 = if matches!(of, Slope::Coarse) { 256 } else { 65536 };
-                let scaled = i128::from(dx) * i128::from(unit);
-                let slope = match of {
-                    Slope::FixedDown => scaled.div_euclid(i128::from(dy)),
-                    _ => scaled / i128::from(dy),
+            Slope::Fixed { bits, cut, start } => {
+                let unit = 1_i128 << bits;
+                let [wide, dx, dy, ahead] = [from[0], dx, dy, ahead].map(i128::from);
+                let slope = match cut {
+                    0 => dx * unit / dy,
+                    1 => (dx * unit).div_euclid(dy),
+                    2 => (2 * dx * unit + dy).div_euclid(2 * dy),
+                    _ => (dx * (256 * unit / dy)) >> 8,
                 };
-                let x = match of {
-                    Slope::FixedStart => {
-                        let exact = i128::from(from[0]) * i128::from(dy)
-                            + i128::from(dx) * i128::from(ahead);
-                        exact * i128::from(unit / 256) / i128::from(dy)
-                    }
-                    _ => {
-                        i128::from(from[0]) * i128::from(unit / 256)
-                            + ((slope * i128::from(ahead)) >> 8)
-                    }
+                let x = match start {
+                    0 => wide * unit / 256 + ((slope * ahead) >> 8),
+                    1 => wide * unit / 256 + slope * ahead / 256,
+                    _ => (wide * dy + dx * ahead) * unit / (256 * dy),
                 };
                 (x as f64 / unit as f64, slope as f64 / unit as f64)
             }
         };
-        Self { x, slope, from: from.map_array(px), to: to.map_array(px), of }
+        // A row above the window is taken for row 0.
+        let row = if how.above == 1 { row.max(0) } else { row };
+        Self { x, slope, from: from.map_array(px), to: to.map_array(px), of: how.slope, row }
     }
 
-    /// The crossing with the row, in pixels.
-    fn at(&self, row: i64) -> f64 {
+    /// Whether steps are added up in floats, so that each has to be walked.
+    fn is_walked(&self) -> bool {
+        matches!(self.of, Slope::Single | Slope::Double)
+    }
+
+    /// The crossing with the row, in pixels: rows are asked for in order.
+    fn at(&mut self, row: i64) -> f64 {
+        let single = |v: f64| f64::from(v as f32);
         match self.of {
-            Slope::Computed => {
-                let single = |v: f64| f64::from(v as f32);
+            Slope::Computed | Slope::Reciprocal => {
                 let ahead = single(row as f64 + 0.5 - self.from[1]);
                 single(self.from[0] + single(self.slope * ahead))
             }
             Slope::Between | Slope::BetweenDouble => {
-                let is_double = matches!(self.of, Slope::BetweenDouble);
-                let r = |v: f64| if is_double { v } else { f64::from(v as f32) };
+                let is_double = self.of == Slope::BetweenDouble;
+                let r = |v: f64| if is_double { v } else { single(v) };
                 let [from, to] = [self.from, self.to].map_array(|p| p.map_array(r));
                 let part = r(r(row as f64 + 0.5 - from[1]) / r(to[1] - from[1]));
                 r(from[0] + r(r(to[0] - from[0]) * part))
             }
-            _ => self.x,
-        }
-    }
-
-    fn step(&mut self) {
-        self.x += self.slope;
-        if matches!(self.of, Slope::Single) {
-            self.x = f64::from(self.x as f32);
+            Slope::Fixed { .. } => self.x + self.slope * (row - self.row) as f64,
+            _ => {
+                while self.row < row {
+                    self.x += self.slope;
+                    if self.of == Slope::Single {
+                        self.x = single(self.x);
+                    }
+                    self.row += 1;
+                }
+                self.x
+            }
         }
     }
 }
@@ -612,46 +866,38 @@ fn rows(top: i64, bottom: i64) -> std::ops::Range<i64> {
 /// Rows that are walked above the window, at most: further ones are not expected.
 const MOST_ROWS: i64 = 1 << 16;
 
-/// Row by row with crossings that are added up.
-pub(super) fn stepped(
-    corners: &Corners,
-    window: PixelRect,
-    slope: Slope,
-    late: bool,
-    row: Row,
-    restarts: bool,
-) -> Mask {
-    let [top, middle, bottom] = sorted(corners);
+/// Row by row with crossings that are added up, from corners that are sorted.
+pub(super) fn stepped([top, middle, bottom]: [Point; 3], window: PixelRect, how: Stepped) -> Mask {
     let mut mask = Mask::default();
     let all = rows(top[1], bottom[1]);
-    if all.is_empty() || area2(corners) == 0 || all.start < -MOST_ROWS {
+    if all.is_empty() {
         return mask;
     }
-    let mut long = Walk::new(slope, top, bottom, all.start, late);
+    let mut long = Walk::new(top, bottom, all.start, how);
+    if long.is_walked() && long.row < -MOST_ROWS {
+        return mask;
+    }
     for [from, to] in [[top, middle], [middle, bottom]] {
         let part = rows(from[1], to[1]);
-        let mut short = Walk::new(slope, from, to, part.start, late);
-        if restarts {
-            long = Walk::new(slope, top, bottom, part.start, late);
+        let mut short = Walk::new(from, to, part.start, how);
+        if how.restarts {
+            long = Walk::new(top, bottom, part.start, how);
         }
-        for y in part {
-            if y >= i64::from(window.y1) {
-                return mask;
-            }
+        // Corners in a wrong order do not add rows.
+        for y in part.start.max(all.start).max(0)..part.end.min(all.end).min(window.y1.into()) {
             let (a, b) = (long.at(y), short.at(y));
             let (left, right) = (a.min(b), a.max(b));
-            let (first, last) = match row {
-                Row::HalfOpen => ((left - 0.5).ceil(), (right - 0.5).ceil()),
-                Row::BothEnds => (left.floor(), right.floor() + 1.0),
+            let (first, end) = match how.row {
+                0 => ((left - 0.5).ceil(), (right - 0.5).ceil()),
+                1 => (left.floor(), right.floor() + 1.0),
+                2 => ((left + 0.5).floor(), (right + 0.5).floor()),
+                3 => (left.floor(), right.floor()),
+                _ => ((left + 0.5).floor(), (right + 0.5).floor() + 1.0),
             };
-            if y >= 0 {
-                let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
-                for x in clamp(first)..clamp(last) {
-                    mask.set(x, y as i32);
-                }
+            let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
+            for x in clamp(first)..clamp(end) {
+                mask.set(x, y as i32);
             }
-            long.step();
-            short.step();
         }
     }
     mask

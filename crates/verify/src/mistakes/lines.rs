@@ -50,14 +50,19 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         name: "lines are cut in whole numbers",
         sentence: |p| {
             let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
+            let from = ["", ", counted from the end that is cut", ", counted from the other end"];
+            let (from, turned) = (
+                from[(p / 12 % 3) as usize],
+                ["", " (turned round if its second end was cut)"][(p / 36) as usize],
+            );
             format!(
-                "cuts lines at the window and draws the rest as a line of its own, whose new ends are {how}: the rest takes other pixels"
+                "cuts lines at the window and draws the rest as a line of its own{turned}, whose new ends are {how}{from}: the rest takes other pixels"
             )
         },
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line across the border with the pixels of the whole line",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]),
+        parameters: Parameters::Below(72),
         draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
     },
     Mistake {
@@ -83,7 +88,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "treat this kind as any other",
         page: "ch03",
         refuted: "a line of that kind that is drawn",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
+        parameters: Parameters::Below(10),
         draws: Stroke::Instead(|ends, window, p| {
             (!KINDS[p as usize].1(ends, window)).then_some(ends).into_iter().collect()
         }),
@@ -128,21 +133,39 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         name: "steps are added up in floats",
         sentence: |p| {
             let (how, bits) = (p / 2, ["32", "64"][(p % 2) as usize]);
-            let rounded = [
-                "rounded to the nearest",
-                "cut toward zero",
-                "cut down after 1/2 was added",
-                "beginning half a pixel ahead, and cut down",
-            ][how as usize];
-            format!(
-                "adds up steps in floats of {bits} bits, {rounded}: the height drifts along the line"
-            )
+            [
+                "adds up steps in floats of {} bits, rounded to the nearest: the height drifts along the line",
+                "adds up steps in floats of {} bits, cut toward zero: the height drifts along the line",
+                "adds up steps in floats of {} bits, cut down after 1/2 was added: the height drifts along the line",
+                "adds up steps in floats of {} bits, beginning half a pixel ahead, and cut down: the height drifts along the line",
+                "computes each step from the slope and the height at 0 (y = m x + b) in floats of {} bits: both are rounded",
+                "computes each step from the slope and the first end in floats of {} bits: the slope is rounded",
+                "computes each step from the slope and the left end in floats of {} bits: the slope is rounded",
+            ][how as usize]
+                .replace("{}", bits)
         },
-        repair: "compute each step from the end, or count in integers",
+        repair: "count in integers, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line whose height is right at the far end",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7]),
+        parameters: Parameters::Below(14),
         draws: Stroke::Own(floats),
+    },
+    Mistake {
+        name: "the error term is off",
+        sentence: |p| {
+            let (_, start) = STARTS[(p % 8) as usize];
+            let (up, down) = [("2b", "2a"), ("b", "2a"), ("2b", "a")][(p / 8 % 3) as usize];
+            let from = ["the first end", "the left end"][(p / 48) as usize];
+            format!(
+                "begins the error term at {start}, adds {up} for a step and takes away {down} where it is {} 0 (a is the longer side of the line and b the shorter one, seen from {from}); 2b - a, 2b and 2a are right",
+                ["above", "at least"][(p / 24 % 2) as usize]
+            )
+        },
+        repair: "derive the error term from the distances of both pixels to the line",
+        page: "ch03",
+        refuted: "a line whose middle step is where it should be",
+        parameters: Parameters::Below(96),
+        draws: Stroke::Own(error_term),
     },
     Mistake {
         name: "steps along x alone",
@@ -162,15 +185,17 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         name: "the error term overflows",
         sentence: |p| {
             format!(
-                "keeps the error term in {} bits: it wraps around on lines of more than {} steps",
+                "keeps the error term{} in {} bits: it wraps around on lines of more than about {} steps",
+                ["", ", which begins at half the steps,", ", which begins at 2b - a,"]
+                    [(p / 100) as usize],
                 p % 100,
-                1_i64 << (p % 100 - 2)
+                1_i64 << (p % 100 - if p / 100 == 1 { 1 } else { 2 })
             )
         },
         repair: "use a word of twice the length",
         page: "stability",
         refuted: "such a long line that is drawn rightly",
-        parameters: Parameters::Fixed(&[8, 16, 12]),
+        parameters: Parameters::Fixed(&[8, 16, 12, 108, 116, 112, 208, 216, 212]),
         draws: Stroke::Own(short_error),
     },
     Mistake {
@@ -302,10 +327,15 @@ fn from_left(ends: Ends, left: bool) -> Ends {
 }
 
 /// The part within the window by Cohen and Sutherland, in whole numbers: p mod 3 is the rounding, p / 3 mod 2 is whether x
-/// is cut before y, and from 6 on the first end is cut before the second.
+/// is cut before y, p / 6 mod 2 is whether the first end is cut before the second, p / 12 mod 3 is from where a new end is
+/// counted, and from 36 on a line is turned round whose second end was cut.
 fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     let last = [i64::from(window.x1) - 1, i64::from(window.y1) - 1];
     let order = if p / 3 % 2 == 0 { [1, 0] } else { [0, 1] };
+    let p_order = p % 12;
+    let mut turns = false;
+    // The way of the line, and the axis along which it was cut last.
+    let (mut way, mut cut_along) = ([0; 2], 2);
     // Each end is cut at most twice.
     for _ in 0..5 {
         let outside = |p: [i64; 2], k: usize| p[k] < 0 || p[k] > last[k];
@@ -314,23 +344,37 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
             return None;
         }
         let is_out = |k: usize, first: bool| outside(if first { a } else { b }, k);
-        let all = match p < 6 {
+        let all = match p_order < 6 {
             true => order.map(|k| [(k, true), (k, false)]),
             false => [true, false].map(|first| order.map(|k| (k, first))),
         };
         let next = all.into_iter().flatten().find(|&(k, first)| is_out(k, first));
-        let Some((k, first)) = next else { return Some([a, b]) };
+        let Some((k, first)) = next else { return Some(if turns { [b, a] } else { [a, b] }) };
+        turns |= p >= 36 && !first;
         let moved = if first { a } else { b };
         let to = if moved[k] < 0 { 0 } else { last[k] };
-        let part = (b[1 - k] - a[1 - k]) * (to - a[k]);
-        let whole = b[k] - a[k];
+        let from = match p / 12 % 3 {
+            0 => a,
+            1 => moved,
+            _ if first => b,
+            _ => a,
+        };
+        // Where each end is moved from itself, the way is that before both.
+        if p / 12 % 3 != 1 || cut_along != k {
+            (way, cut_along) = ([b[0] - a[0], b[1] - a[1]], k);
+        }
+        let (part, whole) = (way[1 - k] * (to - from[k]), way[k]);
         let (part, whole) = if whole < 0 { (-part, -whole) } else { (part, whole) };
         let along = match p % 3 {
+            // As a product with a slope in floats, which need not be exact.
+            0 if p / 12 % 3 == 1 => {
+                (way[1 - k] as f64 / way[k] as f64 * (to - from[k]) as f64) as i64
+            }
             0 => part / whole,
             1 => part.div_euclid(whole),
             _ => (2 * part + whole).div_euclid(2 * whole),
         };
-        let other = a[1 - k] + along;
+        let other = from[1 - k] + along;
         let end = if first { &mut a } else { &mut b };
         (end[k], end[1 - k]) = (to, other);
     }
@@ -400,6 +444,9 @@ fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
     }
     let slope = |d: i64| if steps == 0 { 0.0 } else { r(d as f64 / steps as f64) };
     let (sx, sy) = (slope(x1 - x0), slope(y1 - y0));
+    if how >= 4 {
+        return sloped([[x0, y0], [x1, y1]], how, single);
+    }
     let ahead = if how == 3 { 0.5 } else { 0.0 };
     let (mut x, mut y) = (r(x0 as f64 + ahead), r(y0 as f64 + ahead));
     let pixel = |v: f64| match how {
@@ -412,6 +459,69 @@ fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
     for _ in 0..=steps {
         pixels.push([pixel(x), pixel(y)]);
         (x, y) = (r(x + sx), r(y + sy));
+    }
+    pixels
+}
+
+/// Each step from a slope in floats: 4, as y = m x + b; 5, from the first end; 6, from the left end.
+fn sloped(ends: Ends, how: i64, single: bool) -> Vec<[i64; 2]> {
+    let r = |v: f64| if single { f64::from(v as f32) } else { v };
+    let steep = is_steep(ends);
+    let turned = |[x, y]: [i64; 2]| if steep { [y, x] } else { [x, y] };
+    let [first, last] = ends.map_array(turned);
+    let [[u0, v0], [u1, v1]] = if how == 6 && first > last { [last, first] } else { [first, last] };
+    let slope = if u0 == u1 { 0.0 } else { r((v1 - v0) as f64 / (u1 - u0) as f64) };
+    let height = r(v0 as f64 - r(slope * u0 as f64));
+    (u0.min(u1)..=u0.max(u1))
+        .map(|u| {
+            let v = match how {
+                4 => r(r(slope * u as f64) + height),
+                _ => r(v0 as f64 + r(slope * (u - u0) as f64)),
+            };
+            turned([u, v.round() as i64])
+        })
+        .collect()
+}
+
+/// What an error term may begin at, from the longer and the shorter side.
+type Start = fn(i64, i64) -> i64;
+const STARTS: [(Start, &str); 8] = [
+    (|a, b| 2 * b - a, "2b - a"),
+    (|a, b| 2 * (b - a), "2b - 2a"),
+    (|_, b| 2 * b, "2b"),
+    (|a, b| b - a, "b - a"),
+    (|_, b| b, "b"),
+    (|_, _| 0, "0"),
+    (|a, _| a, "a"),
+    (|a, _| -a, "-a"),
+];
+
+/// p mod 8 is where the error term begins, p / 8 mod 3 what is added and taken away, p / 24 mod 2 what happens at 0, and from 48
+/// on lines are seen from the left. What is right draws nothing, as it is a convention.
+fn error_term(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [[mut x, mut y], [x1, y1]] = from_left(ends, p >= 48);
+    let [dx, dy] = [(x1 - x).abs(), (y1 - y).abs()];
+    let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
+    let (a, b) = (dx.max(dy), dx.min(dy));
+    if a > MOST_STEPS || (p % 8 == 0 && p / 8 % 3 == 0) {
+        return Vec::new();
+    }
+    let [up, down] = [[2 * b, 2 * a], [b, 2 * a], [2 * b, a]][(p / 8 % 3) as usize];
+    let mut error = STARTS[(p % 8) as usize].0(a, b);
+    let mut pixels = vec![[x, y]];
+    for _ in 0..a {
+        let across = error > 0 || (error == 0 && p / 24 % 2 == 1);
+        if across {
+            error -= down;
+        }
+        error += up;
+        if dx >= dy || across {
+            x += sx;
+        }
+        if dx < dy || across {
+            y += sy;
+        }
+        pixels.push([x, y]);
     }
     pixels
 }
@@ -437,9 +547,36 @@ fn short_error([[mut x, mut y], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i
     let word = |v: i64| v << shift >> shift;
     let (dx, dy) = (word((x1 - x).abs()), word(-(y1 - y).abs()));
     let (sx, sy) = (if x < x1 { 1 } else { -1 }, if y < y1 { 1 } else { -1 });
-    let steps = (x1 - x).abs().max((y1 - y).abs());
+    let [wide, high] = [(x1 - x).abs(), (y1 - y).abs()];
+    let steps = wide.max(high);
     if steps > MOST_STEPS {
         return Vec::new();
+    }
+    if p >= 100 {
+        // Of a loop over the longer axis: half the steps less b each, or 2b - a.
+        let (a, b) = (steps, wide.min(high));
+        let mut error = word(if p < 200 { a / 2 } else { 2 * b - a });
+        return (0..=steps)
+            .map(|_| {
+                let pixel = [x, y];
+                let across = match p < 200 {
+                    true => {
+                        error = word(error - b);
+                        error < 0
+                    }
+                    false => error > 0,
+                };
+                error = match (p < 200, across) {
+                    (true, true) => word(error + a),
+                    (true, false) => error,
+                    (false, true) => word(error + 2 * b - 2 * a),
+                    (false, false) => word(error + 2 * b),
+                };
+                x += if wide >= high || across { sx } else { 0 };
+                y += if wide < high || across { sy } else { 0 };
+                pixel
+            })
+            .collect();
     }
     let mut error = word(dx + dy);
     let mut pixels = Vec::new();

@@ -16,6 +16,7 @@ mod triangles;
 pub mod values;
 mod weigh;
 
+use std::cell::OnceCell;
 use std::fmt;
 
 use crate::convention::{
@@ -31,7 +32,7 @@ use triangles::{BY_WINDING, Fill};
 use weigh::{LEAST_WRONG, weigh};
 
 pub use thresholds::Threshold;
-pub use weigh::Hypothesis;
+pub use weigh::{Hypothesis, chosen_by};
 
 /// An entry of a table.
 #[derive(Clone, Copy)]
@@ -51,6 +52,8 @@ struct Mistake<D> {
 #[derive(Clone, Copy)]
 enum Parameters {
     Fixed(&'static [i64]),
+    /// All numbers below this one.
+    Below(i64),
     /// Limits between what is drawn and what is not, read off the answers.
     Sizes,
 }
@@ -228,6 +231,25 @@ impl<Question> Answered<Question> {
     }
 }
 
+impl Answered<Question> {
+    /// Whether a mistake predicts it: what is hit twice where only that is wrong, and otherwise hit twice or not. Many programs
+    /// test the samples of a box around the corners, and no others.
+    fn may_be(&self, drawn: Mask, twice: Mask, draws: Fill) -> bool {
+        let once = Mask::default();
+        if self.is(drawn, twice) || (self.is(drawn, once) && !matches!(draws, Fill::Twice(_))) {
+            return true;
+        }
+        let Question { corners, window } = &self.question;
+        !matches!(draws, Fill::Twice(_))
+            && self.drawn.beyond(&drawn) == 0
+            && fills::boxes(corners).iter().any(|bounds| {
+                let mut within = drawn;
+                within.retain(*window, &|x, y| fills::in_box(*bounds, x, y));
+                self.is(within, once)
+            })
+    }
+}
+
 /// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems to be:
 /// where that is certain, answers are judged by it. Nothing where all answers are right. It asks for 1,200 triangles, as
 /// long as `goes_on` is true.
@@ -264,30 +286,30 @@ pub fn of_triangles(
     }
     let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
     let bases = bases(&known.declared, found);
+    // What each base draws, once it is needed.
+    let whole: Vec<OnceCell<Option<Mask>>> =
+        (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
     let mut hypotheses = Vec::new();
     for mistake in triangles::TABLE {
-        let sizes;
         let parameters = match mistake.parameters {
-            Parameters::Fixed(parameters) => parameters,
-            Parameters::Sizes => {
-                sizes = limits(&answered);
-                &sizes
-            }
+            Parameters::Sizes => limits(&answered),
+            others => numbers(others),
         };
-        for &p in parameters {
+        for p in parameters {
             let says = says(mistake, p);
             // Of a program that draws one winding, a rule for each of both is a rule.
             let is_told = |base: &&Base| {
                 mistake.name != BY_WINDING || base.convention.draws == Windings::Both
             };
-            let served = bases.iter().filter(|base| base.serves(mistake.draws));
-            for base in served.filter(is_told) {
-                let answered = &answered;
+            let served = bases.iter().enumerate().filter(|(_, base)| base.serves(mistake.draws));
+            for (number, base) in served.filter(|(_, base)| is_told(base)) {
+                let (answered, whole) = (&answered, &whole[number * answered.len()..]);
                 let predicts = move |i: usize| {
                     let Question { corners, window } = &answered[i].question;
-                    let mask = fill(mistake.draws, p, &base.convention, corners, *window);
+                    let whole = || *whole[i].get_or_init(|| base.convention.mask(corners, *window));
+                    let mask = fill(mistake.draws, p, &base.convention, corners, *window, &whole);
                     mask.is_none_or(|[drawn, twice]| {
-                        answered[i].is(drawn, twice) || answered[i].is(drawn, Mask::default())
+                        answered[i].may_be(drawn, twice, mistake.draws)
                     })
                 };
                 let mut says = says.clone();
@@ -349,7 +371,7 @@ pub fn of_lines(
     }
     let mut hypotheses = Vec::new();
     for mistake in lines::TABLE {
-        let Parameters::Fixed(parameters) = mistake.parameters else { continue };
+        let parameters = numbers(mistake.parameters);
         // What has its own pixels needs no convention underneath.
         let bases = if matches!(mistake.draws, Stroke::Own(_)) { &bases[..1] } else { &bases };
         for (&p, base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
@@ -411,6 +433,14 @@ impl<Question, Picture> Program<'_, Question, Picture> {
         };
         let says = Explanation::of_program(self.name, self.about.clone());
         Hypothesis { predicts: Box::new(predicts), says }
+    }
+}
+
+fn numbers(parameters: Parameters) -> Vec<i64> {
+    match parameters {
+        Parameters::Fixed(parameters) => parameters.to_vec(),
+        Parameters::Below(end) => (0..end).collect(),
+        Parameters::Sizes => Vec::new(),
     }
 }
 
@@ -495,6 +525,7 @@ fn fill(
     base: &Convention,
     corners: &Corners,
     window: PixelRect,
+    whole: &dyn Fn() -> Option<Mask>,
 ) -> Option<[Mask; 2]> {
     let mut twice = Mask::default();
     let drawn = match draws {
@@ -508,8 +539,13 @@ fn fill(
             all
         }
         Fill::Changed(change) => {
-            let mut mask = base.mask(corners, window)?;
+            let mut mask = whole()?;
             change(&mut mask, corners, window, p);
+            mask
+        }
+        Fill::Twice(of) => {
+            let mask = whole()?;
+            twice = of(&mask, corners, window, p);
             mask
         }
         Fill::Ruled(draw) | Fill::Sampled(draw) => {
@@ -599,6 +635,10 @@ fn limits(answered: &[Answered<Question>]) -> Vec<i64> {
             limits.push(triangles::packed_size(metric, true, lost + (drawn - lost).max(1) / 2 + 1));
         }
         limits.extend(least.map(|lost| triangles::packed_size(metric, false, lost)));
+        // What is drawn although it should not be.
+        let extra = answered.iter().filter(|a| a.right.is_empty() && !a.drawn.is_empty());
+        let most = extra.map(|a| fills::metric(&a.question.corners, metric)).max();
+        limits.extend(most.map(|most| triangles::packed_size(metric, true, most + 1)));
     }
     limits
 }
@@ -609,6 +649,7 @@ pub fn table() -> Vec<Explanation> {
     fn example<D>(mistake: &Mistake<D>) -> Explanation {
         let p = match mistake.parameters {
             Parameters::Fixed(parameters) => parameters[0],
+            Parameters::Below(_) => 1,
             Parameters::Sizes => triangles::packed_size(0, true, 131_072),
         };
         says(mistake, p)

@@ -223,7 +223,7 @@ pub(super) fn of_triangles(
         let most = room.range_px - i64::from(SIDE_PX);
         axes.extend(
             [(Axis::Column, wide), (Axis::Row, high)]
-                .map_array(|(axis, side)| (axis, 4, widest(side).min(most))),
+                .map_array(|(axis, side)| (axis, i64::from(SIDE_PX), widest(side).min(most))),
         );
     }
     let per_px = 256 / grain;
@@ -401,13 +401,17 @@ fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> (i64
             [from, to, third].map_array(|[x, y]| if steep { [y, x] } else { [x, y] })
         }
         Axis::Column | Axis::Row => {
-            moved_px = [0, 0];
-            moved_px[usize::from(axis == Axis::Row)] = measure as i32;
+            // A corner lies in that column or row, the last one of its window.
+            let k = usize::from(axis == Axis::Row);
+            let last = [wide, high][k] - 1;
+            moved_px[k] = (measure as i32 - last).max(0);
             let far = moved_px.map_array(|px| i64::from(px) * 256);
-            [0; 3].map_array(|_| {
+            let mut points = [0; 3].map_array(|_| {
                 let [x, y] = room.inside(near);
                 [x + far[0], y + far[1]]
-            })
+            });
+            points[0][k] = far[k] + i64::from(last) * 256 + room.rng.int(1, 255);
+            points
         }
     };
     let mut corners: Corners = points.map_array(|point| room.point(point));
@@ -427,7 +431,10 @@ fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> (i64
             all.map(|v| i64::from(v).abs()).max().unwrap_or(0) / grain
         }
         Axis::Slope => steepest(&corners),
-        Axis::Column | Axis::Row => measure,
+        Axis::Column | Axis::Row => {
+            let [x, y] = [moved_px[0] + wide - 1, moved_px[1] + high - 1].map_array(i64::from);
+            if axis == Axis::Column { x } else { y }
+        }
     };
     let [x, y] = moved_px;
     let window = PixelRect::window((wide + x) as u32, (high + y) as u32);
@@ -605,9 +612,9 @@ mod tests {
         assert!(said.contains("There the coordinate in steps of 1/256 px passes 2^15"), "{said}");
 
         // A column in 8 bits, which small windows do not show.
-        let found = limits(&|q| q.window.x1 > 256 + 24 && q.window.y1 <= 24);
+        let found = limits(&|q| q.window.x1 > 256 && q.window.y1 <= 24);
         let said = found[0].to_string();
-        assert!(said.contains("wrong from column 257 on: "), "{said}");
+        assert!(said.contains("wrong from column 256 on: "), "{said}");
         assert!(said.contains("There the column in pixels passes 2^8"), "{said}");
 
         // Flat edges.

@@ -1,9 +1,9 @@
 //! The table of mistakes in filling triangles. To add one, add an entry: everything else follows from it.
 
-use super::fills::{self, Row, Slope};
+use super::fills::{self, ROWS, Slope, Stepped};
 use super::{Mistake, Parameters, border};
 use crate::comparison::area2;
-use crate::convention::{Convention, Mask, Quantum, Rounding, Ties};
+use crate::convention::{Convention, Mask, Quantum, Rounding, Ties, Windings};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -15,6 +15,8 @@ pub(super) enum Fill {
     Instead(fn(&Corners, PixelRect, i64) -> Vec<Corners>),
     /// The right picture is changed.
     Changed(fn(&mut Mask, &Corners, PixelRect, i64)),
+    /// The picture is right; these pixels of it are drawn twice.
+    Twice(fn(&Mask, &Corners, PixelRect, i64) -> Mask),
     /// The whole picture, from the place of the sample; the rule for ties is its own.
     Sampled(fn(&Corners, PixelRect, &Convention, i64) -> Mask),
     /// The whole picture, from the place of the sample and the rule for ties.
@@ -50,21 +52,52 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "rule by order",
         sentence: |p| {
+            let (owned, order) = (p % 27, p / 27);
             let edges = [
                 "from the first corner to the second",
                 "from the second to the third",
                 "from the third to the first",
             ];
-            let drawn: Vec<_> = (0..3).filter(|i| p >> i & 1 == 1).map(|i| edges[i]).collect();
-            format!("draws samples on the edge {} and on no other", drawn.join(" and "))
+            let of = |rule| -> Vec<_> {
+                (0..3)
+                    .filter(|&i| owned / 3_i64.pow(i) % 3 == rule)
+                    .map(|i| edges[i as usize])
+                    .collect()
+            };
+            let mut words = match (of(1).join(" and "), of(2).join(" and ")) {
+                (drawn, ruled) if ruled.is_empty() => {
+                    format!("draws samples on the edge {drawn} and on no other")
+                }
+                (drawn, ruled) if drawn.is_empty() => {
+                    format!(
+                        "draws samples on the edge {ruled} if the top-left rule does, and on no other"
+                    )
+                }
+                (drawn, ruled) => format!(
+                    "draws all samples on the edge {drawn}, and on the edge {ruled} if the top-left rule does"
+                ),
+            };
+            words += &exchanged(order);
+            words
         },
         repair: "let the direction of an edge decide, and not its place in the list",
         page: "ch02-edge-functions",
         refuted: "a triangle whose corners are rotated and that draws the same samples",
-        parameters: Parameters::Fixed(&[1, 2, 3, 4, 5, 6]),
+        parameters: Parameters::Below(27 * ORDERS.len() as i64),
         draws: Fill::Sampled(|corners, window, base, p| {
-            fills::by_edges(corners, window, base, &|edge, value, _| {
-                value > 0 || (value == 0 && p >> edge & 1 == 1)
+            let (base, clockwise) = (base.with_rule(RULES[0]), area2(corners) > 0);
+            // The same for all edges is no rule by order.
+            if matches!(p % 27, 0 | 13 | 26) {
+                return Mask::default();
+            }
+            fills::by_edges(corners, window, &base, &|edge, value, owns| {
+                let edge = place_of_edge(edge, p / 27, clockwise) as u32;
+                let owns = match p / 3_i64.pow(edge) % 3 {
+                    0 => false,
+                    1 => true,
+                    _ => owns,
+                };
+                value > 0 || (value == 0 && owns)
             })
         }),
     },
@@ -139,21 +172,24 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "an edge is not tested",
         sentence: |p| {
             format!(
-                "does not test the edge {}",
+                "does not test the edge {}{}",
                 [
                     "from the first corner to the second",
                     "from the second corner to the third",
                     "from the third corner to the first"
-                ][p as usize]
+                ][(p % 3) as usize],
+                exchanged(p / 3)
             )
         },
         repair: "test all three edges",
         page: "ch02-edge-functions",
         refuted: "a sample beyond that edge alone that is not drawn",
-        parameters: Parameters::Fixed(&[0, 1, 2]),
+        parameters: Parameters::Below(3 * ORDERS.len() as i64),
         draws: Fill::Ruled(|corners, window, base, p| {
+            let clockwise = area2(corners) > 0;
             fills::by_edges(corners, window, base, &|edge, value, owns| {
-                edge as i64 == p || value > 0 || (value == 0 && owns)
+                let edge = place_of_edge(edge, p / 3, clockwise);
+                edge as i64 == p % 3 || value > 0 || (value == 0 && owns)
             })
         }),
     },
@@ -162,19 +198,19 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         sentence: |p| {
             let (fraction, bits) = (p / 100 % 10, p % 100);
             let from = 1_i64 << ((bits - 1) / 2 - fraction).max(0);
+            let what =
+                ["the edge function", "the products of the edge function"][(p / 2000) as usize];
             format!(
-                "computes the edge function of coordinates with {fraction} bits of fraction in {bits} bits: the products wrap around from about {from} px on"
+                "computes {what} of coordinates with {fraction} bits of fraction in {bits} bits: the products wrap around from about {from} px on"
             )
         },
         repair: "multiply in words of twice the length, or limit the coordinates",
         page: "stability",
         refuted: "a triangle whose products do not fit and that is drawn rightly",
         parameters: Parameters::Fixed(&[
-            832, 432, 32, 16, 416, 632, 1832, 1432, 1032, 1016, 1416, 1632,
+            832, 432, 32, 16, 416, 632, 1832, 1432, 1032, 1016, 1416, 1632, 2832, 2432, 3832, 3432,
         ]),
-        draws: Fill::Ruled(|corners, window, base, p| {
-            fills::wrapping(corners, window, base, p / 100 % 10, p % 100, p >= 1000)
-        }),
+        draws: Fill::Ruled(fills::wrapping),
     },
     Mistake {
         name: "coordinates overflow",
@@ -200,11 +236,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "each axis on a grid of its own",
         sentence: |p| {
             let (axis, step, rounding) = (p % 2, STEPS[(p / 2 % 4) as usize], p / 8);
-            let grid = if step == 256 {
-                "whole pixels".to_owned()
-            } else {
-                format!("1/{} px", 256 / step)
-            };
+            let grid = grid(step);
             let [moved, kept] = if axis == 0 { ["x", "y"] } else { ["y", "x"] };
             let how = ["down", "to the nearest", "toward zero", "to the nearest, halves to even"]
                 [rounding as usize];
@@ -215,7 +247,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "snap both coordinates to the same grid, once, for every triangle",
         page: "ch01",
         refuted: "a corner with such a fraction whose edges pass where they should",
-        parameters: Parameters::Fixed(&UP_TO_31),
+        parameters: Parameters::Below(32),
         draws: Fill::Instead(|corners, _, p| {
             let (step, rounding) = (STEPS[(p / 2 % 4) as usize], p / 8);
             let cut = |v: i32| match rounding {
@@ -239,17 +271,13 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "each axis is rounded in its own way",
         sentence: |p| {
             let (step, x, y) = own_rounding(p);
-            let grid = if step == 256 {
-                "whole pixels".to_owned()
-            } else {
-                format!("1/{} px", 256 / step)
-            };
+            let grid = grid(step);
             format!("moves corners to {grid}, x {} and y {}", ROUNDINGS[x].0, ROUNDINGS[y].0)
         },
         repair: "round both coordinates in the same way, best to the nearest",
         page: "ch01",
         refuted: "a corner that both ways move elsewhere and whose edges pass where they should",
-        parameters: Parameters::Fixed(&OWN_ROUNDINGS),
+        parameters: Parameters::Below(48),
         draws: Fill::Instead(|corners, _, p| {
             let (step, x, y) = own_rounding(p);
             let to = |c: SubpixelPoint| {
@@ -272,7 +300,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "leave the edges where the corners put them: what neighbours share is drawn by one of them then",
         page: "ch02-edge-functions",
         refuted: "a sample in that strip that is drawn rightly",
-        parameters: Parameters::Fixed(&UP_TO_31),
+        parameters: Parameters::Below(32),
         draws: Fill::Ruled(|corners, window, base, p| {
             let (norm, outward, size) = (p % 2, p / 2 % 2 == 1, OFFSETS[(p / 4) as usize]);
             let lengths = [0, 1, 2].map_array(|i| {
@@ -301,7 +329,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "test the edge functions before they are divided",
         page: "ch02-edge-functions",
         refuted: "a sample whose weight is below a step and that is drawn rightly",
-        parameters: Parameters::Fixed(&UP_TO_63),
+        parameters: Parameters::Below(64),
         draws: Fill::Sampled(|corners, window, base, p| {
             let bits = WEIGHT_BITS[(p / 8) as usize];
             let area = area2(corners);
@@ -324,7 +352,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         }),
     },
     Mistake {
-        name: "corners are clamped to the window",
+        name: "corners are clamped",
         sentence: |p| {
             let where_ = [
                 "the window",
@@ -332,21 +360,23 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "the upper and left border",
                 "the lower and right border",
             ];
+            let range = || {
+                let [low, high] = clamped_to(p, 0);
+                format!("the range from {} to {} px", low / 256, high / 256)
+            };
             format!(
                 "moves corners that lie outside to {}, so that the slopes of edges change",
-                where_[p as usize]
+                where_.get(p as usize).map_or_else(range, |place| (*place).to_owned())
             )
         },
         repair: "clip the edges, or draw the box of the triangle within the window by unchanged edges",
         page: "ch07",
         refuted: "a triangle with a corner outside whose edges keep their slope",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3]),
+        parameters: Parameters::Below(4 + 3 * 9),
         draws: Fill::Instead(|corners, window, p| {
-            let clamp = |v: i32, side_px: i32| match p {
-                0 => v.clamp(0, side_px * SUBPIXELS),
-                1 => v.clamp(0, (side_px - 1) * SUBPIXELS),
-                2 => v.max(0),
-                _ => v.min(side_px * SUBPIXELS),
+            let clamp = |v: i32, side_px: i32| {
+                let [low, high] = clamped_to(p, side_px);
+                v.clamp(low, high)
             };
             vec![
                 corners.map_array(|c| {
@@ -366,11 +396,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                     "cut down",
                 ][(p / 4) as usize],
             );
-            let grid = if step == 256 {
-                "whole pixels".to_owned()
-            } else {
-                format!("1/{} px", 256 / step)
-            };
+            let grid = grid(step);
             format!(
                 "clips triangles at the window and the corners that this makes are {how}, to {grid}: shared edges that cross the border leave holes and doubles"
             )
@@ -378,9 +404,9 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "keep the unclipped edges for the fill, or compute new corners in the same order for both neighbours and with more bits",
         page: "ch07",
         refuted: "a triangle that crosses the border at a point between those of the grid and is drawn rightly",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]),
+        parameters: Parameters::Below(12),
         draws: Fill::Instead(|corners, window, p| {
-            fills::clipped(corners, window, CLIP_STEPS[(p % 4) as usize], p / 4)
+            fills::clipped(corners, window, CLIP_STEPS[(p % 4) as usize].into(), p / 4)
         }),
     },
     Mistake {
@@ -396,7 +422,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "walk both halves along the unsplit long edge",
         page: "ch02-scanline",
         refuted: "a triangle whose long edge passes between two points of that grid and is drawn rightly",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
+        parameters: Parameters::Below(10),
         draws: Fill::Instead(|corners, _, p| {
             fills::split(corners, STEPS_WITH_ONE[(p % 5) as usize], p / 5 == 1)
         }),
@@ -424,12 +450,33 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         }),
     },
     Mistake {
+        name: "small ones are drawn from behind",
+        sentence: |p| {
+            let (metric, _, limit) = size(p);
+            let (what, unit, _) = fills::METRICS[metric];
+            let limit = fills::decimal(limit, if metric == 0 { 131_072 } else { 256 });
+            format!(
+                "draws triangles of the winding that it does not draw where their {what} is below about {limit} {unit}"
+            )
+        },
+        repair: "the sign of the area alone decides about the winding, without a threshold",
+        page: "ch02-edge-functions",
+        refuted: "such a triangle that is not drawn",
+        parameters: Parameters::Sizes,
+        draws: Fill::Ruled(|corners, window, base, p| {
+            let (metric, below, limit) = size(p);
+            let is_small = below && fills::metric(corners, metric) < limit;
+            let draws = if is_small { Windings::Both } else { base.draws };
+            Convention { draws, ..*base }.mask(corners, window).unwrap_or_default()
+        }),
+    },
+    Mistake {
         name: "triangles are left out by kind",
         sentence: |p| format!("does not draw triangles {}", KINDS[p as usize].0),
         repair: "treat this kind as any other: it covers samples",
         page: "ch02",
         refuted: "a triangle of that kind that is drawn",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8]),
+        parameters: Parameters::Below(KINDS.len() as i64),
         draws: Fill::Changed(|mask, corners, window, p| {
             if KINDS[p as usize].1(corners, window) {
                 *mask = Mask::default();
@@ -440,19 +487,26 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "a half is missing",
         sentence: |p| {
             format!(
-                "draws the {} half alone, of the two that the middle corner makes",
-                ["upper", "lower"][p as usize]
+                "draws {}, of the two halves that the middle corner makes",
+                [
+                    "the upper half alone",
+                    "the lower half alone",
+                    "all but the first row of the lower half",
+                    "all but the last row of the upper half"
+                ][p as usize]
             )
         },
-        repair: "fill both halves",
+        repair: "fill both halves: the lower one begins in the row where the upper one ends",
         page: "ch02-scanline",
         refuted: "a pixel of the other half that is drawn",
-        parameters: Parameters::Fixed(&[0, 1]),
+        parameters: Parameters::Below(4),
         draws: Fill::Changed(|mask, corners, window, p| {
-            let mut ys = corners.map_array(|c| c.y);
-            ys.sort_unstable();
-            let middle = i64::from(ys[1]);
-            mask.retain(window, &|_, y| (i64::from(y) * 256 + 128 < middle) == (p == 0));
+            let middle = fills::middle_row(corners);
+            mask.retain(window, &|_, y| match p {
+                0 => i64::from(y) < middle,
+                1 => i64::from(y) >= middle,
+                _ => i64::from(y) != middle + 2 - p,
+            });
         }),
     },
     Mistake {
@@ -461,7 +515,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "compare the bounds of the loop with the fill rule: one of them is one off",
         page: "ch02-scanline",
         refuted: "a row or column with both of its ends right",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
+        parameters: Parameters::Below(10),
         draws: Fill::Changed(fills::ends),
     },
     border(Fill::Changed(|mask, _, window, p| fills::without_border(mask, window, p))),
@@ -477,9 +531,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "the box runs from the floor of the smallest coordinate to the ceiling of the largest one",
         page: "games101",
         refuted: "a covered pixel outside that box that is drawn",
-        parameters: Parameters::Fixed(&[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17,
-        ]),
+        parameters: Parameters::Below(18),
         draws: Fill::Changed(|mask, corners, window, p| {
             let of = BOXES[(p / 3) as usize].1;
             let bounds = |axis: usize| {
@@ -499,17 +551,85 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         sentence: |p| {
             let side = p % 100;
             let tested = [
-                "of whose corner pixels none is covered",
-                "whose middle is not covered",
-                "whose first pixel is not covered",
+                "skips tiles of {} px of whose corner pixels none is covered",
+                "skips tiles of {} px whose middle is not covered",
+                "skips tiles of {} px whose first pixel is not covered",
+                "skips tiles of {} px of whose corners none lies in the triangle",
+                "skips tiles of {} px whose middle lies farther from an edge than half their side",
+                "skips tiles of {} px whose first corner lies outside",
+                "draws blocks of {} px wholly or not at all, as it draws their first pixel",
+                "draws blocks of {} px wholly if it draws any pixel of them",
+                "loses the last column that a triangle has in each tile of {} px",
+                "skips tiles of {} px of whose corner pixels in the window none is covered",
             ][(p / 100) as usize];
-            format!("skips tiles of {side} x {side} px {tested}")
+            tested.replace("{}", &format!("{side} x {side}"))
         },
-        repair: "reject a tile only where one edge has the whole tile outside",
+        repair: "reject a tile only where one edge has the whole tile outside, and test each pixel of the others",
         page: "speed",
         refuted: "a covered pixel in such a tile that is drawn",
-        parameters: Parameters::Fixed(&[2, 4, 8, 16, 102, 104, 108, 116, 202, 204, 208, 216]),
+        parameters: Parameters::Fixed(&TILES),
         draws: Fill::Changed(fills::tiles),
+    },
+    Mistake {
+        name: "the rest of a group",
+        sentence: |p| {
+            let [n, kind] = [1 << (p % 4 + 1), p / 4];
+            let what = [
+                "loses the pixels at the end of a row that do not fill a group of {}",
+                "begins every row at a multiple of {} and loses the pixels before",
+                "ends every row at a multiple of {} and loses the pixels after",
+                "loses the last columns of the box around a triangle that do not fill a group of {}",
+                "begins the box around a triangle at a multiple of {} and loses the columns before",
+                "loses the last columns of the window that do not fill a group of {}",
+                "draws every row up to the end of a group of {}, beyond the edge",
+                "draws every row in groups that begin at multiples of {}, beyond both edges",
+                "loses the last rows of the box around a triangle that do not fill a group of {}",
+                "loses the last rows of the window that do not fill a group of {}",
+            ][kind as usize];
+            what.replace("{}", &n.to_string())
+        },
+        repair: "draw what is left after the last whole group pixel by pixel, or by a mask",
+        page: "speed",
+        refuted: "a row whose length is no multiple of the group and that is right",
+        parameters: Parameters::Below(40),
+        draws: Fill::Changed(fills::groups),
+    },
+    Mistake {
+        name: "pixels are drawn twice",
+        sentence: |p| {
+            let what = [
+                "the last row of a triangle",
+                "the first row of a triangle",
+                "the row of the middle corner",
+                "the row that holds the lowest corner",
+                "the first pixel of every row",
+                "the last pixel of every row",
+                "the last column of a triangle",
+                "all pixels of a triangle",
+                "the pixels at the border of a triangle",
+            ];
+            format!("draws {} twice, so that what is blended there is too strong", what[p as usize])
+        },
+        repair: "compare the bounds of the loops: one ends where the next one begins",
+        page: "ch02-scanline",
+        refuted: "such a pixel that is drawn once",
+        parameters: Parameters::Below(9),
+        draws: Fill::Twice(fills::twice),
+    },
+    Mistake {
+        name: "edges in whole numbers",
+        sentence: |p| {
+            format!(
+                "cuts the steps of the edge functions to {}, so that edges turn{}",
+                grid(STEPS_WITH_ONE[(p % 4) as usize]),
+                ["", ", and begins with a whole number too"][(p / 4) as usize]
+            )
+        },
+        repair: "keep the fraction of the steps, or snap the corners before the steps are computed",
+        page: "ch02-edge-functions",
+        refuted: "a long edge between corners with a fraction that passes where it should",
+        parameters: Parameters::Below(8),
+        draws: Fill::Ruled(fills::cut_edges),
     },
     Mistake {
         name: "parts of the window are never drawn",
@@ -542,7 +662,8 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "snap the corners to a grid and compute the edge functions in integers",
         page: "stability",
         refuted: "a sample on an edge that this formula rounds away and that is drawn rightly",
-        parameters: Parameters::Fixed(&FLOATS),
+        // A formula, whether corners are exchanged where they turn the other way, and the precision.
+        parameters: Parameters::Below(4 * fills::FORMULAS.len() as i64),
         draws: Fill::Ruled(|corners, window, base, p| {
             fills::float(corners, window, base, (p / 4) as usize, p / 2 % 2 == 0, p % 2 == 0)
         }),
@@ -550,22 +671,46 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "crossings are stepped",
         sentence: |p| {
-            let (slope, late, row, restarts) = stepped(p);
+            let Stepped { slope, late, row, restarts, above } = stepped(p);
             format!(
-                "adds the slope of an edge row by row {}{}{}, and {}",
+                "adds the slope of an edge row by row {}{}{}{}, and {}",
                 slope.about(),
                 if late { ", beginning at the corner and not at the first row" } else { "" },
                 if restarts { ", begins anew at the middle corner" } else { "" },
-                row.about()
+                [
+                    "",
+                    ", begins in row 0 with the crossing of a first row above the window",
+                    ", begins anew in row 0"
+                ][above as usize],
+                ROWS[row as usize]
             )
         },
         repair: "compute each crossing from the corner, or keep the remainder of the division as Bresenham's algorithm does",
         page: "ch02-scanline",
         refuted: "a long edge whose last rows are where they should be",
-        parameters: Parameters::Fixed(&STEPPED),
+        parameters: Parameters::Below(STEPPED),
         draws: Fill::Own(|corners, window, p| {
-            let (slope, late, row, restarts) = stepped(p);
-            fills::stepped(corners, window, slope, late, row, restarts)
+            fills::stepped(fills::sorted(corners), window, stepped(p))
+        }),
+    },
+    Mistake {
+        name: "corners are sorted by whole rows",
+        sentence: |p| {
+            format!(
+                "sorts the corners by their heights in whole pixels ({}), so that corners in one row keep the order in which they are given, and {}",
+                ["cut down", "rounded", "rounded up"][(p / 5) as usize],
+                ROWS[(p % 5) as usize]
+            )
+        },
+        repair: "sort by the heights that the slopes are computed from",
+        page: "ch02-scanline",
+        refuted: "two corners in one row, the lower one first, and a triangle that is drawn rightly",
+        parameters: Parameters::Below(15),
+        draws: Fill::Own(|corners, window, p| {
+            let slope = Slope::BetweenDouble;
+            let sorted = fills::sorted_by_rows(corners, p / 5);
+            let how = Stepped { slope, late: false, row: p % 5, restarts: false, above: 0 };
+            fills::stepped(sorted, window, how)
         }),
     },
     Mistake {
@@ -593,7 +738,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "neighbours draw the pixels of a shared edge twice: keep the fraction of the corners and follow a fill rule",
         page: "ch02-scanline",
         refuted: "a corner whose fraction moves an edge",
-        parameters: Parameters::Fixed(&UP_TO_63),
+        parameters: Parameters::Below(64),
         draws: Fill::Own(fills::whole_pixels),
     },
     Mistake {
@@ -608,7 +753,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "keep the fraction of the corners, and draw the samples between the crossings: what lies on the right edge belongs to the neighbour",
         page: "ch02-scanline",
         refuted: "a corner whose fraction moves an edge",
-        parameters: Parameters::Fixed(&UP_TO_31),
+        parameters: Parameters::Below(32),
         draws: Fill::Own(fills::crossings),
     },
     Mistake {
@@ -676,6 +821,13 @@ fn pair(p: i64) -> (usize, usize) {
     ((p / 6) as usize, (p % 6) as usize)
 }
 
+fn grid(step: i32) -> String {
+    match step {
+        256 => "whole pixels".to_owned(),
+        _ => format!("1/{} px", 256 / step),
+    }
+}
+
 /// Ways to bring a coordinate to a step.
 type Round = fn(i32, i32) -> i32;
 const ROUNDINGS: [(&str, Round); 4] = [
@@ -690,7 +842,6 @@ fn own_rounding(p: i64) -> (i32, usize, usize) {
     let (x, y) = ((p % 4) as usize, (p / 4 % 3) as usize);
     (STEPS[(p / 12) as usize], x, if y >= x { y + 1 } else { y })
 }
-const OWN_ROUNDINGS: [i64; 48] = up_to();
 /// How far an edge may be moved, in subpixels.
 const OFFSETS: [i64; 8] = [1, 2, 8, 16, 32, 64, 128, 256];
 /// Bits of weights in whole numbers.
@@ -698,7 +849,7 @@ const WEIGHT_BITS: [u32; 8] = [4, 7, 8, 10, 12, 14, 15, 16];
 
 const STEPS: [i32; 4] = [256, 128, 64, 16];
 const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
-const CLIP_STEPS: [i64; 4] = [256, 64, 16, 4];
+const CLIP_STEPS: [i32; 4] = [256, 64, 16, 4];
 
 const METRICS: i64 = fills::METRICS.len() as i64;
 
@@ -712,7 +863,7 @@ pub(super) fn size(p: i64) -> (usize, bool, i64) {
 }
 
 type IsKind = fn(&Corners, PixelRect) -> bool;
-const KINDS: [(&str, IsKind); 9] = [
+const KINDS: [(&str, IsKind); 13] = [
     ("with a level upper edge", |c, _| fills::flat(c) == Some(true)),
     ("with a level lower edge", |c, _| fills::flat(c) == Some(false)),
     ("with an upright edge", |[a, b, c], _| a.x == b.x || b.x == c.x || c.x == a.x),
@@ -722,7 +873,25 @@ const KINDS: [(&str, IsKind); 9] = [
     ("with all corners outside the window", |c, w| c.iter().all(|p| !fills::holds(w, *p))),
     ("whose first corner lies outside the window", |c, w| !fills::holds(w, c[0])),
     ("with a negative coordinate", |c, _| c.iter().any(|p| p.x < 0 || p.y < 0)),
+    ("that have no area once their corners are rounded to whole pixels", |c, _| {
+        area2(&whole(c, 128)) == 0
+    }),
+    ("that have no area once their corners are cut to whole pixels", |c, _| {
+        area2(&whole(c, 0)) == 0
+    }),
+    ("that turn round or have no area once their corners are rounded to whole pixels", |c, _| {
+        area2(&whole(c, 128)).signum() != area2(c).signum()
+    }),
+    ("that turn round or have no area once their corners are cut to whole pixels", |c, _| {
+        area2(&whole(c, 0)).signum() != area2(c).signum()
+    }),
 ];
+
+/// The corners in whole pixels, after so many subpixels were added.
+fn whole(corners: &Corners, half: i32) -> Corners {
+    let cut = |v: i32| v.saturating_add(half).div_euclid(SUBPIXELS) * SUBPIXELS;
+    corners.map_array(|c| SubpixelPoint::new(cut(c.x), cut(c.y)))
+}
 
 const ENDS: [&str; 10] = [
     "loses the first row of every triangle",
@@ -773,28 +942,75 @@ fn suffix(number: i64) -> &'static str {
     }
 }
 
-/// A formula, whether corners are exchanged where they turn the other way, and the precision.
-const FLOATS: [i64; 44] = up_to();
-
-const UP_TO_31: [i64; 32] = up_to();
-const STEPPED: [i64; 72] = up_to();
-
-/// All numbers below one.
-const fn up_to<const N: usize>() -> [i64; N] {
-    let mut all = [0; N];
-    let mut i = 0;
-    while i < N {
-        all[i] = i as i64;
+/// Sides and tests of tiles.
+const TILES: [i64; 48] = {
+    let mut all = [0; 48];
+    let (mut i, mut n) = (0, 0);
+    while i < 50 {
+        let side = 2 << (i % 5);
+        // A tile as large as the window has its middle or first pixel beyond, or is all.
+        if side < 32 || i / 5 == 0 || i / 5 > 2 {
+            all[n] = 100 * (i / 5) + side;
+            n += 1;
+        }
         i += 1;
     }
     all
+};
+
+/// Which corners are exchanged first, and of which triangles.
+const ORDERS: [&str; 7] = [
+    "",
+    "the second and the third corner of counterclockwise",
+    "the second and the third corner of clockwise",
+    "the first and the second corner of counterclockwise",
+    "the first and the second corner of clockwise",
+    "the first and the third corner of counterclockwise",
+    "the first and the third corner of clockwise",
+];
+
+fn exchanged(order: i64) -> String {
+    match order {
+        0 => String::new(),
+        _ => format!(", after {} triangles were exchanged", ORDERS[order as usize]),
+    }
 }
 
-const UP_TO_63: [i64; 64] = up_to();
+/// Where an edge comes once the corners are exchanged.
+fn place_of_edge(edge: usize, order: i64, clockwise: bool) -> usize {
+    if order == 0 || clockwise == (order % 2 == 1) {
+        return edge;
+    }
+    [[2, 1, 0], [0, 2, 1], [1, 0, 2]][(order as usize - 1) / 2][edge]
+}
 
-fn stepped(p: i64) -> (Slope, bool, Row, bool) {
-    let [slope, late, row, restarts] = [p % 9, p / 9 % 2, p / 18 % 2, p / 36];
-    (Slope::ALL[slope as usize], late == 1, Row::ALL[row as usize], restarts == 1)
+/// The range that coordinates are clamped to, in subpixels: of a window with such a side, or of a number with a power of two.
+fn clamped_to(p: i64, side_px: i32) -> [i32; 2] {
+    let far = i32::MAX;
+    let [kind, limit] = [(p - 4) % 3, 128 << ((p - 4).max(0) / 3)].map(|v| v as i32);
+    match p {
+        0 => [0, side_px * SUBPIXELS],
+        1 => [0, (side_px - 1) * SUBPIXELS],
+        2 => [0, far],
+        3 => [-far, side_px * SUBPIXELS],
+        _ => {
+            let last = limit - i32::from(kind > 0);
+            [if kind == 2 { 0 } else { -limit }, last].map_array(|v| v * SUBPIXELS)
+        }
+    }
+}
+
+const STEPPED: i64 = Slope::COUNT * 2 * 5 * 2 * 3;
+
+fn stepped(p: i64) -> Stepped {
+    let rest = p / Slope::COUNT;
+    Stepped {
+        slope: Slope::of(p % Slope::COUNT),
+        late: rest % 2 == 1,
+        row: rest / 2 % 5,
+        restarts: rest / 10 % 2 == 1,
+        above: rest / 20,
+    }
 }
 
 impl Convention {

@@ -108,6 +108,18 @@ const VALUES: &[ValueMistake] = &[
         },
     },
     ValueMistake {
+        name: "w interpolated on the screen",
+        does: "interpolates a/w and w linearly on the screen and multiplies them",
+        repair: "interpolate 1/w, and divide by it at every pixel",
+        page: "ch05",
+        refuted: "a triangle with unequal w and right attributes",
+        values: |t, l| {
+            let w = sum(l, t.vertices.map(|v| 1.0 / v.inv_w));
+            let over_w = [0, 1, 2].map(|i| l[i] * t.vertices[i].inv_w * w);
+            with(sum(l, depths(t)), attributes(t, over_w))
+        },
+    },
+    ValueMistake {
         name: "attributes exchanged",
         does: "exchanges the two attributes",
         repair: "keep their order from the corners to the pixels",
@@ -125,6 +137,14 @@ const VALUES: &[ValueMistake] = &[
         page: "ch05",
         refuted: "two pixels of a triangle with different values",
         values: |t, _| right_values(t, [1.0, 0.0, 0.0]),
+    },
+    ValueMistake {
+        name: "values of one corner",
+        does: "gives every pixel the values of the second corner",
+        repair: "interpolate between the corners",
+        page: "ch05",
+        refuted: "two pixels of a triangle with different values",
+        values: |t, _| right_values(t, [0.0, 1.0, 0.0]),
     },
     ValueMistake {
         name: "values of one corner",
@@ -160,6 +180,38 @@ const VALUES: &[ValueMistake] = &[
             let w: f64 = 1.0 / sum(l, t.vertices.map(|v| v.inv_w));
             with(w, attributes(t, corrected(t, l)))
         },
+    },
+    ValueMistake {
+        name: "1/w as depth",
+        does: "gives 1/w as depth",
+        repair: "give z/w",
+        page: "ch06",
+        refuted: "a depth other than 1/w",
+        values: |t, l| with(sum(l, t.vertices.map(|v| v.inv_w)), attributes(t, corrected(t, l))),
+    },
+    ValueMistake {
+        name: "another range of depth",
+        does: "turns depth round: 1 - z",
+        repair: "leave depth as the corners have it",
+        page: "ch06",
+        refuted: "a depth near 0 that is given as such",
+        values: |t, l| with(1.0 - sum(l, depths(t)), attributes(t, corrected(t, l))),
+    },
+    ValueMistake {
+        name: "another range of depth",
+        does: "takes depth for a number between -1 and 1 and gives (z + 1) / 2",
+        repair: "leave depth as the corners have it",
+        page: "ch06",
+        refuted: "a depth near 0 that is given as such",
+        values: |t, l| with(sum(l, depths(t)) / 2.0 + 0.5, attributes(t, corrected(t, l))),
+    },
+    ValueMistake {
+        name: "another range of depth",
+        does: "gives depth between -1 and 1: 2 z - 1",
+        repair: "leave depth as the corners have it",
+        page: "ch06",
+        refuted: "a depth near 0 that is given as such",
+        values: |t, l| with(sum(l, depths(t)) * 2.0 - 1.0, attributes(t, corrected(t, l))),
     },
     ValueMistake {
         name: "weights of other corners",
@@ -250,7 +302,7 @@ const VALUES: &[ValueMistake] = &[
         },
     },
     ValueMistake {
-        name: "values at another place",
+        name: ELSEWHERE,
         does: "computes right values",
         repair: "compute values where coverage is sampled",
         page: "ch05",
@@ -260,12 +312,14 @@ const VALUES: &[ValueMistake] = &[
 ];
 
 /// Where values may be taken in a pixel, and how that is said.
-const PLACES: [([f64; 2], &str); 5] = [
+const PLACES: [([f64; 2], &str); 7] = [
     ([0.5, 0.5], ""),
     ([0.0, 0.0], ", at the upper left corner of the pixel"),
     ([1.0, 1.0], ", at the lower right corner of the pixel"),
     ([0.0, 0.5], ", at the left side of the pixel"),
     ([0.5, 0.0], ", at the upper side of the pixel"),
+    ([1.0, 0.5], ", at the right side of the pixel"),
+    ([0.5, 1.0], ", at the lower side of the pixel"),
 ];
 
 fn px(p: SubpixelPoint) -> [f64; 2] {
@@ -295,13 +349,55 @@ const CORNERS: [(Moved, &str); 3] = [
     ),
 ];
 
-/// A mistake at a place, from corners as they are or moved.
+/// Numbers in which values are kept, and how that is said.
+type Kept = fn(f64) -> f64;
+const KEPT: [(Kept, &str); 9] = [
+    (|v| mantissa(v, 10, f64::round), "floats of 16 bits, rounded"),
+    (|v| mantissa(v, 10, f64::trunc), "floats of 16 bits, cut"),
+    (
+        |v| mantissa(v, 7, f64::round),
+        "floats of 16 bits with the exponent of one of 32 bits, rounded",
+    ),
+    (|v| mantissa(v, 7, f64::trunc), "floats of 16 bits with the exponent of one of 32 bits, cut"),
+    (|v| (v.clamp(0.0, 1.0) * 255.0).round() / 255.0, "8 bits between 0 and 1, rounded"),
+    (|v| (v.clamp(0.0, 1.0) * 255.0).floor() / 255.0, "8 bits between 0 and 1, cut down"),
+    (|v| (v * 256.0).floor() / 256.0, "1/256, cut down"),
+    (|v| (v * 256.0).trunc() / 256.0, "1/256, cut toward zero"),
+    (|v| v.trunc(), "whole numbers, cut toward zero"),
+];
+
+/// The power of two of the first digit of a number that is not tiny.
+#[must_use]
+pub fn exponent(v: f64) -> i32 {
+    (v.to_bits() >> 52 & 0x7ff) as i32 - 1023
+}
+
+fn mantissa(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {
+    if v == 0.0 || !v.is_finite() {
+        return v;
+    }
+    let unit = f64::from(2).powi(exponent(v) - bits);
+    cut(v / unit) * unit
+}
+
+/// Which values a mistake is in, and how that is said; the others are right.
+const PARTS: [([bool; 3], &str); 3] = [
+    ([true; 3], ""),
+    ([false, true, true], " (attributes alone: depth is right)"),
+    ([true, false, false], " (depth alone: attributes are right)"),
+];
+
+/// A mistake in some values at a place, from corners as they are or moved.
 pub struct ValueHypothesis {
     /// What is said of it.
     pub says: Explanation,
     place: [f64; 2],
     moved: Moved,
     values: fn(&Triangle, [f64; 3]) -> [f64; 3],
+    parts: [bool; 3],
+    kept: Kept,
+    /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row.
+    steps: Option<(i32, bool)>,
 }
 
 impl ValueHypothesis {
@@ -310,27 +406,139 @@ impl ValueHypothesis {
     pub fn predict(&self, triangle: &Triangle, (x_px, y_px): (i32, i32)) -> [f64; 3] {
         let corners =
             triangle.corners().map(|p| SubpixelPoint::new((self.moved)(p.x), (self.moved)(p.y)));
-        let at = [f64::from(x_px) + self.place[0], f64::from(y_px) + self.place[1]];
-        (self.values)(triangle, weights(&corners, at))
+        let weights_at =
+            |x: i32| weights(&corners, [0, 1].map(|i| f64::from([x, y_px][i]) + self.place[i]));
+        let at = |x: i32| (self.values)(triangle, weights_at(x)).map(self.kept);
+        let mut values = at(x_px);
+        if let Some((steps, from_first)) = self.steps {
+            let is_in = |x: i32| weights_at(x).iter().all(|weight| *weight >= 0.0);
+            let first = match from_first {
+                true => (0..x_px).rev().find(|&x| !is_in(x)).map_or(0, |x| x + 1),
+                false => 0,
+            };
+            let start = first + (x_px - first) / steps * steps;
+            let (from, to) = (at(start), at(start + steps));
+            let part = f64::from(x_px - start) / f64::from(steps);
+            for i in [1, 2] {
+                values[i] = from[i] + (to[i] - from[i]) * part;
+            }
+        }
+        let right = right_at(triangle, (x_px, y_px));
+        [0, 1, 2].map(|i| if self.parts[i] { values[i] } else { right[i] })
     }
 }
 
-/// Every mistake, from all corners, at all places.
+/// Right values at a pixel.
+#[must_use]
+pub fn right_at(triangle: &Triangle, (x_px, y_px): (i32, i32)) -> [f64; 3] {
+    let at = [x_px, y_px].map(|v| f64::from(v) + 0.5);
+    right_values(triangle, weights(&triangle.corners(), at))
+}
+
+/// Whether a prediction explains values, of a pixel each: it lies within ten times what is allowed, as predictions are rounded too,
+/// and where the values are wrong it is much nearer to them than right ones are.
+#[must_use]
+pub fn are_explained(
+    triangle: &Triangle,
+    fragments: &mut dyn Iterator<Item = &Fragment<DVec2>>,
+    predict: &dyn Fn((i32, i32)) -> Option<[f64; 3]>,
+    allowed: &dyn Fn([f64; 3]) -> [f64; 3],
+) -> bool {
+    let (mut off, mut off_right) = (0.0_f64, 0.0_f64);
+    for fragment in fragments {
+        let pixel = (fragment.x_px, fragment.y_px);
+        let Some(predicted) = predict(pixel) else { continue };
+        let (right, allowed) = (right_at(triangle, pixel), allowed(predicted));
+        let values = [fragment.depth, fragment.varying.x, fragment.varying.y];
+        for i in 0..3 {
+            let miss = (values[i] - predicted[i]).abs() / allowed[i];
+            if miss > 10.0 || miss.is_nan() {
+                return false;
+            }
+            off = off.max(miss);
+            off_right = off_right.max((values[i] - right[i]).abs() / allowed[i]);
+        }
+    }
+    off_right <= 1.0 || 2.0 * off <= off_right
+}
+
+/// Every mistake, from all corners, at all places, in all values or in some.
 #[must_use]
 pub fn of_values() -> Vec<ValueHypothesis> {
     let mut all = Vec::new();
-    for (moved, from) in CORNERS {
-        for (place, at) in PLACES {
+    let mut add = |mistake: &ValueMistake, does: String, of: ValueHypothesis| {
+        let ValueMistake { name, repair, page, refuted, .. } = *mistake;
+        let says = Explanation::new(name, does, repair, page, refuted);
+        all.push(ValueHypothesis { says, ..of });
+    };
+    let nothing = || Explanation::new("", String::new(), "", "", "");
+    let right = |parts| ValueHypothesis {
+        says: nothing(),
+        place: PLACES[0].0,
+        moved: CORNERS[0].0,
+        values: right_values,
+        parts,
+        kept: |v| v,
+        steps: None,
+    };
+    for (i, (moved, from)) in CORNERS.into_iter().enumerate() {
+        for (k, (place, at)) in PLACES.into_iter().enumerate() {
             for mistake in VALUES {
-                let ValueMistake { name, does, repair, page, refuted, values } = *mistake;
-                let says =
-                    Explanation::new(name, format!("{does}{at}{from}"), repair, page, refuted);
-                all.push(ValueHypothesis { says, place, moved, values });
+                // Right values at the right place are no mistake.
+                let is_mistake = i + k > 0 || mistake.name != ELSEWHERE;
+                let parts = if SPLIT.contains(&mistake.name) { &PARTS[..] } else { &PARTS[..1] };
+                for &(parts, said) in parts.iter().filter(|_| is_mistake) {
+                    let does = format!("{}{at}{from}{said}", mistake.does);
+                    let values = mistake.values;
+                    add(mistake, does, ValueHypothesis { place, moved, values, ..right(parts) });
+                }
             }
         }
     }
+    for (parts, said) in PARTS {
+        for (kept, numbers) in KEPT {
+            let does = format!("keeps values in {numbers}{said}");
+            add(&FEW_BITS, does, ValueHypothesis { kept, ..right(parts) });
+        }
+    }
+    for (steps, from_first) in
+        [(8, true), (8, false), (16, true), (16, false), (4, true), (4, false)]
+    {
+        let does = format!(
+            "corrects attributes for perspective at every {steps}th pixel, counted from {}, and interpolates linearly between",
+            if from_first { "the first one of the row" } else { "the left side of the window" }
+        );
+        add(&STEPS, does, ValueHypothesis { steps: Some((steps, from_first)), ..right([true; 3]) });
+    }
     all
 }
+
+/// Mistakes in depth and attributes alike, which may be in either alone.
+const SPLIT: [&str; 6] = [
+    "values of one corner",
+    "the mean of the corners",
+    "values are clamped",
+    "weights of other corners",
+    "corners keep their places when they are exchanged",
+    ELSEWHERE,
+];
+const ELSEWHERE: &str = "values at another place";
+const FEW_BITS: ValueMistake = ValueMistake {
+    name: "values in few bits",
+    does: "",
+    repair: "compute in floats of 32 bits, and shorten what is stored",
+    page: "ch05",
+    refuted: "a value between two such numbers",
+    values: right_values,
+};
+const STEPS: ValueMistake = ValueMistake {
+    name: "attributes linear in parts",
+    does: "",
+    repair: "divide at every pixel",
+    page: "ch05",
+    refuted: "a pixel between two of these with the attributes of its place",
+    values: right_values,
+};
 
 /// The families in which the mistakes differ.
 pub const FAMILIES: &[&str] = &["w-100", "uniform", "w-extreme", "fan"];
@@ -357,16 +565,11 @@ pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mis
         says: known.says.clone(),
         predicts: Box::new(move |i| {
             let (triangle, (fragments, bounds, _)) = &all[i];
-            fragments.iter().all(|f| {
-                let predicted = known.predict(triangle, (f.x_px, f.y_px));
-                let values = [f.depth, f.varying.x, f.varying.y];
-                let near = |((value, predicted), bound): ((f64, f64), f64)| {
-                    // Predictions are rounded too.
-                    let rounding = 64.0 * f64::EPSILON * predicted.abs();
-                    (value - predicted).abs() <= 10.0 * bound + rounding
-                };
-                values.into_iter().zip(predicted).zip(*bounds).all(near)
-            })
+            let allowed = |predicted: [f64; 3]| {
+                [0, 1, 2].map(|i| bounds[i] + 6.4 * f64::EPSILON * predicted[i].abs())
+            };
+            let predict = |pixel| Some(known.predict(triangle, pixel));
+            are_explained(triangle, &mut fragments.iter(), &predict, &allowed)
         }),
     };
     of_answers(of_values().into_iter().map(hypothesis).collect(), &is_wrong)

@@ -21,13 +21,22 @@ pub(super) struct Weight {
 }
 
 impl Weight {
-    fn of(hypothesis: &Hypothesis<'_>, questions: &[usize], is_wrong: &[bool]) -> Self {
+    /// Nothing where it misses more than `most` answers.
+    fn of(
+        hypothesis: &Hypothesis<'_>,
+        questions: &[usize],
+        is_wrong: &[bool],
+        most: u64,
+    ) -> Option<Self> {
         let mut weight = Self::default();
         for &i in questions {
             let count = if is_wrong[i] { &mut weight.wrong } else { &mut weight.right };
             count.add((hypothesis.predicts)(i));
+            if weight.missed() > most {
+                return None;
+            }
         }
-        weight
+        Some(weight)
     }
 
     fn of_one(&self, hypothesis: &Hypothesis<'_>) -> Explanation {
@@ -45,12 +54,13 @@ impl Weight {
     }
 }
 
-/// Answers that a hypothesis is first tried on, of the wrong and of the right ones.
-const FEW: usize = 16;
-/// Hypotheses that are tried on all answers.
-const KEPT: usize = 60;
+/// Looks at all hypotheses and at those that are left of them: how many wrong answers and as many right ones are tried, how
+/// many hypotheses are kept, and how many of one name at most.
+const LOOKS: [(usize, usize, usize); 2] = [(16, 160, 80), (40, 60, 30)];
 /// Of these, those that are tried on answers that they were not chosen by.
 const TRIED: usize = 24;
+/// Wrong answers that may be missed at a look, although they are most.
+const LEAST_MISSED: usize = 2;
 /// Wrong answers below which nothing is concluded.
 pub(super) const LEAST_WRONG: usize = 6;
 
@@ -62,38 +72,48 @@ pub(super) fn weigh(
     is_wrong: &[bool],
     among: &[usize],
 ) -> (Vec<Explanation>, Option<Explanation>) {
-    let all = |wrong: bool| among.iter().copied().filter(move |&i| is_wrong[i] == wrong);
-    if all(true).count() < LEAST_WRONG {
+    if among.iter().filter(|&&i| is_wrong[i]).count() < LEAST_WRONG {
         return (Vec::new(), None);
     }
-    // Every second of the wrong ones and of the right ones, so that both halves have both.
-    let half = |which: usize| -> Vec<usize> {
-        let of = |wrong| all(wrong).skip(which).step_by(2);
-        of(true).chain(of(false)).collect()
-    };
-    let (fitted, fresh) = (half(0), half(1));
-    let some =
-        |wrong: bool| fitted.iter().copied().filter(move |&i| is_wrong[i] == wrong).take(FEW);
-    let few: Vec<usize> = some(true).chain(some(false)).collect();
-    let mut scored: Vec<_> = hypotheses
-        .iter()
-        .map(|hypothesis| (first_look(hypothesis, &few, is_wrong), hypothesis))
-        .collect();
-    scored.sort_by_key(|(missed, _)| *missed);
-    scored.truncate(KEPT);
-    let mut scored: Vec<_> = scored
-        .into_iter()
-        .map(|(_, hypothesis)| (Weight::of(hypothesis, &fitted, is_wrong).missed(), hypothesis))
-        .collect();
+    let [fitted, fresh] = [0, 1].map(|which| half(is_wrong, among, which));
+    let mut left: Vec<_> = hypotheses.iter().collect();
+    for (answers, kept, of_one_name) in LOOKS {
+        let some = |wrong: bool| fitted.iter().copied().filter(move |&i| is_wrong[i] == wrong);
+        let few: Vec<usize> = some(true).take(answers).chain(some(false).take(answers)).collect();
+        left.sort_by_cached_key(|hypothesis| look(hypothesis, &few, is_wrong));
+        let mut names: Vec<(&str, usize)> = Vec::new();
+        left.retain(|hypothesis| {
+            let name = hypothesis.says.name;
+            if names.iter().all(|(other, _)| *other != name) {
+                names.push((name, 0));
+            }
+            let mut of_name = names.iter_mut().filter(|(other, _)| *other == name);
+            of_name.next().is_some_and(|(_, count)| {
+                *count += 1;
+                *count <= of_one_name
+            })
+        });
+        left.truncate(kept);
+    }
+    // What is much worse than the best one so far is not looked at any further.
+    let mut best = fitted.len() as u64;
+    let mut scored = Vec::new();
+    for hypothesis in left {
+        let most = 2 * best + LEAST_WRONG as u64;
+        let Some(weight) = Weight::of(hypothesis, &fitted, is_wrong, most) else { continue };
+        best = best.min(weight.missed());
+        scored.push((weight.missed(), hypothesis));
+    }
     scored.sort_by_key(|(missed, _)| *missed);
     scored.truncate(TRIED);
-    let mut tried: Vec<_> = scored
-        .into_iter()
-        .map(|(missed, hypothesis)| {
-            let weight = Weight::of(hypothesis, &fresh, is_wrong);
-            (missed + weight.missed(), weight, hypothesis)
-        })
-        .collect();
+    let mut best = fresh.len() as u64;
+    let mut tried = Vec::new();
+    for (missed, hypothesis) in scored {
+        let most = 2 * best + LEAST_WRONG as u64;
+        let Some(weight) = Weight::of(hypothesis, &fresh, is_wrong, most) else { continue };
+        best = best.min(weight.missed());
+        tried.push((missed + weight.missed(), weight, hypothesis));
+    }
     tried.sort_by_key(|(missed, ..)| *missed);
     let Some(&(least, ..)) = tried.first() else { return (Vec::new(), None) };
     let mut named: Vec<Explanation> = Vec::new();
@@ -108,12 +128,25 @@ pub(super) fn weigh(
     (named, nearest)
 }
 
+/// Every second of the wrong answers and of the right ones, so that both halves have both.
+fn half(is_wrong: &[bool], among: &[usize], which: usize) -> Vec<usize> {
+    let of =
+        |wrong| among.iter().copied().filter(move |&i| is_wrong[i] == wrong).skip(which).step_by(2);
+    of(true).chain(of(false)).collect()
+}
+
+/// The numbers of the answers by which hypotheses are chosen, the wrong ones first: what is read off answers is read off these.
+#[must_use]
+pub fn chosen_by(is_wrong: &[bool]) -> Vec<usize> {
+    half(is_wrong, &(0..is_wrong.len()).collect::<Vec<_>>(), 0)
+}
+
 /// How many of a few answers are not predicted; it stops where most are not.
-fn first_look(hypothesis: &Hypothesis<'_>, few: &[usize], is_wrong: &[bool]) -> usize {
+fn look(hypothesis: &Hypothesis<'_>, few: &[usize], is_wrong: &[bool]) -> usize {
     let mut missed = [0, 0];
     for (seen, &i) in few.iter().enumerate() {
         missed[usize::from(is_wrong[i])] += usize::from(!(hypothesis.predicts)(i));
-        if missed[1] > FEW / 4 && 2 * missed[1] > seen {
+        if missed[1] > LEAST_MISSED && 2 * missed[1] > seen {
             return few.len() - seen + missed[0] + missed[1];
         }
     }
