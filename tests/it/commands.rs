@@ -252,7 +252,7 @@ fn a_right_verdict_is_short_and_narrow() {
     assert!(groups.iter().all(|line| line.chars().count() <= 60), "{out}");
     assert!(out.contains("ties on edges             60 cases, all right"), "{out}");
     assert!(out.contains("% of the bound") && !out.contains("half-integer "), "{out}");
-    check(format!("{words} --table"), 0).prints("\n  half-integer ");
+    check(format!("{words} --table"), 0).prints("\nhalf-integer ");
 }
 
 /// A pixel is explained by its edges: T2's corners lie on centres.

@@ -296,7 +296,7 @@ fn pages_specimens_are_as_surveyed() {
                 .chain(cells[8].split(" / "))
                 .collect();
             assert_eq!(figures, wanted[1..7], "{folder}: {name}");
-            let card = &survey[survey.find(&format!("\n{name} ")).unwrap() + 1..];
+            let card = &survey[survey.find(&format!("\n  {name} ")).unwrap() + 1..];
             let shown = card.lines().nth(3).unwrap().trim_end_matches(" pixels");
             let pixels = cells[5].trim_end_matches(" px").rsplit([' ', '：']).next().unwrap();
             assert!(shown.ends_with(&format!(" {pixels}")), "{folder}: {name}: {pixels}, {shown}");

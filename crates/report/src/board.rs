@@ -164,7 +164,9 @@ fn block(
     // A mark stands behind each number.
     let head = |&column: &usize| {
         let name = &board.columns[column].name;
-        Column::numbers(name, "").short(format!("{name} ")).least(cell_width(board))
+        let has_room = name.chars().count() < cell_width(board).max(6);
+        let head = if has_room { format!("{name} ") } else { name.to_string() };
+        Column::numbers(name, "").short(head).least(cell_width(board))
     };
     let first = Column::words("choice").short("").least(NAME - INDENT);
     Table {

@@ -100,7 +100,11 @@ pub fn tables<'a>(
             lines(&mut out, &table.caption, width, ["", "  "]);
         }
         if !table.rows.is_empty() {
-            out += &table.text([2, 4], colour);
+            // Numbers that are as wide as the terminal begin at its margin; words are broken.
+            let is_wide = |line: &str| line.chars().count() > width;
+            let is_wide = table.columns.last().is_some_and(|last| last.is_number)
+                && table.text([2, 4], false).lines().any(is_wide);
+            out += &table.text([if is_wide { 0 } else { 2 }, 4], colour);
         }
         let legend = Some(&table.legend).filter(|legend| !legend.is_empty());
         for words in legend.into_iter().chain(&table.notes) {
