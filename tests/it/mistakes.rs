@@ -1312,10 +1312,14 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     let places = [(3, 5), (12, 2), (5, 11), (11, 13)];
     let elsewhere = |mask: u8| mask & 15;
     let whole = |mask: u8| if mask & 15 == 0 { 0 } else { 15 };
-    type Changed = fn(u8) -> u8;
-    let cases: [(_, Changed, _); 2] = [
-        (places, elsewhere, "It tests samples at (3, 5), (12, 2), (5, 11) and (11, 13) of 1/16 px"),
-        (SAMPLES, whole, "It draws all four samples of a pixel where any is covered"),
+    type Gate = fn(u8) -> u8;
+    let cases = [
+        (
+            places,
+            elsewhere as Gate,
+            "It tests samples at (3, 5), (12, 2), (5, 11) and (11, 13) of 1/16 px",
+        ),
+        (SAMPLES, whole as Gate, "It draws all four samples of a pixel where any is covered"),
     ];
     for (places, gate, wanted) in cases {
         let said = judged(
