@@ -1313,13 +1313,13 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     let elsewhere = |mask: u8| mask & 15;
     let whole = |mask: u8| if mask & 15 == 0 { 0 } else { 15 };
     type Gate = fn(u8) -> u8;
-    let cases = [
+    let cases: [(_, Gate, _); 2] = [
         (
             places,
             elsewhere as Gate,
             "It tests samples at (3, 5), (12, 2), (5, 11) and (11, 13) of 1/16 px",
         ),
-        (SAMPLES, whole as Gate, "It draws all four samples of a pixel where any is covered"),
+        (SAMPLES, whole, "It draws all four samples of a pixel where any is covered"),
     ];
     for (places, gate, wanted) in cases {
         let said = judged(

@@ -203,7 +203,7 @@ fn a_plan_is_shown_in_80_columns_with_units() {
     for words in [&["panels"][..], &["facets", "--aa", "ssaa4"], &["squares.obj"]] {
         let all = [&["plan", "--rounds", "1", "--size", "160x120"], words].concat();
         let out = folder.run(&all[..]).has(0).out;
-        let table = out.lines().skip_while(|line| !line.starts_with("  effect ")).skip(1);
+        let table = out.lines().skip_while(|line| !line.starts_with("effect ")).skip(1);
         let rows: Vec<&str> = table.take_while(|line| !line.starts_with("  open:")).collect();
         assert!(rows.len() >= 26, "{out}");
         for line in &rows {
