@@ -245,7 +245,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         baseline.apply(&mut verdict);
     }
     let (repeat_all, repeat_case) = again(arguments, typed);
-    let mut report = judge_text::report(&verdict, &repeat_all, &repeat_case, arguments.table);
+    let mut report = judge_text::whole(&verdict, &repeat_all, &repeat_case, arguments.table);
     report.command = typed.clone().set("seed", arguments.seed).line();
     match arguments.format() {
         Format::Text => show(report, Shown::Screen, page, streams)?,

@@ -18,7 +18,7 @@ use rasterproof_verify::partition::{self, Family, Polygon};
 const MOST_EXCHANGES: usize = 3;
 const MOST_INCIDENTS: usize = 2;
 
-/// The verdict: the answer, what each program says of itself, the smallest failing cases, why it is wrong, a row for each
+/// The verdict as a terminal shows it: the answer, what each program says of itself, the smallest failing cases, why it is wrong, a row for each
 /// danger, both scores, and the table of families where something is wrong or it is asked for.
 #[must_use]
 pub fn report(
@@ -93,9 +93,23 @@ pub fn report(
         first_screen,
         repeat: repeat_all.to_owned(),
         seed: Some(verdict.seed),
+        ..Report::default()
+    }
+}
+
+/// The same with what JSON and a page hold beside it: everything that was found, and each failing case as it is drawn.
+#[must_use]
+pub fn whole(
+    verdict: &Verdict,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+    with_table: bool,
+) -> Report {
+    let names = verdict.against.as_ref().map(|second| against::names([&verdict.declared, second]));
+    Report {
         cases: views(verdict, names.as_ref(), repeat),
         data: formats::everything(verdict, repeat_all, repeat),
-        ..Report::default()
+        ..report(verdict, repeat_all, repeat, with_table)
     }
 }
 

@@ -146,6 +146,6 @@ pub fn report(
         first_screen: Vec::new(),
         tables: vec![findings.noted(notes).judged(), rules],
         data: json(stand, repeat),
-        ..judge_text::report(verdict, repeat_all, repeat, false)
+        ..judge_text::whole(verdict, repeat_all, repeat, false)
     }
 }
