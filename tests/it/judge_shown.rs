@@ -89,7 +89,7 @@ fn judge_pictures_every_stage() {
         assert!(list.len() == triangles && used <= bits, "{property}: {used} {:?}", failure.case);
     }
     let repeat = |family: &str, index: u64| format!("{family} {index}");
-    let report = shown::report(&verdict, "", &repeat, false);
+    let report = shown::whole(&verdict, "", &repeat, false);
     let (text, page) = (text(&report, false, false), page(&report));
     for part in ["depth-order#", "near-plane#", "The picture: the four samples", "ch07.md"] {
         assert!(page.contains(part), "{part}");

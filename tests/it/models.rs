@@ -964,7 +964,7 @@ fn a_file_of_which_no_face_can_be_drawn_is_an_empty_picture() {
         let empty = "EMPTY: nothing of it is seen; the picture is background alone\n";
         folder
             .check(format!("render {name}.obj -o o.png --size 32x24"), 0)
-            .prints(&format!("{empty}  the cause is that {cause}\n"))
+            .prints(&format!("{empty}the cause is that {cause}\n"))
             .says(cause);
         // Without a piece there is nothing to verify.
         let status = if name == "nan" { 2 } else { 0 };

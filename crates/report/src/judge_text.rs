@@ -40,7 +40,7 @@ pub fn report(
     let answer = match (&names, agrees) {
         (Some(names), _) => difference(verdict, names),
         (None, true) => format!("{} is right", d.name),
-        (None, false) => format!("{} is not right", d.name),
+        (None, false) => format!("{} is not right{}", d.name, why_in_short(verdict)),
     };
     let mut about =
         vec![format!("rasterproof {}, seed {}: {answer}", env!("CARGO_PKG_VERSION"), verdict.seed)];
@@ -119,12 +119,18 @@ fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
         Some(names) => {
             Outcome { good, word: same(good).to_owned(), sentence: difference(verdict, names) }
         }
-        // The mistake says more than the properties that fail.
-        None => {
-            let cause = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
-            let cause = cause.map_or_else(String::new, |cause| format!("it {}; ", cause.does));
-            Outcome::of(good, cause + &closing(verdict))
-        }
+        None => Outcome::of(good, closing(verdict)),
+    }
+}
+
+/// The first mistake that is known, or what the convention is, after a colon.
+fn why_in_short(verdict: &Verdict) -> String {
+    let mistake = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
+    let convention = verdict.recognised.as_ref().filter(|found| found.is_explained);
+    match (mistake, convention) {
+        (Some(mistake), _) => format!(": it {}", mistake.does),
+        (None, Some(found)) => format!(". {}", found.sentences.join(" ")),
+        (None, None) => String::new(),
     }
 }
 
