@@ -229,8 +229,9 @@ pub fn mistakes(
                     Check::Carried => "attributes of clipped corners",
                     _ => "near plane",
                 };
-                let programs: Vec<_> =
-                    entries().map(|(entry, _)| RefCell::new(Inside::new(&entry))).collect();
+                let programs: Vec<_> = entries()
+                    .map(|(entry, about)| (RefCell::new(Inside::new(&entry)), about))
+                    .collect();
                 (of, stages::mistakes(program, check, truth, &programs, goes_on))
             }
         };

@@ -91,17 +91,15 @@ pub fn mistakes(
     program: &mut dyn Ask,
     check: Check,
     truth: &Truth,
-    programs: &[RefCell<Inside>],
+    programs: &[(RefCell<Inside>, String)],
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
     let all = answered(program, check, families(check), truth, goes_on);
     let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
     let tolerance = truth.declared.tolerance;
     let mut hypotheses = hypotheses(check, &all, &is_wrong, truth);
-    for known in programs {
-        let name = known.borrow().name();
-        let about = format!("draws as the planted fault or published algorithm {name}");
-        let says = Explanation::of_program(name, about);
+    for (known, about) in programs {
+        let says = Explanation::of_program(known.borrow().name(), about.clone());
         hypotheses.push(hypothesis(&all, says, move |question, answer| {
             let predicted = known.borrow_mut().ask(std::slice::from_ref(question), 1);
             predicted.first().is_some_and(|p| agree(question, answer, p, tolerance))
