@@ -16,6 +16,8 @@ use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_judge::Options;
 use rasterproof_judge::ask::runs_of;
 use rasterproof_precision::cost::ExternalVariant as _;
+use rasterproof_report::html::Report;
+use rasterproof_report::text as terminal;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_vulkan::device::Error;
 use rasterproof_vulkan::device::find::{self, About};
@@ -52,8 +54,12 @@ fn judged(engine: &str, options: &Options) -> DeviceReport {
     campaign::judge(Gpu::named(engine).unwrap(), options, &|_| ())
 }
 
+fn report(stand: &DeviceReport) -> Report {
+    text::report(stand, "all", &|family, index| format!("{family}#{index}"))
+}
+
 fn said(stand: &DeviceReport) -> String {
-    text::text(stand, "command", " all", &|family, index| format!(" {family}#{index}"))
+    terminal::text(&report(stand), false, false)
 }
 
 fn class(stand: &DeviceReport, name: &str) -> Class {
@@ -80,9 +86,7 @@ fn every_device_is_judged() {
             assert_eq!(class(&stand, "snapping"), Class::Equal, "{text}");
             assert_eq!(class(&stand, "the same twice"), Class::Equal, "{text}");
         }
-        let json = text::json(&stand, &|_, _| String::new());
-        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-        assert_eq!(json["agrees"], true);
+        assert_eq!(report(&stand).data["agrees"], true);
     }
 }
 
