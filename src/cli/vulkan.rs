@@ -88,7 +88,7 @@ fn print(
     let repeat = |family: &str, index: u64| format!("{command} --family {family} --case {index}");
     let report = text::report(stand, &format!("{command}{all}"), &repeat);
     let page = job.page.page("vulkan.html");
-    show(report, Shown::all_or_json(job.json), page, streams)
+    show(report, Shown::screen_or_json(job.json), page, streams)
 }
 
 /// The hits of triangles in a window as a device draws them.

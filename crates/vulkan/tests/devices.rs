@@ -77,7 +77,6 @@ fn every_device_is_judged() {
         let stand = judged(&engine, &options(48, &[]));
         let text = said(&stand);
         assert!(stand.agrees(), "{text}");
-        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
         assert!(stand.verdict.shapes(false) > 1000);
         if is_known_right(&stand.about) {
             for name in ["half-integer", "fan", "near-tie", "huge", "watertight", "samples4"] {

@@ -134,6 +134,11 @@ pub fn report(
     let sections = sections(&stand.findings).into_iter();
     let rules = sections.map(|(section, names)| format!("{section} ({})", names.join(", ")));
     let rules = Table::of_notes("Rules of the specification", rules.collect());
+    let findings = findings.noted(notes).judged();
+    // A terminal has the rules below.
+    let mut short = findings.clone();
+    short.columns.pop();
+    short.rows.iter_mut().for_each(|row| drop(row.cells.pop()));
     let mut about = format!("{}: {}", verdict.declared.name, device(&stand.about));
     if let Some(plant) = &stand.plant {
         about += &format!("\na fault is planted: {plant}");
@@ -143,8 +148,8 @@ pub fn report(
         about,
         outcome: Some(Outcome::of(stand.agrees(), closing(stand))),
         command: format!("{repeat_all} --report"),
-        first_screen: Vec::new(),
-        tables: vec![findings.noted(notes).judged(), rules],
+        first_screen: vec![short, rules.clone()],
+        tables: vec![findings, rules],
         data: json(stand, repeat),
         ..judge_text::whole(verdict, repeat_all, repeat, false)
     }
