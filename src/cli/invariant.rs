@@ -147,7 +147,7 @@ fn judge(
         format!("tolerance: {}", invariant.tolerance),
         found,
     ]);
-    let mark = if word == "holds" { Mark::Plain } else { Mark::Wrong };
+    let mark = if report.ruling() == Ruling::Holds { Mark::Plain } else { Mark::Wrong };
     Row { cells, mark, ..Row::default() }
 }
 

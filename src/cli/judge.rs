@@ -245,7 +245,10 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         baseline.apply(&mut verdict);
     }
     let (repeat_all, repeat_case) = again(arguments, typed);
-    let mut report = judge_text::whole(&verdict, &repeat_all, &repeat_case, arguments.table);
+    // What JSON and a page have besides is made for them alone.
+    let is_whole = page.is_some() || arguments.format() == Format::Json;
+    let make = if is_whole { judge_text::whole } else { judge_text::report };
+    let mut report = make(&verdict, &repeat_all, &repeat_case, arguments.table);
     report.command = typed.clone().set("seed", arguments.seed).line();
     match arguments.format() {
         Format::Text => show(report, Shown::Screen, page, streams)?,

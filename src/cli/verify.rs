@@ -208,11 +208,9 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     let mut report = run.report(page.is_some());
     if !arguments.json {
         let place = run.write_sheet(streams)?;
-        report
-            .first_screen
-            .last_mut()
-            .into_iter()
-            .for_each(|last| last.notes.extend(place.clone()));
+        if let Some(last) = report.first_screen.last_mut() {
+            last.notes.extend(place);
+        }
     }
     show(report, Shown::screen_or_json(arguments.json), page, streams)?;
     Ok(if run.verdict.agrees() { exit::AGREES } else { exit::DISAGREES })

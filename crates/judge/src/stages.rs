@@ -365,7 +365,7 @@ struct DepthMistake {
     does: &'static str,
     repair: &'static str,
     refuted: &'static str,
-    /// What is compared: less is seen.
+    /// The number that is compared: the layer with the least one is seen.
     key: fn(&Layer<'_>) -> f64,
     /// Whether of equal ones the last is seen, or the first; nothing where it may be either.
     last: Option<bool>,
@@ -612,17 +612,26 @@ fn clip(
     let mut left = Vec::new();
     for (i, &from) in corners.iter().enumerate() {
         let to = corners[(i + 1) % 3];
-        let [a, b] = [distance(from), distance(to)];
-        if a >= 0.0 {
+        if distance(from) >= 0.0 {
             left.push(from);
         }
-        if (a >= 0.0) != (b >= 0.0) {
-            let (kept, lost, t) =
-                if a >= 0.0 { (from, to, a / (a - b)) } else { (to, from, b / (b - a)) };
-            left.push(new(kept, lost, t));
-        }
+        left.extend(crossing(from, to, &distance).map(|(kept, lost, t)| new(kept, lost, t)));
     }
     left
+}
+
+/// Where an edge crosses the plane: the corner that stays, the one that goes, and the part of the way between them.
+fn crossing(
+    from: ClipCorner,
+    to: ClipCorner,
+    distance: &dyn Fn(ClipCorner) -> f64,
+) -> Option<(ClipCorner, ClipCorner, f64)> {
+    let [a, b] = [distance(from), distance(to)];
+    match [a >= 0.0, b >= 0.0] {
+        [true, false] => Some((from, to, a / (a - b))),
+        [false, true] => Some((to, from, b / (b - a))),
+        _ => None,
+    }
 }
 
 /// How far a corner lies before the near plane: z + w, or z where the plane is z = 0.
@@ -784,12 +793,8 @@ fn behind(corners: &[ClipCorner; 3], near: Plane) -> usize {
 
 /// Without the new corner on an edge.
 fn uncut(corners: [ClipCorner; 3], near: Plane, edge: usize) -> Vec<ClipCorner> {
-    let [from, to] = [corners[edge], corners[(edge + 1) % 3]];
     let mut left = clip(corners, near, between);
-    let [a, b] = [near(from), near(to)];
-    if (a >= 0.0) != (b >= 0.0) {
-        let (kept, lost, t) =
-            if a >= 0.0 { (from, to, a / (a - b)) } else { (to, from, b / (b - a)) };
+    if let Some((kept, lost, t)) = crossing(corners[edge], corners[(edge + 1) % 3], &near) {
         let new = between(kept, lost, t);
         // An edge that begins in the plane gives its corner once more.
         if let Some(at) = left.iter().rposition(|corner| *corner == new) {

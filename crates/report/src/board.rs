@@ -200,7 +200,7 @@ fn not_run(board: &Board) -> Vec<String> {
     reasons.into_iter().map(line).collect()
 }
 
-/// By each measure the rungs that nobody needs.
+/// By each measure the choices that others dominate in every class of scenes, with those others.
 fn dominated(board: &Board) -> Vec<String> {
     let line = |measure: usize| {
         let list = board.dominated(measure).into_iter().map(|d| {

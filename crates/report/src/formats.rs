@@ -86,7 +86,7 @@ fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) ->
     out
 }
 
-/// Everything that was found.
+/// Everything that was found, as JSON.
 #[must_use]
 pub fn everything(
     verdict: &Verdict,

@@ -36,7 +36,7 @@ pub struct Report {
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
-    /// The subject in a line or two.
+    /// What was judged, drawn or measured, and by which version and seed.
     pub about: String,
     /// What the reader wants to know, shown below the verdict.
     pub answers: Vec<Answer>,
@@ -53,7 +53,7 @@ pub struct Report {
     pub tables: Vec<Table>,
     /// Cases to look into, worst first.
     pub cases: Vec<CaseView>,
-    /// What a terminal shows of cases.
+    /// The cases that a terminal shows, above the tables.
     pub excerpts: Vec<Excerpt>,
     pub frames: Vec<PictureView>,
     pub figures: Vec<Figure>,
@@ -76,7 +76,7 @@ pub struct Answer {
     pub command: String,
 }
 
-/// A case as a terminal shows it.
+/// A case in a terminal: what was asked, the pixels as characters, and where to go on.
 #[derive(Clone, Debug, Default)]
 pub struct Excerpt {
     pub title: String,

@@ -115,7 +115,7 @@ pub(super) fn row(is_right: bool, name: &str, what: &str) -> Row {
     Row { cells: [name, first, more].map(str::to_owned).to_vec(), mark, ..Row::default() }
 }
 
-/// The table of such rows.
+/// Rows that [`row`] made, as a table of the first screen.
 pub(super) fn judged(caption: &str, rows: Vec<Row>) -> Table {
     Table::new(caption, "~what 29 | ~found 1 | more", rows).judged()
 }

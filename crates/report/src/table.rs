@@ -111,19 +111,18 @@ impl Table {
         Self { caption, columns, rows, ..Self::default() }
     }
 
-    /// With notes below it.
     #[must_use]
     pub fn noted(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
 
-    /// Of rows that were judged.
+    /// The same with a tick or a cross before each row, by its mark.
     #[must_use]
     pub fn judged(self) -> Self {
         Self { is_judged: true, ..self }
     }
 
-    /// Nothing but notes.
+    /// A caption and notes, without rows.
     #[must_use]
     pub fn of_notes(caption: &str, notes: Vec<String>) -> Self {
         Self { caption: caption.to_owned(), notes, ..Self::default() }

@@ -40,7 +40,7 @@ pub fn of_bound(worst: f64) -> String {
     }
 }
 
-/// A number in less than `width` characters: three digits where there is room.
+/// A number in less than `width` characters: three digits where these fit.
 pub fn number(value: f64, width: usize) -> String {
     let digits = if width < 8 { 0 } else { 1 };
     match value.abs() {

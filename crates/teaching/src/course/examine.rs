@@ -158,13 +158,13 @@ fn ask_family<'a>(
         outcome.cases += 1;
         let is_wrong = finding.is_wrong();
         outcome.wrong += u64::from(is_wrong);
-        let (questions, answers) = (questions[range.clone()].to_vec(), here.to_vec());
-        let is_whole = answers.len() == questions.len();
-        if is_whole && range.end <= ASKED_OF_A_FAMILY {
-            let (questions, answers) = (questions.clone(), answers.clone());
+        let exchanged = || (questions[range.clone()].to_vec(), here.to_vec());
+        if here.len() == range.len() && range.end <= ASKED_OF_A_FAMILY {
+            let (questions, answers) = exchanged();
             asked.push(Answered { questions, answers, is_wrong });
         }
         if is_wrong && first.is_none() {
+            let (questions, answers) = exchanged();
             first = Some((index, case, Asked { questions, answers, finding }));
         }
     }

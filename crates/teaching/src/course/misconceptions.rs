@@ -364,3 +364,21 @@ fn boxed(question: &Question) -> Option<Answer> {
     }
     Some(Answer::Coverage((y0..y1).map(|y_px| Span { y_px, x0_px, x1_px }).collect()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_judge::declared::Declared;
+
+    /// Without an answer every mistake explains all of them, so all that the judge may say is listed.
+    #[test]
+    fn what_the_judge_says_is_what_it_can_say() {
+        let truth = Truth::of(&Declared::default());
+        let checks = [Check::Values, Check::Samples, Check::Depth, Check::Near];
+        let said: Vec<_> =
+            checks.iter().flat_map(|check| stages::explaining(*check, &[], &truth)).collect();
+        for does in KNOWN.iter().flat_map(|known| known.does) {
+            assert!(said.iter().any(|said| said == does), "{does}");
+        }
+    }
+}

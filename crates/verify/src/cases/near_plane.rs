@@ -1,5 +1,5 @@
-//! Families for stages beside the rasterizer: which of several triangles is seen, what the near plane leaves of one, and
-//! meshes across the border of the window, where programs clip, and windows of hundreds of pixels. They are asked of programs, and of no engine here.
+//! Families for programs alone, and for no engine here: which of several triangles is seen, what the near plane leaves of one,
+//! meshes across the border of the window, where programs clip, and windows of hundreds of pixels.
 //!
 //! Numbers are few bits long, so that a request reads easily and f32 holds it exactly.
 

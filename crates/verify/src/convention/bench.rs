@@ -61,7 +61,7 @@ impl Default for Known {
 }
 
 impl Known {
-    /// The side of the window in which it is asked, in pixels: at most 32.
+    /// The side of the windows of its questions in pixels: at most 32.
     pub fn side_px(&self) -> i32 {
         let (width, height) = self.window_px;
         let most = width.min(height).min(SIDE_PX as u32) as i32;

@@ -87,11 +87,31 @@ fn wrap(v: i128, bits: i64) -> i128 {
     v << shift >> shift
 }
 
-/// Edge functions of coordinates with so many bits of fraction, in words of so many bits; the winding may be known otherwise, and
-/// the words of the difference may be long enough.
+/// Words that are too short for edge functions.
+pub(super) struct Words {
+    /// Bits of fraction that coordinates have.
+    pub(super) fraction: i64,
+    pub(super) bits: i64,
+    /// Whether the winding is not read off such words.
+    knows_winding: bool,
+    /// Whether the words of the difference of two products are long enough.
+    pub(super) products_alone: bool,
+}
+
+impl Words {
+    pub(super) fn of(p: i64) -> Self {
+        Self {
+            fraction: p / 100 % 10,
+            bits: p % 100,
+            knows_winding: p / 1000 % 2 == 1,
+            products_alone: p >= 2000,
+        }
+    }
+}
+
+/// Edge functions in such words.
 pub(super) fn wrapping(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
-    let (fraction, bits) = (p / 100 % 10, p % 100);
-    let (knows_winding, products_alone) = (p / 1000 % 2 == 1, p >= 2000);
+    let Words { fraction, bits, knows_winding, products_alone } = Words::of(p);
     let cut = |v: i64| i128::from((v + (256 >> fraction) / 2).div_euclid(256 >> fraction));
     let points = points(corners).map_array(|p| p.map_array(cut));
     let word = |v: i128| wrap(v, bits);
@@ -360,8 +380,9 @@ pub(super) fn without_border(mask: &mut Mask, window: PixelRect, which: i64) {
 
 /// Tiles of p mod 100 pixels, by one of the tests that the table names.
 pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i64) {
-    let (side, full) = ((p % 100) as i32, *mask);
+    let (test, side, full) = (p / 100, (p % 100) as i32, *mask);
     let has = |x: i32, y: i32| full.has(x.min(window.x1 - 1), y.min(window.y1 - 1));
+    let is_drawn = |x: i32, y: i32| window.contains(x, y) && full.has(x, y);
     let (points, sign) = (points(corners), area2(corners).signum() as f64);
     // Whether no edge has the point farther outside than this.
     let holds = |x: i32, y: i32, most_px: f64| {
@@ -374,35 +395,33 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
         })
     };
     let last = side - 1;
-    let is_kept = |x: i32, y: i32| match p / 100 {
-        0 => has(x, y) || has(x + last, y) || has(x, y + last) || has(x + last, y + last),
+    let corners_of = |x: i32, y: i32, side: i32| {
+        [(x, y), (x + side, y), (x, y + side), (x + side, y + side)].into_iter()
+    };
+    let is_kept = |x: i32, y: i32| match test {
+        0 => corners_of(x, y, last).any(|(x, y)| has(x, y)),
         1 => has(x + side / 2, y + side / 2),
-        3 => [(0, 0), (side, 0), (0, side), (side, side)]
-            .iter()
-            .any(|(dx, dy)| holds(x + dx, y + dy, 0.0)),
+        3 => corners_of(x, y, side).any(|(x, y)| holds(x, y, 0.0)),
         4 => holds(x + side / 2, y + side / 2, f64::from(side) / 2.0),
         5 => holds(x, y, 0.0),
-        8 => true,
-        9 => [(0, 0), (last, 0), (0, last), (last, last)].iter().any(|(dx, dy)| {
-            let (x, y) = (x + dx, y + dy);
-            window.contains(x, y) && full.has(x, y)
-        }),
-        7 => (y..y + side).any(|y| (x..x + side).any(|x| window.contains(x, y) && full.has(x, y))),
+        7 => (y..y + side).any(|y| (x..x + side).any(|x| is_drawn(x, y))),
+        9 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
         _ => has(x, y),
     };
-    let is_whole = matches!(p / 100, 6 | 7);
+    let is_whole = matches!(test, 6 | 7);
     for y in (window.y0..window.y1).step_by(side as usize) {
         for x in (window.x0..window.x1).step_by(side as usize) {
-            let kept = is_kept(x, y);
-            let (rows, columns) = (y..(y + side).min(window.y1), x..(x + side).min(window.x1));
-            if p / 100 == 8 {
+            let (rows, mut columns) = (y..(y + side).min(window.y1), x..(x + side).min(window.x1));
+            let mut kept = is_kept(x, y);
+            if test == 8 {
+                // The last column of the triangle in a tile that is not full.
                 let count = |x: i32| rows.clone().filter(|&y| full.has(x, y)).count();
-                let last = columns.clone().rev().find(|&x| count(x) > 0);
                 let is_full = columns.clone().all(|x| count(x) == rows.len());
-                for y in rows.filter(|_| !is_full) {
-                    last.into_iter().for_each(|x| mask.put(x, y, false));
-                }
-            } else if !kept || is_whole {
+                let lost = columns.clone().rev().find(|&x| count(x) > 0).filter(|_| !is_full);
+                columns = lost.map_or(0..0, |x| x..x + 1);
+                kept = false;
+            }
+            if !kept || is_whole {
                 for y in rows {
                     columns.clone().for_each(|x| mask.put(x, y, kept));
                 }
@@ -757,13 +776,13 @@ pub(super) const ROWS: [&str; 5] = [
     "fills from the pixel nearest to the left crossing to the one nearest to the right one",
 ];
 
-/// A walk along edges.
+/// How crossings are moved along the edges of a triangle from row to row.
 #[derive(Clone, Copy)]
 pub(super) struct Stepped {
     pub(super) slope: Slope,
     /// The first crossing is the corner itself.
     pub(super) late: bool,
-    /// One of `ROWS`.
+    /// How a row is filled between its crossings: a place in `ROWS`.
     pub(super) row: i64,
     /// Whether the long edge begins anew at the middle corner.
     pub(super) restarts: bool,

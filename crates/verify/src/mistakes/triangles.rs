@@ -1,6 +1,6 @@
 //! The table of mistakes in filling triangles. To add one, add an entry: everything else follows from it.
 
-use super::fills::{self, ROWS, Slope, Stepped};
+use super::fills::{self, ROWS, Slope, Stepped, Words};
 use super::{Mistake, Parameters, border};
 use crate::comparison::area2;
 use crate::convention::{Convention, Mask, Quantum, Rounding, Ties, Windings};
@@ -196,10 +196,12 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "product overflows",
         sentence: |p| {
-            let (fraction, bits) = (p / 100 % 10, p % 100);
+            let Words { fraction, bits, products_alone, .. } = Words::of(p);
             let from = 1_i64 << ((bits - 1) / 2 - fraction).max(0);
-            let what =
-                ["the edge function", "the products of the edge function"][(p / 2000) as usize];
+            let what = match products_alone {
+                true => "the products of the edge function",
+                false => "the edge function",
+            };
             format!(
                 "computes {what} of coordinates with {fraction} bits of fraction in {bits} bits: the products wrap around from about {from} px on"
             )
@@ -430,12 +432,10 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "triangles are left out by size",
         sentence: |p| {
-            let (metric, below, limit) = size(p);
-            let (what, unit, _) = fills::METRICS[metric];
-            let limit = fills::decimal(limit, if metric == 0 { 131_072 } else { 256 });
+            let (what, limit) = size_said(p);
             format!(
-                "does not draw triangles whose {what} is {} about {limit} {unit}",
-                if below { "below" } else { "at least" }
+                "does not draw triangles whose {what} is {} about {limit}",
+                if size(p).1 { "below" } else { "at least" }
             )
         },
         repair: "remove the test, or leave out only what covers no sample",
@@ -452,11 +452,9 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "small ones are drawn from behind",
         sentence: |p| {
-            let (metric, _, limit) = size(p);
-            let (what, unit, _) = fills::METRICS[metric];
-            let limit = fills::decimal(limit, if metric == 0 { 131_072 } else { 256 });
+            let (what, limit) = size_said(p);
             format!(
-                "draws triangles of the winding that it does not draw where their {what} is below about {limit} {unit}"
+                "draws triangles of the winding that it does not draw where their {what} is below about {limit}"
             )
         },
         repair: "the sign of the area alone decides about the winding, without a threshold",
@@ -860,6 +858,14 @@ pub(super) fn packed_size(metric: usize, below: bool, limit: i64) -> i64 {
 
 pub(super) fn size(p: i64) -> (usize, bool, i64) {
     ((p / 2 % METRICS) as usize, p % 2 == 1, p / (2 * METRICS))
+}
+
+/// What is measured of a size, and its limit with the unit.
+fn size_said(p: i64) -> (&'static str, String) {
+    let (metric, _, limit) = size(p);
+    let (what, unit, _) = fills::METRICS[metric];
+    let per_unit = if metric == 0 { 131_072 } else { 256 };
+    (what, format!("{} {unit}", fills::decimal(limit, per_unit)))
 }
 
 type IsKind = fn(&Corners, PixelRect) -> bool;

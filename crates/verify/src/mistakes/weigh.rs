@@ -1,5 +1,7 @@
 //! Weighs hypotheses by the answers: those that explain what is wrong without predicting faults that are not there.
 
+use std::collections::BTreeMap;
+
 use super::Explanation;
 use crate::convention::Count;
 
@@ -81,40 +83,18 @@ pub(super) fn weigh(
         let some = |wrong: bool| fitted.iter().copied().filter(move |&i| is_wrong[i] == wrong);
         let few: Vec<usize> = some(true).take(answers).chain(some(false).take(answers)).collect();
         left.sort_by_cached_key(|hypothesis| look(hypothesis, &few, is_wrong));
-        let mut names: Vec<(&str, usize)> = Vec::new();
+        let mut of_names: BTreeMap<&str, usize> = BTreeMap::new();
         left.retain(|hypothesis| {
-            let name = hypothesis.says.name;
-            if names.iter().all(|(other, _)| *other != name) {
-                names.push((name, 0));
-            }
-            let mut of_name = names.iter_mut().filter(|(other, _)| *other == name);
-            of_name.next().is_some_and(|(_, count)| {
-                *count += 1;
-                *count <= of_one_name
-            })
+            let of_name = of_names.entry(hypothesis.says.name).or_default();
+            *of_name += 1;
+            *of_name <= of_one_name
         });
         left.truncate(kept);
     }
-    // What is much worse than the best one so far is not looked at any further.
-    let mut best = fitted.len() as u64;
-    let mut scored = Vec::new();
-    for hypothesis in left {
-        let most = 2 * best + LEAST_WRONG as u64;
-        let Some(weight) = Weight::of(hypothesis, &fitted, is_wrong, most) else { continue };
-        best = best.min(weight.missed());
-        scored.push((weight.missed(), hypothesis));
-    }
-    scored.sort_by_key(|(missed, _)| *missed);
-    scored.truncate(TRIED);
-    let mut best = fresh.len() as u64;
-    let mut tried = Vec::new();
-    for (missed, hypothesis) in scored {
-        let most = 2 * best + LEAST_WRONG as u64;
-        let Some(weight) = Weight::of(hypothesis, &fresh, is_wrong, most) else { continue };
-        best = best.min(weight.missed());
-        tried.push((missed + weight.missed(), weight, hypothesis));
-    }
-    tried.sort_by_key(|(missed, ..)| *missed);
+    let left = left.into_iter().map(|hypothesis| (0, hypothesis)).collect();
+    let scored = weighed(left, &fitted, is_wrong);
+    let scored = scored.into_iter().map(|(missed, _, hypothesis)| (missed, hypothesis));
+    let tried = weighed(scored.take(TRIED).collect(), &fresh, is_wrong);
     let Some(&(least, ..)) = tried.first() else { return (Vec::new(), None) };
     let mut named: Vec<Explanation> = Vec::new();
     for (missed, weight, hypothesis) in &tried {
@@ -126,6 +106,25 @@ pub(super) fn weigh(
     let nearest = tried.first().map(|(_, weight, hypothesis)| weight.of_one(hypothesis));
     let nearest = nearest.filter(|_| named.is_empty());
     (named, nearest)
+}
+
+/// The weights of hypotheses on some answers, the best first: with how many they missed, there and before. What is much worse
+/// than the best one so far is left out.
+fn weighed<'h, 'a>(
+    hypotheses: Vec<(u64, &'h Hypothesis<'a>)>,
+    answers: &[usize],
+    is_wrong: &[bool],
+) -> Vec<(u64, Weight, &'h Hypothesis<'a>)> {
+    let mut best = answers.len() as u64;
+    let mut all = Vec::new();
+    for (missed, hypothesis) in hypotheses {
+        let most = 2 * best + LEAST_WRONG as u64;
+        let Some(weight) = Weight::of(hypothesis, answers, is_wrong, most) else { continue };
+        best = best.min(weight.missed());
+        all.push((missed + weight.missed(), weight, hypothesis));
+    }
+    all.sort_by_key(|(missed, ..)| *missed);
+    all
 }
 
 /// Every second of the wrong answers and of the right ones, so that both halves have both.
