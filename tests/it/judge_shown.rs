@@ -8,7 +8,7 @@ use std::time::Duration;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_judge::ask::{Answer, Ask, Asked, Breach, Question};
+use rasterproof_judge::ask::{Answer, Asked, Breach, Question, Subject};
 use rasterproof_judge::check::Check;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::Failure;
@@ -44,7 +44,7 @@ fn judge_refuses_an_empty_case() {
 /// of a pixel that it touches.
 struct Careless(Inside);
 
-impl Ask for Careless {
+impl Subject for Careless {
     fn declared(&self) -> &Declared {
         self.0.declared()
     }
@@ -71,7 +71,7 @@ impl Ask for Careless {
 /// page.
 #[test]
 fn judge_pictures_every_stage() {
-    let options = Options { patience: Duration::from_secs(5), ..options(64, &STAGES) };
+    let options = patient(64, &STAGES);
     let careless = Careless(Inside::new(engines::find("scanline").unwrap()));
     let verdict = judged(Box::new(careless), &options);
     for (property, of, triangles, bits) in [
@@ -119,11 +119,10 @@ fn judge_keeps_its_time() {
         std::thread::sleep(Duration::from_millis(10) * questions.len() as u32);
         engine.ask(questions, most)
     });
-    let limit = Some(Duration::from_secs(6));
-    let options = Options { time_limit: limit, ..options(100_000, &[]) };
+    let options = options(100_000, &[]).time_limit(Duration::from_secs(6));
     let start = std::time::Instant::now();
     let scope = Scope { triangles: true, lines: true, always: false };
-    let recognise = |program: &mut dyn Ask| recognise(program, scope);
+    let recognise = |program: &mut dyn Subject| recognise(program, scope);
     let verdict = judge(&mut [Box::new(slow)], &options, &recognise, &|_| ());
     let took = start.elapsed();
     // Asked without a limit, 64 cases of each family alone take longer than a minute.

@@ -993,7 +993,7 @@ struct Wrong {
     changed: Box<Change>,
 }
 
-impl judge::ask::Ask for Wrong {
+impl judge::ask::Subject for Wrong {
     fn declared(&self) -> &judge::declared::Declared {
         &self.declared
     }
@@ -1027,6 +1027,13 @@ fn judged_as(
     said.collect::<Vec<_>>().join("\n")
 }
 
+/// So many cases of each family, and a minute for a cause.
+fn unhurried(cases: u64) -> judge::Options {
+    let mut options = judge::Options::default().cases(cases);
+    options.terms.patience = std::time::Duration::from_secs(60);
+    options
+}
+
 fn verdict(
     words: &str,
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
@@ -1034,17 +1041,12 @@ fn verdict(
     recognise: judge::Recognise<'_>,
 ) -> judge::verdict::Verdict {
     let right = Inside::new(engines::find("scanline").unwrap());
-    let mut declared = judge::ask::Ask::declared(&right).clone();
+    let mut declared = judge::ask::Subject::declared(&right).clone();
     words.split_whitespace().for_each(|word| declared.hear(word));
-    let options = judge::Options {
-        cases: 100,
-        families: families.iter().map(|name| (*name).to_owned()).collect(),
-        patience: std::time::Duration::from_secs(60),
-        ..judge::Options::default()
-    };
-    let mut askers =
-        [Box::new(Wrong { right, declared, changed: Box::new(changed) })
-            as Box<dyn judge::ask::Ask>];
+    let mut options = unhurried(100);
+    options.families = families.iter().map(|name| (*name).to_owned()).collect();
+    let mut askers = [Box::new(Wrong { right, declared, changed: Box::new(changed) })
+        as Box<dyn judge::ask::Subject>];
     judge::judge(&mut askers, &options, recognise, &|_| ())
 }
 
@@ -1241,13 +1243,9 @@ fn mistakes_that_are_planted_are_named() {
     let mut unnamed = Vec::new();
     for name in planted.into_iter().chain(planted_lines) {
         let entry = engines::find_planted(name).unwrap();
-        let options = judge::Options {
-            cases: 120,
-            patience: std::time::Duration::from_secs(60),
-            ..judge::Options::default()
-        };
+        let options = unhurried(120);
         let scope = Scope { triangles: true, lines: true, always: false };
-        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Ask>];
+        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
         let is_named = verdict.causes.iter().any(|cause| cause.why.is_known());
@@ -1447,12 +1445,8 @@ fn mistakes_planted_elsewhere_are_named() {
     }
     for name in ExactMutant::ALL.map(ExactMutant::name) {
         let entry = engines::find_planted(name).unwrap();
-        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Ask>];
-        let options = judge::Options {
-            cases: 100,
-            patience: std::time::Duration::from_secs(60),
-            ..judge::Options::default()
-        };
+        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
+        let options = unhurried(100);
         let scope = Scope { triangles: true, lines: false, always: false };
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());

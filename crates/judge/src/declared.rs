@@ -9,7 +9,7 @@ use std::fmt;
 use super::text::{number, printable, px};
 use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, MAX_SIDE_PX, SUBPIXELS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
-use rasterproof_verify::partition;
+use rasterproof_verify::partition::{self, Tessellation};
 
 /// What a program declares; the default is what version 1 promises.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,31 +79,20 @@ rasterproof_core::named! {
     }
 }
 
-/// What a tessellator promises, in the words of the module [`partition`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tessellation {
-    pub fill_rule: partition::FillRule,
-    pub winding: partition::Winding,
-    pub coordinates: partition::Coordinates,
-    pub t_junctions: bool,
-    pub degenerate: bool,
-}
-
-impl Tessellation {
-    const FILL_RULES: [(&'static str, partition::FillRule); 2] =
-        [("even-odd", partition::FillRule::EvenOdd), ("nonzero", partition::FillRule::NonZero)];
-    const WINDINGS: [(&'static str, partition::Winding); 4] = [
-        ("alike", partition::Winding::Alike),
-        ("ccw", partition::Winding::Counterclockwise),
-        ("cw", partition::Winding::Clockwise),
-        ("any", partition::Winding::Any),
-    ];
-    const COORDINATES: [(&'static str, partition::Coordinates); 3] = [
-        ("f64", partition::Coordinates::F64),
-        ("f32", partition::Coordinates::F32),
-        ("integer", partition::Coordinates::Integer),
-    ];
-}
+/// The words for what a tessellator promises.
+const FILL_RULES: [(&str, partition::FillRule); 2] =
+    [("even-odd", partition::FillRule::EvenOdd), ("nonzero", partition::FillRule::NonZero)];
+const WINDINGS: [(&str, partition::Winding); 4] = [
+    ("alike", partition::Winding::Alike),
+    ("ccw", partition::Winding::Counterclockwise),
+    ("cw", partition::Winding::Clockwise),
+    ("any", partition::Winding::Any),
+];
+const COORDINATES: [(&str, partition::Coordinates); 3] = [
+    ("f64", partition::Coordinates::F64),
+    ("f32", partition::Coordinates::F32),
+    ("integer", partition::Coordinates::Integer),
+];
 
 /// What a word stands for in a list.
 fn meant<T: Copy>(list: &[(&str, T)], word: &str) -> Option<T> {
@@ -191,15 +180,9 @@ impl Declared {
             ("partition", None) => self.partition = true,
             ("t-junctions", None) => self.tessellation.t_junctions = true,
             ("degenerate", None) => self.tessellation.degenerate = true,
-            ("fill-rule", Some(v)) => {
-                self.tessellation.fill_rule = meant(&Tessellation::FILL_RULES, v)?
-            }
-            ("triangles", Some(v)) => {
-                self.tessellation.winding = meant(&Tessellation::WINDINGS, v)?
-            }
-            ("coordinates", Some(v)) => {
-                self.tessellation.coordinates = meant(&Tessellation::COORDINATES, v)?
-            }
+            ("fill-rule", Some(v)) => self.tessellation.fill_rule = meant(&FILL_RULES, v)?,
+            ("triangles", Some(v)) => self.tessellation.winding = meant(&WINDINGS, v)?,
+            ("coordinates", Some(v)) => self.tessellation.coordinates = meant(&COORDINATES, v)?,
             ("yup", None) => self.yup = true,
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
@@ -298,11 +281,11 @@ impl fmt::Display for Declared {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.capabilities().join(" "))?;
         if self.partition {
-            let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate } =
+            let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate, .. } =
                 &self.tessellation;
-            let fill_rule = word_of(&Tessellation::FILL_RULES, fill_rule);
-            let winding = word_of(&Tessellation::WINDINGS, winding);
-            let coordinates = word_of(&Tessellation::COORDINATES, coordinates);
+            let fill_rule = word_of(&FILL_RULES, fill_rule);
+            let winding = word_of(&WINDINGS, winding);
+            let coordinates = word_of(&COORDINATES, coordinates);
             write!(f, " fill-rule={fill_rule} triangles={winding} coordinates={coordinates}")?;
             f.write_str(if *t_junctions { " t-junctions" } else { "" })?;
             return f.write_str(if *degenerate { " degenerate" } else { "" });

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Ask, Asked, Question};
+use super::ask::{Answer, Asked, Question, Subject};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::expected::{Expect, runs};
@@ -77,7 +77,7 @@ const LOOK: [&str; 4] = ["half-integer", "rectangle", "fan", "uniform"];
 const LOOK_CASES: u64 = 16;
 
 /// The convention of a program; nothing where it draws as it declares.
-pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
+pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
     let mut bench = Bench { program, deaths_left: MOST_DEATHS, is_over: false };
     let open = declared.rule == Rule::Unspecified;
@@ -200,7 +200,7 @@ fn known(declared: &Declared) -> Known {
 
 /// Why a program is wrong in each kind of check, where no convention explains it; asked as long as `goes_on`.
 pub fn mistakes(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     checks: &[Check],
     truth: &Truth,
     recognised: Option<&Recognised>,
@@ -318,7 +318,7 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 
 /// The program as the questions want it; asked no more once it has died too often.
 struct Bench<'a> {
-    program: &'a mut dyn Ask,
+    program: &'a mut dyn Subject,
     deaths_left: u64,
     /// Whether the time for answers is over.
     is_over: bool,

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Ask, Misbehaviour, Question};
+use super::ask::{Answer, Misbehaviour, Question, Subject};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::finding::Finding;
@@ -314,7 +314,7 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
 }
 
 pub fn run(
-    askers: &mut [&mut dyn Ask],
+    askers: &mut [&mut dyn Subject],
     options: &Options,
     truth: &Truth,
     progress: &(dyn Fn(u64) + Sync),
@@ -374,7 +374,7 @@ pub fn run(
 /// Judges with one copy of the program: it takes the blocks whose number, modulo the copies, is `part`. `progress`
 /// hears how many cases were judged.
 fn copy(
-    asker: &mut dyn Ask,
+    asker: &mut dyn Subject,
     part: u64,
     shared: &Shared<'_>,
     progress: &(dyn Fn(u64) + Sync),
@@ -422,7 +422,7 @@ fn copy(
 
 /// Asks the checks of some cases of a family, and judges the answers: of how many cases all of them.
 fn block(
-    asker: &mut dyn Ask,
+    asker: &mut dyn Subject,
     family: &'static Family,
     indices: std::ops::Range<u64>,
     pass: bool,
@@ -464,7 +464,7 @@ fn block(
         shared.deaths_in_all.fetch_add(died, Ordering::Relaxed);
         shared.answered.fetch_add(finding.answered, Ordering::Relaxed);
         let asked = &questions[*first..next];
-        note(found, family, *index, *check, &finding, (asked, shared.options.remember));
+        note(found, family, *index, *check, &finding, (asked, shared.options.terms.remember));
         let is_last = jobs.get(at + 1).is_none_or(|(.., next)| next != case);
         judged += u64::from(is_last);
     }

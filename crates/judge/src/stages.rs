@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::adapt_case;
-use super::ask::{Answer, Ask, Asked, Question};
+use super::ask::{Answer, Asked, Question, Subject};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::in_process::Inside;
@@ -39,7 +39,7 @@ const CASES: u64 = 400;
 const SEED: u64 = 7;
 
 fn answered(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     check: Check,
     families: &[&str],
     truth: &Truth,
@@ -88,7 +88,7 @@ fn families(check: Check) -> &'static [&'static str] {
 
 /// The mistake of a program in what this check judges, where it is wrong.
 pub fn mistakes(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     check: Check,
     truth: &Truth,
     programs: &[(RefCell<Inside>, String)],

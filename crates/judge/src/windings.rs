@@ -1,7 +1,7 @@
 //! The first stages: does it draw at all, and which windings.
 
 use super::adapt_case;
-use super::ask::{Answer, Ask, Asked, Question};
+use super::ask::{Answer, Asked, Question, Subject};
 use super::declared::Declared;
 use super::expected::Expect as _;
 use super::pixels::picture_of;
@@ -51,7 +51,7 @@ impl Windings {
     }
 }
 
-pub fn windings(program: &mut dyn Ask, seed: u64) -> Windings {
+pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
     let declared = program.declared().clone();
     let mut windings = Windings::default();
     if !declared.coverage {

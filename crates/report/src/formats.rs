@@ -62,9 +62,9 @@ pub fn write(
 /// What was found, and where it fails the smallest case.
 fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let mut out = format!("{}: {}", property.about, property.detail);
-    for failure in verdict.failures.iter().filter(|f| f.property == property.name) {
+    for failure in verdict.failures.iter().filter(|f| f.evidence.property == property.name) {
         let _ = write!(out, "\n{}", failure.what);
-        for e in failure.exchanges.iter().take(3) {
+        for e in failure.evidence.exchanges.iter().take(3) {
             let _ = write!(out, "\nrequest:  {}\nanswer:   {}", e.request, e.answer);
             if !e.other.is_empty() {
                 let _ = write!(out, "\nother:    {}", e.other);
@@ -99,6 +99,7 @@ pub fn everything(
         .iter()
         .map(|f| {
             let exchanges: Vec<Value> = f
+                .evidence
                 .exchanges
                 .iter()
                 .map(|e| {
@@ -111,8 +112,8 @@ pub fn everything(
                 })
                 .collect();
             json!({
-                "property": f.property, "family": f.family, "index": f.index, "what": f.what,
-                "shrunk": shrink::describe(&f.case), "how_far": f.shrunk, "window": f.case.window,
+                "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
+                "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
                 "exchanges": exchanges, "repeat": repeat(f.family, f.index),
             })
         })

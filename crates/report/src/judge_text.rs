@@ -13,7 +13,7 @@ use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow, Sides};
 use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
-use rasterproof_verify::partition::{self, Family, Polygon};
+use rasterproof_verify::partition::{self, Polygon};
 
 const MOST_EXCHANGES: usize = 3;
 const MOST_INCIDENTS: usize = 2;
@@ -138,7 +138,7 @@ fn why_in_short(verdict: &Verdict) -> String {
 #[must_use]
 pub fn of_polygons(
     declared: &Declared,
-    report: &partition::Report,
+    report: &partition::Verdict,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Report {
@@ -158,8 +158,7 @@ pub fn of_polygons(
     if !agrees {
         // As most languages write lists.
         let show = |polygon: &Polygon| format!("{:?}", polygon.contours);
-        let of = |family: Family, index| repeat(family.name(), index);
-        let _ = report.write(&mut grid, &show, &of);
+        let _ = report.write(&mut grid, &show, repeat);
     }
     let [polygons, triangles, left_out, wrong] =
         [sum.polygons, sum.triangles, sum.left_out, sum.wrong].map(thousands);
@@ -335,8 +334,8 @@ pub fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec
 #[must_use]
 pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt {
     let (family, index) = (failure.family, failure.index);
-    let (property, what) = (failure.property, &failure.what);
-    let exchanges = failure.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
+    let (property, what) = (failure.evidence.property, &failure.what);
+    let exchanges = failure.evidence.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
         let lines = [
             ("request", &exchange.request),
             ("answer", &exchange.answer),
@@ -348,17 +347,17 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
             .filter(|(_, line)| !line.is_empty())
             .map(|(what, line)| (what, line.clone()))
     });
-    let more = failure.exchanges.len().saturating_sub(MOST_EXCHANGES);
+    let more = failure.evidence.exchanges.len().saturating_sub(MOST_EXCHANGES);
     let mut notes = Vec::new();
     if more > 0 {
         notes.push(format!("and {more} requests more"));
     }
-    let picture = failure.picture.as_ref();
+    let picture = failure.evidence.picture.as_ref();
     if let Some(of) = picture.map(|picture| &picture.of).filter(|of| !of.is_empty()) {
         notes.push(format!("({of})"));
     }
     Excerpt {
-        title: format!("{property}: {what} (from {family} #{index}, {})", failure.shrunk),
+        title: format!("{property}: {what} (from {family} #{index}, {})", failure.evidence.shrunk),
         exchanges: exchanges.collect(),
         grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
         notes,
@@ -470,11 +469,15 @@ fn views(
     };
     let view = |f: &Failure| {
         let name = format!("{}#{}", f.family, f.index);
-        let about = format!("{}: found in {} #{}, {}", f.property, f.family, f.index, f.shrunk);
-        let mut view = page_cases::of_program(name, about, &f.case, &programs, f.picture.as_ref());
+        let about = format!(
+            "{}: found in {} #{}, {}",
+            f.evidence.property, f.family, f.index, f.evidence.shrunk
+        );
+        let mut view =
+            page_cases::of_program(name, about, &f.case, &programs, f.evidence.picture.as_ref());
         view.found.clone_from(&f.what);
         view.command = repeat(f.family, f.index);
-        let chapter = match f.check {
+        let chapter = match f.evidence.check {
             Check::Depth => Some(("chapter 6, depth", "ch06.md")),
             Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),
             Check::Samples => Some(("GAMES101, four samples", "games101.md")),
@@ -497,7 +500,11 @@ fn properties(verdict: &Verdict) -> Table {
             p.detail.clone(),
         ],
         mark: if p.outcome.is_good() { Mark::Plain } else { Mark::Wrong },
-        search: verdict.failures.iter().any(|f| f.property == p.name).then(|| p.name.to_owned()),
+        search: verdict
+            .failures
+            .iter()
+            .any(|f| f.evidence.property == p.name)
+            .then(|| p.name.to_owned()),
         ..Row::default()
     };
     let (bad, good): (Vec<_>, Vec<_>) =

@@ -2,7 +2,7 @@
 
 use super::examine::Outcome;
 use super::{Step, number};
-use rasterproof_judge::failures::{Exchange, Failure};
+use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_report::judge_text;
 use rasterproof_report::text::hanging;
 
@@ -21,7 +21,8 @@ pub fn text(step: &Step, outcome: &Outcome, command: &str) -> String {
     let mut out =
         format!("step {number}, {title}: NOT YET, wrong in {wrong} of {cases} cases{late}\n");
     let Some(failure) = &outcome.failure else { return out };
-    let Failure { what, family, index, shrunk, exchanges, .. } = failure;
+    let Failure { what, family, index, evidence, .. } = failure;
+    let Exchanged { shrunk, exchanges, picture, .. } = evidence;
     out += &indented(&format!("smallest found: {what} (from {family} #{index}, {shrunk})"), 2);
     for Exchange { request, answer, expected, .. } in exchanges.iter().take(2) {
         for (what, line) in [("request:", request), ("answer:", answer), ("expected:", expected)] {
@@ -30,7 +31,7 @@ pub fn text(step: &Step, outcome: &Outcome, command: &str) -> String {
             }
         }
     }
-    if let Some(picture) = &failure.picture {
+    if let Some(picture) = picture {
         out += &judge_text::grid(&["yours"], picture);
         if !picture.of.is_empty() {
             out += &(hanging(&format!("({})", picture.of), "  ", "   ") + "\n");

@@ -5,7 +5,6 @@ use glam::DVec2;
 use super::cause::Cause;
 use super::convention::{Convention, Rule};
 use super::finding::{Finding, Tally};
-use super::panics::{EnginePanic, caught};
 use super::spans::{
     Covered, engine_coverage, exact_coverage, fragments_against, line_coverage, unsnapped_truth,
 };
@@ -14,6 +13,7 @@ use super::truth::{Bounds, Truth, compare_on_line};
 use crate::cases::named::plain_line;
 use crate::cases::{Case, Kind, Line, Shape, Triangle};
 use crate::convention::{LineQuestion, Question};
+use crate::judge::{EnginePanic, caught};
 use crate::mistakes::{self, Mistakes};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;

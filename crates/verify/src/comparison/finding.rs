@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-use super::panics::EnginePanic;
+use crate::judge::EnginePanic;
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::frame::Coverage;
 

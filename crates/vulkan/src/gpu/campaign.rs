@@ -9,7 +9,7 @@ use super::requirements;
 use super::rules::{self, Class, Finding, Rule};
 use super::specified::Specified;
 use crate::device::find::About;
-use rasterproof_judge::ask::{Answer, Ask, Question};
+use rasterproof_judge::ask::{Answer, Question, Subject};
 use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, mistakes, recognise};
@@ -48,7 +48,7 @@ fn lock(gpu: &Mutex<Gpu>) -> MutexGuard<'_, Gpu> {
     gpu.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Ask for Shared {
+impl Subject for Shared {
     fn declared(&self) -> &Declared {
         &self.1
     }
@@ -93,8 +93,9 @@ pub fn judge_with(
     let declared = gpu.declared().clone();
     let gpu = Arc::new(Mutex::new(gpu));
     let mut shared = Shared(Arc::clone(&gpu), declared.clone());
-    let options =
-        Options { families: families(&options.families), remember: true, ..options.clone() };
+    let mut options = options.clone();
+    options.families = families(&options.families);
+    options.terms.remember = true;
     let mut truth = Truth::of(&declared);
     truth.expect = Box::new(Specified::new(&declared));
     // The specification asks for less than the oracle: either of two triangles has a shared sample.
@@ -110,7 +111,7 @@ pub fn judge_with(
     let scope = Scope { triangles: true, lines: false, always: false };
     let recognised = if found.failing.is_empty() { None } else { recognise(first, scope) };
     let start = Instant::now();
-    let goes_on = || start.elapsed() < options.patience;
+    let goes_on = || start.elapsed() < options.terms.patience;
     let checks = if found.failing.is_empty() { Vec::new() } else { found.unexplained() };
     let causes = mistakes(first, &checks, &truth, recognised.as_ref(), &goes_on);
     let stale = stale(known, &found, &old, &options, &declared);

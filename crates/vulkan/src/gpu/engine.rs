@@ -19,7 +19,7 @@ use crate::device::open::Opened;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_judge::ask::runs_of;
-use rasterproof_judge::ask::{Answer, Ask, Asked, Breach, Question};
+use rasterproof_judge::ask::{Answer, Asked, Breach, Question, Subject};
 use rasterproof_judge::declared::{Declared, MOST_IN_FLIGHT};
 
 /// The beginning of an engine's name that means a device.
@@ -235,7 +235,7 @@ fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> 
     }
 }
 
-impl Ask for Gpu {
+impl Subject for Gpu {
     fn declared(&self) -> &Declared {
         &self.declared
     }
