@@ -68,7 +68,8 @@ pub fn property(verdict: &Verdict, name: &str) -> Outcome {
 fn judge_agrees_with_the_engines() {
     for name in ["scanline", "edge-function", "oracle", "dda", "bresenham", "scanline-exact"] {
         let verdict = judged(inside(name), &options(40, &[]));
-        let failures: Vec<_> = verdict.failures.iter().map(|f| (&f.property, &f.what)).collect();
+        let failures: Vec<_> =
+            verdict.failures.iter().map(|f| (&f.evidence.property, &f.what)).collect();
         assert!(verdict.agrees(), "{name}: {failures:?}");
         assert!(verdict.shapes(false) + verdict.shapes(true) > 200, "{name}");
     }
@@ -227,10 +228,9 @@ impl Subject for ByRule {
         let one = |q: &Question| {
             let Asked::Coverage(corners) = &q.of else { panic!("it covers only") };
             let corners_are_on_grid =
-                corners.iter().all(|p| (p.x | p.y).rem_euclid(256 / self.0.grid) == 0);
+                corners.iter().all(|p| (p.x | p.y).rem_euclid(256 / self.0.grid()) == 0);
             assert!(corners_are_on_grid, "{q:?}");
-            let picture =
-                self.0.convention().picture(corners, PixelRect::window(q.width, q.height));
+            let picture = self.0.convention.picture(corners, PixelRect::window(q.width, q.height));
             Answer::Coverage(picture.map(|picture| picture.must).unwrap_or_default())
         };
         questions.iter().map(one).collect()

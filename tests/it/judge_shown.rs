@@ -17,7 +17,7 @@ use rasterproof_judge::near_plane::asked;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::Outcome;
-use rasterproof_judge::{Options, Step, adapt_case, judge};
+use rasterproof_judge::{Step, adapt_case, judge};
 use rasterproof_registry::engines;
 use rasterproof_report::html::page;
 use rasterproof_report::text::text;
@@ -29,7 +29,7 @@ use rasterproof_verify::comparison::{Convention, Rule, judge_coverage};
 
 #[cfg(target_os = "linux")]
 use crate::judge::is_gone;
-use crate::judge::{Answering, inside, judged, of, of_misbehaving, options, property};
+use crate::judge::{Answering, inside, judged, of, of_misbehaving, options, patient, property};
 use crate::program::{PROGRAM, Run, check, shared};
 
 /// Where nothing is expected, who draws nothing does not agree: there was no judgement.
@@ -79,8 +79,8 @@ fn judge_pictures_every_stage() {
         ("near-plane", "x and y of clip space", 1, 8),
         ("samples4", "a grid of 4 x 4 cells", 1, 12),
     ] {
-        let failure = verdict.failures.iter().find(|f| f.property == property).unwrap();
-        let picture = failure.picture.as_ref().unwrap();
+        let failure = verdict.failures.iter().find(|f| f.evidence.property == property).unwrap();
+        let picture = failure.evidence.picture.as_ref().unwrap();
         assert!(picture.of.contains(of) && picture.drawn != picture.expected, "{failure:?}");
         let Shape::Triangles { list, .. } = &failure.case.shape else { panic!("{property}") };
         let corners = list.iter().flat_map(|t| t.corners());
@@ -243,11 +243,12 @@ fn judge_shows_what_differs() {
     let mut characters = BTreeSet::new();
     for name in wrong_ones() {
         let verdict = judged(inside(name), &options(24, &[]));
-        let differs = |f: &Failure| f.picture.as_ref().is_some_and(|p| p.drawn != p.expected);
+        let differs =
+            |f: &Failure| f.evidence.picture.as_ref().is_some_and(|p| p.drawn != p.expected);
         let seen: Vec<bool> = verdict.failures.iter().map(differs).collect();
         assert!(seen.is_sorted_by(|a, b| a >= b), "{name}: {seen:?}");
         for failure in &verdict.failures {
-            let Some(picture) = &failure.picture else { continue };
+            let Some(picture) = &failure.evidence.picture else { continue };
             pictures += 1;
             if picture.drawn == picture.expected {
                 unseen += 1;

@@ -7,7 +7,7 @@
 use std::fmt;
 
 use super::text::{number, printable, px};
-use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, MAX_SIDE_PX, SUBPIXELS};
+use rasterproof_core::grid::{DOMAIN_PX, MAX_SIDE_PX, SUBPIXELS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rasterproof_verify::partition::{self, Tessellation};
 
@@ -32,16 +32,10 @@ pub struct Declared {
     pub clip: bool,
     /// Answers A: clips corners that carry an attribute.
     pub clip_attributes: bool,
-    /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
-    pub grid: i32,
-    /// Where in a pixel its sample lies, in subpixels from the upper left corner.
-    pub origin: [i32; 2],
-    pub rule: Rule,
+    /// Its rule, winding, sample and grid of corners, of 0, 4, 6 or 8 bits.
+    pub convention: Convention,
     /// Which pixels belong to a triangle, its edges apart.
     pub shape: Shape,
-    pub winding: Winding,
-    /// Its own y axis points up: top and bottom, cw and ccw change places.
-    pub yup: bool,
     /// Coordinates lie in [-range, range] px; none means the whole domain.
     pub range: Option<i32>,
     /// The largest window it draws; none means any.
@@ -122,12 +116,8 @@ impl Default for Declared {
             depth: false,
             clip: false,
             clip_attributes: false,
-            grid: SUBPIXELS,
-            origin: [HALF_PIXEL; 2],
-            rule: Rule::TopLeft,
+            convention: Convention::default(),
             shape: Shape::Sample,
-            winding: Winding::Both,
-            yup: false,
             range: None,
             window: None,
             batch: 1,
@@ -183,27 +173,29 @@ impl Declared {
             ("fill-rule", Some(v)) => self.tessellation.fill_rule = meant(&FILL_RULES, v)?,
             ("triangles", Some(v)) => self.tessellation.winding = meant(&WINDINGS, v)?,
             ("coordinates", Some(v)) => self.tessellation.coordinates = meant(&COORDINATES, v)?,
-            ("yup", None) => self.yup = true,
+            ("yup", None) => self.convention.y_up = true,
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
             ("grid", Some(v)) => {
-                self.grid = whole(v, SUBPIXELS).filter(|g| [1, 16, 64, 256].contains(g))?;
+                let grid = whole(v, SUBPIXELS).filter(|g| [1, 16, 64, 256].contains(g))?;
+                self.convention.subpixel_bits = grid.ilog2();
             }
             ("origin", Some(v)) => {
                 let (x, y) = v.split_once(',')?;
-                self.origin = [subpixels(x)?, subpixels(y)?];
+                self.convention.sample = [subpixels(x)?, subpixels(y)?];
             }
             ("rule", Some(v)) => {
-                self.rule = Rule::ALL.iter().find(|(word, _)| *word == v).map(|(_, r)| *r)?;
+                self.convention.rule =
+                    Rule::ALL.iter().find(|(word, _)| *word == v).map(|(_, r)| *r)?;
             }
             ("shape", Some(v)) => {
                 self.shape = Shape::ALL.into_iter().find(|shape| shape.name() == v)?;
             }
             ("near", Some("zero")) => self.near_is_zero = true,
             ("near", Some("minus-w")) => self.near_is_zero = false,
-            ("winding", Some("cw")) => self.winding = Winding::Clockwise,
-            ("winding", Some("ccw")) => self.winding = Winding::CounterClockwise,
-            ("winding", Some("both")) => self.winding = Winding::Both,
+            ("winding", Some("cw")) => self.convention.winding = Winding::Clockwise,
+            ("winding", Some("ccw")) => self.convention.winding = Winding::CounterClockwise,
+            ("winding", Some("both")) => self.convention.winding = Winding::Both,
             ("range", Some(v)) => self.range = Some(whole(v, DOMAIN_PX - 1)?),
             ("window", Some(v)) => {
                 let (w, h) = v.split_once('x')?;
@@ -238,7 +230,9 @@ impl Declared {
             clip: self.clip && other.clip,
             clip_attributes: self.clip_attributes && other.clip_attributes,
             partition: self.partition && other.partition,
-            grid: self.grid.min(other.grid),
+            convention: self
+                .convention
+                .subpixel_bits(self.convention.subpixel_bits.min(other.convention.subpixel_bits)),
             range: least(self.range, other.range),
             reach: least(self.reach, other.reach),
             window,
@@ -249,10 +243,10 @@ impl Declared {
         }
     }
 
-    pub fn convention(&self) -> Convention {
-        let [x, y] = self.origin;
-        let convention = Convention::default().rule(self.rule).winding(self.winding).sample(x, y);
-        if self.yup { convention.y_up() } else { convention }
+    /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
+    #[must_use]
+    pub fn grid(&self) -> i32 {
+        1 << self.convention.subpixel_bits
     }
 
     pub fn capabilities(&self) -> Vec<&'static str> {
@@ -290,9 +284,10 @@ impl fmt::Display for Declared {
             f.write_str(if *t_junctions { " t-junctions" } else { "" })?;
             return f.write_str(if *degenerate { " degenerate" } else { "" });
         }
-        write!(f, " grid={} origin={},{}", self.grid, px(self.origin[0]), px(self.origin[1]))?;
-        write!(f, " rule={} winding={}", self.rule.word(), self.winding.word())?;
-        let flags = [("yup", self.yup), ("mask", self.mask), ("line-set", self.line_set)];
+        let Convention { rule, winding, sample: [x, y], y_up, .. } = self.convention;
+        write!(f, " grid={} origin={},{}", self.grid(), px(x), px(y))?;
+        write!(f, " rule={} winding={}", rule.word(), winding.word())?;
+        let flags = [("yup", y_up), ("mask", self.mask), ("line-set", self.line_set)];
         for (word, _) in flags.iter().filter(|(_, is_set)| *is_set) {
             write!(f, " {word}")?;
         }
@@ -325,9 +320,9 @@ mod tests {
         let line = "HELLO 2 mine coverage attributes depth clip clip-attributes grid=16 origin=0,0.25 rule=strict winding=ccw \
                     yup mask shape=touched near=zero range=4096 window=64x32 batch=8 tolerance=1e-5";
         let declared = Declared::parse(line).unwrap();
-        assert_eq!((declared.grid, declared.origin), (16, [0, 64]));
+        assert_eq!((declared.grid(), declared.convention.sample), (16, [0, 64]));
         assert_eq!(
-            (declared.rule, declared.convention().seen_winding()),
+            (declared.convention.rule, declared.convention.seen_winding()),
             (Rule::Strict, Winding::Clockwise)
         );
         assert_eq!((declared.range, declared.window), (Some(4096), Some([64, 32])));
@@ -356,7 +351,7 @@ mod tests {
         let declared = Declared::parse(line).unwrap();
         assert_eq!(declared.unknown.len(), 5, "{:?}", declared.unknown);
         assert!(declared.name.chars().all(|c| !c.is_control()));
-        assert_eq!((declared.grid, declared.batch), (256, 1));
+        assert_eq!((declared.grid(), declared.batch), (256, 1));
         assert_eq!(Declared::parse("HELLO 3 x coverage"), None);
         assert_eq!(Declared::parse("HELLO 1"), None);
         let flipped = Declared::parse("HELLO 2 gl coverage rule=top-left yup").unwrap();

@@ -7,7 +7,7 @@ use super::Options;
 use super::adapt_case;
 use super::ask::{Answer, Breach, Misbehaviour, Question, Subject, show};
 use super::check::{Check, Truth, expected_answer};
-use super::finding::Finding;
+use super::judged::Judged;
 use super::pictured::{Pictured, pictured};
 use super::run::{Failing, Found, MOST_DEATHS, Row};
 use super::shrink::smaller;
@@ -71,7 +71,7 @@ pub fn failures(
 pub struct Asked {
     pub questions: Vec<Question>,
     pub answers: Vec<Answer>,
-    pub finding: Finding,
+    pub judged: Judged,
 }
 
 impl Asked {
@@ -79,19 +79,19 @@ impl Asked {
         let mut questions = Vec::new();
         check.questions(case, truth, &mut questions);
         let answers = program.ask(&questions, MOST_DEATHS);
-        let finding = judge(check, case, &answers, questions.len(), truth);
-        Self { questions, answers, finding }
+        let judged = judge(check, case, &answers, questions.len(), truth);
+        Self { questions, answers, judged }
     }
 
     /// Whether answers are missing, and not because the program died: the time is up.
     fn is_late(&self) -> bool {
-        self.answers.len() < self.questions.len() && self.finding.died.is_empty()
+        self.answers.len() < self.questions.len() && self.judged.died.is_empty()
     }
 
     /// Whether it takes long to go wrong.
     fn is_slow(&self) -> bool {
         let is_slow = |m: &Misbehaviour| matches!(m.breach, Breach::Hangs | Breach::Late);
-        self.finding.died.iter().any(|(_, m)| is_slow(m))
+        self.judged.died.iter().any(|(_, m)| is_slow(m))
     }
 }
 
@@ -147,7 +147,7 @@ impl Search<'_> {
         let ask = |case: &Case| Asked::of(*program.borrow_mut(), check, case, truth);
         let start = Instant::now();
         let (was_wrong, was_late, is_slow) =
-            (first.finding.is_wrong(), first.is_late(), first.is_slow());
+            (first.judged.is_wrong(), first.is_late(), first.is_slow());
         // The answers to the smallest case so far.
         let kept = RefCell::new(first);
         let case = if !was_wrong || is_slow {
@@ -162,7 +162,7 @@ impl Search<'_> {
                     return false;
                 }
                 let asked = ask(&smaller);
-                let is_wrong = asked.finding.is_wrong();
+                let is_wrong = asked.judged.is_wrong();
                 if is_wrong {
                     *kept.borrow_mut() = asked;
                 }
@@ -178,10 +178,10 @@ impl Search<'_> {
             (_, true) => "shrunk until the time was up",
             (_, false) => "shrunk",
         };
-        let Asked { questions, answers, finding } = again.unwrap_or_else(|| kept.into_inner());
+        let Asked { questions, answers, judged } = again.unwrap_or_else(|| kept.into_inner());
         // Asked again, it was right: the program does not repeat itself.
-        let what = match was_wrong && finding.is_wrong() {
-            true => finding.describe(check),
+        let what = match was_wrong && judged.is_wrong() {
+            true => judged.describe(check),
             false => "wrong at first, right when asked again".to_owned(),
         };
         let expected = |question: &Question| {
@@ -209,7 +209,7 @@ impl Search<'_> {
 }
 
 /// What is found in the answers to a case; there are fewer where the program died or the time was up.
-pub fn judge(check: Check, case: &Case, answers: &[Answer], of: usize, truth: &Truth) -> Finding {
+pub fn judge(check: Check, case: &Case, answers: &[Answer], of: usize, truth: &Truth) -> Judged {
     if answers.len() < of {
         Check::judge_deaths(answers)
     } else {

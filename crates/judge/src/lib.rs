@@ -4,7 +4,7 @@
 //! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`in_process`] an
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
-//! wrong with a case ([`finding`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
+//! wrong with a case ([`judged`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
 //! [`polygons`] judges tessellators. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
@@ -19,8 +19,8 @@ mod depth;
 mod difference;
 pub mod expected;
 pub mod failures;
-pub mod finding;
 pub mod in_process;
+pub mod judged;
 pub mod league;
 mod leaving;
 pub mod mesh;

@@ -23,7 +23,7 @@ pub fn reach(program: &mut dyn Subject) -> Option<i32> {
         return None;
     }
     let most = declared.range.map_or(MOST, |range| range.saturating_mul(2));
-    let whole = declared.grid == 1;
+    let whole = declared.grid() == 1;
     let mut time = |steps: i32| {
         let ends = [PixelPoint::new(-steps / 2, 1), PixelPoint::new(steps / 2 - 1, 1)];
         let question = Question { width: 16, height: 16, of: Asked::Line { ends, whole } };

@@ -80,7 +80,7 @@ const LOOK_CASES: u64 = 16;
 pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
     let mut bench = Bench { program, deaths_left: MOST_DEATHS, is_over: false };
-    let open = declared.rule == Rule::Unspecified;
+    let open = declared.convention.rule == Rule::Unspecified;
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
@@ -108,7 +108,7 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     let compass = triangles.as_ref().and_then(compass);
     let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
     let mut found =
-        Found { declaration: declared.convention(), triangles, lines, otherwise: [false; 2] };
+        Found { declaration: declared.convention, triangles, lines, otherwise: [false; 2] };
     found.look_at_leaving(&mut bench, &declared, &mut sentences);
     let said = Said { sentences, compass, declare, is_explained };
     let (triangles, lines) = (found.triangles.clone(), found.lines.clone());
@@ -188,9 +188,8 @@ impl Expect for Found {
 }
 
 fn known(declared: &Declared) -> Known {
-    let known = Known::from(&declared.convention());
+    let known = Known::from(&declared.convention);
     Known {
-        grid: declared.grid,
         range_px: declared.range.unwrap_or(known.range_px).min(declared.reach.unwrap_or(i32::MAX)),
         window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
@@ -374,7 +373,7 @@ impl convention::Ask for Bench<'_> {
 
 impl convention::AskLine for Bench<'_> {
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
-        let whole = self.program.declared().grid == 1;
+        let whole = self.program.declared().grid() == 1;
         let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();
         self.answers(&asked).into_iter().map(pixels_of).collect()
     }
@@ -382,15 +381,15 @@ impl convention::AskLine for Bench<'_> {
 
 /// The words that declare what was found and is not declared; none where the protocol has none.
 fn words(declared: &Declared, found: &Diagnosis) -> String {
-    let Some(found) = found.declaration(&declared.convention()) else { return String::new() };
+    let Some(found) = found.declaration(&declared.convention) else { return String::new() };
     let grid =
         [256, 64, 16].into_iter().find(|grid| *grid <= 1 << found.subpixel_bits).unwrap_or(1);
-    let [x, y] = found.sample;
+    let (declared, [x, y]) = (&declared.convention, found.sample);
     let mut out = String::new();
-    if grid < declared.grid {
+    if grid < 1 << declared.subpixel_bits {
         let _ = write!(out, " grid={grid}");
     }
-    if [x, y] != declared.origin {
+    if [x, y] != declared.sample {
         let _ = write!(out, " origin={},{}", px(x), px(y));
     }
     if found.rule != declared.rule {

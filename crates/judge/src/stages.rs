@@ -63,11 +63,11 @@ fn answered(
             {
                 continue;
             }
-            let finding = check.judge(&case, &answers, truth);
+            let judged = check.judge(&case, &answers, truth);
             let is_wrong = match check {
                 // Their pixels are judged as coverage.
-                Check::Values => finding.worst > 1.0,
-                _ => finding.tally.total() > 0,
+                Check::Values => judged.finding.worst() > 1.0,
+                _ => judged.finding.tally.total() > 0,
             };
             all.push(Answered { questions, answers, is_wrong });
         }

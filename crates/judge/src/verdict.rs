@@ -155,8 +155,8 @@ impl Verdict {
                 "{} of {} clockwise and {} of {} counter-clockwise plain triangles, seen with y down",
                 w.clockwise[0], w.clockwise[1], w.counter_clockwise[0], w.counter_clockwise[1]
             );
-            let is_declared = w.seen() == Some(self.declared.convention().seen_winding());
-            let declared = self.declared.winding.word();
+            let is_declared = w.seen() == Some(self.declared.convention.seen_winding());
+            let declared = self.declared.convention.winding.word();
             all.push(property("draws", "it draws at all", w.any(), counts.clone()));
             let about = format!("it draws the declared winding ({declared})");
             all.push(property("winding", &about, is_declared, counts));

@@ -84,7 +84,7 @@ pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
 }
 
 fn is_fat(corners: &Corners, window: PixelRect, declared: &Declared) -> bool {
-    let any = declared.convention().winding(Winding::Both);
+    let any = declared.convention.winding(Winding::Both);
     any.picture(corners, window).is_some_and(|picture| {
         let pixels = picture.must.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px)));
         pixels.sum::<u64>() >= FEW_PIXELS

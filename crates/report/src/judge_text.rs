@@ -191,7 +191,9 @@ fn dangers(verdict: &Verdict) -> Table {
     let mut out = Vec::new();
     for p in verdict.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
         let what = match (p.name, p.outcome.is_good()) {
-            ("winding", true) => format!("{}, as it declares", verdict.declared.winding.word()),
+            ("winding", true) => {
+                format!("{}, as it declares", verdict.declared.convention.winding.word())
+            }
             _ => p.detail.clone(),
         };
         out.push(summary::row(p.outcome.is_good(), p.name, &what));
@@ -243,7 +245,8 @@ fn scores(verdict: &Verdict) -> Table {
     if let Some(recognised) = &verdict.recognised {
         notes.extend(recognised.sentences.iter().chain(&recognised.compass).cloned());
         if !recognised.declare.is_empty() {
-            let turned = if verdict.declared.yup { " (in its words, y up)" } else { "" };
+            let turned =
+                if verdict.declared.convention.y_up { " (in its words, y up)" } else { "" };
             let declare = &recognised.declare;
             notes.push(format!("to be judged by it: --declare '{declare}'{turned}"));
         }

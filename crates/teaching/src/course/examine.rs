@@ -155,9 +155,9 @@ fn ask_family<'a>(
             break;
         }
         let here = &answers[range.start..range.end.min(answers.len())];
-        let finding = judge(check, &case, here, range.len(), &truth);
+        let judged = judge(check, &case, here, range.len(), &truth);
         outcome.cases += 1;
-        let is_wrong = finding.is_wrong();
+        let is_wrong = judged.is_wrong();
         outcome.wrong += u64::from(is_wrong);
         let exchanged = || (questions[range.clone()].to_vec(), here.to_vec());
         if here.len() == range.len() && range.end <= ASKED_OF_A_FAMILY {
@@ -166,11 +166,11 @@ fn ask_family<'a>(
         }
         if is_wrong && first.is_none() {
             let (questions, answers) = exchanged();
-            first = Some((index, case, Asked { questions, answers, finding }));
+            first = Some((index, case, Asked { questions, answers, judged }));
         }
     }
     first.map(|(index, case, asked)| {
-        let (property, fingerprint) = (check.name(family.name), asked.finding.fingerprint());
+        let (property, fingerprint) = (check.name(family.name), asked.judged.fingerprint());
         let is = Failing { property, family: family.name, index, fingerprint };
         Wrong { exercise, is, case, truth, asked }
     })
@@ -185,7 +185,7 @@ fn truth(exercise: &Exercise) -> Truth {
 
 /// The mistake of a program that answers, where a known one explains it.
 fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> Option<Mistakes> {
-    if !failing.asked.finding.died.is_empty() {
+    if !failing.asked.judged.died.is_empty() {
         return None;
     }
     let start = Instant::now();

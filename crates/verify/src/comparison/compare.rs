@@ -271,7 +271,7 @@ impl<R: Interpolate + Sync> TriangleComparer<'_, R> {
             let (mut truth, mut finding) = (Truth::new(triangle)?, Finding::default());
             let bounds = Bounds::new(tolerance, triangle);
             fragments.iter().for_each(|f| truth.compare(f, &bounds, &mut finding));
-            let is_wrong = finding.attribute.max(finding.depth) > 1.0;
+            let is_wrong = finding.worst() > 1.0;
             let Bounds { attributes: [a, b], depth } = bounds;
             Some((fragments, [depth, a, b], is_wrong))
         })

@@ -98,6 +98,12 @@ impl Finding {
             || self.depth > 1.0
     }
 
+    /// The larger of the two worst differences, each as a fraction of its bound.
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        self.attribute.max(self.depth)
+    }
+
     /// The disagreement in words.
     #[must_use]
     pub fn describe(&self) -> String {

@@ -601,7 +601,7 @@ impl PairReport {
     fn count(&mut self, index: u64, finding: &Finding) {
         self.tally += finding.tally;
         self.fragments += finding.fragments;
-        if finding.attribute.max(finding.depth) > self.worst() {
+        if finding.worst() > self.worst() {
             self.worst_case = index;
         }
         self.worst_attribute = self.worst_attribute.max(finding.attribute);

@@ -99,7 +99,7 @@ pub fn judge_with(
     let mut truth = Truth::of(&declared);
     truth.expect = Box::new(Specified::new(&declared));
     // The specification asks for less than the oracle: either of two triangles has a shared sample.
-    let open = declared.convention().rule(Tie::Unspecified);
+    let open = declared.convention.rule(Tie::Unspecified);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
     let mut found = run(&mut [&mut shared], &options, &truth, progress);
