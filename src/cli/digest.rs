@@ -2,7 +2,7 @@
 
 use super::progress::Progress;
 use super::{Status, Streams, exit};
-use rasterproof_registry::digest::{self, Options};
+use rasterproof_registry::digest::{self, DigestOptions};
 
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
@@ -22,7 +22,7 @@ pub struct DigestArguments {
 
 pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     let DigestArguments { seed, cases, engine, json } = arguments;
-    let (options, engine) = (Options { seed: *seed, cases: *cases }, engine.as_deref());
+    let (options, engine) = (DigestOptions { seed: *seed, cases: *cases }, engine.as_deref());
     let cases_in_all = digest::case_count(options, engine);
     let progress = Progress::new(streams.progress, "cases", Some(cases_in_all));
     let parts = digest::digest(options, engine, &|more| progress.done(more));

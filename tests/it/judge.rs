@@ -14,7 +14,7 @@ use rasterproof_judge::expected::Expect as _;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::verdict::{Outcome, Verdict};
+use rasterproof_judge::verdict::{Judgement, Outcome};
 use rasterproof_judge::{Asking, Options, judge};
 use rasterproof_registry::engines::{self, SPECIMENS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
@@ -36,7 +36,7 @@ pub fn patient(cases: u64, families: &[&str]) -> Options {
     options(cases, families).terms(Asking::default())
 }
 
-pub fn judged(asker: Box<dyn Subject>, options: &Options) -> Verdict {
+pub fn judged(asker: Box<dyn Subject>, options: &Options) -> Judgement {
     judge(&mut [asker], options, &|_| None, &|_| ())
 }
 
@@ -59,7 +59,7 @@ fn misbehaving(fault: &str, limits: Limits) -> Result<Program, Misbehaviour> {
     Program::start(&misbehave::command("scanline", fault), &[], limits)
 }
 
-pub fn property(verdict: &Verdict, name: &str) -> Outcome {
+pub fn property(verdict: &Judgement, name: &str) -> Outcome {
     let found = verdict.properties.iter().find(|p| p.name == name);
     found.unwrap_or_else(|| panic!("{name} was not judged")).outcome
 }
@@ -292,12 +292,12 @@ fn judge_goes_by_what_is_declared() {
 
 const EVERYTHING: Scope = Scope { triangles: true, lines: true, always: false };
 
-fn recognised(asker: Box<dyn Subject>, options: &Options) -> Verdict {
+fn recognised(asker: Box<dyn Subject>, options: &Options) -> Judgement {
     judge(&mut [asker], options, &|program| recognise(program, EVERYTHING), &|_| ())
 }
 
 /// What is said of a program, and its wrong pixels as declared and by its convention.
-fn said(verdict: &Verdict) -> (String, &str, u64, Option<u64>) {
+fn said(verdict: &Judgement) -> (String, &str, u64, Option<u64>) {
     let said = verdict.recognised.as_ref().expect("something is recognised");
     let score = verdict.by_convention().map(|score| score.wrong);
     (said.sentences.join(" "), said.declare.as_str(), verdict.as_declared().wrong, score)

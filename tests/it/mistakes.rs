@@ -11,7 +11,7 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, Mutant, TriangleMutant};
-use rasterproof_invariants::subject::{Component, Subject, component_of, hits};
+use rasterproof_invariants::implementations::{Component, Implementations, component_of, hits};
 use rasterproof_judge as judge;
 use rasterproof_judge::ask::{Answer, Asked};
 use rasterproof_judge::in_process::Inside;
@@ -24,8 +24,8 @@ use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::convention::{
-    Convention, Known, LineConvention, LineQuestion, Quantum, Question, Rounding, Shape, Ties,
-    Windings, diagnose, diagnose_lines,
+    Convention, Known, LineConvention, LineQuestion, Quantum, Rounding, Shape, Ties,
+    TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
 use rasterproof_verify::mistakes::{self, Explanation, Mistakes};
 use rasterproof_verify::oracle::values::ExactTriangle;
@@ -819,8 +819,8 @@ const STROKES: &[(&str, Stroke)] = &[
 ];
 
 fn of_fill(fill: impl Fn(Corners, PixelRect, &mut Coverage)) -> Option<Mistakes> {
-    let mut ask = |questions: &[Question]| -> Vec<Option<Coverage>> {
-        let draw = |q: &Question| {
+    let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
+        let draw = |q: &TriangleQuestion| {
             let mut picture = Coverage::new(q.window, 0);
             fill(q.corners, q.window, &mut picture);
             Some(picture)
@@ -1039,7 +1039,7 @@ fn verdict(
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
     recognise: judge::Recognise<'_>,
-) -> judge::verdict::Verdict {
+) -> judge::verdict::Judgement {
     let right = Inside::new(engines::find("scanline").unwrap());
     let mut declared = judge::ask::Subject::declared(&right).clone();
     words.split_whitespace().for_each(|word| declared.hear(word));
@@ -1366,7 +1366,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
 
 /// The answer of a part of this project, with a planted fault, where the protocol has a question for it.
 fn planted_answer(mutant: Mutant, question: &judge::ask::Question, answer: Answer) -> Answer {
-    let subject = Subject::with(mutant);
+    let subject = Implementations::with(mutant);
     let window = PixelRect::window(question.width, question.height);
     let spans = |picture: &Coverage| {
         Answer::Coverage(
@@ -1456,7 +1456,7 @@ fn mistakes_planted_elsewhere_are_named() {
 }
 
 /// The name of the causes, the convention, or that all answers are right.
-fn told(verdict: &judge::verdict::Verdict) -> String {
+fn told(verdict: &judge::verdict::Judgement) -> String {
     let named: Vec<_> = verdict
         .causes
         .iter()

@@ -12,7 +12,7 @@ use super::failures;
 use super::recognise::{self, Why};
 use super::run::{self, Sides};
 use super::timed::Timed;
-use super::verdict::Verdict;
+use super::verdict::Judgement;
 use super::windings::Windings;
 use super::{Options, Step, for_families, reach};
 
@@ -99,7 +99,7 @@ pub fn compare(
     pairs: &mut [[Box<dyn Subject>; 2]],
     options: &Options,
     progress: &(dyn Fn(Step) + Sync),
-) -> Verdict {
+) -> Judgement {
     let start = Instant::now();
     let end = options.time_limit.map(|limit| start + limit);
     progress(Step::Rule);
@@ -134,7 +134,7 @@ pub fn compare(
     let complaints = pair.complaints();
     let [first, second] = both;
     let windings = Windings::default();
-    let mut verdict = Verdict::new(first, options, windings, None, found, failures, complaints);
+    let mut verdict = Judgement::new(first, options, windings, None, found, failures, complaints);
     verdict.causes = causes;
     verdict.reach = truth.declared.reach;
     verdict.compared_with(second);

@@ -355,6 +355,6 @@ mod tests {
         assert_eq!(Declared::parse("HELLO 3 x coverage"), None);
         assert_eq!(Declared::parse("HELLO 1"), None);
         let flipped = Declared::parse("HELLO 2 gl coverage rule=top-left yup").unwrap();
-        assert_eq!(flipped.convention().seen_rule(), Rule::BottomLeft);
+        assert_eq!(flipped.convention.seen_rule(), Rule::BottomLeft);
     }
 }

@@ -53,7 +53,7 @@ use rasterproof_verify::partition;
 use recognise::{Recognised, Said};
 use run::Incident;
 use timed::Timed;
-use verdict::Verdict;
+use verdict::Judgement;
 
 /// The time limit is that of all questions. An answer that is still missing at its end is awaited a short while longer.
 pub type Options = rasterproof_verify::judge::Options<String, Asking>;
@@ -122,7 +122,7 @@ pub fn judge(
     options: &Options,
     recognise: Recognise<'_>,
     progress: &(dyn Fn(Step) + Sync),
-) -> Verdict {
+) -> Judgement {
     let start = Instant::now();
     let end = options.time_limit.map(|limit| start + limit);
     askers.iter_mut().for_each(|asker| asker.end_at(end));
@@ -165,8 +165,15 @@ pub fn judge(
     let causes = recognise::mistakes(&mut asked, &checks, &truth, found_before.as_ref(), &goes_on);
     found.strays.extend(first.strays());
     first.end_at(None);
-    let mut verdict =
-        Verdict::new(declared, options, windings, recognised, found, failures, first.complaints());
+    let mut verdict = Judgement::new(
+        declared,
+        options,
+        windings,
+        recognised,
+        found,
+        failures,
+        first.complaints(),
+    );
     verdict.causes = causes;
     verdict.reach = truth.declared.reach;
     verdict

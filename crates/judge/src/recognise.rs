@@ -169,7 +169,8 @@ impl Expect for Found {
             return None;
         }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
-        let coverage = found.expected(&convention::Question { corners: *corners, window })?;
+        let coverage =
+            found.expected(&convention::TriangleQuestion { corners: *corners, window })?;
         Some(Picture { must: runs(&coverage), may: None })
     }
 
@@ -288,7 +289,7 @@ fn programs<'a, Q: 'a, A: 'a>(
     entries().map(program).collect()
 }
 
-fn of_triangle(question: &convention::Question, program: &mut Inside) -> Option<Coverage> {
+fn of_triangle(question: &convention::TriangleQuestion, program: &mut Inside) -> Option<Coverage> {
     let asked = triangle_question(question);
     program.ask(&[asked], 1).first().and_then(|answer| picture_of(answer, question.window))
 }
@@ -297,7 +298,7 @@ fn of_line(question: &LineQuestion, program: &mut Inside) -> Option<Vec<[i32; 2]
     program.ask(&[line_question(question, false)], 1).pop().and_then(pixels_of)
 }
 
-fn triangle_question(q: &convention::Question) -> Question {
+fn triangle_question(q: &convention::TriangleQuestion) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     Question { width, height, of: Asked::Coverage(q.corners) }
 }
@@ -364,7 +365,7 @@ impl Bench<'_> {
 }
 
 impl convention::Ask for Bench<'_> {
-    fn ask(&mut self, questions: &[convention::Question]) -> Vec<Option<Coverage>> {
+    fn ask(&mut self, questions: &[convention::TriangleQuestion]) -> Vec<Option<Coverage>> {
         let asked: Vec<_> = questions.iter().map(triangle_question).collect();
         let answers = self.answers(&asked);
         answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()

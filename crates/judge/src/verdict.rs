@@ -35,7 +35,7 @@ pub struct Property {
 }
 
 #[derive(Clone, Debug)]
-pub struct Verdict {
+pub struct Judgement {
     pub declared: Declared,
     /// What the second of two compared programs says of itself; the rows then count cases in which both differ.
     pub against: Option<Declared>,
@@ -83,7 +83,7 @@ const CHECKS: [(&str, &str); 7] = [
     ("fill-and-outline", "the fill of a triangle is what its outline encloses"),
 ];
 
-impl Verdict {
+impl Judgement {
     #[must_use]
     pub fn new(
         declared: Declared,

@@ -12,7 +12,7 @@ use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow, Sides};
-use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
+use rasterproof_judge::verdict::{self, Judgement, Score, per_million};
 use rasterproof_verify::partition::{self, Polygon};
 
 const MOST_EXCHANGES: usize = 3;
@@ -22,7 +22,7 @@ const MOST_INCIDENTS: usize = 2;
 /// danger, both scores, and the table of families where something is wrong or it is asked for.
 #[must_use]
 pub fn report(
-    verdict: &Verdict,
+    verdict: &Judgement,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
     with_table: bool,
@@ -100,7 +100,7 @@ pub fn report(
 /// The same with what JSON and a page hold beside it: everything that was found, and each failing case as it is drawn.
 #[must_use]
 pub fn whole(
-    verdict: &Verdict,
+    verdict: &Judgement,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
     with_table: bool,
@@ -113,7 +113,7 @@ pub fn whole(
     }
 }
 
-fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
+fn outcome(verdict: &Judgement, names: Option<&[String; 2]>) -> Outcome {
     let good = verdict.agrees();
     match names {
         Some(names) => {
@@ -124,7 +124,7 @@ fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
 }
 
 /// The first mistake that is known, or what the convention is, after a colon.
-fn why_in_short(verdict: &Verdict) -> String {
+fn why_in_short(verdict: &Judgement) -> String {
     let mistake = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
     let convention = verdict.recognised.as_ref().filter(|found| found.is_explained);
     match (mistake, convention) {
@@ -175,7 +175,7 @@ pub fn of_polygons(
 }
 
 /// The end of what it said on standard error.
-fn complaints(verdict: &Verdict) -> Option<Excerpt> {
+fn complaints(verdict: &Judgement) -> Option<Excerpt> {
     let lines = verdict.complaints.iter().map(|line| format!("  | {line}"));
     (!verdict.complaints.is_empty()).then(|| Excerpt {
         title: "the end of its standard error:".to_owned(),
@@ -185,7 +185,7 @@ fn complaints(verdict: &Verdict) -> Option<Excerpt> {
 }
 
 /// A row for how it keeps the protocol, for its winding, for each danger and for each other check.
-fn dangers(verdict: &Verdict) -> Table {
+fn dangers(verdict: &Judgement) -> Table {
     let is_good =
         |name: &str| verdict.properties.iter().all(|p| p.name != name || p.outcome.is_good());
     let mut out = Vec::new();
@@ -235,7 +235,7 @@ fn score(of: Score, left_out_wrong: u64) -> String {
     format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
 }
 
-fn scores(verdict: &Verdict) -> Table {
+fn scores(verdict: &Judgement) -> Table {
     let found = match (&verdict.recognised, verdict.by_convention()) {
         (None, _) => "the same: no other one was recognised".to_owned(),
         (Some(_), Some(found)) => score(found, verdict.left_out_wrong()),
@@ -263,7 +263,7 @@ fn cause(why: &Why) -> Table {
 }
 
 /// Every family, with what was wrong.
-fn families(verdict: &Verdict) -> Table {
+fn families(verdict: &Judgement) -> Table {
     let columns = "property 18 | >cases 8 | >shapes 8 | >pixels 8 | >missing 8 | >extra 8 | >twice 8 | >order 8 | \
                    >refused 8 | >wrong 7";
     let row = |row: &FamilyRow| {
@@ -302,7 +302,7 @@ fn families(verdict: &Verdict) -> Table {
 }
 
 /// What broke the protocol: the first of each kind.
-pub fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
+pub fn incidents(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
     let mut shown: Vec<&str> = Vec::new();
     let mut out = Vec::new();
     for incident in &verdict.found.incidents {
@@ -382,7 +382,7 @@ pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
 }
 
 /// Whether both of two compared programs answer the same.
-fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
+fn difference(verdict: &Judgement, [first, second]: &[String; 2]) -> String {
     let rows = &verdict.found.rows;
     let sum = |of: fn(&FamilyRow) -> u64| rows.iter().map(of).sum::<u64>();
     let cases = thousands(sum(|row| row.cases));
@@ -408,7 +408,7 @@ fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
 }
 
 /// For each family which of two programs is right.
-fn sides(verdict: &Verdict) -> Table {
+fn sides(verdict: &Judgement) -> Table {
     let columns =
         "property 18 | >cases 7 | >differ 7 | >1st right 7 | >2nd right 7 | >neither 7 | >both 7";
     let row = |row: &FamilyRow| {
@@ -423,13 +423,13 @@ fn sides(verdict: &Verdict) -> Table {
 }
 
 /// The families, those with the largest share of wrong cases first.
-fn by_share(verdict: &Verdict) -> Vec<&FamilyRow> {
+fn by_share(verdict: &Judgement) -> Vec<&FamilyRow> {
     let mut rows: Vec<_> = verdict.found.rows.iter().collect();
     rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
     rows
 }
 
-fn closing(verdict: &Verdict) -> String {
+fn closing(verdict: &Judgement) -> String {
     let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
         verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
@@ -462,7 +462,7 @@ fn closing(verdict: &Verdict) -> String {
 
 /// What each program draws of each failing case.
 fn views(
-    verdict: &Verdict,
+    verdict: &Judgement,
     names: Option<&[String; 2]>,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Vec<page_cases::CaseView> {
@@ -494,7 +494,7 @@ fn views(
     verdict.failures.iter().map(view).collect()
 }
 
-fn properties(verdict: &Verdict) -> Table {
+fn properties(verdict: &Judgement) -> Table {
     let row = |p: &verdict::Property| Row {
         cells: vec![
             p.name.to_owned(),

@@ -14,7 +14,7 @@ use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, mistakes, recognise};
 use rasterproof_judge::run::{Failing, Found, Row, run};
-use rasterproof_judge::verdict::{Outcome, Verdict, sentence};
+use rasterproof_judge::verdict::{Judgement, Outcome, sentence};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
 use rasterproof_verify::comparison::Rule as Tie;
@@ -28,7 +28,7 @@ const MOST_OF_A_STAGE: u64 = 2048;
 pub struct DeviceReport {
     pub about: About,
     pub plant: Option<&'static str>,
-    pub verdict: Verdict,
+    pub verdict: Judgement,
     pub findings: Vec<Finding>,
     /// Known faults of this driver that were seen, or not any more.
     pub known: Vec<String>,
@@ -117,7 +117,8 @@ pub fn judge_with(
     let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
-    let mut verdict = Verdict::new(declared, &options, windings, said, found, failures, complaints);
+    let mut verdict =
+        Judgement::new(declared, &options, windings, said, found, failures, complaints);
     verdict.causes = causes;
     let mut findings = of_rows(&mut verdict, &old, &stale);
     drop(shared);
@@ -168,7 +169,7 @@ fn rule(property: &str) -> Rule {
 }
 
 /// Every row with its rule; the verdict's properties come out alike.
-fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Finding> {
+fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Finding> {
     let mut findings = Vec::new();
     for row in &verdict.found.rows {
         let is_of = |f: &&Failing| f.property == row.name;
