@@ -52,7 +52,7 @@ fn quiz_pages_have_a_key() {
     for chapter in CHAPTERS.iter() {
         let page = section(chapter, Language::English);
         for exercise in &chapter.exercises {
-            let key = format!("Right</summary>\n\n**{}**", exercise.solution().answer.text());
+            let key = format!("Answer</summary>\n\n**{}**", exercise.solution().answer.text());
             assert!(page.contains(&key), "{}", exercise.question[0]);
         }
     }
