@@ -32,18 +32,18 @@ const LADDERS: [(&str, &[Ladder]); 7] = [
 
 /// What is measured on: scenes that isolate one cost each, or a model.
 #[derive(Clone, Debug)]
-enum Subject {
+enum Scenes {
     Ladders(&'static [Ladder]),
     Model(PathBuf),
 }
 
-fn parse_subject() -> impl TypedValueParser<Value = Subject> {
+fn parse_subject() -> impl TypedValueParser<Value = Scenes> {
     OsStringValueParser::new().try_map(|word| {
         let known = LADDERS.iter().find(|(name, _)| *name == word);
         let path = PathBuf::from(word);
         match known {
-            Some((_, ladders)) => Ok(Subject::Ladders(ladders)),
-            None if path.extension().is_some() || path.is_file() => Ok(Subject::Model(path)),
+            Some((_, ladders)) => Ok(Scenes::Ladders(ladders)),
+            None if path.extension().is_some() || path.is_file() => Ok(Scenes::Model(path)),
             None => {
                 let names = LADDERS.map(|(name, _)| name).join(", ");
                 Err(format!("neither a file nor one of the groups {names}"))
@@ -56,7 +56,7 @@ fn parse_subject() -> impl TypedValueParser<Value = Subject> {
 pub struct CostArguments {
     /// The group of choices, all of them without a word; or the file of a model, to measure on its triangles
     #[arg(value_name = "GROUP|MODEL", value_parser = parse_subject())]
-    what: Option<Subject>,
+    what: Option<Scenes>,
     /// Smaller scenes and fewer rounds: under ten seconds for all groups
     #[arg(long)]
     quick: bool,
@@ -121,7 +121,7 @@ impl CostArguments {
 /// Measures or reads, prints and draws. Nothing here disagrees with anything: errors are the result.
 pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let ladders = match &arguments.what {
-        Some(Subject::Model(path)) => {
+        Some(Scenes::Model(path)) => {
             if let Some(option) =
                 typed.given(&["from", "seed", "engine", "output", "report", "out", "force"])
             {
@@ -130,7 +130,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
             let how = (arguments.once.effort(arguments.quick), arguments.json);
             return study::cost(path, &arguments.view, how, typed, streams);
         }
-        Some(Subject::Ladders(ladders)) => ladders,
+        Some(Scenes::Ladders(ladders)) => ladders,
         None => &Ladder::ALL[..],
     };
     study::refuse_view(typed)?;

@@ -109,9 +109,9 @@ fn judge(
         (Ruling::Holds, _) => ("holds", String::new()),
         (Ruling::Fails, None) => ("", "FAILS".to_owned()),
         (_, Some(failure)) => {
-            let what = format!("FAILS in case {}: {}", failure.index, failure.message);
+            let what = format!("FAILS in case {}: {}", failure.index, failure.what);
             let repeat = repeat(cases);
-            ("", format!("{what}\nsmallest found: {}\nrepeat with: {repeat}", failure.input))
+            ("", format!("{what}\nsmallest found: {}\nrepeat with: {repeat}", failure.case))
         }
         (Ruling::NotJudged, None) => {
             let why = match invariant.cases_needed(subject, seed) {

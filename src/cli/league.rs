@@ -10,7 +10,7 @@ use rasterproof_host::{input, limits};
 
 use super::{Status, Streams, exit, usage};
 use rasterproof_judge::ask::Subject;
-use rasterproof_judge::league::{Adapter, League, Standing, date};
+use rasterproof_judge::league::{Adapter, League, Ranked, date};
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::{Options, Step, process_group};
@@ -59,7 +59,7 @@ pub fn run(
             }
         });
         drop(progress);
-        let standing = Standing::new(adapter, today(), &verdict);
+        let standing = Ranked::new(adapter, today(), &verdict);
         write!(streams.output, "{:<22}", adapter.name)?;
         for (kind, what) in [(&standing.triangles, "triangles"), (&standing.lines, "lines")] {
             let Some(kind) = kind else { continue };

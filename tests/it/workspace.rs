@@ -133,6 +133,51 @@ fn an_effect_is_named_in_few_files() {
     }
 }
 
+/// What every judge has, by its name.
+const OF_EVERY_JUDGE: [&str; 11] = [
+    "Failure",
+    "Finding",
+    "FamilyReport",
+    "Verdict",
+    "Options",
+    "Check",
+    "Answer",
+    "Subject",
+    "Question",
+    "Expectation",
+    "Standing",
+];
+
+/// The definitions of a type in a text, a second one under a longer name among them.
+fn definitions(text: &str, name: &str) -> usize {
+    let is_one = |line: &str| {
+        let words: Vec<&str> = line.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+        let defined = words.windows(2).find(|two| ["struct", "enum", "trait"].contains(&two[0]));
+        defined.is_some_and(|two| two[1] == name || two[1] == format!("Exact{name}"))
+    };
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).filter(|l| is_one(l)).count()
+}
+
+#[test]
+fn what_every_judge_has_is_defined_once() {
+    assert_eq!(
+        definitions("pub struct Failure<C> {\n// struct Failure\nstruct Failures;", "Failure"),
+        1
+    );
+    assert_eq!(definitions("enum ExactFinding {}\n    pub(super) trait Finding {", "Finding"), 2);
+    let folders = source_folders();
+    let crates = folders.iter().filter(|f| !f.starts_with("src") && !f.contains("report"));
+    let texts: Vec<_> = crates.flat_map(|f| files(&root().join(f), "rs")).collect();
+    for name in OF_EVERY_JUDGE {
+        let found = texts.iter().filter_map(|file| {
+            let count = definitions(&fs::read_to_string(file).unwrap(), name);
+            (count > 0).then(|| format!("{} ({count})", file.display()))
+        });
+        let found: Vec<_> = found.collect();
+        assert!(found.len() == 1 && found[0].ends_with("(1)"), "{name}: {found:#?}");
+    }
+}
+
 #[test]
 fn everything_is_compiled_once() {
     let (program, tests) = (features("no-dev"), features("all"));

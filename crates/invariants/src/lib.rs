@@ -23,7 +23,7 @@ mod values;
 
 use implementations::{Component, Implementations};
 use rasterproof_core::parallel;
-use rasterproof_verify::comparison::caught;
+use rasterproof_verify::judge::{self, caught};
 use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
 
 /// What a check compared (0 where the input does not fit it), or the first thing that is wrong.
@@ -65,13 +65,8 @@ pub struct Trial {
     pub failure: Option<Failure>,
 }
 
-#[derive(Clone, Debug)]
-pub struct Failure {
-    pub index: u64,
-    /// The smallest input found that still fails.
-    pub input: Input,
-    pub message: String,
-}
+/// The family is the name of the invariant.
+pub type Failure = judge::Failure<Input, ()>;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ruling {
@@ -192,7 +187,7 @@ impl Invariant {
         let input = self.input(subject, seed, index);
         let input = source::smallest(input, |input| self.judge(subject, input).is_err());
         let message = self.judge(subject, &input).err().unwrap_or(message);
-        Failure { index, input, message }
+        Failure::new(self.name, index, seed, message, input, ())
     }
 }
 

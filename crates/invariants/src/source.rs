@@ -5,8 +5,8 @@ use std::fmt;
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_verify::cases::shrink;
 use rasterproof_verify::cases::{self, Case, Family, Line, Rng, Shape, Triangle, named};
-use rasterproof_verify::comparison::shrink;
 
 use super::implementations::MakeCase;
 
@@ -252,7 +252,7 @@ pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
             wrap(&found).unwrap_or(Input::Line(LineInput { line, window }))
         }
         // A run has no neighbours.
-        other => greedy(other, &fails),
+        other => shrink::greedy(other, size, neighbours, &fails),
     }
 }
 
@@ -282,13 +282,21 @@ fn smallest_triangle(mut input: TriangleInput, fails: impl Fn(&Input) -> bool) -
     wrap(&found).unwrap_or(Input::Triangle(input))
 }
 
-/// Takes the first simpler neighbour that still fails, until none does. Every neighbour moves a
-/// number towards zero or drops a point, so this ends.
-fn greedy(mut input: Input, fails: &impl Fn(&Input) -> bool) -> Input {
-    while let Some(simpler) = neighbours(&input).into_iter().find(|i| *i != input && fails(i)) {
-        input = simpler;
+/// How many points an input has, then how far they lie from where [`neighbours`] moves them.
+fn size(input: &Input) -> (usize, f64) {
+    let far = |points: &[SubpixelPoint], [x, y]: [i32; 2]| -> f64 {
+        points.iter().map(|p| f64::from(p.x.abs_diff(x)) + f64::from(p.y.abs_diff(y))).sum()
+    };
+    match input {
+        Input::Quad(quad) => (4, far(&quad.corners, [0; 2])),
+        Input::Fan(fan) => (fan.ring.len(), far(&fan.ring, [fan.centre.x, fan.centre.y])),
+        Input::Position(p) => (1, p.px.abs() + f64::from(p.shift_px.unsigned_abs())),
+        Input::Clip(clip) => {
+            let numbers = clip.vertices.as_flattened();
+            (3, numbers.iter().map(|v| f64::from(v.unsigned_abs())).sum())
+        }
+        _ => (0, 0.0),
     }
-    input
 }
 
 fn neighbours(input: &Input) -> Vec<Input> {

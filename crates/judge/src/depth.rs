@@ -11,7 +11,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 use rasterproof_verify::cases::Triangle;
-use rasterproof_verify::comparison::Picture;
+use rasterproof_verify::comparison::Expectation;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
 /// One triangle of a pile: the pixels that it has to cover, those that it may, and its depths.
@@ -36,7 +36,7 @@ impl Pile {
         declared: &Declared,
     ) -> Option<Self> {
         let layer = |triangle: &Triangle| {
-            let Picture { must, may } = expect.picture(&triangle.corners(), window)?;
+            let Expectation { must, may } = expect.picture(&triangle.corners(), window)?;
             let (must, may) = (hits(&must, window).0, may.map(|may| hits(&may, window).0));
             let may = may.unwrap_or_else(|| must.clone());
             Some(Layer { must, may, depths: exact_values(triangle, declared) })

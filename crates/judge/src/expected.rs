@@ -6,14 +6,14 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::named::plain_line;
-use rasterproof_verify::comparison::{Convention, Picture, Rule, area2};
+use rasterproof_verify::comparison::{Convention, Expectation, Rule, area2};
 use rasterproof_verify::convention::{self, Known, Ties};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
 pub trait Expect: Send + Sync {
     /// The picture in a window at the origin; nothing where nothing is promised.
-    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture>;
+    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation>;
 
     /// The pixels of a line in drawing order; nothing where nothing is promised.
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>>;
@@ -31,7 +31,7 @@ pub trait Expect: Send + Sync {
 }
 
 impl Expect for Convention {
-    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
+    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation> {
         let is_open = matches!(self.rule, Rule::Inclusive | Rule::Unspecified);
         // Programs behind the protocol promise nothing of a triangle that is nothing but edges.
         (area2(corners) != 0 || !is_open).then(|| self.expected(corners, window))
@@ -52,7 +52,7 @@ pub(super) fn runs(coverage: &Coverage) -> Vec<Span> {
 
 /// What a program declares: the picture of its convention, or of its shape.
 impl Expect for Declared {
-    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
+    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation> {
         // Half a pixel further out, or further in, along both axes.
         let reach = match self.shape {
             Shape::Sample => return self.convention.picture(corners, window),
@@ -70,7 +70,7 @@ impl Expect for Declared {
             let convention = convention::Convention { shape, ties, ..known.declared };
             convention.cover(corners, window).as_ref().map(runs)
         };
-        Some(Picture { must: of("strict")?, may: of("inclusive") })
+        Some(Expectation { must: of("strict")?, may: of("inclusive") })
     }
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {

@@ -27,7 +27,7 @@ pub struct Kind {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Standing {
+pub struct Ranked {
     pub name: String,
     pub library: String,
     /// What it calls itself at HELLO, with its version.
@@ -53,10 +53,10 @@ pub struct League {
     pub rasterproof: String,
     pub seed: u64,
     pub cases: u64,
-    pub rows: Vec<Standing>,
+    pub rows: Vec<Ranked>,
 }
 
-impl Standing {
+impl Ranked {
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Judgement) -> Self {
         let row = |name: &str| verdict.found.rows.iter().find(|row| row.name == name);

@@ -7,7 +7,7 @@ use super::judged::{hits, mix};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
-use rasterproof_verify::comparison::{Picture, Tally};
+use rasterproof_verify::comparison::{Expectation, Tally};
 
 pub(super) fn pixel_of(f: &Fragment<DVec2>) -> Span {
     Span { y_px: f.y_px, x0_px: f.x_px, x1_px: f.x_px.saturating_add(1) }
@@ -22,7 +22,7 @@ pub(super) fn compare(
     tally: &mut Tally,
     mark: &mut u64,
     runs: &[Span],
-    picture: &Picture,
+    picture: &Expectation,
     window: PixelRect,
 ) {
     if picture.may.is_none() && runs == picture.must {
@@ -132,7 +132,7 @@ pub(super) fn sequence(
     if pixels == expected {
         return;
     }
-    let picture = Picture { must: as_runs(expected), may: None };
+    let picture = Expectation { must: as_runs(expected), may: None };
     let before = tally.total();
     compare(tally, mark, &as_runs(pixels), &picture, window);
     if tally.total() == before && in_order {

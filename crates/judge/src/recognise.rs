@@ -24,7 +24,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_registry::engines::{self, Entry};
-use rasterproof_verify::comparison::{Convention as Promised, Picture, Rule};
+use rasterproof_verify::comparison::{Convention as Promised, Expectation, Rule};
 use rasterproof_verify::convention::{
     self, Confidence, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion, Quantum,
 };
@@ -164,14 +164,14 @@ impl Found {
 }
 
 impl Expect for Found {
-    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
+    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation> {
         if self.otherwise[0] && leaving::triangle_leaves(corners, self.quantum(), window) {
             return None;
         }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
         let coverage =
             found.expected(&convention::TriangleQuestion { corners: *corners, window })?;
-        Some(Picture { must: runs(&coverage), may: None })
+        Some(Expectation { must: runs(&coverage), may: None })
     }
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::phrases;
-use rasterproof_judge::league::{Kind, League, Standing};
+use rasterproof_judge::league::{Kind, League, Ranked};
 use rasterproof_judge::verdict::{Score, per_million};
 
 /// What stands around the numbers.
@@ -84,8 +84,8 @@ pub fn tables(league: &League, chinese: bool) -> String {
 }
 
 /// What a library was asked by, and what it does.
-fn one(out: &mut String, row: &Standing, words: &Words) {
-    let Standing { name, declares, call, unanswered: [refused, died], .. } = row;
+fn one(out: &mut String, row: &Ranked, words: &Words) {
+    let Ranked { name, declares, call, unanswered: [refused, died], .. } = row;
     let [colon, semicolon, stop] = words.marks;
     let call = (words.say)(call);
     let _ = writeln!(out, "- **{name}**{colon}{call}{semicolon}`{declares}`{stop}");

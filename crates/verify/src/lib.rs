@@ -198,6 +198,8 @@ pub mod partition;
 pub use rasterproof_core::{contract, frame, grid, triangle};
 #[doc(hidden)]
 pub mod source_text;
+#[doc(hidden)]
+pub mod specification;
 
 /// Panics unless a rasterizer draws every pixel of all cases as the oracle does. A second argument has other
 /// [`Options`](comparison::Options) than 2,000 cases of each family.

@@ -19,6 +19,7 @@ use rasterproof_precision::cost::ExternalVariant as _;
 use rasterproof_report::html::Report;
 use rasterproof_report::text as terminal;
 use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::specification::Standing;
 use rasterproof_vulkan::device::Error;
 use rasterproof_vulkan::device::find::{self, About};
 use rasterproof_vulkan::device::kind::{CELL_PX, Kind};
@@ -26,7 +27,6 @@ use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
 use rasterproof_vulkan::gpu::cells::{draw_of, plain, twice_area_px2};
 use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind};
 use rasterproof_vulkan::gpu::known;
-use rasterproof_vulkan::gpu::rules::Class;
 use rasterproof_vulkan::gpu::rung::OnLadder;
 use rasterproof_vulkan::gpu::text;
 
@@ -62,7 +62,7 @@ fn said(stand: &DeviceReport) -> String {
     terminal::text(&report(stand), false, false)
 }
 
-fn class(stand: &DeviceReport, name: &str) -> Class {
+fn class(stand: &DeviceReport, name: &str) -> Standing {
     stand.findings.iter().find(|f| f.name == name).unwrap_or_else(|| panic!("no {name}")).class
 }
 
@@ -80,10 +80,10 @@ fn every_device_is_judged() {
         assert!(stand.verdict.shapes(false) > 1000);
         if is_known_right(&stand.about) {
             for name in ["half-integer", "fan", "near-tie", "huge", "watertight", "samples4"] {
-                assert_eq!(class(&stand, name), Class::Equal, "{name}: {text}");
+                assert_eq!(class(&stand, name), Standing::Equal, "{name}: {text}");
             }
-            assert_eq!(class(&stand, "snapping"), Class::Equal, "{text}");
-            assert_eq!(class(&stand, "the same twice"), Class::Equal, "{text}");
+            assert_eq!(class(&stand, "snapping"), Standing::Equal, "{text}");
+            assert_eq!(class(&stand, "the same twice"), Standing::Equal, "{text}");
         }
         assert_eq!(report(&stand).data["agrees"], true);
     }
@@ -93,11 +93,11 @@ fn every_device_is_judged() {
 #[test]
 fn planted_faults_are_caught() {
     let faults = [
-        ("shifted-samples", "near-tie", "near-tie", Class::Outside),
-        ("bottom-right-rule", "near-tie", "near-tie", Class::Outside),
-        ("draws-twice", "uniform", "uniform", Class::Outside),
-        ("no-perspective", "w-100", "values", Class::Outside),
-        ("shifted-masks", "half-integer", "samples4", Class::Outside),
+        ("shifted-samples", "near-tie", "near-tie", Standing::Outside),
+        ("bottom-right-rule", "near-tie", "near-tie", Standing::Outside),
+        ("draws-twice", "uniform", "uniform", Standing::Outside),
+        ("no-perspective", "w-100", "values", Standing::Outside),
+        ("shifted-masks", "half-integer", "samples4", Standing::Outside),
     ];
     for engine in devices() {
         for (plant, family, property, expected) in faults {
@@ -140,7 +140,7 @@ fn faults_of_stages_are_caught() {
             for name in names {
                 let found = class(&stand, name);
                 assert!(
-                    [Class::Outside, Class::NotOffered].contains(&found),
+                    [Standing::Outside, Standing::NotOffered].contains(&found),
                     "{plant}, {name}: {}",
                     said(&stand)
                 );
@@ -206,14 +206,14 @@ fn known_faults_are_no_news() {
             class(&stand, "huge")
         };
         assert_eq!(line(1).len(), 1);
-        assert_eq!(judged("+loses-large", &[]), Class::Outside);
-        assert_eq!(judged("+loses-large", &line(1 << 23)), Class::Known);
+        assert_eq!(judged("+loses-large", &[]), Standing::Outside);
+        assert_eq!(judged("+loses-large", &line(1 << 23)), Standing::Known);
         // Some are larger than the file says: the others are news.
-        assert_eq!(judged("+loses-large", &line(1 << 25)), Class::Outside);
+        assert_eq!(judged("+loses-large", &line(1 << 25)), Standing::Outside);
         if is_known_right(&about) {
             // So triangles of that size were judged, and are right.
-            assert_eq!(judged("", &line(1 << 23)), Class::Stale);
-            assert_eq!(judged("", &[]), Class::Equal);
+            assert_eq!(judged("", &line(1 << 23)), Standing::Stale);
+            assert_eq!(judged("", &[]), Standing::Equal);
         }
     }
 }
@@ -229,9 +229,9 @@ fn a_failing_device_leaves_the_rest_of_the_verdict() {
             let text = said(&stand);
             assert!(!stand.agrees());
             assert!(text.contains(words), "{text}");
-            let lost = stand.findings.iter().filter(|f| f.class == Class::NoAnswer).count();
+            let lost = stand.findings.iter().filter(|f| f.class == Standing::NoAnswer).count();
             assert!((1..=4).contains(&lost), "{text}");
-            let equal = stand.findings.iter().filter(|f| f.class == Class::Equal).count();
+            let equal = stand.findings.iter().filter(|f| f.class == Standing::Equal).count();
             assert!(equal > 4, "{text}");
         }
     }

@@ -2,7 +2,7 @@
 
 const state = { lang: 'en', plant: null, seed: 1, running: false };
 const APIS = { webgl2: openWebgl2, webgpu: openWebgpu };
-const WORST = ['promised', 'free', 'broken'];
+const WORST = ['equal', 'allowed', 'outside'];
 
 function must(answer) {
   if (answer.error) throw new Error(answer.error);
@@ -135,7 +135,7 @@ async function judgeApi(name, { only, bits = null, shrinks = true }) {
       await breathe();
       result.views[check] = broken ? await shrunk(api, check, broken) : (await judged(api, { check, only: free })).view;
     }
-    if (OF_PIXELS.some((check) => result.rows[check]?.word === 'broken')) result.cause = await causeOf(api, result.title);
+    if (OF_PIXELS.some((check) => result.rows[check]?.word === 'outside')) result.cause = await causeOf(api, result.title);
   } catch (error) {
     if (!(error instanceof Lost)) throw error;
     result.notes.push(['lostAgain', error.message, batches.length]);

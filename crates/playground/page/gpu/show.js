@@ -23,7 +23,7 @@ const number = (result, is) => Object.values(result.rows).filter((row) => row.wo
 
 function summary(result) {
   if (Object.keys(result.rows).length === 0) return null;
-  const says = [word('allPromised'), word('someFree')(number(result, 'free')), word('someBroken')(number(result, 'broken'))][worst(result)];
+  const says = [word('allPromised'), word('someFree')(number(result, 'allowed')), word('someBroken')(number(result, 'outside'))][worst(result)];
   return make('p', { className: `verdict ${WORST[worst(result)]}` }, says);
 }
 
@@ -186,7 +186,7 @@ function drawFinding() {
   if (!view) return;
   const rule = ruleOf(result.name, check);
   const heads = (check === 'twice' ? ['drawnFirst', 'drawnAgain'] : ['ours', 'theirs']).map(word);
-  const isBroken = result.rows[check]?.word === 'broken' || view.marks.some((mark) => mark.word === 'broken');
+  const isBroken = result.rows[check]?.word === 'outside' || view.marks.some((mark) => mark.word === 'outside');
   // Of four samples the ones that differ.
   const wanted = [...new Set(view.marks.map(({ plane }) => plane))];
   const pairs = (wanted.length ? wanted : [0]).map((plane) => {
@@ -213,9 +213,9 @@ function drawAll() {
   $('planted').hidden = !state.plant;
   $('planted').textContent = state.plant ? word('planted')(state.plant) : '';
   const { one } = state;
-  const verdict = { promised: 'passes', free: 'differs', broken: 'fails' }[one?.verdict];
+  const verdict = { equal: 'passes', allowed: 'differs', outside: 'fails' }[one?.verdict];
   $('one').hidden = !one;
-  fill($('one'), one ? word('repeats') : '', one?.error ? make('p', { className: 'broken' }, `${word('badCase')} ${one.error}`) : null, verdict ? make('p', { className: one.verdict }, word(verdict)) : null, verdict && one.check === 'lattice' ? make('p', {}, word('latticeOne')(one.facts.finest)) : null);
+  fill($('one'), one ? word('repeats') : '', one?.error ? make('p', { className: 'outside' }, `${word('badCase')} ${one.error}`) : null, verdict ? make('p', { className: one.verdict }, word(verdict)) : null, verdict && one.check === 'lattice' ? make('p', {}, word('latticeOne')(one.facts.finest)) : null);
   fill($('results'), ...(one ? [] : (state.results ?? []).map(resultOf)));
   drawProgress();
   drawFinding();

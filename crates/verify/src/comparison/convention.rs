@@ -204,29 +204,29 @@ impl Convention {
 
     /// What has to be drawn of a triangle, and what may be.
     #[must_use]
-    pub fn expected(&self, corners: &Corners, window: PixelRect) -> Picture {
+    pub fn expected(&self, corners: &Corners, window: PixelRect) -> Expectation {
         let area = area2(corners);
         let rule = self.seen_rule();
         if !self.draws(area) {
-            return Picture::default();
+            return Expectation::default();
         }
         let corners = self.centred(corners);
-        let half_open = |x, y| Picture { must: mirrored(&corners, window, x, y), may: None };
+        let half_open = |x, y| Expectation { must: mirrored(&corners, window, x, y), may: None };
         match rule {
             // Whoever draws all samples on edges may draw those of a triangle that is nothing but edges.
             Rule::Inclusive | Rule::Unspecified if area == 0 => {
-                Picture { must: Vec::new(), may: Some(by_edges(&corners, window, true)) }
+                Expectation { must: Vec::new(), may: Some(by_edges(&corners, window, true)) }
             }
-            _ if area == 0 => Picture::default(),
+            _ if area == 0 => Expectation::default(),
             Rule::TopLeft => half_open(false, false),
             Rule::TopRight => half_open(true, false),
             Rule::BottomLeft => half_open(false, true),
             Rule::BottomRight => half_open(true, true),
-            Rule::Strict => Picture { must: by_edges(&corners, window, false), may: None },
-            Rule::Inclusive => Picture { must: by_edges(&corners, window, true), may: None },
+            Rule::Strict => Expectation { must: by_edges(&corners, window, false), may: None },
+            Rule::Inclusive => Expectation { must: by_edges(&corners, window, true), may: None },
             Rule::Unspecified => {
                 let may = by_edges(&corners, window, true);
-                Picture { must: by_edges(&corners, window, false), may: Some(may) }
+                Expectation { must: by_edges(&corners, window, false), may: Some(may) }
             }
         }
     }
@@ -330,7 +330,7 @@ impl Rasterize for Convention {
 
 /// The picture that is expected: every pixel of `must`, no pixel outside `may`.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Picture {
+pub struct Expectation {
     /// Runs of pixels that have to be hit once.
     pub must: Vec<Span>,
     /// Runs of pixels that may be hit once, where they are more than those of `must`.

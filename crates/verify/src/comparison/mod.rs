@@ -49,7 +49,7 @@ pub use finding::{Finding, Tally};
 #[doc(hidden)]
 pub use {
     compare::{is_sliver, line_has_tie},
-    convention::{Picture, area2},
+    convention::{Expectation, area2},
     spans::{
         engine_coverage, exact_coverage, line_coverage, oracle_coverage, oracle_hits,
         oracle_pixels_each,

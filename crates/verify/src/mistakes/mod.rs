@@ -77,18 +77,17 @@ const fn border<D: Copy>(draws: D) -> Mistake<D> {
 }
 
 /// A program whose answers are known, such as a published algorithm.
-pub struct Program<'a, TriangleQuestion, Picture> {
+pub struct Program<'a, Q, Picture> {
     /// Its name.
     pub name: &'static str,
     /// What is wrong with it, after 'it'.
     pub about: String,
     /// What it draws; none where it has no answer.
-    pub draw: Draw<'a, TriangleQuestion, Picture>,
+    pub draw: Draw<'a, Q, Picture>,
 }
 
 /// What a program draws for a question.
-pub type Draw<'a, TriangleQuestion, Picture> =
-    Box<dyn Fn(&TriangleQuestion) -> Option<Picture> + 'a>;
+pub type Draw<'a, Q, Picture> = Box<dyn Fn(&Q) -> Option<Picture> + 'a>;
 
 /// A mistake that explains what is wrong, or the nearest one.
 #[derive(Clone, Debug, PartialEq)]
@@ -213,8 +212,8 @@ const AT_ONCE: usize = 100;
 const SEED: u64 = 1;
 
 /// A question with its answer.
-struct Answered<TriangleQuestion> {
-    question: TriangleQuestion,
+struct Answered<Q> {
+    question: Q,
     drawn: Mask,
     /// Pixels that were hit more than once; none where that cannot be seen.
     twice: Mask,
@@ -222,7 +221,7 @@ struct Answered<TriangleQuestion> {
     right: Mask,
 }
 
-impl<TriangleQuestion> Answered<TriangleQuestion> {
+impl<Q> Answered<Q> {
     fn is_wrong(&self) -> bool {
         !self.is(self.right, Mask::default())
     }
@@ -418,13 +417,13 @@ pub fn of_lines(
     with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected, goes_on))
 }
 
-impl<TriangleQuestion, Picture> Program<'_, TriangleQuestion, Picture> {
+impl<Q, Picture> Program<'_, Q, Picture> {
     /// That the answers are those of this program. `masks` are the pixels of its picture, and those that it hits more than
     /// once.
     fn hypothesis<'a>(
         &'a self,
-        answered: &'a [Answered<TriangleQuestion>],
-        masks: impl Fn(&TriangleQuestion, &Picture) -> [Mask; 2] + 'a,
+        answered: &'a [Answered<Q>],
+        masks: impl Fn(&Q, &Picture) -> [Mask; 2] + 'a,
     ) -> Hypothesis<'a> {
         let predicts = move |i: usize| {
             let Answered { question, .. } = &answered[i];

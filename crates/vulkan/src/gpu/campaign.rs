@@ -1,12 +1,13 @@
 //! A device judged: the families by the judge of programs, then the stages, each with its rule.
 
+use rasterproof_verify::specification::{self as rules, Clause, Standing};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use super::engine::Gpu;
 use super::known::{self, Known};
+use super::outcome::Requirement;
 use super::requirements;
-use super::rules::{self, Class, Finding, Rule};
 use super::specified::Specified;
 use crate::device::find::About;
 use rasterproof_judge::ask::{Answer, Question, Subject};
@@ -29,7 +30,7 @@ pub struct DeviceReport {
     pub about: About,
     pub plant: Option<&'static str>,
     pub verdict: Judgement,
-    pub findings: Vec<Finding>,
+    pub findings: Vec<Requirement>,
     /// Known faults of this driver that were seen, or not any more.
     pub known: Vec<String>,
 }
@@ -160,7 +161,7 @@ fn stale(
     named.filter(is_stale).map(|(_, property)| property.to_owned()).collect()
 }
 
-fn rule(property: &str) -> Rule {
+fn rule(property: &str) -> Clause {
     match property {
         "values" => rules::PERSPECTIVE,
         "samples4" => rules::SAMPLES,
@@ -169,7 +170,7 @@ fn rule(property: &str) -> Rule {
 }
 
 /// Every row with its rule; the verdict's properties come out alike.
-fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Finding> {
+fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Requirement> {
     let mut findings = Vec::new();
     for row in &verdict.found.rows {
         let is_of = |f: &&Failing| f.property == row.name;
@@ -180,35 +181,40 @@ fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Fi
         if known > 0 {
             detail += &format!("; {known} as the baseline says, {news} new");
         }
-        findings.push(Finding { name: row.name.to_owned(), rule: rule(row.name), class, detail });
+        findings.push(Requirement {
+            name: row.name.to_owned(),
+            rule: rule(row.name),
+            class,
+            detail,
+        });
     }
     for property in &mut verdict.properties {
         if let Some(finding) = findings.iter().find(|f| f.name == property.name) {
             property.outcome = match finding.class {
-                Class::Known => Outcome::ExpectedFailure,
-                Class::Stale => Outcome::UnexpectedPass,
+                Standing::Known => Outcome::ExpectedFailure,
+                Standing::Stale => Outcome::UnexpectedPass,
                 class if class.is_good() => Outcome::Pass,
                 _ => Outcome::Fail,
             };
         } else if !property.outcome.is_good() {
             // That it draws, in both windings, and answers.
             let (name, detail) = (property.name.to_owned(), property.detail.clone());
-            let class = if name == "protocol" { Class::NoAnswer } else { Class::Outside };
-            findings.push(Finding { name, rule: rules::POLYGONS, class, detail });
+            let class = if name == "protocol" { Standing::NoAnswer } else { Standing::Outside };
+            findings.push(Requirement { name, rule: rules::POLYGONS, class, detail });
         }
     }
     findings
 }
 
-fn class(row: &Row, known: usize, news: usize, stale: &[String]) -> Class {
+fn class(row: &Row, known: usize, news: usize, stale: &[String]) -> Standing {
     // Checks that compare answers have no second opinion: what they find is no matter of ties.
     let compares = ["watertight", "vertex-order", "samples4"].contains(&row.name);
     match (news, known) {
-        (0, 0) if stale.iter().any(|name| name == row.name) => Class::Stale,
-        (0, 0) => Class::Equal,
-        (0, _) => Class::Known,
-        _ if row.deaths > 0 => Class::NoAnswer,
-        _ if row.recognised.total() == 0 && row.worst <= 1.0 && !compares => Class::Allowed,
-        _ => Class::Outside,
+        (0, 0) if stale.iter().any(|name| name == row.name) => Standing::Stale,
+        (0, 0) => Standing::Equal,
+        (0, _) => Standing::Known,
+        _ if row.deaths > 0 => Standing::NoAnswer,
+        _ if row.recognised.total() == 0 && row.worst <= 1.0 && !compares => Standing::Allowed,
+        _ => Standing::Outside,
     }
 }

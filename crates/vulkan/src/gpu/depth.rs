@@ -2,7 +2,7 @@
 
 use super::cells::{draw_of, hits_of, in_perspective, pixels, valued};
 use super::engine::Gpu;
-use super::rules::{Class, Errors, Outcome};
+use super::outcome::{Errors, Outcome};
 use crate::device::Error;
 use crate::device::draw::{Draw, Pictures, Vertex};
 use crate::device::kind::{CELL_PX, Kind, PAGE_PX};
@@ -11,6 +11,7 @@ use rasterproof_verify::cases::{Rng, Triangle};
 use rasterproof_verify::comparison::single_precision::depth_bounds;
 use rasterproof_verify::oracle::clipped::{self, Linear, UNIT, Whole, borders, corner};
 use rasterproof_verify::oracle::values::ExactTriangle;
+use rasterproof_verify::specification::Standing;
 
 const _: () = assert!(CELL_PX == clipped::CELL_PX);
 
@@ -111,7 +112,7 @@ pub(super) fn nearer(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Er
         triangles.len(),
         judged.join(" and ")
     );
-    Ok((Class::of(wrong == 0, false), said))
+    Ok((Standing::of(wrong == 0, false), said))
 }
 
 pub(super) fn clipped(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
@@ -166,5 +167,5 @@ pub(super) fn clipped(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, E
          {furthest:.4} px from a border; clipping explains {bound_px:.4}",
         triangles.len()
     );
-    Ok((Class::of(different == 0, furthest <= bound_px), said))
+    Ok((Standing::of(different == 0, furthest <= bound_px), said))
 }

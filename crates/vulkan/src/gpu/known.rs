@@ -8,7 +8,7 @@ use crate::device::find::About;
 use rasterproof_verify::cases::{Case, Shape};
 
 use super::cells::twice_area_px2;
-use super::rules::Class;
+use rasterproof_verify::specification::Standing;
 
 pub const TEXT: &str = include_str!("known-faults.txt");
 
@@ -108,30 +108,30 @@ impl Known {
 
 /// What a stage came to whose triangles have these areas, by whether each was right.
 #[must_use]
-pub fn class_of_areas(known: &[Known], property: &str, judged: &[(f64, bool)]) -> Class {
+pub fn class_of_areas(known: &[Known], property: &str, judged: &[(f64, bool)]) -> Standing {
     let is_known = |px2: f64| known.iter().any(|k| k.covers_area(property, px2));
     let wrong: Vec<f64> = judged.iter().filter(|(_, right)| !right).map(|(px2, _)| *px2).collect();
     match wrong.is_empty() {
-        true if judged.iter().any(|(px2, _)| is_known(*px2)) => Class::Stale,
-        true => Class::Equal,
-        false if wrong.iter().all(|px2| is_known(*px2)) => Class::Known,
-        false => Class::Outside,
+        true if judged.iter().any(|(px2, _)| is_known(*px2)) => Standing::Stale,
+        true => Standing::Equal,
+        false if wrong.iter().all(|px2| is_known(*px2)) => Standing::Known,
+        false => Standing::Outside,
     }
 }
 
 /// What a stage came to in which so many of its cases are wrong.
 #[must_use]
-pub fn class_of_share(known: &[Known], property: &str, wrong: u64, cases: u64) -> Class {
+pub fn class_of_share(known: &[Known], property: &str, wrong: u64, cases: u64) -> Standing {
     let most = known.iter().filter(|k| k.names(property));
     let most = most.filter_map(|k| match k.condition {
         Condition::PerMille(most) => Some(most),
         Condition::TwiceAreaPx2(_) => None,
     });
     match most.max() {
-        Some(_) if wrong == 0 && cases >= ENOUGH => Class::Stale,
-        Some(most) if wrong > 0 && wrong * 1000 <= most * cases => Class::Known,
-        _ if wrong == 0 => Class::Equal,
-        _ => Class::Outside,
+        Some(_) if wrong == 0 && cases >= ENOUGH => Standing::Stale,
+        Some(most) if wrong > 0 && wrong * 1000 <= most * cases => Standing::Known,
+        _ if wrong == 0 => Standing::Equal,
+        _ => Standing::Outside,
     }
 }
 
@@ -169,17 +169,17 @@ mod tests {
             parse("a | b | x, y | twice-area-px2 >= 8 | c\na | b | z | at most 20 in 1000 | c");
         let known = known.unwrap();
         let by_area = |judged: &[(f64, bool)]| class_of_areas(&known, "x, y", judged);
-        assert_eq!(by_area(&[(9.0, false), (9.0, true), (1.0, true)]), Class::Known);
-        assert_eq!(by_area(&[(9.0, false), (7.0, false)]), Class::Outside);
-        assert_eq!(by_area(&[(9.0, true), (7.0, true)]), Class::Stale);
-        assert_eq!(by_area(&[(7.0, true)]), Class::Equal);
-        assert_eq!(class_of_areas(&known, "z", &[(9.0, false)]), Class::Outside);
+        assert_eq!(by_area(&[(9.0, false), (9.0, true), (1.0, true)]), Standing::Known);
+        assert_eq!(by_area(&[(9.0, false), (7.0, false)]), Standing::Outside);
+        assert_eq!(by_area(&[(9.0, true), (7.0, true)]), Standing::Stale);
+        assert_eq!(by_area(&[(7.0, true)]), Standing::Equal);
+        assert_eq!(class_of_areas(&known, "z", &[(9.0, false)]), Standing::Outside);
         let by_share = |wrong, cases| class_of_share(&known, "z", wrong, cases);
-        assert_eq!(by_share(2, 100), Class::Known);
-        assert_eq!(by_share(3, 100), Class::Outside);
-        assert_eq!(by_share(0, 100), Class::Equal);
-        assert_eq!(by_share(0, 1000), Class::Stale);
-        assert_eq!(class_of_share(&known, "x, y", 1, 1000), Class::Outside);
+        assert_eq!(by_share(2, 100), Standing::Known);
+        assert_eq!(by_share(3, 100), Standing::Outside);
+        assert_eq!(by_share(0, 100), Standing::Equal);
+        assert_eq!(by_share(0, 1000), Standing::Stale);
+        assert_eq!(class_of_share(&known, "x, y", 1, 1000), Standing::Outside);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::cells::{draw_of, plain};
 use super::engine::Gpu;
 use super::known::{self, Known};
-use super::rules::{Class, Outcome};
+use super::outcome::Outcome;
 use crate::device::Error;
 use crate::device::draw::Pictures;
 use crate::device::kind::{CELL_PX, Kind};
@@ -11,6 +11,7 @@ use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_judge::ask::runs_of;
 use rasterproof_verify::cases::Rng;
 use rasterproof_verify::oracle::segments::{self as segment, Fit, Pixels};
+use rasterproof_verify::specification::Standing;
 
 /// Pixels between lines and the sides of their window, so that one that lies a pixel away is seen.
 const MARGIN_PX: i32 = 2;
@@ -60,8 +61,8 @@ fn lit(pictures: &Pictures, cell: usize) -> Pixels {
     rows.flat_map(|(run, _)| (run.x0_px..run.x1_px).map(move |x| (x, run.y_px))).collect()
 }
 
-fn class([_, allowed, outside]: [u64; 3]) -> Class {
-    Class::of(allowed + outside == 0, outside == 0)
+fn class([_, allowed, outside]: [u64; 3]) -> Standing {
+    Standing::of(allowed + outside == 0, outside == 0)
 }
 
 pub(super) fn apart(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result<Outcome, Error> {

@@ -6,7 +6,7 @@ use super::cells::{
 };
 use super::engine::Gpu;
 use super::known::{self, Known};
-use super::rules::{self, Class, Errors, Finding, Outcome, Rule};
+use super::outcome::{Errors, Outcome, Requirement};
 use super::{depth, lines};
 use crate::device::Error;
 use crate::device::draw::Vertex;
@@ -22,10 +22,11 @@ use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::single_precision::linear_bounds;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
+use rasterproof_verify::specification::{self as rules, Clause, Standing};
 
-type Requirement = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
+type Judge = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
 
-const REQUIREMENTS: [(&str, Rule, Requirement); 12] = [
+const REQUIREMENTS: [(&str, Clause, Judge); 12] = [
     ("snapping", rules::SNAPPING, snapping),
     ("noperspective", rules::LINEAR, linear),
     ("depths, 16 bits", rules::DEPTHS, |gpu, seed, cases| {
@@ -49,15 +50,15 @@ const REQUIREMENTS: [(&str, Rule, Requirement); 12] = [
 ];
 
 /// Runs every stage; what the device does not answer is said in its place.
-pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Vec<Finding> {
+pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Vec<Requirement> {
     let finding = |name: &str, rule, outcome: Result<Outcome, Error>| {
         let (class, detail) = outcome.unwrap_or_else(|error| match error {
-            Error::Unsupported(what) => (Class::NotOffered, what),
-            other => (Class::NoAnswer, other.to_string()),
+            Error::Unsupported(what) => (Standing::NotOffered, what),
+            other => (Standing::NoAnswer, other.to_string()),
         });
-        Finding { name: name.to_owned(), rule, class, detail }
+        Requirement { name: name.to_owned(), rule, class, detail }
     };
-    let mut findings: Vec<Finding> = REQUIREMENTS
+    let mut findings: Vec<Requirement> = REQUIREMENTS
         .iter()
         .map(|(name, rule, stage)| {
             let strict = gpu.about().strict_lines;
@@ -165,9 +166,9 @@ fn snapping(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     let said: Vec<String> = right.iter().map(|(name, n)| format!("{name} {n}")).collect();
     let said = format!("of {total} triangles with corners halfway, right are {}", said.join(", "));
     Ok(match right.iter().find(|(_, n)| *n == total) {
-        Some(("half to even", _)) => (Class::Equal, said),
-        Some((name, _)) => (Class::Allowed, format!("positions are rounded {name}: {said}")),
-        None => (Class::Allowed, format!("no rounding explains all: {said}")),
+        Some(("half to even", _)) => (Standing::Equal, said),
+        Some((name, _)) => (Standing::Allowed, format!("positions are rounded {name}: {said}")),
+        None => (Standing::Allowed, format!("no rounding explains all: {said}")),
     })
 }
 
@@ -271,7 +272,7 @@ fn clipping(gpu: &mut Gpu, seed: u64, cases: u64, far: bool) -> Result<Outcome, 
         said += &format!("; {beyond} px are drawn beyond the viewport");
     }
     let is_allowed = beyond == 0 && furthest <= bound_px;
-    Ok((Class::of(different + beyond == 0, is_allowed), said))
+    Ok((Standing::of(different + beyond == 0, is_allowed), said))
 }
 
 /// Twice the area from which a driver was seen to lose pixels.
@@ -317,8 +318,8 @@ fn twice(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     let cells = triangles.len();
     let said = format!("{cells} triangles, hits and values, drawn twice and after opening anew");
     Ok(match (again, anew) {
-        (true, true) => (Class::Equal, format!("{said}: the same bits")),
-        (true, false) => (Class::Allowed, format!("{said}: other bits after opening anew")),
-        (false, _) => (Class::Outside, format!("{said}: bits differ")),
+        (true, true) => (Standing::Equal, format!("{said}: the same bits")),
+        (true, false) => (Standing::Allowed, format!("{said}: other bits after opening anew")),
+        (false, _) => (Standing::Outside, format!("{said}: bits differ")),
     })
 }

@@ -8,7 +8,7 @@ use rasterproof_judge::declared::Declared;
 use rasterproof_judge::expected::Expect;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::single_precision::perspective_bounds;
-use rasterproof_verify::comparison::{Convention, Picture};
+use rasterproof_verify::comparison::{Convention, Expectation};
 
 /// The oracle's picture, and derived bounds of values.
 pub struct Specified {
@@ -22,7 +22,7 @@ impl Specified {
 }
 
 impl Expect for Specified {
-    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
+    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation> {
         self.declaration.picture(corners, window)
     }
 

@@ -1,11 +1,12 @@
 //! The verdict on a device.
 
 use super::campaign::DeviceReport;
-use super::rules::{Class, Finding};
+use super::outcome::Requirement;
 use crate::device::find::About;
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::judge_text;
 use rasterproof_report::table::{Mark, Row, Table};
+use rasterproof_verify::specification::Standing;
 
 pub fn device(about: &About) -> String {
     let lines = [
@@ -34,7 +35,7 @@ pub fn device(about: &About) -> String {
 }
 
 /// Sections in order, with what each says, and the names of what was judged by it.
-fn sections(findings: &[Finding]) -> Vec<(String, Vec<&str>)> {
+fn sections(findings: &[Requirement]) -> Vec<(String, Vec<&str>)> {
     let mut sections: Vec<(String, Vec<&str>)> = Vec::new();
     for finding in findings {
         let rule = finding.rule;
@@ -48,15 +49,15 @@ fn sections(findings: &[Finding]) -> Vec<(String, Vec<&str>)> {
 }
 
 fn closing(stand: &DeviceReport) -> String {
-    let count = |class: Class| stand.findings.iter().filter(|f| f.class == class).count();
+    let count = |class: Standing| stand.findings.iter().filter(|f| f.class == class).count();
     let bad: Vec<_> =
         stand.findings.iter().filter(|f| !f.class.is_good()).map(|f| f.name.as_str()).collect();
     let shapes = stand.verdict.shapes(false);
     let mut said = format!(
         "{shapes} triangles, {} equal, {} allowed but different from the oracle, {} known",
-        count(Class::Equal),
-        count(Class::Allowed),
-        count(Class::Known)
+        count(Standing::Equal),
+        count(Standing::Allowed),
+        count(Standing::Known)
     );
     let wrong = stand.verdict.as_declared().wrong;
     said += &format!(", {wrong} pixels other than the oracle's");
@@ -104,7 +105,7 @@ pub fn report(
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Report {
     let verdict = &stand.verdict;
-    let row = |f: &Finding| Row {
+    let row = |f: &Requirement| Row {
         cells: vec![
             f.name.clone(),
             f.class.words().to_owned(),

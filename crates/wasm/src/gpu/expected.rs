@@ -9,15 +9,7 @@ use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::single_precision::depth_bounds;
 use rasterproof_verify::oracle::clipped::{self, borders};
 use rasterproof_verify::oracle::segments::{self, Ends, Fit, Pixels};
-use serde::Serialize;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Word {
-    Promised,
-    Free,
-    Broken,
-}
+use rasterproof_verify::specification::Standing;
 
 /// The standard places of four samples in subpixels.
 pub(super) const SAMPLES: [[i32; 2]; 4] = [[96, 32], [224, 96], [32, 160], [160, 224]];
@@ -156,7 +148,7 @@ impl<'a> Forgiving<'a> {
     }
 
     /// A pixel of a plane with so many hits, that are not the expected ones.
-    pub fn word(&self, plane: usize, x: i32, y: i32, hits: u8) -> Word {
+    pub fn word(&self, plane: usize, x: i32, y: i32, hits: u8) -> Standing {
         let free = match self.check {
             Topic::Lattice => hits <= 1 && self.is_near_edge(x, y),
             Topic::Tiling => self.tiling_is_open(x, y, hits),
@@ -179,7 +171,7 @@ impl<'a> Forgiving<'a> {
             }
             _ => self.is_between(centre(x, y), hits),
         };
-        if free { Word::Free } else { Word::Broken }
+        if free { Standing::Allowed } else { Standing::Outside }
     }
 
     /// Whether so many hits are possible by some rule for samples on edges.

@@ -1,6 +1,6 @@
 //! Compares what was read back with what is expected.
 
-use super::expected::{Forgiving, Planes, Word, expected, line_fits, planes};
+use super::expected::{Forgiving, Planes, expected, line_fits, planes};
 use super::place::{Place, RULES, centre, cover, place};
 use super::shrink::is_tiling;
 use super::{Batch, Device, Drawing, Interface, Layout, Topic};
@@ -12,6 +12,7 @@ use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::single_precision::perspective_bounds;
 use rasterproof_verify::oracle::segments::Fit;
 use rasterproof_verify::oracle::values::ExactTriangle;
+use rasterproof_verify::specification::Standing;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -49,7 +50,7 @@ struct Mark {
     plane: usize,
     x: i32,
     y: i32,
-    word: Word,
+    word: Standing,
     note: String,
 }
 
@@ -107,7 +108,8 @@ impl Judge {
             let judged = judged(check, device, subject, &cell);
             judged.add_to(&mut tally, subject);
             let word = judged.word();
-            for (example, wanted) in examples.iter_mut().zip([Word::Broken, Word::Free]) {
+            for (example, wanted) in examples.iter_mut().zip([Standing::Outside, Standing::Allowed])
+            {
                 if word == wanted {
                     example.get_or_insert(subject);
                 }
@@ -127,10 +129,10 @@ impl Judge {
         let mut word = word(check, device, &tally);
         // One case alone breaks no promise about the lattice: all together do, and this one is why.
         if check == Topic::Lattice {
-            let is_asked = self.batch.smaller.is_some() || word == Word::Broken;
+            let is_asked = self.batch.smaller.is_some() || word == Standing::Outside;
             broken = coarse.filter(|_| is_asked && device.interface == Interface::Webgl2);
             if self.batch.only.is_some() {
-                word = if tally.free > 0 { Word::Free } else { Word::Promised };
+                word = if tally.free > 0 { Standing::Allowed } else { Standing::Equal };
             }
         }
         Ok(json!({
@@ -211,7 +213,7 @@ fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Judge
     let mut judged = Judged { ours, theirs, marks, pixels, ..Judged::default() };
     match check {
         Topic::Lattice => judged.explained = explaining(subject, &judged.theirs[0], side),
-        Topic::Coverage | Topic::Reach if judged.word() == Word::Free => {
+        Topic::Coverage | Topic::Reach if judged.word() == Standing::Allowed => {
             judged.explained = RULES[1..]
                 .iter()
                 .map(|rule| {
@@ -274,7 +276,7 @@ fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut Judged) {
     judged.explained = fits.iter().map(|fit| *fit == Fit::Equal).collect();
     let broken = device.interface == Interface::Webgl2
         && (fits[0] == Fit::Outside || hits.iter().any(|hits| *hits > 1));
-    let word = if broken { Word::Broken } else { Word::Free };
+    let word = if broken { Standing::Outside } else { Standing::Allowed };
     judged.marks.iter_mut().for_each(|mark| mark.word = word);
 }
 
@@ -310,7 +312,8 @@ fn values(device: Device, subject: &Drawing, cell: &Cell) -> Judged {
             judged.pixels += 1;
             // The distance from what is no number is infinite.
             if error > bound {
-                let word = if error <= bound + spread[i] { Word::Free } else { Word::Broken };
+                let word =
+                    if error <= bound + spread[i] { Standing::Allowed } else { Standing::Outside };
                 let note = format!("{}: exact {}, drawn {}", names[i], exact.to_f64(), drawn[i]);
                 judged.marks.push(Mark { plane: 0, x, y, word, note });
             }
@@ -349,16 +352,16 @@ fn spread(triangle: &Triangle, (x, y): (i32, i32), step: f64) -> [f64; 3] {
 }
 
 impl Judged {
-    fn word(&self) -> Word {
-        self.marks.iter().map(|mark| mark.word).max().unwrap_or(Word::Promised)
+    fn word(&self) -> Standing {
+        self.marks.iter().map(|mark| mark.word).max().unwrap_or(Standing::Equal)
     }
 
     fn add_to(&self, tally: &mut Tally, Drawing(shapes): &Drawing) {
         tally.subjects += 1;
         tally.shapes += shapes.len() as u64;
         tally.pixels += self.pixels;
-        tally.free += u64::from(self.word() == Word::Free);
-        tally.broken += u64::from(self.word() == Word::Broken);
+        tally.free += u64::from(self.word() == Standing::Allowed);
+        tally.broken += u64::from(self.word() == Standing::Outside);
         tally.explained.resize(tally.explained.len().max(self.explained.len()), 0);
         for (sum, explains) in tally.explained.iter_mut().zip(&self.explained) {
             *sum += u64::from(*explains);
@@ -395,9 +398,9 @@ fn best_hypothesis(tally: &Tally) -> Option<(u64, u32, &'static str)> {
     all.reduce(|best, next| if next.0 > best.0 { next } else { best })
 }
 
-fn word(check: Topic, device: Device, tally: &Tally) -> Word {
+fn word(check: Topic, device: Device, tally: &Tally) -> Standing {
     if tally.broken > 0 {
-        return Word::Broken;
+        return Standing::Outside;
     }
     if check == Topic::Lattice {
         let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
@@ -408,12 +411,12 @@ fn word(check: Topic, device: Device, tally: &Tally) -> Word {
             Interface::Webgpu => *BITS.end(),
         };
         return match (is_known, bits >= wanted, device.interface) {
-            (true, true, _) => Word::Promised,
-            (true, false, Interface::Webgl2) if bits < LEAST_BITS => Word::Broken,
-            _ => Word::Free,
+            (true, true, _) => Standing::Equal,
+            (true, false, Interface::Webgl2) if bits < LEAST_BITS => Standing::Outside,
+            _ => Standing::Allowed,
         };
     }
-    if tally.free > 0 { Word::Free } else { Word::Promised }
+    if tally.free > 0 { Standing::Allowed } else { Standing::Equal }
 }
 
 /// What the page says beside the counts.
@@ -490,7 +493,7 @@ mod tests {
         for (check, interface) in checks.iter().flat_map(|c| [(c, "webgl2"), (c, "webgpu")]) {
             let answer = answer(check, interface, json!({}), &|_, _| {});
             // Positions are expected unrounded, and WebGL says that there are at least four bits.
-            assert_eq!(answer["word"], "promised", "{check} {interface} {}", answer["facts"]);
+            assert_eq!(answer["word"], "equal", "{check} {interface} {}", answer["facts"]);
             assert!(answer["tally"]["subjects"].as_u64() > Some(40), "{}", answer["tally"]);
         }
     }
@@ -509,9 +512,9 @@ mod tests {
             let none = |_: &Drawing, planes: &mut Planes| {
                 planes[first..].iter_mut().for_each(|p| p.fill(0));
             };
-            assert_eq!(answer(check, "webgl2", json!({}), &twice)["word"], "broken", "{check}");
+            assert_eq!(answer(check, "webgl2", json!({}), &twice)["word"], "outside", "{check}");
             let word = answer(check, "webgl2", json!({}), &none)["word"].clone();
-            assert_eq!(word, "broken", "{check}");
+            assert_eq!(word, "outside", "{check}");
         }
     }
 
@@ -526,9 +529,9 @@ mod tests {
             let spoil = |_: &Drawing, planes: &mut Planes| planes[0][y * 8 + x] ^= 1;
             answer("coverage", interface, only.clone(), &spoil)["word"].clone()
         };
-        assert_eq!([word("webgl2", 2, 2), word("webgpu", 2, 2)], ["broken", "free"]);
-        assert_eq!([word("webgl2", 2, 0), word("webgpu", 2, 0)], ["free", "free"]);
-        assert_eq!([word("webgl2", 3, 2), word("webgpu", 6, 6)], ["broken", "broken"]);
+        assert_eq!([word("webgl2", 2, 2), word("webgpu", 2, 2)], ["outside", "allowed"]);
+        assert_eq!([word("webgl2", 2, 0), word("webgpu", 2, 0)], ["allowed", "allowed"]);
+        assert_eq!([word("webgl2", 3, 2), word("webgpu", 6, 6)], ["outside", "outside"]);
     }
 
     /// Another of the four rules is found by its name.
@@ -542,7 +545,7 @@ mod tests {
         let answer = answer("coverage", "webgl2", json!({ "number": 1 }), &bottom_left);
         assert_eq!(
             (&answer["word"], &answer["facts"]["rule"]),
-            (&json!("free"), &json!("bottom-left"))
+            (&json!("allowed"), &json!("bottom-left"))
         );
     }
 
@@ -569,9 +572,9 @@ mod tests {
                 answer["facts"]["rounding"].clone(),
             ]
         };
-        assert_eq!(found("webgl2", 16, 1), [json!("promised"), json!(4), json!("half up")]);
-        assert_eq!(found("webgl2", 32, 0), [json!("broken"), json!(3), json!("half to even")]);
-        assert_eq!(found("webgpu", 16, 3), [json!("free"), json!(4), json!("down")]);
+        assert_eq!(found("webgl2", 16, 1), [json!("equal"), json!(4), json!("half up")]);
+        assert_eq!(found("webgl2", 32, 0), [json!("outside"), json!(3), json!("half to even")]);
+        assert_eq!(found("webgpu", 16, 3), [json!("allowed"), json!(4), json!("down")]);
     }
 
     /// A lattice that is too coarse is shown by a case that no finer one explains, which breaks no promise alone.
@@ -582,7 +585,7 @@ mod tests {
         let smaller = answer("lattice", "webgl2", json!({ "smaller": found }), &coarse);
         let only = json!({ "only": smaller["broken"] });
         let alone = answer("lattice", "webgl2", only.clone(), &coarse);
-        assert_eq!(alone["word"], "free");
+        assert_eq!(alone["word"], "allowed");
         assert!(alone["facts"]["finest"].as_u64() < Some(4), "{}", alone["facts"]);
         let right = answer("lattice", "webgl2", only, &|_, _| {});
         assert_eq!(right["facts"]["finest"], 8);
@@ -740,9 +743,9 @@ mod tests {
     /// small triangle shows it.
     #[test]
     fn values_by_their_bounds() {
-        assert_eq!(valued(json!({}), false)["word"], "promised");
+        assert_eq!(valued(json!({}), false)["word"], "equal");
         let wrong = valued(json!({}), true);
-        assert_eq!(wrong["word"], "broken");
+        assert_eq!(wrong["word"], "outside");
         let smaller =
             |subject: &Value| valued(json!({ "smaller": subject }), true)["broken"].clone();
         let found = shrunk(wrong["broken"].clone(), 60, smaller);
