@@ -9,6 +9,10 @@ use rasterproof::cli::{self, Delivery, Streams};
 use rasterproof_judge::process_group::end_strays;
 use terminal_size::{Height, Width, terminal_size_of};
 
+#[cfg(target_env = "musl")]
+#[global_allocator]
+static MEMORY: dlmalloc::GlobalDlmalloc = dlmalloc::GlobalDlmalloc;
+
 /// Columns of a terminal, or as the environment says where there is none.
 fn columns(size: Option<(Width, Height)>) -> Option<usize> {
     let said = || std::env::var("COLUMNS").ok()?.parse().ok();

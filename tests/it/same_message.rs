@@ -220,7 +220,8 @@ fn has_the_words_of_the_macro(said: &str) {
         [c] => Some(Ok((2..c.len()).map(|i| [c[0], c[i - 1], c[i]]).collect())),
         _ => None,
     };
-    let report = judge_partitions_of(&fan, &partition::Options::default().cases(20)).unwrap();
+    let fans = |all: &[Polygon]| all.iter().map(fan).collect();
+    let report = judge_partitions_of(&fans, &partition::Options::default().cases(20)).unwrap();
     let message = report.check().unwrap_err().to_string();
     let message = message.replace("Polygon::new(", "").replace("vec!", "").replace("])", "]");
     let (said, message) = (words(said).join(" "), words(&message).join(" "));

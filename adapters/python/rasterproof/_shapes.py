@@ -10,6 +10,9 @@ __tracebackhide__ = True
 Array = Any
 # Pixels that are drawn by one call.
 MOST_PIXELS = 1 << 24
+# The characters of a byte and of the exponent of a float.
+PAIRS = numpy.array([f"{byte:02x}" for byte in range(256)], "S2").view(numpy.uint16)
+POWERS = numpy.array([f"{max(exponent, 1) - 1023:+05}" for exponent in range(2048)], "S5").view(numpy.uint8).reshape(-1, 5)
 
 
 class Judged:
@@ -46,16 +49,20 @@ def drawn(shape: Tuple[int, int], write: Callable[..., List[str]], whole: bool =
 
 
 def polygons(judged: Judged, requests: List[List[str]]) -> List[Optional[str]]:
-    """Polygons come one by one, as lists of contours, each behind the number of its vertices."""
-    answers = []
-    for count, *rest in requests:
+    """Polygons are lists of contours, each behind the number of its vertices; the function gets them one by one."""
+    made = []
+    for words in requests:
         contours: List[Array] = []
-        for _ in range(int(count)):
+        rest = list(map(float, words[1:]))
+        while rest:
             end = 1 + 2 * int(rest[0])
-            contours.append(numpy.array(rest[1:end]).astype(numpy.float64).reshape(-1, 2))
+            contours.append(numpy.array(rest[1:end]).reshape(-1, 2))
             rest = rest[end:]
-        answers.append(triangles(judged, judged.fn(contours)))
-    return answers
+        made.append(triangles(judged, judged.fn(contours)))
+    counts = [0 if each is None else len(each) for each in made]
+    rows = numpy.concatenate([numpy.empty((0, 3, 2)), *(each for each in made if each is not None)]).reshape(-1, 6)
+    texts = joined([*rows.T], numpy.repeat(numpy.arange(len(made)), counts), len(made))
+    return [None if each is None else text for each, text in zip(made, texts)]
 
 
 def array_of(value: Any, what: str) -> Array:
@@ -114,17 +121,16 @@ def digits(column: Array) -> Array:
 
 def hexes(column: Array) -> Array:
     """Floats as characters, all of the same length: as C99 hex floats they are exact, without a loop in Python."""
-    bits = numpy.ascontiguousarray(column, numpy.float64).view(numpy.uint64).astype(numpy.int64)
+    bits = numpy.ascontiguousarray(column, "<f8").view("<i8")
     exponent = bits >> 52 & 2047
-    power = numpy.maximum(exponent, 1) - 1023
     text = numpy.tile(numpy.frombuffer(b" 0x1.0123456789abcp+1023", numpy.uint8), (len(column), 1))
     text[bits < 0, 0] = ord("-")
     text[exponent == 0, 3] = ord("0")
-    text[:, 5:18] = numpy.frombuffer(b"0123456789abcdef", numpy.uint8)[bits[:, None] >> numpy.arange(48, -4, -4) & 15]
-    text[power < 0, 19] = ord("-")
-    text[:, 20:] = abs(power)[:, None] // [1000, 100, 10, 1] % 10 + ord("0")
+    text[:, 5:18] = numpy.take(PAIRS, bits.view(numpy.uint8).reshape(-1, 8)[:, 6::-1]).view(numpy.uint8)[:, 1:]
+    text[:, 19:] = POWERS[exponent]
     # Neither an infinity nor a NaN has an exponent.
-    text[exponent == 2047] = numpy.frombuffer(b"nan".ljust(24), numpy.uint8)
+    for word, has in ((b"inf", numpy.isinf(column)), (b"nan", numpy.isnan(column))):
+        text[has, 1:] = numpy.frombuffer(word.ljust(23), numpy.uint8)
     return text
 
 
@@ -181,12 +187,12 @@ def fragments(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -
     return joined([x, y, *drawn.T], case, count)
 
 
-def triangles(judged: Judged, value: Any) -> Optional[str]:
+def triangles(judged: Judged, value: Any) -> Optional[Array]:
     if value is None:
         return None
     array = reals_of(value, f"triangles of {judged.name}")
     if array.size == 0:
-        return "0"
+        return numpy.empty((0, 3, 2))
     if array.ndim != 3 or array.shape[1:] != (3, 2):
         raise ValueError(f"{judged.name} returned triangles of shape {array.shape}; expected (m, 3, 2), or None for a polygon that is not taken")
-    return " ".join([str(len(array)), *map(repr, array.astype(numpy.float64).ravel().tolist())])
+    return array.astype(numpy.float64)

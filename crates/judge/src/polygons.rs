@@ -31,17 +31,20 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
         return Err("no case was judged: these families hold no polygons".to_owned());
     }
     let asked = Mutex::new((program, 0, String::new()));
-    let answer = |polygon: &Polygon| -> Option<Result<Vec<Triangle>, Refused>> {
+    let answer = |polygons: &[Polygon]| -> Vec<Option<Result<Vec<Triangle>, Refused>>> {
         let mut asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
         let (program, deaths, last) = &mut *asked;
-        if *deaths == MOST_DEATHS {
-            let why = format!(
-                "given up after {MOST_DEATHS} times without an answer; the last time it {last}"
-            );
-            return Some(Err(Refused(why)));
+        let of = |polygon: &Polygon| Asked::Polygon(polygon.clone());
+        let questions: Vec<_> =
+            polygons.iter().map(|p| Question { width: 1, height: 1, of: of(p) }).collect();
+        let left = MOST_DEATHS.saturating_sub(*deaths);
+        let mut answers = if left > 0 { program.ask(&questions, left) } else { Vec::new() };
+        // What no polygon does alone is said of the last one.
+        if let (Some(what), Some(answer)) = (program.strays().pop(), answers.last_mut()) {
+            *answer = Answer::Died(what);
         }
-        let question = Question { width: 1, height: 1, of: Asked::Polygon(polygon.clone()) };
-        match program.ask(&[question], 1).pop() {
+        let mut answers = answers.into_iter();
+        let made = polygons.iter().map(|_| match answers.next() {
             Some(Answer::Triangles(triangles)) => Some(Ok(triangles)),
             Some(Answer::Refused(why)) if why.starts_with("unsupported") => None,
             Some(Answer::Refused(why)) => Some(Err(Refused(why))),
@@ -50,8 +53,12 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
                 *last = what.to_string();
                 Some(Err(Refused(format!("it {what}"))))
             }
+            None if *deaths >= MOST_DEATHS => Some(Err(Refused(format!(
+                "given up after {MOST_DEATHS} times without an answer; the last time it {last}"
+            )))),
             _ => Some(Err(Refused("it does not answer".to_owned()))),
-        }
+        });
+        made.collect()
     };
     partition::judge_partitions_of(&answer, &options).map_err(|nothing| nothing.to_string())
 }
@@ -77,4 +84,49 @@ pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdi
         "every polygon is covered exactly once".clone_into(&mut property.about);
     }
     verdict
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ask::{Breach, Misbehaviour};
+
+    /// Answers no polygon rightly. It does not answer the fifth of a block, or each alone but not all of them.
+    struct Bad {
+        declared: Declared,
+        asked: Vec<usize>,
+        is_alone: bool,
+    }
+
+    impl Subject for Bad {
+        fn declared(&self) -> &Declared {
+            &self.declared
+        }
+
+        fn ask(&mut self, questions: &[Question], _: u64) -> Vec<Answer> {
+            self.asked.push(questions.len());
+            let mut answers = vec![Answer::Triangles(Vec::new()); questions.len()];
+            if !self.is_alone {
+                answers[4] = Answer::Died(Breach::Hangs.by("fifth"));
+            }
+            answers
+        }
+
+        fn strays(&mut self) -> Vec<Misbehaviour> {
+            if self.is_alone { vec![Breach::Exits.by("together")] } else { Vec::new() }
+        }
+    }
+
+    #[test]
+    fn polygons_are_asked_in_blocks_until_three_have_no_answer() {
+        for (is_alone, how) in [(false, "hangs: fifth"), (true, "exits early: together")] {
+            let mut bad = Bad { declared: Declared::default(), asked: Vec::new(), is_alone };
+            let given = Options { cases: 128, ..Options::default() };
+            let report = judge(&mut bad, &given).unwrap();
+            assert_eq!(bad.asked, [64; 3]);
+            assert_eq!(report.sum().wrong, 128 * Family::ALL.len() as u64);
+            let said = report.check().unwrap_err().to_string();
+            assert!(said.contains(&format!("the last time it {how}")), "{said}");
+        }
+    }
 }

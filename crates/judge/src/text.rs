@@ -13,10 +13,13 @@ pub fn number(word: &str) -> Option<f64> {
         _ => (1.0, word),
     };
     if digits.starts_with("0x") || digits.starts_with("0X") {
-        // The parser wants an exponent; C99 prints one, scanf does not ask for it.
-        let lower = digits.to_ascii_lowercase();
-        let with_exponent = if lower.contains('p') { lower } else { lower + "p0" };
-        return hexf_parse::parse_hexf64(&with_exponent, false).ok().map(|value| sign * value);
+        let parse = |text: &str| hexf_parse::parse_hexf64(text, false).ok();
+        // The parser wants small letters and an exponent; C99 prints one, scanf does not ask for it.
+        let other = || {
+            let lower = digits.to_ascii_lowercase();
+            parse(&if lower.contains('p') { lower } else { lower + "p0" })
+        };
+        return parse(digits).or_else(other).map(|value| sign * value);
     }
     // After a sign comes no second sign.
     (!digits.starts_with(['-', '+']))

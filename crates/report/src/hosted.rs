@@ -5,7 +5,8 @@
 //! the standard output, an empty line ends those that are sent at once, and their answers are read. The verdict goes to the
 //! standard error, and the exit status is that of `judge`. A module's host is called for every read, so it needs no `unsafe`.
 
-use std::io::{self, Write as _};
+use std::io::{self, BufRead as _, Write as _};
+use std::iter;
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -16,14 +17,12 @@ use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
 use rasterproof_judge::{Options, family_names, judge, polygons};
 
-/// The program that started this one.
-struct Host {
-    declared: Declared,
-}
+/// The program that started this one. Several share its streams: while one waits for answers, another judges those that it has.
+struct Host(Declared);
 
 impl Subject for Host {
     fn declared(&self) -> &Declared {
-        &self.declared
+        &self.0
     }
 
     fn ask(&mut self, questions: &[Question], _: u64) -> Vec<Answer> {
@@ -33,27 +32,22 @@ impl Subject for Host {
         }
         // Who reads all of it before it answers never waits for a pipe that is full.
         requests.push(b'\n');
+        let heard = io::stdin().lock();
         let sent = io::stdout().write_all(&requests).and_then(|()| io::stdout().flush());
-        let answer = |question: &Question| {
-            let line = line().unwrap_or_default();
-            let mut words = Words(line.as_bytes());
+        let lines: Vec<_> = heard.lines().take(questions.len()).map_while(Result::ok).collect();
+        let lines = lines.iter().map(String::as_bytes).chain(iter::repeat(&b""[..]));
+        let answer = |(question, line): (&Question, _)| {
+            let mut words = Words(line);
             let letter = words.word().and_then(<[u8]>::first).copied().unwrap_or_default();
             words.word();
             let read = question.read(letter, &mut words);
             read.unwrap_or_else(|why| Answer::Died(Breach::Nonsense.by(why)))
         };
         match sent {
-            Ok(()) => questions.iter().map(answer).collect(),
+            Ok(()) => questions.iter().zip(lines).map(answer).collect(),
             Err(error) => vec![Answer::Died(Breach::Exits.by(error.to_string()))],
         }
     }
-}
-
-/// The next line of the standard input; nothing at its end.
-fn line() -> Option<String> {
-    let mut line = String::new();
-    io::stdin().read_line(&mut line).ok().filter(|bytes| *bytes > 0)?;
-    Some(line.trim_end().to_owned())
 }
 
 #[derive(Default)]
@@ -68,12 +62,13 @@ struct Job {
 impl Job {
     fn read() -> Result<(Self, Declared), String> {
         let mut job = Self::default();
-        while let Some(line) = line() {
-            if let Some(mut declared) = Declared::parse(&line) {
+        for line in io::stdin().lines().map_while(Result::ok) {
+            let line = line.trim_end();
+            if let Some(mut declared) = Declared::parse(line) {
                 job.declare.split_whitespace().for_each(|word| declared.hear(word));
                 return Ok((job, declared));
             }
-            let (option, value) = line.split_once(' ').unwrap_or((&line, ""));
+            let (option, value) = line.split_once(' ').unwrap_or((line, ""));
             job.hear(option, value).ok_or_else(|| match option {
                 "cases" => {
                     format!("no case would be judged: cases is {value}; expected at least 1")
@@ -141,15 +136,17 @@ impl Job {
         };
         let cases = ("cases", self.options.cases.to_string());
         let all = self.line(&families.into_iter().chain([cases]).collect::<Vec<_>>());
-        let mut host = Host { declared };
-        if host.declared.partition {
-            let report = polygons::judge(&mut host, &self.options)?;
-            let said = judge_text::of_polygons(&host.declared, &report, &all, &one);
+        if declared.partition {
+            let report = polygons::judge(&mut Host(declared.clone()), &self.options)?;
+            let said = judge_text::of_polygons(&declared, &report, &all, &one);
             let text = text::text(&said, false, false);
             return Ok((report.sum().wrong == 0, text));
         }
         let scope = Scope::of(&self.options);
-        let mut askers: Vec<Box<dyn Subject>> = vec![Box::new(host)];
+        // A module has one thread.
+        let hosts = if cfg!(target_family = "wasm") { 1 } else { 2 };
+        let host = |_| Box::new(Host(declared.clone())) as Box<dyn Subject>;
+        let mut askers: Vec<_> = (0..hosts).map(host).collect();
         let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
         if let Some(why) = verdict.judged_nothing(&self.options) {
             return Err(why);

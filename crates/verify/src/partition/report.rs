@@ -2,6 +2,7 @@
 
 use std::error::Error;
 use std::fmt;
+use std::slice;
 
 use super::cause::{self, Made};
 use super::families::is_as_generated;
@@ -231,21 +232,19 @@ pub fn judge_partitions<T: Tessellate + Sync>(
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
     let watch = Watch::begin();
-    judge(
-        &|polygon| {
-            tessellator.accepts(polygon).then(|| {
-                let triangles = watch.during(|| caught(|| tessellator.triangles(polygon)));
-                triangles.map_or_else(
-                    |message| Err(Fault::saying(FaultKind::Panicked, message.to_string())),
-                    |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
-                )
-            })
-        },
-        options,
-    )
+    let answer = |polygon: &Polygon| {
+        tessellator.accepts(polygon).then(|| {
+            let triangles = watch.during(|| caught(|| tessellator.triangles(polygon)));
+            triangles.map_or_else(
+                |message| Err(Fault::saying(FaultKind::Panicked, message.to_string())),
+                |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
+            )
+        })
+    };
+    judge(&|polygons| polygons.iter().map(answer).collect(), options)
 }
 
-/// The same of somebody who answers polygons: nothing is the answer where he does not take it.
+/// The same of somebody who answers polygons, several at once: nothing is the answer to one that he does not take.
 ///
 /// # Errors
 /// By these options no polygon was judged.
@@ -255,29 +254,31 @@ pub fn judge_partitions_of(
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
     let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
-    judge(&|polygon| answer(polygon).map(|answer| answer.map_err(refused)), options)
+    let fault = |answer: Option<Result<_, _>>| answer.map(|answer| answer.map_err(refused));
+    judge(&|polygons| answer(polygons).into_iter().map(fault).collect(), options)
 }
 
-type Answered<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Refused>> + Sync + 'a;
-type Asked<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Fault>> + Sync + 'a;
+/// What is made of a polygon, if it is taken.
+type Answer<E> = Option<Result<Vec<Triangle>, E>>;
+type Answered<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Refused>> + Sync + 'a;
+type Asked<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Fault>> + Sync + 'a;
 
-/// The triangles of a polygon and what was found about them; nothing where the polygon is not valid or not accepted.
+/// The triangles of polygons and what was found about them; nothing where a polygon is not valid or not accepted.
 fn ask(
     tessellator: &Asked,
-    polygon: &Polygon,
+    polygons: &[Polygon],
     options: &Options,
-) -> Option<(Vec<Triangle>, Faults)> {
-    match tessellator(polygon)? {
-        Ok(triangles) => {
-            let finding = judge_partition(polygon, &triangles, options).ok()?;
-            Some((triangles, finding))
-        }
-        Err(fault) => {
-            // Only a valid polygon has to be taken.
-            let _ = judge_partition(polygon, &[], options).ok()?;
-            Some((Vec::new(), Faults { faults: vec![fault], ..Faults::default() }))
-        }
-    }
+) -> Vec<Option<(Vec<Triangle>, Faults)>> {
+    let judged = |(polygon, made): (&Polygon, Answer<Fault>)| {
+        let made = made?;
+        // Only a valid polygon has to be taken.
+        let faults = judge_partition(polygon, made.as_deref().unwrap_or(&[]), options).ok()?;
+        Some(match made {
+            Ok(triangles) => (triangles, faults),
+            Err(fault) => (Vec::new(), Faults { faults: vec![fault], ..Faults::default() }),
+        })
+    };
+    polygons.iter().zip(tessellator(polygons)).map(judged).collect()
 }
 
 fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudged> {
@@ -317,14 +318,17 @@ fn wanted(options: &Options) -> Vec<Family> {
 fn some(tessellator: &Asked, options: &Options) -> Vec<Made> {
     let mut made = Vec::new();
     for family in wanted(options) {
-        for index in 0..OF_A_FAMILY {
-            let polygon = family.polygon(options.seed, index, options.terms.coordinates);
-            if let Some((triangles, finding)) = ask(tessellator, &polygon, options) {
-                made.push(Made { polygon, triangles, finding });
-            }
-        }
+        let polygons = polygons(family, 0..OF_A_FAMILY, options);
+        let answers = ask(tessellator, &polygons, options);
+        made.extend(polygons.into_iter().zip(answers).filter_map(|(polygon, answer)| {
+            answer.map(|(triangles, finding)| Made { polygon, triangles, finding })
+        }));
     }
     made
+}
+
+fn polygons(family: Family, numbers: impl Iterator<Item = u64>, options: &Options) -> Vec<Polygon> {
+    numbers.map(|index| family.polygon(options.seed, index, options.terms.coordinates)).collect()
 }
 
 /// Polygons of each family by which a cause is looked for.
@@ -349,10 +353,11 @@ impl Part {
 
 fn judge_block(tessellator: &Asked, options: &Options, family: Family, numbers: &[u64]) -> Part {
     let mut part = Part { polygons: Polygons::new(family), smallest: Default::default() };
-    for &index in numbers {
-        let polygon = family.polygon(options.seed, index, options.terms.coordinates);
+    let polygons = polygons(family, numbers.iter().copied(), options);
+    let answers = ask(tessellator, &polygons, options);
+    for ((&index, polygon), answer) in numbers.iter().zip(&polygons).zip(answers) {
         // Families draw until a polygon is valid.
-        let Some((triangles, faults)) = ask(tessellator, &polygon, options) else {
+        let Some((triangles, faults)) = answer else {
             part.polygons.left_out += 1;
             continue;
         };
@@ -375,12 +380,13 @@ fn smallest(
     index: u64,
 ) -> Failure {
     let (seed, coordinates) = (options.seed, options.terms.coordinates);
+    let one =
+        |polygon: &Polygon| ask(tessellator, slice::from_ref(polygon), options).pop().flatten();
     let fails = |polygon: &Polygon| {
-        is_as_generated(polygon, family)
-            && ask(tessellator, polygon, options).is_some_and(|(_, faults)| faults.has(kind))
+        is_as_generated(polygon, family) && one(polygon).is_some_and(|(_, faults)| faults.has(kind))
     };
     let case = shrink(family.polygon(seed, index, coordinates), coordinates, &fails);
-    let (triangles, faults) = ask(tessellator, &case, options).unwrap_or_default();
+    let (triangles, faults) = one(&case).unwrap_or_default();
     let (family, what) = (family.name(), faults.to_string());
     Failure { family, index, seed, what, case, evidence: Triangulated { kind, triangles, faults } }
 }
