@@ -121,7 +121,7 @@ mod tests {
     fn polygons_are_asked_in_blocks_until_three_have_no_answer() {
         for (is_alone, how) in [(false, "hangs: fifth"), (true, "exits early: together")] {
             let mut bad = Bad { declared: Declared::default(), asked: Vec::new(), is_alone };
-            let given = Options { cases: 128, ..Options::default() };
+            let given = Options::default().cases(128);
             let report = judge(&mut bad, &given).unwrap();
             assert_eq!(bad.asked, [64; 3]);
             assert_eq!(report.sum().wrong, 128 * Family::ALL.len() as u64);
