@@ -15,6 +15,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, MAX_VALUE, MAX_W, MIN_W, ScreenTriangle, ScreenVertex};
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::pixels::few;
 use rasterproof_verify::comparison::tolerance::{self, Bound, Tolerance};
 use rasterproof_verify::oracle::values::ExactTriangle;
 
@@ -140,13 +141,6 @@ fn sum_less_one(weights: [f64; 3]) -> f64 {
 
 fn values_of(triangle: &Triangle, k: usize) -> [f64; 3] {
     triangle.vertices.map_array(|vertex| vertex.varying.to_array()[k])
-}
-
-fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
-    let n = fragments.len();
-    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
-    picks.dedup();
-    picks.into_iter().filter_map(|i| fragments.get(i))
 }
 
 /// 23: values against exact rationals within the derived bounds; the oracle's too, which are the

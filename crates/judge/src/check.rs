@@ -10,8 +10,8 @@ use super::ask::{Answer, Asked, Question};
 use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values, value_bounds};
-use super::judged::{Judged, hits, mix};
-use super::pixels::{compare, length, masks_of, mesh_of, picks, picture_of, pixel_of, sequence};
+use super::judged::Judged;
+use super::pixels::{length, masks_of, mesh_of, picture_of, pixel_of};
 use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
@@ -19,6 +19,7 @@ use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::pixels::{compare, few, hits, mix, sequence};
 use rasterproof_verify::comparison::{Winding, area2};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
@@ -456,7 +457,7 @@ fn values(
 ) {
     let Some(exact) = exact_values(triangle, &truth.declared) else { return };
     let bounds = value_bounds(triangle, truth.declared.tolerance);
-    for f in picks(fragments) {
+    for f in few(fragments) {
         if expected.get(f.x_px, f.y_px).is_none_or(|hits| hits == 0) {
             continue;
         }

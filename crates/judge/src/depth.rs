@@ -6,12 +6,13 @@
 
 use super::declared::Declared;
 use super::expected::{Expect, exact_values};
-use super::judged::{Judged, hits, mix, push};
+use super::judged::{Judged, push};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::Expectation;
+use rasterproof_verify::comparison::pixels::{hits, mix};
 use rasterproof_verify::oracle::values::ExactTriangle;
 
 /// One triangle of a pile: the pixels that it has to cover, those that it may, and its depths.

@@ -5,14 +5,15 @@ use glam::DVec2;
 use super::ask::Answer;
 use super::declared::Declared;
 use super::expected::value_bounds;
-use super::judged::{Judged, mix};
+use super::judged::Judged;
 use super::near_plane;
-use super::pixels::{hits_of, painted, picks, sequence};
+use super::pixels::{hits_of, painted};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Fragment;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
+use rasterproof_verify::comparison::pixels::{few, mix, sequence};
 
 /// The answers of the first program and those of the second; what came instead of answers stands in both.
 pub(super) fn sides(answers: &[Answer]) -> [Vec<Answer>; 2] {
@@ -108,7 +109,7 @@ fn values(
     declared: &Declared,
 ) {
     let bounds = value_bounds(triangle, 2.0 * declared.tolerance);
-    for f in picks(first) {
+    for f in few(first) {
         let Some(g) = second.iter().find(|g| (g.x_px, g.y_px) == (f.x_px, f.y_px)) else {
             continue;
         };

@@ -4,9 +4,8 @@
 use glam::DVec2;
 
 use super::ask::Misbehaviour;
-use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_verify::comparison::pixels::mix;
 use rasterproof_verify::comparison::{Finding, Tally};
 
 /// What was found about a case, and how far it was answered.
@@ -75,28 +74,6 @@ impl Judged {
             self.worst_at = Some((fragment.x_px, fragment.y_px));
         }
     }
-}
-
-/// FNV-1a by words: the same on every machine.
-pub(super) fn mix(mark: &mut u64, word: u64) {
-    for byte in word.to_le_bytes() {
-        *mark = (*mark ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
-    }
-}
-
-/// Hits of the runs within the window, and how many pixels lie outside.
-pub(super) fn hits(runs: &[Span], window: PixelRect) -> (Coverage, u64) {
-    let (mut hits, mut outside) = (Coverage::new(window, 0), 0);
-    for run in runs {
-        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
-        let is_in = (window.y0..window.y1).contains(&run.y_px) && x0 < x1;
-        if is_in {
-            hits.hit(run.y_px, x0, x1);
-        }
-        outside += u64::from(run.x0_px.abs_diff(run.x1_px));
-        outside -= if is_in { (x1 - x0) as u64 } else { 0 };
-    }
-    (hits, outside)
 }
 
 /// Appends a pixel to the last run, or begins another; pixels come row by row, from the left.

@@ -9,11 +9,11 @@ use super::ask::{Answer, Asked, Question};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::expected::Expect;
-use super::judged::hits;
 use super::pixels::picture_of;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
+use rasterproof_verify::comparison::pixels::hits;
 use rasterproof_verify::convention::{Count, Quantum};
 
 const FAMILIES: [&str; 2] = ["partly-off", "line-clipped"];

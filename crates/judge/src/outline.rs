@@ -5,12 +5,13 @@
 //! outline itself, nothing else is open.
 
 use super::ask::Answer;
-use super::judged::{Judged, mix};
+use super::judged::Judged;
 use super::pixels::picture_of;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::pixels::mix;
 
 /// The pixels whose centres are the corners; nothing where one lies elsewhere or outside the window.
 pub(super) fn ends(corners: &Corners, window: PixelRect) -> Option<[PixelPoint; 3]> {

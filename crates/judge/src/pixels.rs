@@ -3,11 +3,10 @@
 use glam::DVec2;
 
 use super::ask::Answer;
-use super::judged::{hits, mix};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
-use rasterproof_verify::comparison::{Expectation, Tally};
+use rasterproof_verify::comparison::pixels::{as_runs, hits};
 
 pub(super) fn pixel_of(f: &Fragment<DVec2>) -> Span {
     Span { y_px: f.y_px, x0_px: f.x_px, x1_px: f.x_px.saturating_add(1) }
@@ -15,37 +14,6 @@ pub(super) fn pixel_of(f: &Fragment<DVec2>) -> Span {
 
 pub(super) fn length(runs: &[Span]) -> u64 {
     runs.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px))).sum()
-}
-
-/// Compares runs with a picture, pixel by pixel unless they are the same runs.
-pub(super) fn compare(
-    tally: &mut Tally,
-    mark: &mut u64,
-    runs: &[Span],
-    picture: &Expectation,
-    window: PixelRect,
-) {
-    if picture.may.is_none() && runs == picture.must {
-        return;
-    }
-    let (actual, outside) = hits(runs, window);
-    let must = hits(&picture.must, window).0;
-    let may = picture.may.as_ref().map(|may| hits(may, window).0);
-    tally.extra += outside;
-    mix(mark, outside);
-    for (y, row) in actual.rows() {
-        let (must, may) = (must.row(y), may.as_ref().unwrap_or(&must).row(y));
-        for (x, &n) in row.iter().enumerate() {
-            let is_right = n == must[x] || (n == 1 && may[x] == 1);
-            if is_right {
-                continue;
-            }
-            tally.missing += u64::from(n < must[x]);
-            tally.extra += u64::from(n > 0 && may[x] == 0);
-            tally.twice += u64::from(n.saturating_sub(1));
-            [y as u64, x as u64, u64::from(n)].iter().for_each(|word| mix(mark, *word));
-        }
-    }
 }
 
 /// The pixels of an answer by hits, those outside the window left out.
@@ -70,11 +38,6 @@ pub fn hits_of(answer: &Answer, window: PixelRect) -> Option<(Coverage, u64)> {
     Some(hits(&runs, window))
 }
 
-pub(super) fn as_runs(pixels: &[(i32, i32)]) -> Vec<Span> {
-    let run = |&(x, y): &(i32, i32)| Span { y_px: y, x0_px: x, x1_px: x.saturating_add(1) };
-    pixels.iter().map(run).collect()
-}
-
 /// How many triangles of a mesh cover each pixel. A mesh with a triangle that was refused has a hole for another
 /// reason, and no picture.
 pub fn mesh_of(answers: &[Answer], window: PixelRect) -> Option<Coverage> {
@@ -88,14 +51,6 @@ pub fn mesh_of(answers: &[Answer], window: PixelRect) -> Option<Coverage> {
         }
     }
     Some(sum)
-}
-
-/// The fragments whose values are compared: the first, the last and two between.
-pub(super) fn picks(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
-    let n = fragments.len();
-    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
-    picks.dedup();
-    picks.into_iter().filter_map(|i| fragments.get(i))
 }
 
 /// The bits of all runs at each pixel of the window.
@@ -118,24 +73,4 @@ pub(super) fn painted<T: Copy>(
         }
     }
     painted
-}
-
-/// Compares the pixels of a line, and where they are the same ones their order.
-pub(super) fn sequence(
-    tally: &mut Tally,
-    mark: &mut u64,
-    pixels: &[(i32, i32)],
-    expected: &[(i32, i32)],
-    window: PixelRect,
-    in_order: bool,
-) {
-    if pixels == expected {
-        return;
-    }
-    let picture = Expectation { must: as_runs(expected), may: None };
-    let before = tally.total();
-    compare(tally, mark, &as_runs(pixels), &picture, window);
-    if tally.total() == before && in_order {
-        tally.order += pixels.iter().zip(expected).filter(|(a, b)| a != b).count() as u64;
-    }
 }

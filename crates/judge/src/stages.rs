@@ -12,7 +12,7 @@ use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::in_process::Inside;
 use super::near_plane::{asked, bounds, is_round};
-use super::pixels::{masks_of, picks};
+use super::pixels::masks_of;
 use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::contract::Rasterize as _;
@@ -22,6 +22,7 @@ use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::area2;
+use rasterproof_verify::comparison::pixels::few;
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
 use rasterproof_verify::oracle::Oracle;
@@ -174,7 +175,7 @@ fn are_near(
             tolerance * largest + f64::MIN_POSITIVE
         })
     };
-    values::are_explained(triangle, &mut picks(answer), predict, &allowed)
+    values::are_explained(triangle, &mut few(answer), predict, &allowed)
 }
 
 fn of_values(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {

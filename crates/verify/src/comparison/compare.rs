@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::cause::Cause;
 use super::convention::{Convention, Rule};
 use super::finding::{Finding, Tally};
+use super::pixels::{self, few};
 use super::spans::{
     Covered, engine_coverage, exact_coverage, fragments_against, line_coverage, unsnapped_truth,
 };
@@ -349,14 +350,6 @@ fn collect_fragments(
     fragments
 }
 
-/// The first, the last and two fragments between: corners and middle of most triangles.
-fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
-    let n = fragments.len();
-    let mut picks = [0, n / 3, 2 * n / 3, n.saturating_sub(1)].to_vec();
-    picks.dedup();
-    picks.into_iter().filter_map(|i| fragments.get(i))
-}
-
 /// Whether the centre of the pixel lies in the triangle or on its outline.
 fn holds_centre(corners: &Corners, f: &Fragment<DVec2>) -> bool {
     let centre = |px: i32| i128::from(px) * i128::from(SUBPIXELS) + i128::from(HALF_PIXEL);
@@ -463,11 +456,14 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
                     })
                 })
                 .collect();
+            let of = |drawn: &[Fragment<DVec2>]| -> Vec<(i32, i32)> {
+                drawn.iter().map(|f| (f.x_px, f.y_px)).collect()
+            };
             let pixels: Vec<(i32, i32)> = truth.iter().map(|&(x, y, _)| (x, y)).collect();
             for (finding, drawn) in findings.iter_mut().zip(&drawn) {
                 match drawn {
                     Ok(drawn) => {
-                        finding.tally += sequence(drawn, &pixels, case.window);
+                        sequence(finding, &of(drawn), &pixels, case.window);
                         line_values(line, drawn, &truth, finding);
                     }
                     Err(panic) => finding.panic = Some(panic.0.clone()),
@@ -476,8 +472,7 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
             for (finding, two) in findings.iter_mut().skip(drawn.len()).zip(drawn.windows(2)) {
                 match (&two[0], &two[1]) {
                     (Ok(a), Ok(b)) => {
-                        let target: Vec<_> = b.iter().map(|f| (f.x_px, f.y_px)).collect();
-                        finding.tally += sequence(a, &target, case.window);
+                        sequence(finding, &of(a), &of(b), case.window);
                     }
                     (Err(panic), _) | (_, Err(panic)) => finding.panic = Some(panic.0.clone()),
                 }
@@ -563,31 +558,8 @@ pub fn line_has_tie(line: &Line) -> bool {
     short > 0 && (long / a) % 2 == 0
 }
 
-/// Compares the pixels of a line, and where they are the same ones their order.
-fn sequence(drawn: &[Fragment<DVec2>], target: &[(i32, i32)], window: PixelRect) -> Tally {
-    let actual = drawn.iter().map(|f| (f.x_px, f.y_px));
-    if actual.clone().eq(target.iter().copied()) {
-        return Tally::default();
-    }
-    let hits = |pixels: &mut dyn Iterator<Item = (i32, i32)>| {
-        let (mut hits, mut outside) = (Coverage::new(window, 0), 0);
-        for (x_px, y_px) in pixels {
-            if window.contains(x_px, y_px) {
-                hits.hit(y_px, x_px, x_px + 1);
-            } else {
-                outside += 1;
-            }
-        }
-        (hits, outside)
-    };
-    let (actual_hits, outside) = hits(&mut actual.clone());
-    let (target_hits, _) = hits(&mut target.iter().copied());
-    let mut tally = Tally::between(&actual_hits, &target_hits);
-    tally.extra += outside;
-    if tally.total() == 0 {
-        tally.order = actual.zip(target.iter().copied()).filter(|(a, b)| a != b).count() as u64;
-    }
-    tally
+fn sequence(finding: &mut Finding, drawn: &[(i32, i32)], target: &[(i32, i32)], window: PixelRect) {
+    pixels::sequence(&mut finding.tally, &mut 0, drawn, target, window, true);
 }
 
 /// Compares values with the exact ones at the first, the last and a middle pixel in common.

@@ -16,6 +16,8 @@ mod convention;
 mod disagreement;
 mod finding;
 mod nothing;
+#[doc(hidden)]
+pub mod pixels;
 pub mod shrink;
 #[doc(hidden)]
 pub mod single_precision;
