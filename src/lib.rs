@@ -16,6 +16,7 @@
 //! - [`cases`]: families of hard cases, and cases with names
 //! - [`verify`]: judges an engine and finds the smallest case that fails
 //! - [`partition`]: judges the triangles that a tessellator makes of polygons
+//! - [`judge`]: what every judge has in common: options, parts of the cases, failing cases, verdicts
 //! - [`assert_rasterizer`]: judges in one line of a test
 //! - [`assert_lines`]: the same for a line drawer
 //! - [`assert_values`]: the same with depths and attributes
@@ -64,7 +65,7 @@ pub use rasterproof_verify::{
     assert_lines, assert_partition, assert_rasterizer, assert_same_coverage, assert_values,
 };
 #[doc(inline)]
-pub use rasterproof_verify::{cases, comparison as verify, oracle, partition};
+pub use rasterproof_verify::{cases, comparison as verify, judge, oracle, partition};
 
 // The command line, for `main` and the tests.
 #[doc(hidden)]

@@ -187,7 +187,6 @@ pub mod cases;
 pub mod comparison;
 #[doc(hidden)]
 pub mod convention;
-#[doc(hidden)]
 pub mod judge;
 #[doc(hidden)]
 pub mod mistakes;

@@ -9,7 +9,9 @@ mod panics;
 use std::time::{Duration, Instant};
 
 pub use nothing::{NoSuchShard, NothingJudged};
-pub use panics::{EnginePanic, Watch, caught, is_judging};
+pub use panics::EnginePanic;
+#[doc(hidden)]
+pub use panics::{Watch, caught, is_judging};
 use rasterproof_core::parallel;
 
 /// A part of all cases: case i belongs to part i mod n of n.
