@@ -601,12 +601,22 @@ fn surfaces_of_a_gltf_are_in_linear_light() {
     });
     let tangent = computed.mesh.triangles.tangents(0)[1];
     assert!(tangent.z == 0.0 && (tangent.truncate().length() - 1.0).abs() < 1e-6, "{tangent}");
-    // Coordinates of its own, and a picture that is not there.
+    // Coordinates of other maps, those of a third kind, and a picture that is not there.
     let (model, item) = read("other.glb", Shading::Phong, &|d| {
-        d["materials"][0]["normalTexture"]["texCoord"] = json!(1);
-        d["materials"][0]["emissiveTexture"]["index"] = json!(7);
+        d["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(2);
+        let transform = json!({ "KHR_texture_transform": { "offset": [0.5, 0.25] } });
+        let material = &mut d["materials"][0];
+        material["pbrMetallicRoughness"]["metallicRoughnessTexture"]["texCoord"] = json!(1);
+        material["pbrMetallicRoughness"]["metallicRoughnessTexture"]["extensions"] = transform;
+        material["normalTexture"]["texCoord"] = json!(1);
+        material["emissiveTexture"]["index"] = json!(7);
     });
-    assert_eq!(model.not_drawn, "map with texture coordinates of its own of 1 material");
+    assert_eq!(model.not_drawn, "map with a third kind of texture coordinates of 1 material");
+    assert_eq!(item.material.physical.as_ref().unwrap().second, [false, true, false, false]);
+    for (corner, second) in item.mesh.triangles.at(1).iter().zip(item.mesh.triangles.second_uvs(1))
+    {
+        assert_eq!(second, corner.uv + DVec2::new(0.5, -0.25));
+    }
     let missing =
         "textures[7] is not there; the material 'materials[0]' is drawn without its emission";
     assert!(warning(&model).contains(missing), "{:?}", model.warnings);

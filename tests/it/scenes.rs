@@ -29,7 +29,8 @@ use rasterproof_render::pipeline::transform::{look_at, perspective};
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::chapters::{entries, scene};
 use rasterproof_render::scene::{
-    Corner, Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,
+    Attribute, Corner, Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes,
+    textures,
 };
 use rasterproof_report::frame_comparison::{self, Comparison};
 use rayon::prelude::*;
@@ -195,6 +196,46 @@ fn check_account(plan: &Plan, counters: &Counters, name: &str) {
         let counted = effect.calls(counters);
         assert!(sums(effect) != [0; 2] || counted == 0, "{name} {}: {counted}", effect.name());
     }
+}
+
+/// A map that is read at second texture coordinates shows what it shows at first ones that are the same.
+#[test]
+fn maps_are_read_at_coordinates_of_their_own() {
+    let mut read = [0; 2];
+    for index in 0..120 {
+        let mut scene = random::with_effects(8, index);
+        for item in &mut scene.items {
+            item.material.texture = None;
+            item.material.opacity = None;
+            let triangles = &item.mesh.triangles;
+            let second = (0..triangles.len()).map(|i| triangles.at(i).map(|corner| corner.uv));
+            let triangles =
+                triangles.clone().with_second_uvs(Attribute::OfCorners(second.collect()));
+            Arc::make_mut(&mut item.mesh).triangles = triangles;
+            if let Some(surface) = &mut item.material.physical {
+                Arc::make_mut(surface).second = [false; 4];
+            }
+        }
+        let mut moved = scene.clone();
+        for item in &mut moved.items {
+            Arc::make_mut(&mut item.mesh).triangles.change_corners(|corner| {
+                corner.uv = corner.uv * 3.0 + DVec2::X;
+            });
+            if let Some(surface) = &mut item.material.physical {
+                Arc::make_mut(surface).second = [true; 4];
+            }
+        }
+        let (drawer, antialias) = pair(index);
+        for effects in [Effects::ALWAYS, Effects::PLANNED] {
+            let [expected, drawn] =
+                [&scene, &moved].map(|scene| draw(scene, drawer, effects, antialias));
+            assert!(drawn.picture == expected.picture, "{index} {}", drawer.name());
+            for (sum, pays) in read.iter_mut().zip([drawn.counters.levels, drawn.counters.texels]) {
+                *sum += pays;
+            }
+        }
+    }
+    assert!(read[0] > 1000 && read[1] > 1000, "{read:?}");
 }
 
 /// A plan made before drawing is the one that the frame reports; written down and read again it

@@ -41,7 +41,8 @@ pub(crate) fn leave_out(path: &Path, contents: &mut Contents, warnings: &mut War
         for tangent in part.tangents.iter_mut().filter(|tangent| !tangent.is_finite()) {
             *tangent = DVec4::ZERO;
         }
-        for uv in part.uvs.iter_mut().filter(|uv| !uv.is_finite()) {
+        let all = part.uvs.iter_mut().chain(&mut part.second_uvs);
+        for uv in all.filter(|uv| !uv.is_finite()) {
             *uv = DVec2::ZERO;
             uvs += 1;
         }

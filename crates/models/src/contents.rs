@@ -44,8 +44,9 @@ pub(crate) struct Contents {
     pub warnings: Vec<String>,
 }
 
-/// What has to be equal for two parts to become one: the material, and whether there are colours and tangents.
-pub(crate) type Kind = (Option<usize>, bool, bool);
+/// What has to be equal for two parts to become one: the material, and whether there are colours, tangents and second texture
+/// coordinates.
+pub(crate) type Kind = (Option<usize>, [bool; 3]);
 
 impl Contents {
     /// Adds a part; many parts become few. An error in words where that cannot be.
@@ -54,7 +55,8 @@ impl Contents {
             self.parts.push(part);
             return Ok(());
         }
-        let kind = (part.material, part.colours.is_empty(), part.tangents.is_empty());
+        let lists = [part.colours.is_empty(), part.tangents.is_empty(), part.second_uvs.is_empty()];
+        let kind = (part.material, lists);
         match self.merged.get(&kind) {
             Some(&place) => {
                 part.place(part.to_file);
@@ -91,6 +93,8 @@ pub(crate) struct FilePart {
     pub normals: Vec<DVec3>,
     /// Texture coordinates, v up.
     pub uvs: Vec<DVec2>,
+    /// Those of maps that are read elsewhere, for each position, or none at all.
+    pub second_uvs: Vec<DVec2>,
     /// A colour for each position, each channel in [0, 1], or none at all.
     pub colours: Vec<DVec3>,
     /// A tangent for each position, with the sign of the bitangent, or none at all.
@@ -143,7 +147,8 @@ impl FilePart {
         }
     }
 
-    /// Adds the polygons of another part in the same coordinates. Both have colours, or neither has, and likewise tangents.
+    /// Adds the polygons of another part in the same coordinates. Both have colours, or neither has, and likewise tangents and second
+    /// texture coordinates.
     fn append(&mut self, mut other: Self) {
         let before = self.positions.len();
         let corners = [&*self.corners, &*other.corners];
@@ -159,6 +164,10 @@ impl FilePart {
         if !other.tangents.is_empty() {
             self.tangents.resize(before, DVec4::ZERO);
             self.tangents.append(&mut other.tangents);
+        }
+        if !other.second_uvs.is_empty() {
+            self.second_uvs.resize(before, DVec2::ZERO);
+            self.second_uvs.append(&mut other.second_uvs);
         }
         self.positions.append(&mut other.positions);
         self.corners.extend(other.corners.iter().map(|corner| corner + before as u32));

@@ -82,10 +82,14 @@ pub(crate) fn model(
             Origin { part: part_name, material: name, faces, lines, concave, first_face };
         first_face += part.polygons.len() as u32;
         let tangents = std::mem::take(&mut part.tangents);
+        let second_uvs = std::mem::take(&mut part.second_uvs);
         let mut mesh = mesh(path, part, &smooth, options.normals, &mut origin, &mut warnings);
+        if !second_uvs.is_empty() && material.has_second_uvs() {
+            mesh.triangles = mesh.triangles.with_second_uvs(Attribute::OfPositions(second_uvs));
+        }
         let physical = material.physical.as_deref();
-        if physical.is_some_and(|physical| physical.map(Map::Normal).is_some()) {
-            mesh.triangles = tangents::with(mesh.triangles, &mesh.positions, tangents);
+        if let Some((_, is_second)) = physical.and_then(|physical| physical.sampled(Map::Normal)) {
+            mesh.triangles = tangents::with(mesh.triangles, &mesh.positions, tangents, is_second);
         }
         if mesh.triangles.is_empty() {
             continue;

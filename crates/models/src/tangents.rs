@@ -4,14 +4,20 @@ use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use glam::{DVec3, DVec4};
 use rasterproof_render::scene::{Attribute, Corner, Triangles};
 
-/// Triangles with the tangents of their file, one for each position, or with computed ones where there are none.
+/// Triangles with the tangents of their file, one for each position, or with computed ones where there are none, along the first or
+/// the second texture coordinates.
 pub(crate) fn with(
     triangles: Triangles,
     positions: &[DVec3],
     mut of_file: Vec<DVec4>,
+    is_second: bool,
 ) -> Triangles {
     if of_file.is_empty() {
-        let corners: Vec<[Corner; 3]> = triangles.iter().collect();
+        let mut corners: Vec<[Corner; 3]> = triangles.iter().collect();
+        for (number, corners) in corners.iter_mut().enumerate().filter(|_| is_second) {
+            let uvs = triangles.second_uvs(number);
+            corners.iter_mut().zip(uvs).for_each(|(corner, uv)| corner.uv = uv);
+        }
         let tangents = vec![[DVec4::ZERO; 3]; corners.len()];
         let mut surface = Surface { positions, corners, tangents };
         match generate_tangents(&mut surface) {
@@ -103,12 +109,17 @@ mod tests {
     fn tangents_lead_along_u_and_bitangents_up() {
         let positions = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
         for (mirrored_u, along) in [(false, 1.0), (true, -1.0)] {
-            let made = with(square(mirrored_u), &positions, Vec::new());
+            let made = with(square(mirrored_u), &positions, Vec::new(), false);
             // In the left-handed scene n is -z, so n x t w is up where w is -1 times the direction of u.
             let expected = Attribute::Same(DVec4::new(along, 0.0, 0.0, -along));
-            assert_eq!(made, square(mirrored_u).with_tangents(expected));
+            assert_eq!(made, square(mirrored_u).with_tangents(expected.clone()));
+            let second = [0, 1].map(|i| square(mirrored_u).at(i).map(|corner| corner.uv));
+            let second = Attribute::OfCorners(second.to_vec());
+            let other = square(!mirrored_u).with_second_uvs(second);
+            let made = with(other.clone(), &positions, Vec::new(), true);
+            assert_eq!(made, other.with_tangents(expected));
         }
-        let given = with(square(false), &positions, vec![DVec4::new(0.0, 0.6, 0.8, 1.0); 4]);
+        let given = with(square(false), &positions, vec![DVec4::new(0.0, 0.6, 0.8, 1.0); 4], false);
         let expected = Attribute::Same(DVec4::new(0.0, 0.6, -0.8, -1.0));
         assert_eq!(given, square(false).with_tangents(expected));
     }

@@ -22,13 +22,14 @@ use crate::outside;
 use crate::text;
 use crate::textures::{Decoded, Pictures};
 
-/// A surface, and where its texture finds its coordinates.
+/// Where a texture finds its coordinates: their number among those of a vertex, and what moves them before the lookup; v points
+/// down, as in glTF.
+pub(super) type Coordinates = (u32, DAffine2);
+
+/// A surface, and the coordinates of its texture and of maps that are read elsewhere.
 pub(super) struct Described {
     pub surface: Surface,
-    /// The number of the texture coordinates among those of a vertex, where there is a texture.
-    pub uv_set: Option<u32>,
-    /// Moves texture coordinates before the lookup; v points down, as in glTF.
-    pub uv_transform: DAffine2,
+    pub uvs: [Option<Coordinates>; 2],
 }
 
 /// The channel as a picture stores it: colours of a glTF that are no picture are linear.
@@ -166,11 +167,10 @@ pub(super) fn describe(
         true => Arc::new(decoded.texture.decoded()),
         false => Arc::new(decoded.texture),
     });
-    let transform = first_info(material).and_then(transform);
     let has_maps = physical.as_ref().is_some_and(|(_, of)| of.maps.iter().any(Option::is_some));
+    let uvs = coordinates(material);
     Some(Described {
-        uv_set: first_info(material).map(set).filter(|_| texture.is_some() || has_maps),
-        uv_transform: transform.map_or(DAffine2::IDENTITY, affine),
+        uvs: [uvs[0].filter(|_| texture.is_some() || has_maps), uvs[1]],
         surface: Surface {
             name,
             colour: DVec3::new(r.into(), g.into(), b.into()).map(encoded),
@@ -212,20 +212,17 @@ fn colour_texture(material: &Material) -> Option<&Info> {
     }
 }
 
-fn transform(info: &Info) -> Option<&Transform> {
-    info.extensions.transform.as_ref()
-}
-
 /// Whether a surface is one of metal and roughness, in linear light.
 fn is_physical(material: &Material) -> bool {
     let extensions = &material.extensions;
     extensions.glossiness.is_none() && extensions.common.is_none() && extensions.unlit.is_none()
 }
 
-/// Each map of a surface in linear light, with the texture that the material names for it.
+/// Each map of a surface in linear light that has an effect, with the texture that the material names for it.
 fn maps(material: &Material) -> [(Map, Option<&Info>); Map::ALL.len()] {
     Map::ALL.map(|map| {
         let info = match map {
+            Map::Emission if material.emissive_factor.iter().all(|of| *of <= 0.0) => &None,
             Map::Emission => &material.emissive_texture,
             Map::Metal => &material.pbr_metallic_roughness.metallic_roughness_texture,
             Map::Occlusion => &material.occlusion_texture,
@@ -244,14 +241,19 @@ fn named(map: Map) -> &'static str {
     }
 }
 
-/// The texture whose coordinates all of a material is read at: that of its colour, or its first map.
-fn first_info(material: &Material) -> Option<&Info> {
+/// The coordinates of the texture of a material, or of its first map, and those of the first map that has others.
+fn coordinates(material: &Material) -> [Option<Coordinates>; 2] {
     let maps = maps(material).into_iter().filter(|_| is_physical(material));
-    colour_texture(material).or_else(|| maps.into_iter().find_map(|(_, info)| info))
+    let all = colour_texture(material).into_iter().chain(maps.filter_map(|(_, info)| info));
+    let mut all = all.map(of_info);
+    let first = all.next();
+    [first, all.find(|of| Some(*of) != first)]
 }
 
-fn set(info: &Info) -> u32 {
-    transform(info).and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord)
+fn of_info(info: &Info) -> Coordinates {
+    let transform = info.extensions.transform.as_ref();
+    let set = transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord);
+    (set, transform.map_or(DAffine2::IDENTITY, affine))
 }
 
 /// What is reflected where there is no metal, from straight ahead and at grazing angles, as two extensions state it.
@@ -299,22 +301,20 @@ fn physical(
         bumps: info(Map::Normal).and_then(|info| info.scale).unwrap_or(1.0).into(),
         ..Physical::default()
     };
-    let emits = surface.emission != DVec3::ZERO;
     for (map, info) in maps(material) {
-        let Some(info) = info.filter(|_| map != Map::Emission || emits) else { continue };
-        let coordinates = |info| (set(info), transform(info).map(affine));
-        if first_info(material).is_some_and(|first| coordinates(first) != coordinates(info)) {
-            count("map with texture coordinates of its own of material");
-        } else {
-            match texture(data, info, images) {
+        let Some(info) = info else { continue };
+        match coordinates(material).iter().position(|of| *of == Some(of_info(info))) {
+            None => count("map with a third kind of texture coordinates of material"),
+            Some(number) => match texture(data, info, images) {
                 Ok(Decoded { texture, .. }) => {
                     let is_colour = map == Map::Emission;
                     let texture = if is_colour { texture.decoded() } else { texture };
                     surface.maps[map as usize] = Some(Arc::new(texture));
+                    surface.second[map as usize] = number == 1;
                     continue;
                 }
                 Err(cause) => missing(map, cause),
-            }
+            },
         }
         if map == Map::Emission {
             surface.emission = DVec3::ZERO;

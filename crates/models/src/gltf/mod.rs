@@ -17,7 +17,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
+use glam::{DAffine2, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_short;
 use rasterproof_render::pipeline::assemble::ClipPoint;
@@ -212,7 +212,7 @@ const CHUNK_HEAD_BYTES: usize = 8;
 const LEAST_GLB_BYTES: usize = 12 + CHUNK_HEAD_BYTES;
 
 /// The number of a material in the contents, and where its texture finds its coordinates.
-type UsedMaterial = (usize, Option<u32>, glam::DAffine2);
+type UsedMaterial = (usize, [Option<materials::Coordinates>; 2]);
 
 struct Reader<'a> {
     path: &'a Path,
@@ -543,7 +543,6 @@ impl Reader<'_> {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
         };
-        let mut uvs = Vec::new();
         let mut material = self.material(primitive.material, place);
         let surface = material.map(|(material, ..)| &self.contents.materials[material]);
         let physical = surface.and_then(|surface| surface.physical.clone());
@@ -559,23 +558,23 @@ impl Reader<'_> {
             None => Vec::new(),
         };
         let tangents = tangents.into_iter().map(DVec4::from_array).collect();
-        if let Some((_, Some(set), transform)) = material {
-            match vertices.read(&format!("TEXCOORD_{set}")) {
-                Some(read) => {
-                    let read = read.map(|read| {
-                        let turned = |[u, v]: [f64; 2]| {
-                            let uv = transform.transform_point2(DVec2::new(u, v));
-                            DVec2::new(uv.x, 1.0 - uv.y)
-                        };
-                        read.into_iter().map(turned).collect()
-                    });
-                    uvs = self.optional(read, count, "texture coordinates", place);
-                }
-                None => self.warn("textures", &format!("{place}: has a texture and no TEXCOORD_{set}; all of it has the colour of one texel")),
-            }
-        }
-        if let Some((number, uv_set, _)) = &mut material {
-            let used = (*number, uv_set.is_some());
+        let mut read_uvs = |set| {
+            let Some((set, transform)) = set else { return Vec::new() };
+            let Some(read) = vertices.read(&format!("TEXCOORD_{set}")) else {
+                self.warn("textures", &format!("{place}: has a texture and no TEXCOORD_{set}; all of it has the colour of one texel"));
+                return Vec::new();
+            };
+            let turned = |[u, v]: [f64; 2]| {
+                let uv = DAffine2::transform_point2(&transform, DVec2::new(u, v));
+                DVec2::new(uv.x, 1.0 - uv.y)
+            };
+            let read = read.map(|read| read.into_iter().map(turned).collect());
+            self.optional(read, count, "texture coordinates", place)
+        };
+        let [first, second] = material.map_or([None; 2], |(_, uvs)| uvs);
+        let (mut uvs, second_uvs) = (read_uvs(first), read_uvs(second));
+        if let Some((number, _)) = &mut material {
+            let used = (*number, first.is_some());
             *number = self.with_opacities(used, primitive, &vertices, &mut uvs);
         }
         let numbers = |is_empty: bool| {
@@ -593,6 +592,7 @@ impl Reader<'_> {
             positions,
             normals,
             uvs,
+            second_uvs,
             colours,
             tangents,
             ..FilePart::default()
@@ -730,9 +730,9 @@ impl Reader<'_> {
             &mut self.contents.not_drawn,
             &mut self.warnings,
         );
-        let known = described.map(|Described { surface, uv_set, uv_transform }| {
+        let known = described.map(|Described { surface, uvs }| {
             self.contents.materials.push(surface);
-            (self.contents.materials.len() - 1, uv_set, uv_transform)
+            (self.contents.materials.len() - 1, uvs)
         });
         if let (None, Some(number)) = (known, number) {
             let text = format!("{place}: materials[{number}] is not there; it is drawn grey");

@@ -9,14 +9,14 @@ use super::conditions::{self, EVERY_FRAGMENT};
 use super::kernel::Kernel;
 use super::plan::Canvas;
 use super::planner;
-use super::primitive::{BadScene, Piece, Prepared, bare, pack, touched};
+use super::primitive::{BadScene, Piece, Prepared, bare, pack, surfaces, touched};
 use super::samples::depths::DepthPlane;
 use super::samples::pattern::{Pattern, scaled};
 use glam::DVec2;
 
 use crate::pipeline::Counters;
 use crate::pipeline::assemble::twice_area;
-use crate::pipeline::shade::{Attributes, PLACED, Surface};
+use crate::pipeline::shade::{Attributes, PLACED};
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
@@ -307,7 +307,7 @@ impl<'a> TiedPieces<'a> {
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
         let kernel = Kernel::new(item, piece, plan, map, None, &mut Counters::default());
         let Some(texture) = kernel.varying_texture() else { return };
-        let uv = moved.vertices.map_array(|v| Surface::from(v.varying).uv);
+        let uv = surfaces(&moved).map_array(|of| of.uv);
         let bounds_of_uv =
             DVec2::new(bound(uv.map_array(|uv| uv.x)), bound(uv.map_array(|uv| uv.y)));
         let inv_w = moved.vertices.map_array(|v| if perspective { v.inv_w } else { 1.0 });

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3, DVec4};
 use super::conditions::mip_maps::{footprint, is_affine};
 use super::parts::Constants;
 use super::plan::{Attributes, PiecePlan};
-use super::primitive::{Piece, Prepared, bare, pack};
+use super::primitive::{Piece, Prepared, WHITE, bare, pack, surfaces};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{FragmentStage, Way, each, fill, fill_flat};
@@ -18,7 +18,7 @@ use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
-use crate::pipeline::physical::{Lights, Map, Parts, Physical, Point};
+use crate::pipeline::physical::{Lights, Map, Parts, Physical, Point, Sampled};
 use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::see_through::{self, Look};
 use crate::pipeline::shade::{Attributes as Packed, Light, PLACED, Surface};
@@ -89,6 +89,9 @@ fn fill_wanted(colour: Colour, wanted: u32, colours: &mut [Colour]) {
     }
 }
 
+/// How textures are read at levels of detail or several times; the veil gives w, which is 1 where there is none.
+type HowRead<'a> = (Reading, Option<&'a Veil>);
+
 /// Draws one piece: constants, and what is left to do in each fragment.
 pub(super) struct Kernel<'a> {
     plan: PiecePlan,
@@ -111,8 +114,8 @@ pub(super) struct Kernel<'a> {
     shine: [u8; 3],
     /// Where each fragment has its own share of fog.
     veil: Option<&'a Veil>,
-    /// Where textures are read at levels of detail or several times; the veil gives w, which is 1 where there is none.
-    reading: Option<(Reading, Option<&'a Veil>)>,
+    /// Where textures are read at levels of detail or several times.
+    reading: Option<HowRead<'a>>,
     /// How often the texture was read where it may be read several times.
     taps: Cell<u64>,
     /// The texels of the last fragment, where neighbours mostly read the same ones. Whoever draws a part of a piece keeps them:
@@ -137,6 +140,8 @@ struct Coat<'a> {
     punctual: &'a [PunctualLight],
     /// The maps that are read in each fragment.
     maps: [Option<&'a Texture>; Map::ALL.len()],
+    /// How those at the second texture coordinates are read at levels of detail or several times.
+    reading: Option<Box<HowRead<'a>>>,
     /// The texels of maps that have one colour where the piece reads them.
     texels: [DVec3; Map::ALL.len()],
     eye: DVec4,
@@ -153,24 +158,43 @@ impl<'a> Coat<'a> {
         plan: PiecePlan,
         counters: &mut Counters,
     ) -> Self {
-        let first = Surface::from(piece.vertices[0].varying);
+        let first = Surface::from(&piece.vertices[0].varying);
         let (world, tangent) = (first.world, first.tangent);
         let [emission, reflection, occlusion, bumps] =
             [plan.emission, plan.reflection, plan.occlusion, plan.normal_maps];
         let (mut maps, mut texels) = ([None; Map::ALL.len()], Map::ALL.map(Map::missing));
         for (map, is_read) in Map::ALL.into_iter().zip([emission, reflection, occlusion, bumps]) {
-            let Some(texture) = surface.map(map).filter(|_| is_read) else { continue };
-            if plan.interpolates.has(Attributes::UV) {
+            let Some(read) = surface.sampled(map).filter(|_| is_read) else { continue };
+            let (texture, is_second) = read;
+            if plan.interpolates.has(Attributes::uv(is_second)) {
                 maps[map as usize] = Some(texture);
-            } else if item.carries.has(Attributes::UV) {
+            } else if item.carries.has(Attributes::uv(is_second)) {
                 counters.texels += 1;
-                texels[map as usize] = texture.at(first.uv);
+                texels[map as usize] = texture.at(first.uv_of(is_second));
             }
+        }
+        let mut reading = None;
+        if plan.reads_around() && plan.interpolates.has(Attributes::SECOND_UV) {
+            // All are read in one way but for their sizes.
+            reading = Some(Box::new(how_read(item, (&WHITE, true), piece, plan)));
         }
         let parts = Parts { emission, reflection, occlusion, bumps };
         let punctual = if plan.punctual { item.punctual } else { &[] };
-        Self { surface, parts, punctual, maps, texels, eye: item.eye, world, tangent }
+        Self { surface, parts, punctual, maps, reading, texels, eye: item.eye, world, tangent }
     }
+}
+
+/// How textures of a piece are read at levels of detail or several times; the size in it is that of this one.
+fn how_read<'a>(
+    item: &'a Prepared<'_>,
+    read: Sampled<'_>,
+    piece: &Piece,
+    plan: PiecePlan,
+) -> HowRead<'a> {
+    let veil = (!is_affine(piece, plan.perspective)).then_some(&item.veil);
+    let (footprint, ..) = footprint(read, piece, plan.perspective);
+    let (at_levels, is_anisotropic) = (plan.mip_maps, plan.anisotropy);
+    (Reading { footprint, at_levels, is_anisotropic }, veil)
 }
 
 impl<'a> Kernel<'a> {
@@ -184,7 +208,7 @@ impl<'a> Kernel<'a> {
         counters: &mut Counters,
     ) -> Self {
         let constants = part.copied().unwrap_or_default();
-        let first = Surface::from(piece.vertices[0].varying);
+        let first = Surface::from(&piece.vertices[0].varying);
         let constant = |bit: u8| item.carries.has(bit) && !plan.interpolates.has(bit);
         let mut kernel = Self {
             plan,
@@ -219,17 +243,14 @@ impl<'a> Kernel<'a> {
         if let (Some(texture), true) =
             (item.texture, plan.reads_around() && plan.interpolates.has(Attributes::UV))
         {
-            let veil = (!is_affine(piece, plan.perspective)).then_some(&item.veil);
-            let (footprint, ..) = footprint(texture, piece, plan.perspective);
-            let (at_levels, is_anisotropic) = (plan.mip_maps, plan.anisotropy);
-            kernel.reading = Some((Reading { footprint, at_levels, is_anisotropic }, veil));
+            kernel.reading = Some(how_read(item, (texture, false), piece, plan));
         }
         if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
             counters.texels += 1;
             kernel.texel = constants.texel.unwrap_or_else(|| texture.at(first.uv));
         }
         if let (Some(view), Some(map)) = (&item.light_view, map) {
-            let places = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).place);
+            let places = surfaces(piece).map_array(|of| of.place);
             let receiver = view.receiver(map, places);
             if plan.interpolates.has(Attributes::PLACE) {
                 kernel.receiver = Some(receiver);
@@ -249,7 +270,9 @@ impl<'a> Kernel<'a> {
             kernel.shine = dimmed(item.highlight.at(first.normal), kernel.lit);
         }
         if let Some(surface) = item.physical() {
-            kernel.coat = Some(Box::new(Coat::new(item, surface, piece, plan, counters)));
+            let coat = Coat::new(item, surface, piece, plan, counters);
+            kernel.reading = kernel.reading.or(coat.reading.as_deref().copied());
+            kernel.coat = Some(Box::new(coat));
             if plan.is_one_colour() {
                 kernel.count_coat(1, counters);
             }
@@ -347,7 +370,7 @@ impl<'a> Kernel<'a> {
         let packed = pack::<N>(piece, interpolates);
         let of_first = self
             .first_opacity
-            .unwrap_or_else(|| opacity.of(Surface::from(piece.vertices[0].varying).uv));
+            .unwrap_or_else(|| opacity.of(Surface::from(&piece.vertices[0].varying).uv));
         let has_uv = interpolates.has(Attributes::UV);
         let last = self.last.is_some().then(|| RefCell::new(FourTexels::NONE));
         let levels = self.reading.as_ref().zip(opacity.levels());
@@ -501,11 +524,13 @@ impl<'a> Kernel<'a> {
                 coat.tangent
             };
             let mut texels = coat.texels;
-            for (texel, map) in
-                texels.iter_mut().zip(&coat.maps).filter_map(|(texel, map)| Some((texel, (*map)?)))
-            {
-                let uv = DVec2::from_slice(&values[self.start(Attributes::UV)..]);
-                *texel = match self.reading {
+            for (number, texel) in texels.iter_mut().enumerate() {
+                let Some(map) = coat.maps[number] else { continue };
+                let is_second = coat.surface.second[number];
+                let uv = DVec2::from_slice(&values[self.start(Attributes::uv(is_second))..]);
+                let reading =
+                    if is_second { coat.reading.as_deref() } else { self.reading.as_ref() };
+                *texel = match reading {
                     None => map.at(uv),
                     Some((reading, veil)) => {
                         let w = veil.map_or(1.0, |veil| veil.w(depth));

@@ -23,11 +23,11 @@ use super::Mode;
 use super::conditions::mip_maps::{MOST_TEXELS, footprint, is_affine, is_near};
 use super::conditions::samples_of;
 use super::plan::{Attributes, Parts, PiecePlan, Rule};
-use super::primitive::{Piece, Prepared, has_one_w, pixel_box};
+use super::primitive::{Piece, Prepared, has_one_w, pixel_box, surfaces, uvs};
 use crate::pipeline::fog::Share;
 use crate::pipeline::footprint::Footprint;
 use crate::pipeline::opacity::Drawn;
-use crate::pipeline::shade::Surface;
+use crate::pipeline::shade::{Attributes as Packed, PLACED, Surface};
 use crate::pipeline::shadow::{LitPlane, ShadowMap};
 use crate::pipeline::target::Antialias;
 use crate::scene::Item;
@@ -118,24 +118,40 @@ pub(super) struct Part {
     pub constants: Constants,
 }
 
+/// What depends on where in a square a fragment is.
+#[derive(Clone, Copy)]
+struct Corner {
+    normal: DVec3,
+    uv: DVec2,
+    place: DVec3,
+}
+
+impl From<&Packed<PLACED>> for Corner {
+    #[inline]
+    fn from(all: &Packed<PLACED>) -> Self {
+        let Surface { normal, uv, place, .. } = Surface::from(all);
+        Self { normal, uv, place }
+    }
+}
+
 /// The corners of a square in the plane of a piece.
 struct Square {
     inv_w: [f64; 4],
     depths: [f64; 2],
-    surfaces: [Surface; 4],
+    corners: [Corner; 4],
     /// Texture coordinates between which all lie that are read.
     uv: [DVec2; 3],
 }
 
 impl Square {
     /// An attribute at the corners of the two triangles that make up the square.
-    fn halves<T: Copy>(&self, of: impl Fn(&Surface) -> T) -> [[T; 3]; 2] {
-        let [a, b, c, d] = &self.surfaces;
+    fn halves<T: Copy>(&self, of: impl Fn(&Corner) -> T) -> [[T; 3]; 2] {
+        let [a, b, c, d] = &self.corners;
         [[of(a), of(b), of(c)], [of(b), of(c), of(d)]]
     }
 
-    fn all<T>(&self, of: impl Fn(&Surface) -> T) -> [T; 4] {
-        let [a, b, c, d] = &self.surfaces;
+    fn all<T>(&self, of: impl Fn(&Corner) -> T) -> [T; 4] {
+        let [a, b, c, d] = &self.corners;
         [of(a), of(b), of(c), of(d)]
     }
 }
@@ -201,12 +217,12 @@ impl<'a> Whole<'a> {
         map: Option<&'a ShadowMap>,
     ) -> Self {
         let rule = &parts.rule;
-        let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
+        let surfaces = surfaces(piece);
         let [a, b, c] = surfaces.map_array(|surface| surface.uv.abs());
         let footprint = item
             .texture
             .filter(|_| plan.interpolates.has(Attributes::UV))
-            .map(|texture| footprint(texture, piece, plan.perspective));
+            .map(|texture| footprint((texture, false), piece, plan.perspective));
         let shares_texels = footprint.is_some_and(|(footprint, inv_w, uv)| {
             !plan.reads_around() && footprint.longest(inv_w, uv) <= MOST_SHARED
         });
@@ -347,11 +363,13 @@ impl<'a> Whole<'a> {
         let mut square = Square {
             inv_w: [0.0; 4],
             depths: [f64::INFINITY, f64::NEG_INFINITY],
-            surfaces: [Surface::from(vertices[0].varying); 4],
+            corners: [Corner::from(&vertices[0].varying); 4],
             uv: [DVec2::ZERO; 3],
         };
         let own = vertices.map_array(|vertex| vertex.depth);
         let [least, most] = [own[0].min(own[1]).min(own[2]), own[0].max(own[1]).max(own[2])];
+        // What does not vary is the same everywhere, to the bit.
+        let mut values = vertices[0].varying;
         for (i, shares) in shares.into_iter().enumerate() {
             let parts = [0, 1, 2].map_array(|i: usize| shares[i] * self.inv_w[i]);
             let sum = parts[0] + parts[1] + parts[2];
@@ -366,9 +384,7 @@ impl<'a> Whole<'a> {
             square.depths = [square.depths[0].min(depth), square.depths[1].max(depth)];
             square.inv_w[i] = sum;
             let weights = parts.map_array(|part| part / sum);
-            let mut values = vertices[0].varying;
             for (bit, range) in Attributes::RANGES {
-                // What does not vary is the same everywhere, to the bit.
                 if !self.plan.interpolates.has(bit) {
                     continue;
                 }
@@ -380,11 +396,11 @@ impl<'a> Whole<'a> {
                     }
                 }
             }
-            square.surfaces[i] = Surface::from(values);
+            square.corners[i] = Corner::from(&values);
         }
         let margin = (DVec2::ONE + self.farthest) * 0.5f64.powi(40);
-        let own = vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
-        let [a, b, c, d] = square.all(|surface| surface.uv);
+        let own = uvs(self.piece, false);
+        let [a, b, c, d] = square.all(|corner| corner.uv);
         let low = a.min(b).min(c.min(d)).max(own[0].min(own[1]).min(own[2])) - margin;
         let high = a.max(b).max(c.max(d)).min(own[0].max(own[1]).max(own[2])) + margin;
         square.uv = [low, high, low];
@@ -442,7 +458,7 @@ impl<'a> Whole<'a> {
         };
         let has_normal = plan.interpolates.has(Attributes::NORMAL);
         if has_normal && plan.specular && rule.specular.is_open() {
-            let normals = square.halves(|surface| surface.normal);
+            let normals = square.halves(|corner| corner.normal);
             // The margin of the condition is a share of these normals, and their errors one of those at the piece's corners.
             let is_known = |three: [DVec3; 3]| {
                 let scale: f64 = three.iter().map(|normal| normal.abs().element_sum()).sum();
@@ -456,7 +472,7 @@ impl<'a> Whole<'a> {
             && rule.shadows.is_open()
             && plan.interpolates.has(Attributes::PLACE)
             && let Some((plane, map)) = &self.shadow
-            && let Some(lit) = plane.lit(map, square.all(|surface| surface.place))
+            && let Some(lit) = plane.lit(map, square.all(|corner| corner.place))
         {
             plan.shadows = false;
             drop(plan, Attributes::PLACE);
@@ -471,7 +487,7 @@ impl<'a> Whole<'a> {
         if has_normal && !plan.specular && (!plan.shadows || rule.shadows.is_open()) {
             // What is negative at four corners is so between them.
             let margin = self.longest_normal * 0.5f64.powi(40);
-            let along = square.all(|surface| surface.normal.dot(item.light.towards));
+            let along = square.all(|corner| corner.normal.dot(item.light.towards));
             if along.into_iter().all(|along| along + margin <= 0.0) {
                 plan.shadows = false;
                 drop(plan, Attributes::PLACE | Attributes::NORMAL);
@@ -492,7 +508,7 @@ impl<'a> Whole<'a> {
         let Some(texture) = item.texture else { return };
         let mut longest = f64::INFINITY;
         if let Some(footprint) = &self.footprint {
-            let uv = square.all(|surface| surface.uv);
+            let uv = square.all(|corner| corner.uv);
             longest = footprint.longest_in(square.inv_w, uv, self.farthest);
             if self.is_exact && rule.mip_maps.is_open() {
                 plan.mip_maps &= longest.is_nan() || longest > 1.0;
@@ -545,7 +561,6 @@ mod tests {
     use crate::effects::primitive::pack;
     use crate::effects::{Effects, planner};
     use crate::pipeline::depth::DepthFormat;
-    use crate::pipeline::shade::{Attributes as Packed, PLACED};
     use crate::scene::{Scene, random};
     use rasterproof_core::contract::Interpolate as _;
     use rasterproof_core::grid::SubpixelPoint;
@@ -602,14 +617,14 @@ mod tests {
         let visit = |fragment: rasterproof_core::triangle::Fragment<_>| {
             assert!(is_covered, "a fragment in a square that is not covered");
             let Some(square) = &square else { return };
-            let Surface { normal, uv, .. } = Surface::from(fragment.varying);
+            let Surface { normal, uv, .. } = Surface::from(&fragment.varying);
             let [low, high, _] = square.uv;
             let [near, far] = square.depths;
             let has_uv = whole.plan.interpolates.has(Attributes::UV);
             let has_normal = whole.plan.interpolates.has(Attributes::NORMAL);
             let directions = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE, -DVec3::ONE];
             let is_beyond = directions.iter().any(|direction| {
-                let [a, b, c, d] = square.all(|surface| surface.normal.dot(*direction));
+                let [a, b, c, d] = square.all(|corner| corner.normal.dot(*direction));
                 normal.dot(*direction)
                     > a.max(b).max(c).max(d) + 8.0 * margin * whole.longest_normal
             });

@@ -103,6 +103,8 @@ pub enum Attribute {
     /// The place in the world, from which the eye is seen.
     World,
     Tangent,
+    /// Texture coordinates of maps that are read elsewhere than the colour.
+    SecondUv,
 }
 
 /// A set of attributes.
@@ -118,18 +120,20 @@ impl Attributes {
     pub(super) const PLACE: u8 = 8;
     pub(super) const WORLD: u8 = 16;
     pub(super) const TANGENT: u8 = 32;
+    pub(super) const SECOND_UV: u8 = 64;
     /// Where each stands among all numbers of a vertex.
-    pub(super) const RANGES: [(u8, std::ops::Range<usize>); 6] = [
+    pub(super) const RANGES: [(u8, std::ops::Range<usize>); 7] = [
         (Self::COLOUR, 0..3),
         (Self::NORMAL, 3..6),
         (Self::UV, 6..8),
         (Self::PLACE, 8..11),
         (Self::WORLD, 11..14),
         (Self::TANGENT, 14..18),
+        (Self::SECOND_UV, 18..20),
     ];
     /// For each set of attributes: where its numbers stand among all numbers of a vertex, and how many there are.
-    const NUMBERS: [([u8; PLACED], usize); 64] = {
-        let mut numbers = [([0; PLACED], 0); 64];
+    const NUMBERS: [([u8; PLACED], usize); 128] = {
+        let mut numbers = [([0; PLACED], 0); 128];
         let mut set = 0;
         while set < numbers.len() {
             let (places, count) = &mut numbers[set];
@@ -148,19 +152,30 @@ impl Attributes {
         }
         numbers
     };
-    const BITS: [(Attribute, u8); 6] = [
+    const BITS: [(Attribute, u8); 7] = [
         (Attribute::Colour, Self::COLOUR),
         (Attribute::Normal, Self::NORMAL),
         (Attribute::Uv, Self::UV),
         (Attribute::Place, Self::PLACE),
         (Attribute::World, Self::WORLD),
         (Attribute::Tangent, Self::TANGENT),
+        (Attribute::SecondUv, Self::SECOND_UV),
     ];
 
     /// No attribute.
     pub const NONE: Self = Self(0);
 
-    pub(super) const EVERY: Self = Self(63);
+    pub(super) const EVERY: Self = Self(127);
+
+    /// The bit of the first or the second texture coordinates.
+    pub(super) const fn uv(is_second: bool) -> u8 {
+        if is_second { Self::SECOND_UV } else { Self::UV }
+    }
+
+    /// Whether textures are read by any of these.
+    pub(super) fn has_uv(self) -> bool {
+        self.has(Self::UV) || self.has(Self::SECOND_UV)
+    }
 
     pub(super) fn has(self, bit: u8) -> bool {
         self.0 & bit != 0
@@ -199,6 +214,7 @@ impl fmt::Display for Attributes {
             (Self::PLACE, "place"),
             (Self::WORLD, "place in the world"),
             (Self::TANGENT, "tangent"),
+            (Self::SECOND_UV, "second uv"),
         ];
         let names: Vec<_> =
             names.into_iter().filter(|(bit, _)| self.has(*bit)).map(|(_, name)| name).collect();

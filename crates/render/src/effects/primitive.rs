@@ -10,7 +10,7 @@ use super::plan::{Attributes, ItemPlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, ClipPoint, check_vertex};
 use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
-use crate::pipeline::physical::{Map, Physical};
+use crate::pipeline::physical::{Map, Physical, Sampled};
 use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::LightView;
@@ -29,6 +29,18 @@ pub(crate) type Piece = ScreenTriangle<Packed<PLACED>>;
 pub(super) fn has_one_w(piece: &Piece) -> bool {
     let [a, b, c] = &piece.vertices;
     a.inv_w == b.inv_w && b.inv_w == c.inv_w
+}
+
+#[inline]
+pub(super) fn surfaces(piece: &Piece) -> [Surface; 3] {
+    let [a, b, c] = &piece.vertices;
+    [Surface::from(&a.varying), Surface::from(&b.varying), Surface::from(&c.varying)]
+}
+
+/// The first or the second texture coordinates of the corners of a piece.
+#[inline]
+pub(super) fn uvs(piece: &Piece, is_second: bool) -> [DVec2; 3] {
+    surfaces(piece).map_array(|of| of.uv_of(is_second))
 }
 
 /// A vertex of an item that has no place in clip space.
@@ -67,10 +79,14 @@ pub(super) struct Prepared<'a> {
     matrix: DMat4,
     /// From object to world space for normals.
     normals: DMat3,
+    /// The same for tangents, and the sign of what it does to a cross product.
+    tangents: (DMat3, f64),
+    /// Whether its corners have texture coordinates that are read.
+    has_uv: bool,
 }
 
 /// What is looked up where texture is paid for and there is none.
-static WHITE: LazyLock<Texture> = LazyLock::new(Texture::white);
+pub(super) static WHITE: LazyLock<Texture> = LazyLock::new(Texture::white);
 
 /// Whether light depends on the fragment or triangle: Gouraud's is a colour of the corners.
 pub(super) fn is_lit(scene: &Scene, item: &Item) -> bool {
@@ -145,6 +161,7 @@ impl<'a> Prepared<'a> {
     ) -> Self {
         let item = &scene.items[index];
         let texture = item.material.texture.as_deref().unwrap_or(&WHITE);
+        let model = DMat3::from_mat4(item.model);
         Self {
             item,
             points: Vec::new(),
@@ -159,13 +176,20 @@ impl<'a> Prepared<'a> {
             index,
             assembler: assembler(item, plan, window),
             matrix: scene.projection * scene.view * item.model,
-            normals: DMat3::from_mat4(item.model).inverse().transpose(),
+            normals: model.inverse().transpose(),
+            tangents: (model, if model.determinant() < 0.0 { -1.0 } else { 1.0 }),
+            has_uv: item.material.textures().next().is_some() || item.material.has_opacity_map(),
         }
     }
 
     /// A map of the item, where it is physical and has it.
-    pub fn map(&self, map: Map) -> Option<&'a Texture> {
-        self.physical().and_then(|physical| physical.map(map))
+    pub fn map(&self, map: Map) -> Option<Sampled<'a>> {
+        self.physical().and_then(|physical| physical.sampled(map))
+    }
+
+    /// Its texture, which is read at the first coordinates.
+    pub fn colour(&self) -> Option<Sampled<'a>> {
+        self.texture.map(|texture| (texture, false))
     }
 
     pub fn physical(&self) -> Option<&'a Physical> {
@@ -214,26 +238,28 @@ impl<'a> Prepared<'a> {
                 }
             }
         }
-        let has_uv = material.textures().next().is_some() || material.has_opacity_map();
-        let uvs = if has_uv { triangles.uvs(triangle) } else { [DVec2::ZERO; 3] };
+        let uvs = if self.has_uv { triangles.uvs(triangle) } else { [DVec2::ZERO; 3] };
         move |i: usize| {
             let view = self.light_view.as_ref();
             let place = view.map_or(DVec3::ZERO, |view| view.place(self.index, positions[i]));
             let (mut world, mut tangent) = (DVec3::ZERO, DVec4::ZERO);
+            let mut second_uv = DVec2::ZERO;
+            if self.carries.has(Attributes::SECOND_UV) {
+                second_uv = triangles.second_uvs(triangle)[i];
+            }
             if self.carries.has(Attributes::WORLD) {
                 let position = mesh.positions[positions[i] as usize];
                 world = self.item.model.transform_point3(position);
             }
             if self.carries.has(Attributes::TANGENT) {
                 let DVec4 { x, y, z, w } = triangles.tangents(triangle)[i];
-                let model = DMat3::from_mat4(self.item.model);
-                let sign = if model.determinant() < 0.0 { -w } else { w };
+                let (matrix, sign) = self.tangents;
                 // Of a back the turned normal is reversed, and so are all three directions that it is made of.
                 let back = if is_back { -1.0 } else { 1.0 };
-                tangent = (model * DVec3::new(x, y, z)).extend(sign) * back;
+                tangent = (matrix * DVec3::new(x, y, z)).extend(sign * w) * back;
             }
-            Surface { colour: colours[i], normal: normals[i], uv: uvs[i], place, world, tangent }
-                .into()
+            let (colour, normal, uv) = (colours[i], normals[i], uvs[i]);
+            Surface { colour, normal, uv, place, world, tangent, second_uv }.into()
         }
     }
 

@@ -70,7 +70,7 @@ impl io::Write for Words {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DMat4, DVec3};
+    use glam::{DMat4, DVec2, DVec3};
 
     use super::*;
     use crate::pipeline::assemble::Cull;
@@ -78,7 +78,7 @@ mod tests {
     use crate::pipeline::opacity::{AlphaMode, Opacity};
     use crate::pipeline::physical::Physical;
     use crate::pipeline::punctual::{Kind, PunctualLight};
-    use crate::scene::{Hidden, Item, Material, Shading, Shadows, shapes};
+    use crate::scene::{Attribute, Hidden, Item, Material, Shading, Shadows, shapes};
 
     #[test]
     fn whatever_a_plan_depends_on_changes_the_digest() {
@@ -92,7 +92,7 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 18] = [
+        let changes: [(&str, Change); 19] = [
             ("in shadow", |scene| scene.shadows = Some(Shadows::default())),
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
@@ -120,6 +120,11 @@ mod tests {
             ("tangents", |scene| {
                 let mesh = std::sync::Arc::unwrap_or_clone(scene.items[0].mesh.clone());
                 scene.items[0].mesh = std::sync::Arc::new(shapes::with_tangents(mesh));
+            }),
+            ("second texture coordinates", |scene| {
+                let mesh = std::sync::Arc::make_mut(&mut scene.items[0].mesh);
+                let uvs = Attribute::Same(DVec2::ZERO);
+                mesh.triangles = std::mem::take(&mut mesh.triangles).with_second_uvs(uvs);
             }),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
             ("lit from both sides", |scene| scene.items[0].two_sided = true),

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::depth::OFF_FRACTION;
+use super::plain::{BLOCK, Ends, MOST_BLOCKS};
 use super::sample::Colour;
 use super::texture::{Filter, FourTexels, Texture, Wrap};
 use super::wrap::within;
@@ -112,15 +113,18 @@ impl Opacity {
     /// opacity: one at either end decides about all. The margin covers the roundings of a bilinear mean.
     #[must_use]
     pub fn between(&self, uv: [DVec2; 3], around: [f64; 2]) -> Drawn {
-        let [least, most] = self.map.as_ref().map_or([u8::MAX; 2], |map| map.between(uv, around));
         let read = |texel: u8, margin: f64| {
             self.mode.of((step(self.factor * f64::from(texel) / 255.0) + margin) as u8)
         };
-        match (read(least, -MARGIN), read(most, MARGIN)) {
+        let drawn = |[least, most]: [u8; 2]| match (read(least, -MARGIN), read(most, MARGIN)) {
             (OPAQUE, _) => Drawn::All,
             (_, 0) => Drawn::Nothing,
             _ => Drawn::Mixed,
-        }
+        };
+        // What other levels have makes an interval wider.
+        let is_mixed = |found| drawn(found) == Drawn::Mixed;
+        let of_map = |map: &Arc<OpacityMap>| map.between(uv, around, &is_mixed);
+        drawn(self.map.as_ref().map_or([u8::MAX; 2], of_map))
     }
 
     /// Whether every fragment of such a triangle is as opaque as any other: all texels that it may read are equal, and each mean of
@@ -128,7 +132,7 @@ impl Opacity {
     #[must_use]
     pub fn is_one_between(&self, uv: [DVec2; 3]) -> bool {
         self.map.as_ref().is_none_or(|map| {
-            let [least, most] = map.between(uv, self.farthest());
+            let [least, most] = map.between(uv, self.farthest(), &|_| false);
             least == most
         })
     }
@@ -147,61 +151,52 @@ impl AlphaMode {
     }
 }
 
-/// A picture of opacities, with the least and the largest of each block of its texels. Copies that are read differently
-/// share both.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+/// A picture of opacities: the red channel of a texture, which is read as the texture is.
+#[derive(Clone, Debug, PartialEq)]
 pub struct OpacityMap {
     texture: Texture,
-    blocks: Arc<[[u8; 2]]>,
-    /// The least and the largest opacity of all texels.
-    whole: [u8; 2],
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    levels: Vec<OpacityMap>,
 }
 
-const BLOCK: usize = 8;
-
-/// Of triangles that read in more blocks, those of the whole picture are taken.
-const MOST_BLOCKS: usize = 256;
-
-impl OpacityMap {
-    /// Of the red channel of a texture, which is read as the texture is.
-    #[must_use]
-    pub fn new(texture: Texture) -> Self {
-        let (width, height) = texture.size();
-        let none = [u8::MAX, 0];
-        let join = |[a, b]: [u8; 2], [c, d]: [u8; 2]| [a.min(c), b.max(d)];
-        let across = across(width);
-        let mut blocks = vec![none; across * (height as usize).div_ceil(BLOCK)];
-        for y in 0..height {
-            for x in 0..width {
-                let texel = texture.red(x, y);
-                let block = &mut blocks[y as usize / BLOCK * across + x as usize / BLOCK];
-                *block = join(*block, [texel; 2]);
+/// What a plan depends on: how each level is read, and its opacities as far as plans look at them.
+impl serde::Serialize for OpacityMap {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Ends { blocks, whole } = self.texture.ends();
+        let own = (&self.texture, blocks, whole);
+        match self.texture.levels() {
+            [] => own.serialize(to),
+            levels => {
+                (own, levels.iter().cloned().map(Self::new).collect::<Vec<_>>()).serialize(to)
             }
         }
-        let whole = blocks.iter().fold(none, |whole, block| join(whole, *block));
-        Self { texture, blocks: blocks.into(), whole, levels: Vec::new() }
+    }
+}
+
+impl OpacityMap {
+    /// All texels are looked at here, so that no frame has to.
+    #[must_use]
+    pub fn new(texture: Texture) -> Self {
+        for level in std::iter::once(&texture).chain(texture.levels()) {
+            level.ends();
+        }
+        Self { texture }
     }
 
     /// The same, read differently.
     #[must_use]
     pub fn with(self, filter: Filter, wrap: impl Into<[Wrap; 2]>) -> Self {
-        Self { texture: self.texture.with(filter, wrap), ..self }
+        Self { texture: self.texture.with(filter, wrap) }
     }
 
     /// The same, filtered between texels and read at levels as a texture is.
     #[must_use]
     pub fn as_read(self, like: &Texture) -> Self {
-        let texture = self.texture.as_read(like);
-        let levels = texture.levels().iter().map(|level| Self::new(level.clone())).collect();
-        Self { texture, levels, ..self }
+        Self::new(self.texture.as_read(like))
     }
 
     /// The least and the largest of each block, row by row.
     #[must_use]
     pub fn blocks(&self) -> &[[u8; 2]] {
-        &self.blocks
+        &self.texture.ends().blocks
     }
 
     /// The opacity at texture coordinates, in [0, 1].
@@ -212,52 +207,56 @@ impl OpacityMap {
 
     /// The least and the largest texel of the blocks that a triangle with these texture coordinates at its corners
     /// reads in, up to so many texels beside a point and up to such a level, and of the whole picture where these are more than 256.
+    /// No more levels are looked at when the interval of some is wide enough.
     #[must_use]
-    pub fn between(&self, uv: [DVec2; 3], [reach, level]: [f64; 2]) -> [u8; 2] {
-        let levels = (level.ceil() as usize).min(self.levels.len());
-        let mut found = self.own_between(uv, reach);
-        for (i, map) in self.levels[..levels].iter().enumerate() {
-            let [least, most] = map.own_between(uv, reach / f64::from(2u32 << i.min(30)));
-            found = [found[0].min(least), found[1].max(most)];
-        }
-        found
-    }
-
-    fn own_between(&self, uv: [DVec2; 3], reach: f64) -> [u8; 2] {
-        if reach > f64::from(u16::MAX) {
-            return self.whole;
-        }
-        let (width, height) = self.texture.size();
-        // The coordinate of a tap is rounded too, by far less than a texel.
-        let reach = if reach > 0.0 { reach.ceil() as i64 + 1 } else { 0 };
-        let [columns, rows] = self
-            .texture
-            .texels_between(uv)
-            .map_array(|[first, last]| [first - reach, last + reach]);
-        let [across_u, along_v] = self.texture.wrap;
-        let columns = blocks(across_u, columns, width.into());
-        let rows = blocks(along_v, rows, height.into());
-        let count = |ranges: &[Range<usize>; 2]| ranges[0].len() + ranges[1].len();
-        if count(&columns) * count(&rows) > MOST_BLOCKS {
-            return self.whole;
-        }
-        let mut found = [u8::MAX, 0];
-        for row in rows.into_iter().flatten() {
-            for column in columns.iter().cloned().flatten() {
-                let [least, most] = self.blocks[row * across(width) + column];
-                found = [found[0].min(least), found[1].max(most)];
-                if found == self.whole {
-                    // No other block changes that.
-                    return found;
-                }
+    pub fn between(
+        &self,
+        uv: [DVec2; 3],
+        [reach, level]: [f64; 2],
+        is_enough: &dyn Fn([u8; 2]) -> bool,
+    ) -> [u8; 2] {
+        let mut found = own_between(&self.texture, uv, reach);
+        for (i, texture) in self.texture.levels().iter().take(level.ceil() as usize).enumerate() {
+            if is_enough(found) {
+                break;
             }
+            let [least, most] = own_between(texture, uv, reach / f64::from(2u32 << i.min(30)));
+            found = [found[0].min(least), found[1].max(most)];
         }
         found
     }
 }
 
-fn across(width: u32) -> usize {
-    (width as usize).div_ceil(BLOCK)
+/// The same of a picture by itself.
+fn own_between(texture: &Texture, uv: [DVec2; 3], reach: f64) -> [u8; 2] {
+    let Ends { blocks: ends, whole } = texture.ends();
+    if reach > f64::from(u16::MAX) {
+        return *whole;
+    }
+    let (width, height) = texture.size();
+    // The coordinate of a tap is rounded too, by far less than a texel.
+    let reach = if reach > 0.0 { reach.ceil() as i64 + 1 } else { 0 };
+    let [columns, rows] =
+        texture.texels_between(uv).map_array(|[first, last]| [first - reach, last + reach]);
+    let [across_u, along_v] = texture.wrap;
+    let columns = blocks(across_u, columns, width.into());
+    let rows = blocks(along_v, rows, height.into());
+    let count = |ranges: &[Range<usize>; 2]| ranges[0].len() + ranges[1].len();
+    if count(&columns) * count(&rows) > MOST_BLOCKS {
+        return *whole;
+    }
+    let mut found = [u8::MAX, 0];
+    for row in rows.into_iter().flatten() {
+        for column in columns.iter().cloned().flatten() {
+            let [least, most] = ends[row * (width as usize).div_ceil(BLOCK) + column];
+            found = [found[0].min(least), found[1].max(most)];
+            if found == *whole {
+                // No other block changes that.
+                return found;
+            }
+        }
+    }
+    found
 }
 
 /// The blocks of texels between two that are counted beyond the borders too: one range, or two where the picture
@@ -381,11 +380,11 @@ mod tests {
             of_points(&Opacity { map, ..opacity.clone() }, &points)
         };
         let any: Condition = |opacity, uv, around| {
-            let [least, _] = opacity.map.as_ref().unwrap().between(uv, around);
+            let [least, _] = opacity.map.as_ref().unwrap().between(uv, around, &|_| false);
             if least == 0 { Drawn::Nothing } else { opacity.between(uv, around) }
         };
         let one: Condition = |opacity, uv, around| {
-            let [_, most] = opacity.map.as_ref().unwrap().between(uv, around);
+            let [_, most] = opacity.map.as_ref().unwrap().between(uv, around, &|_| false);
             if most == OPAQUE { Drawn::All } else { opacity.between(uv, around) }
         };
         let first_level: Condition = |opacity, uv, [reach, _]| opacity.between(uv, [reach, 0.0]);
@@ -471,7 +470,7 @@ mod tests {
             opacity
                 .map
                 .as_ref()
-                .is_some_and(|map| map.between(uv, opacity.farthest())[1] == u8::MAX)
+                .is_some_and(|map| map.between(uv, opacity.farthest(), &|_| false)[1] == u8::MAX)
         };
         for (number, condition) in [corners, one_end].into_iter().enumerate() {
             assert!(of_one(condition)[1] > 0, "wrong condition {number} survives");

@@ -55,6 +55,13 @@ impl Map {
     }
 }
 
+/// A texture, and whether it is read at the second texture coordinates.
+pub type Sampled<'a> = (&'a Texture, bool);
+
+fn none_is(second: &[bool]) -> bool {
+    !second.contains(&true)
+}
+
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Physical {
     /// From 0, as plastic or wood, to 1, as metal.
@@ -72,6 +79,9 @@ pub struct Physical {
     /// The same of light that grazes the surface: s of the formulas.
     pub grazing: f64,
     pub maps: [Option<Arc<Texture>>; Map::ALL.len()],
+    /// Which of the maps are read at the second texture coordinates.
+    #[serde(skip_serializing_if = "none_is")]
+    pub second: [bool; Map::ALL.len()],
 }
 
 impl Default for Physical {
@@ -87,6 +97,7 @@ impl Default for Physical {
             straight: DVec3::splat(0.04),
             grazing: 1.0,
             maps,
+            second: [false; Map::ALL.len()],
         }
     }
 }
@@ -135,6 +146,11 @@ impl Physical {
     #[must_use]
     pub fn map(&self, map: Map) -> Option<&Texture> {
         self.maps[map as usize].as_deref()
+    }
+
+    #[must_use]
+    pub fn sampled(&self, map: Map) -> Option<Sampled<'_>> {
+        Some((self.map(map)?, self.second[map as usize]))
     }
 
     /// Whether this texel of the normal map leaves the normal as it is.

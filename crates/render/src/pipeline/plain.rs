@@ -9,13 +9,13 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// Texels along the side of a block.
-const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 8;
 
-/// Of more blocks nothing is known.
-const MOST_BLOCKS: usize = 256;
+/// Of more blocks nothing is known but what holds of all.
+pub(super) const MOST_BLOCKS: usize = 256;
 
 /// More blocks than this are counted by so many of them, evenly spread.
-const MOST_COUNTED: usize = 1 << 10;
+const MOST_COUNTED: usize = 1 << 8;
 
 /// What is known of each block: a large texture has many that no triangle ever reads.
 #[derive(Debug, Default)]
@@ -110,6 +110,30 @@ impl PlainBlocks {
             known.store(if is_plain { PLAIN } else { MIXED }, Relaxed);
         }
         known.load(Relaxed) == PLAIN
+    }
+}
+
+/// The least and the largest opacity of each block of a picture, row by row, and of all of it.
+#[derive(Debug)]
+pub(super) struct Ends {
+    pub blocks: Box<[[u8; 2]]>,
+    pub whole: [u8; 2],
+}
+
+impl Ends {
+    pub fn of([width, height]: [usize; 2], opacity: &dyn Fn(usize, usize) -> u8) -> Self {
+        let none = [u8::MAX, 0];
+        let join = |[a, b]: [u8; 2], [c, d]: [u8; 2]| [a.min(c), b.max(d)];
+        let across = width.div_ceil(BLOCK);
+        let mut blocks = vec![none; across * height.div_ceil(BLOCK)];
+        for y in 0..height {
+            for x in 0..width {
+                let block = &mut blocks[y / BLOCK * across + x / BLOCK];
+                *block = join(*block, [opacity(x, y); 2]);
+            }
+        }
+        let whole = blocks.iter().fold(none, |whole, block| join(whole, *block));
+        Self { blocks: blocks.into(), whole }
     }
 }
 

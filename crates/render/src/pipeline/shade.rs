@@ -68,26 +68,38 @@ pub struct Surface {
     pub world: DVec3,
     /// The direction of u in world space, of any length, and the sign of the bitangent; 0 without a normal map.
     pub tangent: DVec4,
+    /// Those of maps that are read elsewhere than the colour; 0 where there are none.
+    pub second_uv: DVec2,
+}
+
+impl Surface {
+    /// The first or the second texture coordinates.
+    #[must_use]
+    #[inline]
+    pub fn uv_of(&self, is_second: bool) -> DVec2 {
+        if is_second { self.second_uv } else { self.uv }
+    }
 }
 
 /// All attributes of a [`Surface`] without shadows.
 pub const ALL: usize = 8;
 
-/// The same, and after them the places and the tangent.
-pub const PLACED: usize = 18;
+/// The same, and after them the places, the tangent and the second texture coordinates.
+pub const PLACED: usize = 20;
 
 impl From<Surface> for Attributes<PLACED> {
-    fn from(Surface { colour, normal, uv, place, world, tangent }: Surface) -> Self {
+    fn from(Surface { colour, normal, uv, place, world, tangent, second_uv }: Surface) -> Self {
         let ([r, g, b], [x, y, z]) = (colour.to_array(), normal.to_array());
         let ([p, q, d], [e, f, h]) = (place.to_array(), world.to_array());
         let [t, k, l, w] = tangent.to_array();
-        Self([r, g, b, x, y, z, uv.x, uv.y, p, q, d, e, f, h, t, k, l, w])
+        let DVec2 { x: u, y: v } = second_uv;
+        Self([r, g, b, x, y, z, uv.x, uv.y, p, q, d, e, f, h, t, k, l, w, u, v])
     }
 }
 
-impl From<Attributes<PLACED>> for Surface {
+impl From<&Attributes<PLACED>> for Surface {
     #[inline]
-    fn from(Attributes(all): Attributes<PLACED>) -> Self {
+    fn from(Attributes(all): &Attributes<PLACED>) -> Self {
         let three = |at: usize| DVec3::new(all[at], all[at + 1], all[at + 2]);
         Self {
             colour: three(0),
@@ -96,6 +108,7 @@ impl From<Attributes<PLACED>> for Surface {
             place: three(8),
             world: three(11),
             tangent: three(14).extend(all[17]),
+            second_uv: DVec2::new(all[18], all[19]),
         }
     }
 }
@@ -143,7 +156,8 @@ mod tests {
         let (colour, normal, uv) = (DVec3::X, DVec3::new(1.0, 2.0, 3.0), DVec2::new(4.0, 5.0));
         let place = DVec3::new(6.0, 7.0, 8.0);
         let (world, tangent) = (place + 3.0, DVec4::new(12.0, 13.0, 14.0, -1.0));
-        let surface = Surface { colour, normal, uv, place, world, tangent };
-        assert_eq!(Surface::from(Attributes::from(surface)), surface);
+        let second_uv = DVec2::new(15.0, 16.0);
+        let surface = Surface { colour, normal, uv, place, world, tangent, second_uv };
+        assert_eq!(Surface::from(&Attributes::from(surface)), surface);
     }
 }

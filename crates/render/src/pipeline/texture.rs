@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 
 use super::depth::OFF_FRACTION;
 use super::linear::{decoded, encoded_byte};
-use super::plain::PlainBlocks;
+use super::plain::{Ends, PlainBlocks};
 pub use super::wrap::Wrap;
 use super::wrap::{within, wrapped};
 use rasterproof_core::arrays::MapArray as _;
@@ -62,6 +62,8 @@ pub struct Texture {
 #[derive(Debug, Default)]
 struct Derived {
     plain: PlainBlocks,
+    /// Of a map of opacities.
+    ends: OnceLock<Ends>,
     /// The levels of the mip map, read as a texture is where nothing else is said.
     levels: OnceLock<Vec<Texture>>,
     /// Of copies whose bytes stand for other channels.
@@ -541,12 +543,16 @@ impl Texture {
         [self.width as usize, self.height as usize]
     }
 
-    pub(super) fn red(&self, column: u32, row: u32) -> u8 {
-        let at = row as usize * self.width as usize + column as usize;
-        match &self.texels {
-            Texels::Colour(bytes) => bytes[at] as u8,
-            Texels::Grey(bytes) => bytes[at],
-        }
+    /// Those of its red channel.
+    pub(super) fn ends(&self) -> &Ends {
+        let red = |column: usize, row: usize| {
+            let at = row * self.width as usize + column;
+            match &self.texels {
+                Texels::Colour(bytes) => bytes[at] as u8,
+                Texels::Grey(bytes) => bytes[at],
+            }
+        };
+        self.derived.ends.get_or_init(|| Ends::of(self.sides(), &red))
     }
 
     /// The least and the largest of each channel in the whole texture.

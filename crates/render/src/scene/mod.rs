@@ -21,7 +21,7 @@ use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::Opacity;
-use crate::pipeline::physical::Physical;
+use crate::pipeline::physical::{Map, Physical, Sampled};
 use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
@@ -110,13 +110,18 @@ pub struct Material {
 
 impl Material {
     /// The maps of a physical surface that it has, beside its texture.
-    pub fn maps(&self) -> impl Iterator<Item = &Texture> {
-        self.physical.iter().flat_map(|of| of.maps.iter().flatten().map(|map| &**map))
+    pub fn maps(&self) -> impl Iterator<Item = Sampled<'_>> {
+        self.physical.iter().flat_map(|of| Map::ALL.into_iter().filter_map(|map| of.sampled(map)))
     }
 
     /// All that is read at texture coordinates but opacities.
     pub fn textures(&self) -> impl Iterator<Item = &Texture> {
-        self.texture.as_deref().into_iter().chain(self.maps())
+        self.texture.as_deref().into_iter().chain(self.maps().map(|(map, _)| map))
+    }
+
+    #[must_use]
+    pub fn has_second_uvs(&self) -> bool {
+        self.maps().any(|(_, is_second)| is_second)
     }
 
     /// Whether its opacity is read at texture coordinates.

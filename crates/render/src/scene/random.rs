@@ -5,10 +5,10 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::Shadows;
-use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
+use super::{Attribute, Corner, Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
@@ -118,7 +118,25 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
             scene.punctual.push(light);
         }
     }
+    for item in &mut scene.items {
+        if rng.chance(2) {
+            read_elsewhere(item, &mut rng);
+        }
+    }
     scene
+}
+
+/// Gives an item second texture coordinates, at which some of its maps are read.
+fn read_elsewhere(item: &mut Item, rng: &mut Rng) {
+    let Some(surface) = &mut item.material.physical else { return };
+    Arc::make_mut(surface).second = Map::ALL.map(|_| rng.chance(2));
+    let size = if rng.chance(3) { 0.0 } else { 2.0 * rng.unit() };
+    let from = DVec2::new(rng.signed(), rng.signed());
+    let mesh = Arc::make_mut(&mut item.mesh);
+    let triangles = std::mem::take(&mut mesh.triangles);
+    let of = |corners: [Corner; 3]| corners.map(|corner| from + corner.uv.perp() * size);
+    let uvs = triangles.iter().map(of).collect();
+    mesh.triangles = triangles.with_second_uvs(Attribute::OfCorners(uvs));
 }
 
 /// Among the surfaces, with a range that reaches none, some or all of them.

@@ -123,6 +123,7 @@ pub struct Triangles {
     normals: Normals,
     uvs: Attribute<DVec2>,
     tangents: Option<Attribute<DVec4>>,
+    second_uvs: Option<Attribute<DVec2>>,
 }
 
 impl Triangles {
@@ -144,7 +145,7 @@ impl Triangles {
             values.check(count);
         }
         uvs.check(count);
-        Self { positions, colours, normals, uvs, tangents: None }
+        Self { positions, colours, normals, uvs, tangents: None, second_uvs: None }
     }
 
     /// The same with the direction of u at each corner, of any length, and as w the sign of the bitangent n x t.
@@ -155,6 +156,16 @@ impl Triangles {
     pub fn with_tangents(self, tangents: Attribute<DVec4>) -> Self {
         tangents.check(self.len());
         Self { tangents: Some(tangents), ..self }
+    }
+
+    /// The same with texture coordinates of maps that are read elsewhere than the colour.
+    ///
+    /// # Panics
+    /// As [`Self::new`].
+    #[must_use]
+    pub fn with_second_uvs(self, uvs: Attribute<DVec2>) -> Self {
+        uvs.check(self.len());
+        Self { second_uvs: Some(uvs), ..self }
     }
 
     #[must_use]
@@ -214,6 +225,14 @@ impl Triangles {
         self.tangents.as_ref().map_or([DVec4::ZERO; 3], of)
     }
 
+    /// 0 where there are none.
+    #[inline]
+    #[must_use]
+    pub fn second_uvs(&self, triangle: usize) -> [DVec2; 3] {
+        let of = |uvs: &Attribute<DVec2>| uvs.get(triangle, self.positions()[triangle]);
+        self.second_uvs.as_ref().map_or([DVec2::ZERO; 3], of)
+    }
+
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [Corner; 3]> + DoubleEndedIterator + Clone {
         (0..self.len()).map(|triangle| self.at(triangle))
     }
@@ -230,6 +249,9 @@ impl Triangles {
         self.uvs.of_corners(before).push(corners.map(|corner| corner.uv));
         if let Some(tangents) = &mut self.tangents {
             tangents.of_corners(before).push([DVec4::ZERO; 3]);
+        }
+        if let Some(uvs) = &mut self.second_uvs {
+            uvs.of_corners(before).push([DVec2::ZERO; 3]);
         }
         self.positions.extend(corners.map(|corner| corner.position));
     }
@@ -271,23 +293,28 @@ impl Triangles {
         }
         reverse(&mut self.uvs);
         self.tangents.iter_mut().for_each(reverse);
+        self.second_uvs.iter_mut().for_each(reverse);
     }
 }
 
 /// Two lists are equal if their values are, in whichever form these are stored.
 impl PartialEq for Triangles {
     fn eq(&self, other: &Self) -> bool {
-        let tangents = |of: &Self, triangle: usize| of.tangents(triangle);
+        let rest = |of: &Self, triangle: usize| (of.tangents(triangle), of.second_uvs(triangle));
         self.len() == other.len()
             && self.iter().eq(other.iter())
-            && (0..self.len()).all(|i| tangents(self, i) == tangents(other, i))
+            && (0..self.len()).all(|i| rest(self, i) == rest(other, i))
     }
 }
 
 /// The corners of each triangle, in whichever form they are stored.
 impl serde::Serialize for Triangles {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq((0..self.len()).map(|i| (self.at(i), self.tangents(i))))
+        let own = |i: usize| (self.at(i), self.tangents(i));
+        match self.second_uvs {
+            None => to.collect_seq((0..self.len()).map(own)),
+            Some(_) => to.collect_seq((0..self.len()).map(|i| (own(i), self.second_uvs(i)))),
+        }
     }
 }
 

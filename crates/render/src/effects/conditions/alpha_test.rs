@@ -5,16 +5,14 @@
 //!
 //! [`Opacity::between`]: crate::pipeline::opacity::Opacity::between
 
-use super::Facts;
 use super::account::Condition;
 use super::mip_maps::{any_reads, around};
+use super::{Facts, LEAST_TEXTURED};
 use crate::effects::plan::Rule;
-use crate::effects::primitive::{Piece, Prepared};
+use crate::effects::primitive::{Piece, Prepared, uvs};
 use crate::effects::{Effect, Mode};
 use crate::pipeline::opacity::{AlphaMode, Drawn};
-use crate::pipeline::shade::Surface;
 use crate::scene::Item;
-use rasterproof_core::arrays::MapArray as _;
 
 fn is_tested(item: &Item) -> bool {
     let opacity = item.material.opacity.as_ref();
@@ -44,12 +42,15 @@ pub const CONDITION: Condition = Condition {
     },
 };
 
-/// What is drawn of a piece by the opacities that it may read.
-pub fn opacity(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> Drawn {
+/// What is drawn of a piece of so many samples by the opacities that it may read.
+pub fn opacity(rule: &Rule, item: &Prepared<'_>, piece: &Piece, samples: i64) -> Drawn {
     let Some(opacity) = &item.item.material.opacity else { return Drawn::All };
-    let uv = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
+    if opacity.map.is_some() && samples < LEAST_TEXTURED {
+        return Drawn::Mixed;
+    }
+    let uv = uvs(piece, false);
     let around = match opacity.levels() {
-        Some(texture) => around(texture, rule, item, piece, any_reads(rule)),
+        Some(texture) => around((texture, false), rule, item, piece, any_reads(rule)),
         None => Some([0.0; 2]),
     };
     opacity.between(uv, around.unwrap_or(opacity.farthest()))

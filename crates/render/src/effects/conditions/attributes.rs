@@ -36,7 +36,10 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
     let bits = ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit);
     let asked = Asked { scene, item, carries: Attributes(bits), effects };
     let in_use = super::ALL.iter().filter(|condition| condition.mode(&asked) != Mode::Never);
-    let needed = in_use.fold(bits, |bits, condition| bits | condition.needs);
+    let mut needed = in_use.fold(bits, |bits, condition| bits | condition.needs);
+    if bits & Attributes::UV != 0 && item.material.has_second_uvs() {
+        needed |= Attributes::SECOND_UV;
+    }
     if has_places(scene) { Attributes(needed) } else { Attributes(needed & !Attributes::WORLD) }
 }
 

@@ -9,13 +9,11 @@ use super::account::Account;
 use super::alpha_test;
 use super::mip_maps::{any_reads, around};
 use crate::effects::plan::{Attributes, Decision, Rule};
-use crate::effects::primitive::{Piece, Prepared};
+use crate::effects::primitive::{Piece, Prepared, uvs};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::opacity::Drawn;
-use crate::pipeline::shade::Surface;
-use crate::pipeline::texture::Texture;
+use crate::pipeline::physical::Sampled;
 use crate::scene::{Item, Shading};
-use rasterproof_core::arrays::MapArray as _;
 
 /// The attributes of an item that may be interpolated, and whether only where they vary.
 pub fn rule(item: &Item, carries: Attributes, effects: &Effects) -> (Attributes, bool) {
@@ -64,22 +62,22 @@ pub fn may_be_plain(rule: &Rule, opacity: Drawn) -> bool {
 /// Whether all texels of a texture have one colour that the fragments of a piece may read: those between the texture coordinates
 /// of its corners and beside them, as far as a filter reads, and [`around`] them at each level.
 pub fn is_plain(
-    texture: &Texture,
+    (texture, is_second): Sampled<'_>,
     rule: &Rule,
     item: &Prepared<'_>,
     piece: &Piece,
     reads: [bool; 2],
 ) -> bool {
-    let uv = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
+    let uv = uvs(piece, is_second);
     texture.is_plain_between(uv, 0.0, 0.0)
         && (reads == [false; 2]
-            || around(texture, rule, item, piece, reads)
+            || around((texture, is_second), rule, item, piece, reads)
                 .is_some_and(|[reach, level]| texture.is_plain_between(uv, reach, level)))
 }
 
 /// The same, however the texture is read by the rule.
-pub fn is_plain_in(texture: &Texture, rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> bool {
-    is_plain(texture, rule, item, piece, any_reads(rule))
+pub fn is_plain_in(read: Sampled<'_>, rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> bool {
+    is_plain(read, rule, item, piece, any_reads(rule))
 }
 
 pub fn explain(account: &Account<'_>) -> Decision {

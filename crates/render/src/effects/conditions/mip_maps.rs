@@ -5,10 +5,10 @@
 
 use super::account::Condition;
 use crate::effects::plan::{Attributes, Rule};
-use crate::effects::primitive::{Piece, Prepared, has_one_w};
+use crate::effects::primitive::{Piece, Prepared, has_one_w, uvs};
 use crate::effects::{Effect, Mode};
 use crate::pipeline::footprint::Footprint;
-use crate::pipeline::shade::Surface;
+use crate::pipeline::physical::Sampled;
 use crate::pipeline::texture::Texture;
 use glam::DVec2;
 use rasterproof_core::arrays::MapArray as _;
@@ -35,16 +35,17 @@ pub const CONDITION: Condition = Condition {
     },
 };
 
-/// The footprint of a piece, and what it is made of. Where w is the same at all corners it is as if divided by,
+/// The footprint of a piece in a texture, and what it is made of. Where w is the same at all corners it is as if divided by,
 /// whether it is or not, so that the level keeps its bits.
 pub fn footprint(
-    texture: &Texture,
+    (texture, is_second): Sampled<'_>,
     piece: &Piece,
     perspective: bool,
 ) -> (Footprint, [f64; 3], [DVec2; 3]) {
     let is_affine = is_affine(piece, perspective);
-    let inv_w = piece.vertices.map_array(|vertex| if is_affine { 1.0 } else { vertex.inv_w });
-    let uv = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
+    let inv_w =
+        [0, 1, 2].map_array(|i: usize| if is_affine { 1.0 } else { piece.vertices[i].inv_w });
+    let uv = uvs(piece, is_second);
     (Footprint::new(piece.corners(), inv_w, uv, texture.size()), inv_w, uv)
 }
 
@@ -64,23 +65,35 @@ pub fn is_near(item: &Prepared<'_>, piece: &Piece) -> bool {
 }
 
 /// Whether a piece may read levels above 0, and whether it may have a footprint with a longer axis: what a rule leaves open
-/// of both, by one footprint.
-pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> [bool; 2] {
+/// of both, by one footprint. A piece that shows more texels than it covers samples is minified somewhere.
+pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece, samples: i64) -> [bool; 2] {
     if !is_near(item, piece) {
         return [true; 2];
     }
-    let mut may_be = [false; 2];
-    // The footprint of all textures of one size is the same.
+    let mut may_be = [rule.mip_maps, rule.anisotropy].map_array(|mode| !mode.is_open());
+    // The footprint of all textures of one size at the same coordinates is the same.
     let mut last = None;
-    for texture in item.texture.into_iter().chain(item.item.material.maps()) {
-        if last.replace(texture.size()) == Some(texture.size()) {
+    for read in item.colour().into_iter().chain(item.item.material.maps()) {
+        let kind = (read.0.size(), read.1);
+        if last.replace(kind) == Some(kind) {
             continue;
         }
-        let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
-        may_be[0] |= !(rule.mip_maps.is_open() && footprint.is_magnified(inv_w, uv));
-        may_be[1] |= !(rule.anisotropy.is_open() && footprint.is_round(inv_w, uv));
+        may_be[0] |= texels(read, piece) > samples as f64 + 1.0;
+        if may_be == [true; 2] {
+            break;
+        }
+        let (footprint, inv_w, uv) = footprint(read, piece, rule.perspective != Mode::Never);
+        may_be[0] = may_be[0] || !footprint.is_magnified(inv_w, uv);
+        may_be[1] = may_be[1] || !footprint.is_round(inv_w, uv);
     }
     may_be
+}
+
+/// About how many texels lie between the texture coordinates of the corners of a piece.
+fn texels((texture, is_second): Sampled<'_>, piece: &Piece) -> f64 {
+    let [a, b, c] = uvs(piece, is_second);
+    let (width, height) = texture.size();
+    (b - a).perp_dot(c - a).abs() / 2.0 * f64::from(width) * f64::from(height)
 }
 
 /// Up to so many texels a pixel a texture is looked at.
@@ -89,7 +102,7 @@ pub const MOST_TEXELS: f64 = (1 << 16) as f64;
 /// How many texels beside the texture coordinates of a fragment a texture is read at most, and up to which level: with `levels` up to
 /// that of the longest derivative, and with `taps` up to half of it away, which is as far as a tap is moved. Nothing where that is not known.
 pub fn around(
-    texture: &Texture,
+    read: Sampled<'_>,
     rule: &Rule,
     item: &Prepared<'_>,
     piece: &Piece,
@@ -98,7 +111,7 @@ pub fn around(
     if !(levels || taps) {
         return Some([0.0; 2]);
     }
-    let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
+    let (footprint, inv_w, uv) = footprint(read, piece, rule.perspective != Mode::Never);
     let longest = footprint.longest(inv_w, uv);
     let reach = if taps { longest / 2.0 } else { 0.0 };
     let level = if levels { libm::log2(longest) + 0.5f64.powi(20) } else { 0.0 };

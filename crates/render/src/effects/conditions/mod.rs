@@ -115,8 +115,8 @@ macro_rules! conditions {
 
 fragment_effects!(conditions);
 
-/// Samples that a piece covers at least where its footprints are looked at: of a smaller one that takes longer than to compute
-/// what it asks for.
+/// Samples that a piece covers at least where it is looked at what it reads of textures: of a smaller one that takes longer than to
+/// compute what it asks for.
 const LEAST_TEXTURED: i64 = 6;
 
 /// The same of highlights, which most fragments find to be dark by two products.
@@ -140,7 +140,8 @@ pub(super) fn samples_of(piece: &Piece) -> i64 {
 
 /// Whether it is looked at if a piece of so many samples reads one colour of a texture.
 fn is_looked_at(texture: &Texture, samples: i64) -> bool {
-    samples >= ALWAYS_PLAIN || samples as f64 * texture.plain_part() >= LEAST_PLAIN
+    samples >= ALWAYS_PLAIN
+        || (samples >= LEAST_TEXTURED && samples as f64 * texture.plain_part() >= LEAST_PLAIN)
 }
 
 impl Facts {
@@ -156,7 +157,7 @@ impl Facts {
         let mut facts = Self { has_one_w: has_one_w(piece), ..Self::UNKNOWN };
         let samples = samples_of(piece);
         if rule.alpha_test.is_open() || rule.blending.is_open() {
-            facts.opacity = alpha_test::opacity(rule, item, piece);
+            facts.opacity = alpha_test::opacity(rule, item, piece, samples);
         }
         if rule.fog.is_open() {
             facts.fog = fog::between(item, piece);
@@ -186,21 +187,30 @@ impl Facts {
         if is_dark && !rule.specular.pays(facts.is_shiny) && !rule.shadows.pays(facts.is_shadowed) {
             facts.varies = facts.varies.without(Attributes(Attributes::NORMAL));
         }
-        let has_uv = rule.interpolates.both(facts.varies).has(Attributes::UV);
-        if !has_uv || samples < LEAST_TEXTURED {
+        if !rule.interpolates.both(facts.varies).has_uv() || samples < LEAST_TEXTURED {
             return facts;
         }
         if rule.mip_maps.is_open() || rule.anisotropy.is_open() {
-            [facts.is_minified, facts.is_stretched] = mip_maps::footprints(rule, item, piece);
+            [facts.is_minified, facts.is_stretched] =
+                mip_maps::footprints(rule, item, piece, samples);
         }
-        let has_many = || item.texture.is_some_and(|texture| is_looked_at(texture, samples));
-        if interpolation::may_be_plain(rule, facts.opacity) && has_many() {
-            let reads =
-                [rule.mip_maps.pays(facts.is_minified), rule.anisotropy.pays(facts.is_stretched)];
-            let maps = Map::ALL.into_iter().filter(|map| physical::reads(rule, &facts, *map));
-            let mut all = item.texture.into_iter().chain(maps.filter_map(|map| item.map(map)));
-            if all.all(|texture| interpolation::is_plain(texture, rule, item, piece, reads)) {
-                facts.varies = facts.varies.without(Attributes(Attributes::UV));
+        if !interpolation::may_be_plain(rule, facts.opacity) {
+            return facts;
+        }
+        let reads =
+            [rule.mip_maps.pays(facts.is_minified), rule.anisotropy.pays(facts.is_stretched)];
+        let maps = Map::ALL.map(|map| item.map(map).filter(|_| physical::reads(rule, &facts, map)));
+        let all = || item.colour().into_iter().chain(maps.into_iter().flatten());
+        for is_second in [false, true] {
+            let bit = Attributes(Attributes::uv(is_second));
+            let read = || all().filter(|(_, of)| *of == is_second);
+            let is_plain = |read| interpolation::is_plain(read, rule, item, piece, reads);
+            // One that is not plain is reason enough to interpolate.
+            if !facts.varies.both(bit).is_empty()
+                && read().all(|(texture, _)| is_looked_at(texture, samples))
+                && read().all(is_plain)
+            {
+                facts.varies = facts.varies.without(bit);
             }
         }
         facts
@@ -216,7 +226,7 @@ pub(super) fn plan(rule: &Rule, facts: &Facts) -> PiecePlan {
         plan.interpolates = rule.interpolates.both(facts.varies);
         plan.interpolates = plan.interpolates.without(Attributes(NEEDED & !needed(&plan)));
     }
-    let has_uv = plan.interpolates.has(Attributes::UV);
+    let has_uv = plan.interpolates.has_uv();
     plan.mip_maps &= has_uv;
     plan.anisotropy &= has_uv;
     plan.depth = rule.depth && facts.overlaps;

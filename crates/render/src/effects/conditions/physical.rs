@@ -19,10 +19,9 @@ use super::interpolation::is_plain_in;
 use super::{Facts, is_looked_at, shadows};
 use crate::effects::Effect;
 use crate::effects::plan::{Attributes, Rule};
-use crate::effects::primitive::{Piece, Prepared, is_lit, light, punctual};
+use crate::effects::primitive::{Piece, Prepared, is_lit, light, punctual, surfaces, uvs};
 use crate::pipeline::physical::{Map, Physical};
 use crate::pipeline::punctual::PunctualLight;
-use crate::pipeline::shade::Surface;
 use glam::DVec3;
 use rasterproof_core::arrays::MapArray as _;
 
@@ -150,14 +149,15 @@ fn all_are(
     (samples, map): (i64, Map),
     are_like: impl Fn(DVec3) -> bool,
 ) -> bool {
-    let Some(texture) = item.map(map) else { return are_like(map.missing()) };
-    let first = || texture.at(Surface::from(piece.vertices[0].varying).uv);
-    are_like(first()) && is_looked_at(texture, samples) && is_plain_in(texture, rule, item, piece)
+    let Some(read) = item.map(map) else { return are_like(map.missing()) };
+    let (texture, is_second) = read;
+    let first = || texture.at(uvs(piece, is_second)[0]);
+    is_looked_at(texture, samples) && are_like(first()) && is_plain_in(read, rule, item, piece)
 }
 
 /// Whether a light may reach a piece whose normals no map turns.
 fn may_reach(item: &Prepared<'_>, piece: &Piece) -> bool {
-    let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
+    let surfaces = surfaces(piece);
     let (places, normals) = (surfaces.map_array(|of| of.world), surfaces.map_array(|of| of.normal));
     item.punctual.iter().any(|light| reaches(light, places, normals))
 }

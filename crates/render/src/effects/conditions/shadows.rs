@@ -14,8 +14,8 @@ use super::{Facts, fog, samples_of};
 use crate::effects::Effect;
 use crate::effects::assembled::Assembled;
 use crate::effects::plan::{Attributes, Rule};
-use crate::effects::primitive::{Piece, Prepared, is_lit, light};
-use crate::pipeline::shade::{Light, Surface};
+use crate::effects::primitive::{Piece, Prepared, is_lit, light, surfaces};
+use crate::pipeline::shade::Light;
 use crate::scene::{Item, Scene};
 use glam::DVec3;
 use rasterproof_core::arrays::MapArray as _;
@@ -86,7 +86,7 @@ pub fn search(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece, fa
     } else {
         samples >= LEAST_SEARCHED
     };
-    let places = || piece.vertices.map_array(|vertex| Surface::from(vertex.varying).place);
+    let places = || surfaces(piece).map_array(|of| of.place);
     facts.is_shadowed = !is_searched || view.may_be_shadowed(scene, places());
     if facts.is_shadowed {
         view.need();
@@ -119,7 +119,7 @@ pub fn look_ahead(scene: &Scene, item: &Prepared<'_>, rule: &Rule) {
 }
 
 pub fn piece_faces_away(item: &Prepared<'_>, piece: &Piece) -> bool {
-    let normals = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).normal);
+    let normals = surfaces(piece).map_array(|of| of.normal);
     faces_away(&item.light, normals)
 }
 

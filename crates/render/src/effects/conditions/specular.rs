@@ -9,8 +9,7 @@
 use super::account::Condition;
 use crate::effects::Effect;
 use crate::effects::plan::Attributes;
-use crate::effects::primitive::{Piece, Prepared, highlight, is_lit};
-use crate::pipeline::shade::Surface;
+use crate::effects::primitive::{Piece, Prepared, highlight, is_lit, surfaces};
 use crate::scene::{Item, Scene, Shading};
 use rasterproof_core::arrays::MapArray as _;
 
@@ -46,6 +45,6 @@ fn is_shiny(scene: &Scene, item: &Item) -> bool {
 }
 
 pub fn may_show(item: &Prepared<'_>, piece: &Piece) -> bool {
-    let normals = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).normal);
+    let normals = surfaces(piece).map_array(|of| of.normal);
     !item.highlight.is_dark_between(normals)
 }
