@@ -379,7 +379,7 @@ const FILLS: &[(&str, Fill)] = &[
             }
         }
     }),
-    ("each axis is rounded in its own way", |c, w, out| {
+    ("each axis on a grid of its own", |c, w, out| {
         // x up and y toward zero, to 1/16 px.
         let to =
             |p: SubpixelPoint| SubpixelPoint::new((p.x + 15).div_euclid(16) * 16, p.y / 16 * 16);
@@ -474,7 +474,7 @@ const FILLS: &[(&str, Fill)] = &[
             })
         });
     }),
-    ("tiles are skipped", |c, w, out| {
+    ("blocks are drawn whole", |c, w, out| {
         // Quads of pixels share the first one's answer.
         let mut first = Coverage::new(w, 0);
         right(c, w, &mut first);
@@ -584,6 +584,125 @@ const FILLS: &[(&str, Fill)] = &[
                 .for_each(|x| light(out, x, y));
         }
     }),
+    ("blocks are drawn whole", |c, w, out| {
+        // Two rows of four pixels are drawn as their middle is covered.
+        let clockwise = area(c).signum();
+        let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+        for y in w.y0..w.y1 {
+            for x in w.x0..w.x1 {
+                let at = [i64::from(x / 4 * 4 + 2) * 256, i64::from(y / 2 * 2 + 1) * 256];
+                let holds = (0..3).all(|i| {
+                    let (from, to) = (p[i], p[(i + 1) % 3]);
+                    let e = clockwise * exactly(from, to, at);
+                    e > 0 || (e == 0 && owns([0, 1].map(|k| clockwise * (to[k] - from[k]))))
+                });
+                if clockwise != 0 && holds {
+                    light(out, x, y);
+                }
+            }
+        }
+    }),
+    ("the box misses a corner", |c, w, out| {
+        right(c, w, out);
+        let last = c[0].y.max(c[2].y) >> 8;
+        only(out, |_, y| y <= last);
+    }),
+    ("width and height are exchanged", |c, w, out| {
+        right(c, w, out);
+        only(out, |x, _| x < w.y1);
+    }),
+    ("areas are compared", |c, w, out| {
+        // Half of each cross product, with 1/1000 between.
+        let p = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
+        let part = |a: [f32; 2], b: [f32; 2], at: [f32; 2]| {
+            ((a[0] - at[0]) * (b[1] - at[1]) - (a[1] - at[1]) * (b[0] - at[0])).abs() * 0.5
+        };
+        let whole = part(p[1], p[2], p[0]);
+        for y in w.y0..w.y1 {
+            for x in w.x0..w.x1 {
+                let at = [x as f32 + 0.5, y as f32 + 0.5];
+                let sum = part(p[0], p[1], at) + part(p[1], p[2], at) + part(p[2], p[0], at);
+                if whole > 0.0 && (sum - whole).abs() <= 1e-3 {
+                    light(out, x, y);
+                }
+            }
+        }
+    }),
+    ("corners are clamped", |c, w, out| {
+        // To 300 px, x alone.
+        right(c.map_array(|p| SubpixelPoint::new(p.x.clamp(-76_800, 76_800), p.y)), w, out);
+    }),
+    ("triangles are left out by kind", |c, w, out| {
+        // The winding is that of one product.
+        let [a, b, p] = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+        if ((b[0] - a[0]) * (p[1] - a[1]) >= 0) == (area(c) > 0) {
+            right(c, w, out);
+        }
+    }),
+    ("the rest of a group", |c, w, out| {
+        // From the multiple of 8 before the box on, whole groups alone.
+        let first = (extent(c, 0)[0] >> 8).max(0) / 8 * 8;
+        let end = ((extent(c, 0)[1] >> 8) + 1).min(w.x1);
+        right(c, w, out);
+        only(out, |x, _| x < first + (end - first) / 8 * 8);
+    }),
+    ("crossings are stepped", |c, w, out| {
+        // A reciprocal of the height with 16 bits.
+        walked(c, w, out, &|row, a, b| {
+            let slope = i64::from(b.x - a.x) * (65536 / i64::from((b.y - a.y).max(1)));
+            let ahead = f64::from(row) + 0.5 - f64::from(a.y) / 256.0;
+            f64::from(a.x) / 256.0 + slope as f64 / 65536.0 * ahead
+        });
+    }),
+    ("crossings are stepped", |c, w, out| {
+        // Of whole pixels, with slopes in 1/1024 px, and with both ends and the last row drawn.
+        let mut p = c.map_array(|p| [i64::from(p.x >> 8), i64::from(p.y >> 8)]);
+        p.sort_by_key(|p| p[1]);
+        let at = |a: [i64; 2], b: [i64; 2], y: i64| {
+            let slope = (b[0] - a[0]) * 1024 / (b[1] - a[1]).max(1);
+            (a[0] * 1024 + 512 + slope * (y - a[1])) >> 10
+        };
+        for y in p[0][1].max(0)..(p[2][1] + 1).min(w.y1.into()) {
+            let short = if y < p[1][1] { at(p[0], p[1], y) } else { at(p[1], p[2], y) };
+            let long = at(p[0], p[2], y);
+            let ends = [long.min(short).max(0), (long.max(short) + 1).min(w.x1.into())];
+            (ends[0]..ends[1]).for_each(|x| light(out, x as i32, y as i32));
+        }
+    }),
+    ("rows end elsewhere", |c, w, out| {
+        // Of rounded corners, from the pixel of the left crossing to the one before that of the right one, which is cut
+        // toward zero, and the long edge is a row behind in the lower half.
+        let mut p = c.map_array(|p| [(p.x + 128) >> 8, (p.y + 128) >> 8].map(f64::from));
+        p.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        let at = |a: [f64; 2], b: [f64; 2], y: f64| {
+            a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]).max(1.0))
+        };
+        for y in (p[0][1] as i32).max(0)..(p[2][1] as i32).min(w.y1) {
+            let row = f64::from(y);
+            let (short, long) = match row < p[1][1] {
+                true => (at(p[0], p[1], row), at(p[0], p[2], row)),
+                false => (at(p[1], p[2], row), at(p[0], p[2], row - 1.0)),
+            };
+            let end = |v: f64| v.floor().clamp(0.0, f64::from(w.x1)) as i32;
+            (end(long.min(short))..end(long.max(short))).for_each(|x| light(out, x, y));
+        }
+    }),
+    ("each axis on a grid of its own", |c, w, out| {
+        // As an emulator has it: x in 1/16 px, y up to a whole row.
+        let snapped = c.map_array(|p| {
+            SubpixelPoint::new((p.x + 8).div_euclid(16) * 16, (p.y + 255).div_euclid(256) * 256)
+        });
+        right(snapped, w, out);
+    }),
+    ("ends of rows or columns", |c, w, out| {
+        // The last row is missing, and the first one is drawn twice: one mistake beside the other.
+        right(c, w, out);
+        let rows: Vec<i32> = out.runs().map(|(y, ..)| y).collect();
+        let (first, last) = (rows.first().copied(), rows.last().copied());
+        only(out, |_, y| Some(y) != last);
+        let runs: Vec<_> = out.runs().filter(|(y, ..)| Some(*y) == first).collect();
+        runs.into_iter().for_each(|(y, a, b)| out.hit(y, a, b));
+    }),
     ("the whole box is filled", |c, w, out| {
         let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
         for y in w.y0..w.y1 {
@@ -637,6 +756,71 @@ fn bresenham([[mut x, mut y], [x1, y1]]: [[i32; 2]; 2], emit: &mut dyn FnMut(i32
 }
 
 const STROKES: &[(&str, Stroke)] = &[
+    ("ends are clamped to the window", |ends, _, emit| {
+        bresenham(ends.map_array(|[x, y]| [x.clamp(-256, 255), y.clamp(-256, 255)]), emit);
+    }),
+    ("x and y are exchanged", |[a, b], _, emit| {
+        let is_turned = (b[1] - a[1]).abs() > (b[0] - a[0]).abs() && b[0] < a[0];
+        bresenham([a, b], &mut |x, y| if is_turned { emit(y, x) } else { emit(x, y) });
+    }),
+    ("pixels of the line are left out", |ends, _, emit| {
+        let mut number = 0;
+        bresenham(ends, &mut |x, y| {
+            if number % 16 < 15 {
+                emit(x, y);
+            }
+            number += 1;
+        });
+    }),
+    ("drawn from both ends", |[mut a, mut b], _, emit| {
+        let [dx, dy] = [0, 1].map(|k| (b[k] - a[k]).abs());
+        let (steps, side, steep) = (dx.max(dy), dx.min(dy), dy > dx);
+        let way = [0, 1].map(|k| (b[k] - a[k]).signum());
+        let mut error = steps / 2;
+        for _ in 0..=steps / 2 {
+            emit(a[0], a[1]);
+            emit(b[0], b[1]);
+            error -= side;
+            let across = error < 0;
+            error += if across { steps } else { 0 };
+            for k in [0, 1] {
+                if (k == 1) == steep || across {
+                    a[k] += way[k];
+                    b[k] -= way[k];
+                }
+            }
+        }
+    }),
+    ("the slope is cut", |[a, b], _, emit| {
+        // 12 bits, and the last pixel is not drawn.
+        let d = [0, 1].map(|k| i64::from(b[k] - a[k]));
+        let steps = d[0].abs().max(d[1].abs());
+        for i in 0..steps {
+            let at =
+                |k: usize| ((i64::from(a[k]) * 4096 + 2048 + d[k] * 4096 / steps * i) >> 12) as i32;
+            emit(at(0), at(1));
+        }
+    }),
+    ("every pixel that is touched", |[a, b], _, emit| {
+        // By the times at which the line crosses the sides of pixels.
+        let d = [0, 1].map(|k| f64::from((b[k] - a[k]).abs()));
+        let (mut at, mut next) = (a, d.map(|d| 0.5 / d));
+        emit(at[0], at[1]);
+        for _ in 0..(d[0] + d[1]) as i32 {
+            let k = usize::from(next[0] > next[1]);
+            at[k] += (b[k] - a[k]).signum();
+            next[k] += 1.0 / d[k];
+            emit(at[0], at[1]);
+        }
+    }),
+    ("steps are added up in floats", |[a, b], _, emit| {
+        let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs());
+        for i in 0..=steps {
+            let t = i as f32 / steps.max(1) as f32;
+            let at = |k: usize| (a[k] as f32 * (1.0 - t) + b[k] as f32 * t) as i32;
+            emit(at(0), at(1));
+        }
+    }),
     ("ends are clamped to the window", |ends, _, emit| {
         bresenham(ends.map(|end| end.map(|v| v.max(0))), emit);
     }),
@@ -819,6 +1003,14 @@ const STROKES: &[(&str, Stroke)] = &[
 ];
 
 fn of_fill(fill: impl Fn(Corners, PixelRect, &mut Coverage)) -> Option<Mistakes> {
+    of_fill_in(Known::default().window_px, fill)
+}
+
+/// The same of a program with windows of at most this size.
+fn of_fill_in(
+    window_px: (u32, u32),
+    fill: impl Fn(Corners, PixelRect, &mut Coverage),
+) -> Option<Mistakes> {
     let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
         let draw = |q: &TriangleQuestion| {
             let mut picture = Coverage::new(q.window, 0);
@@ -827,7 +1019,7 @@ fn of_fill(fill: impl Fn(Corners, PixelRect, &mut Coverage)) -> Option<Mistakes>
         };
         questions.iter().map(draw).collect()
     };
-    let known = Known::default();
+    let known = Known { window_px, ..Known::default() };
     let found = diagnose(&mut ask, &known, 1);
     mistakes::of_triangles(&mut ask, &known, Some(&found), &[], &|| true)
 }
@@ -936,6 +1128,13 @@ fn mistakes_are_not_named_for_conventions() {
             assert!(causes.is_empty(), "{convention:?}: {causes:?}");
         }
     }
+    // In a window of one pixel no convention is certain.
+    let strict = Convention { ties: Ties::named("strict").unwrap(), ..Convention::default() };
+    let found = of_fill_in((1, 1), |corners, window, picture| {
+        *picture = strict.cover(&corners, window).unwrap();
+    });
+    let found = found.unwrap();
+    assert!(found.causes.is_empty() && found.to_string().contains("strict rule"), "{found}");
     let strokes = [LineConvention::default(), LineConvention::BEHIND, LineConvention::AHEAD];
     for convention in strokes {
         let stroke = |ends: [[i32; 2]; 2], _: [i32; 2], emit: &mut dyn FnMut(i32, i32)| {
@@ -1286,7 +1485,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         f.depth = exact.map_or(f.depth, |exact| exact.at(f.x_px, f.y_px).0.to_f64());
     };
     for (change, wanted) in [
-        (halves, "It keeps values in floats of 16 bits, rounded"),
+        (halves, "It keeps values in floats with 10 bits after the first one, rounded"),
         (
             flat,
             "It gives every pixel the values of the last corner (attributes alone: depth is right)",

@@ -22,7 +22,7 @@ use super::text::px;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};
-use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
 use rasterproof_registry::engines::{self, Entry};
 use rasterproof_verify::comparison::{Convention as Promised, Expectation, Rule};
 use rasterproof_verify::convention::{
@@ -267,7 +267,8 @@ fn entries() -> impl Iterator<Item = (Entry, String)> {
     let planted = TriangleMutant::ALL.into_iter().filter(answers);
     let planted = planted.map(|mutant| (mutant.name(), mutant.about()));
     let planted_lines = LineMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
-    let planted = planted.chain(planted_lines).filter_map(|(name, about)| {
+    let planted_tiles = TileMutant::ALL.map(|mutant| (mutant.name(), mutant.about()));
+    let planted = planted.chain(planted_lines).chain(planted_tiles).filter_map(|(name, about)| {
         Some((engines::find_planted(name)?, format!("draws as the planted fault {name}: {about}")))
     });
     let published = engines::SPECIMENS.iter().map(|entry| {

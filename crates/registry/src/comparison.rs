@@ -17,7 +17,7 @@ impl Engine {
     pub fn tolerance(self) -> Tolerance {
         match self {
             Self::Scanline | Self::Mutant(_) => tolerance::SCANLINE,
-            Self::EdgeFunction | Self::Tile => tolerance::EDGE_FUNCTION,
+            Self::EdgeFunction | Self::Tile | Self::TileMutant(_) => tolerance::EDGE_FUNCTION,
             Self::Oracle => tolerance::ORACLE,
         }
     }

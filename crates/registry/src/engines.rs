@@ -17,7 +17,7 @@ use rasterproof_core::triangle::{
     Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying,
 };
 use rasterproof_faults::planted::exact::ExactMutant;
-use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
 use rasterproof_faults::published::book_affine::BookAffine;
 use rasterproof_faults::published::book_dda::BookDda;
 use rasterproof_faults::published::book_depth::BookDepth;
@@ -36,7 +36,7 @@ use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_render::scene::Scene;
-use rasterproof_tiles::coverage::Tiles;
+use rasterproof_tiles::coverage::{CoverList as _, Tiles};
 use rasterproof_verify::oracle::Oracle;
 
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +49,8 @@ pub enum Engine {
     Tile,
     Oracle,
     Mutant(TriangleMutant),
+    /// The tiles with a planted fault, of lists of one triangle.
+    TileMutant(TileMutant),
 }
 
 impl Engine {
@@ -63,6 +65,7 @@ impl Engine {
             Self::Tile => "tile",
             Self::Oracle => "oracle",
             Self::Mutant(mutant) => mutant.name(),
+            Self::TileMutant(mutant) => mutant.name(),
         }
     }
 }
@@ -96,6 +99,9 @@ impl Engine {
             Self::Tile => Tiles::default().cover(corners, bounds, emit),
             Self::Oracle => Oracle.cover(corners, bounds, emit),
             Self::Mutant(mutant) => mutant.spans(corners, bounds, emit),
+            Self::TileMutant(mutant) => mutant.cover_list(&[corners], bounds, &mut |pieces| {
+                pieces.iter().for_each(|piece| piece.spans(&mut *emit));
+            }),
         }
     }
 
@@ -108,11 +114,13 @@ impl Engine {
         match self {
             Self::Scanline => Scanline.fragments(triangle, bounds, emit),
             Self::EdgeFunction => EdgeFunction.fragments(triangle, bounds, emit),
-            Self::Tile => Tiles::default().cover(triangle.corners(), bounds, |span| {
-                let Span { y_px, x0_px, x1_px } = span;
-                let run = PixelRect { x0: x0_px, y0: y_px, x1: x1_px, y1: y_px + 1 };
-                EdgeFunction.fragments(triangle, run, &mut *emit);
-            }),
+            Self::Tile | Self::TileMutant(_) => {
+                self.spans(triangle.corners(), bounds, &mut |span| {
+                    let Span { y_px, x0_px, x1_px } = span;
+                    let run = PixelRect { x0: x0_px, y0: y_px, x1: x1_px, y1: y_px + 1 };
+                    EdgeFunction.fragments(triangle, run, &mut *emit);
+                })
+            }
             Self::Oracle => Oracle.fragments(triangle, bounds, emit),
             Self::Mutant(mutant) => mutant.values(triangle, bounds, emit),
         }
@@ -480,11 +488,13 @@ pub fn find_planted(name: &str) -> Option<Entry> {
     let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let exact = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let tile = TileMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let named = engine.map(TriangleMutant::name).or(line.map(LineMutant::name));
+    let named = named.or(tile.map(TileMutant::name));
     Some(Entry {
         name: named.or(exact.map(|mutant| mutant.name()))?,
         about: "a planted fault",
-        engine: engine.map(Engine::Mutant),
+        engine: engine.map(Engine::Mutant).or(tile.map(Engine::TileMutant)),
         line_engine: line.map(LineEngine::Mutant),
         exact_engine: exact.map(ExactEngine::Mutant),
         ..NOBODY

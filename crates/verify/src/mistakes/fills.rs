@@ -6,9 +6,9 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
-type Point = [i64; 2];
+pub(super) type Point = [i64; 2];
 
-fn points(corners: &Corners) -> [Point; 3] {
+pub(super) fn points(corners: &Corners) -> [Point; 3] {
     corners.map_array(|c| [i64::from(c.x), i64::from(c.y)])
 }
 
@@ -43,12 +43,16 @@ pub(super) fn by_edges(
     })
 }
 
-/// Which edges of a triangle with an area own the samples that lie on them.
+/// Which edges of a triangle own the samples that lie on them; one without area is counterclockwise.
 fn owned(corners: &Corners, base: &Convention) -> [bool; 3] {
-    let (points, sign) = (points(corners), area2(corners).signum() as i64);
+    let (points, sign) = (points(corners), if area2(corners) > 0 { 1 } else { -1 });
     [0, 1, 2].map_array(|i: usize| {
         let [p, q] = [points[i], points[(i + 1) % 3]];
-        base.ties.edges[facing(sign * (p[1] - q[1]), sign * (q[0] - p[0]))]
+        match [sign * (p[1] - q[1]), sign * (q[0] - p[0])] {
+            // An edge without length faces nowhere.
+            [0, 0] => base.ties.edges.iter().all(|owns| *owns),
+            [a, b] => base.ties.edges[facing(a, b)],
+        }
     })
 }
 
@@ -82,7 +86,7 @@ pub(super) fn by_all_edges(
 }
 
 /// A number in a word of so many bits, as it wraps around.
-fn wrap(v: i128, bits: i64) -> i128 {
+pub(super) fn wrap(v: i128, bits: i64) -> i128 {
     let shift = 128 - bits as u32;
     v << shift >> shift
 }
@@ -205,13 +209,6 @@ pub(super) fn sorted(corners: &Corners) -> [Point; 3] {
     points
 }
 
-/// The corners by their heights in whole pixels: cut down, rounded, or rounded up. Equal ones keep their order.
-pub(super) fn sorted_by_rows(corners: &Corners, how: i64) -> [Point; 3] {
-    let mut points = points(corners);
-    points.sort_by_key(|p| (p[1] + [0, 128, 255][how as usize]).div_euclid(256));
-    points
-}
-
 /// The row of the first sample below the middle corner.
 pub(super) fn middle_row(corners: &Corners) -> i64 {
     (sorted(corners)[1][1] + 127).div_euclid(256)
@@ -318,9 +315,16 @@ pub(super) fn flat(corners: &Corners) -> Option<bool> {
 /// Positive where the middle corner lies right of the long edge.
 pub(super) fn middle_side(corners: &Corners) -> i64 {
     let [top, middle, bottom] = sorted(corners).map_array(|p| p.map_array(i128::from));
-    if top[1] == middle[1] || middle[1] == bottom[1] {
-        return 0;
-    }
+    if top[1] == middle[1] || middle[1] == bottom[1] { 0 } else { side(top, middle, bottom) }
+}
+
+/// The same where an edge is level: of two corners at one height, the one that is named first comes first.
+pub(super) fn side_of_long(corners: &Corners) -> i64 {
+    let [top, middle, bottom] = sorted(corners).map_array(|p| p.map_array(i128::from));
+    side(top, middle, bottom)
+}
+
+fn side(top: [i128; 2], middle: [i128; 2], bottom: [i128; 2]) -> i64 {
     let cross =
         (bottom[0] - top[0]) * (middle[1] - top[1]) - (bottom[1] - top[1]) * (middle[0] - top[0]);
     -cross.signum() as i64
@@ -404,16 +408,14 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
         3 => corners_of(x, y, side).any(|(x, y)| holds(x, y, 0.0)),
         4 => holds(x + side / 2, y + side / 2, f64::from(side) / 2.0),
         5 => holds(x, y, 0.0),
-        7 => (y..y + side).any(|y| (x..x + side).any(|x| is_drawn(x, y))),
-        9 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
+        7 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
         _ => has(x, y),
     };
-    let is_whole = matches!(test, 6 | 7);
     for y in (window.y0..window.y1).step_by(side as usize) {
         for x in (window.x0..window.x1).step_by(side as usize) {
             let (rows, mut columns) = (y..(y + side).min(window.y1), x..(x + side).min(window.x1));
             let mut kept = is_kept(x, y);
-            if test == 8 {
+            if test == 6 {
                 // The last column of the triangle in a tile that is not full.
                 let count = |x: i32| rows.clone().filter(|&y| full.has(x, y)).count();
                 let is_full = columns.clone().all(|x| count(x) == rows.len());
@@ -421,13 +423,75 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
                 columns = lost.map_or(0..0, |x| x..x + 1);
                 kept = false;
             }
-            if !kept || is_whole {
+            if !kept {
                 for y in rows {
-                    columns.clone().for_each(|x| mask.put(x, y, kept));
+                    columns.clone().for_each(|x| mask.put(x, y, false));
                 }
             }
         }
     }
+}
+
+/// Blocks that are drawn wholly or not at all: p mod 5 and p / 5 mod 5 are the powers of two of their sides, and p / 25 is the
+/// place that decides: the sample of the first pixel, the middle, the sample of the last pixel, or any sample.
+pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+    let [wide, high] = [p % 5, p / 5 % 5].map(|power| 1 << power);
+    let sample = super::sample_of(base).map_array(i64::from);
+    let mut mask = Mask::default();
+    let sign = area2(corners).signum() as i64;
+    if sign == 0 || [wide, high] == [1, 1] {
+        return mask;
+    }
+    let (points, owns) = (points(corners), owned(corners, base));
+    let covers = |at: Point| {
+        (0..3).all(|i| {
+            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
+            let [dx, dy, x, y] = [bx - ax, by - ay, at[0] - ax, at[1] - ay].map(i128::from);
+            let value = i128::from(sign) * (dx * y - dy * x);
+            value > 0 || (value == 0 && owns[i])
+        })
+    };
+    let of = |x: i64, y: i64| covers([x * 256 + sample[0], y * 256 + sample[1]]);
+    for y in (0..i64::from(window.y1)).step_by(high as usize) {
+        for x in (0..i64::from(window.x1)).step_by(wide as usize) {
+            let is_drawn = match p / 25 {
+                0 => of(x, y),
+                1 => covers([x * 256 + wide * 128, y * 256 + high * 128]),
+                2 => of(x + wide - 1, y + high - 1),
+                _ => (y..y + high).any(|y| (x..x + wide).any(|x| of(x, y))),
+            };
+            let (rows, columns) =
+                (y..(y + high).min(window.y1.into()), x..(x + wide).min(window.x1.into()));
+            for y in rows.filter(|_| is_drawn) {
+                columns.clone().for_each(|x| mask.set(x as i32, y as i32));
+            }
+        }
+    }
+    mask
+}
+
+/// Whether areas that the sample makes with the sides add up to the whole, in floats: p mod 2 is the precision, p / 2 mod 2 is
+/// whether areas are halved, and the rest is how far they may be off.
+pub(super) fn areas(
+    corners: &Corners,
+    window: PixelRect,
+    base: &Convention,
+    most: f64,
+    p: i64,
+) -> Mask {
+    let r = |v: f64| rounded(v, p % 2);
+    let [a, b, c] = points(corners).map_array(|p| p.map_array(|v| r(v as f64 / 256.0)));
+    let half = if p / 2 % 2 == 0 { 1.0 } else { 0.5 };
+    let area = |p: [f64; 2], q: [f64; 2], at: [f64; 2]| {
+        let [px, py, qx, qy] = [p[0] - at[0], p[1] - at[1], q[0] - at[0], q[1] - at[1]].map(r);
+        r(r(px * qy) - r(py * qx)).abs() * half
+    };
+    let whole = area(b, c, a);
+    each_sample(window, super::sample_of(base), &|at| {
+        let at = at.map_array(|v| v as f64 / 256.0);
+        let sum = r(r(area(a, b, at) + area(b, c, at)) + area(c, a, at));
+        whole > 0.0 && r(sum - whole).abs() <= most
+    })
 }
 
 /// The first pixel of a row and one past the last; nothing where the row is empty.
@@ -459,6 +523,7 @@ pub(super) fn groups(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i
             7 => [first / n * n, (end + n - 1) / n * n],
             8 if y >= y0 + (y1 - y0).max(0) / n * n => [end, end],
             9 if y >= window.y1 / n * n => [end, end],
+            10 => [first, x0 / n * n + (x1 - x0 / n * n).max(0) / n * n],
             _ => [first, end],
         };
         for x in window.x0..window.x1 {
@@ -473,7 +538,7 @@ pub(super) fn twice(mask: &Mask, corners: &Corners, window: PixelRect, p: i64) -
     let rows: Vec<i32> =
         (window.y0..window.y1).filter(|&y| span(mask, window, y).is_some()).collect();
     let column = rows.iter().filter_map(|&y| span(mask, window, y)).map(|span| span[1] - 1).max();
-    let [_, [_, low]] = boxes(corners)[0];
+    let [[_, right], [_, low]] = boxes(corners)[0];
     let has = |x: i32, y: i32| window.contains(x, y) && mask.has(x, y);
     let mut twice = *mask;
     twice.retain(window, &|x, y| {
@@ -487,6 +552,7 @@ pub(super) fn twice(mask: &Mask, corners: &Corners, window: PixelRect, p: i64) -
             5 => x == span()[1] - 1,
             6 => Some(x) == column,
             7 => true,
+            9 => i64::from(x) == right.min(i64::from(window.x1) - 1),
             _ => !(has(x - 1, y) && has(x + 1, y) && has(x, y - 1) && has(x, y + 1)),
         }
     });
@@ -494,13 +560,14 @@ pub(super) fn twice(mask: &Mask, corners: &Corners, window: PixelRect, p: i64) -
 }
 
 /// Edge functions whose steps are cut toward zero to a multiple of a step, from the first sample of the box on; p mod 4 is
-/// the step, and from 4 on the value there is a whole number, too.
+/// the step, from 4 on the value there is a whole number, too, and from 8 on triangles without area are drawn as others.
 pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
     let step = [256, 128, 64, 16][(p % 4) as usize];
-    let sign = area2(corners).signum() as i64;
-    if sign == 0 {
-        return Mask::default();
-    }
+    let sign = match area2(corners).signum() as i64 {
+        0 if p < 8 => return Mask::default(),
+        0 => -1,
+        sign => sign,
+    };
     let (points, owns) = (points(corners), owned(corners, base));
     let [[x0, _], [y0, _]] = boxes(corners)[0];
     let sample = super::sample_of(base);
@@ -513,7 +580,7 @@ pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention,
         let steps = [sign * (ay - by), sign * (bx - ax)].map_array(|v| v / step * step);
         let value = way(steps, [ax, ay], start);
         let whole = i128::from(256 * step);
-        (steps, if p < 4 { value } else { value / whole * whole })
+        (steps, if p % 8 < 4 { value } else { value / whole * whole })
     });
     each_sample(window, sample, &|at| {
         (0..3).all(|i| {
@@ -525,7 +592,7 @@ pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention,
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 20] = [
+pub(super) const FORMULAS: [&str; 24] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -546,9 +613,28 @@ pub(super) const FORMULAS: [&str; 20] = [
     "barycentric weights from dot products of the edges and a reciprocal, the first being 1 minus the others",
     "the edge function in steps that are added up from the first pixel of the box around the triangle on",
     "the edge function as a x + b y + c with c computed once, of each edge from its upper end",
+    "the edge function with differences to the second end of each edge",
+    "two barycentric weights from differences to the first corner, whose sum may be 1 at most",
+    "two barycentric weights from differences to the last corner, whose sum may be 1 at most",
+    "two barycentric weights from dot products of the edges, whose sum may be 1 at most",
 ];
 
-/// One of `FORMULAS`, with a rounding to f32 after every operation or without. Of corners that turn the other way, two are
+/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
+pub(super) fn rounded(v: f64, precision: i64) -> f64 {
+    match precision {
+        0 => f64::from(v as f32),
+        1 => v,
+        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
+        _ => {
+            // 10 bits after the first one, down to 2^-24; adding and subtracting rounds halves to even.
+            let exponent = (v.to_bits() >> 52 & 2047) as i32 - 1023;
+            let unit = f64::from(2).powi(exponent.max(-14) - 10);
+            (v / unit).round_ties_even() * unit
+        }
+    }
+}
+
+/// One of `FORMULAS`, rounded after every operation. Of corners that turn the other way, two are
 /// exchanged, or the sign of every value is.
 pub(super) fn float(
     corners: &Corners,
@@ -556,9 +642,9 @@ pub(super) fn float(
     base: &Convention,
     formula: usize,
     exchanges: bool,
-    single: bool,
+    precision: i64,
 ) -> Mask {
-    let r = |v: f64| if single { f64::from(v as f32) } else { v };
+    let r = |v: f64| rounded(v, precision);
     let turns = area2(corners).signum() as i64;
     if turns == 0 {
         return Mask::default();
@@ -576,9 +662,10 @@ pub(super) fn float(
         let [dx, dy] = [q[0] - p[0], q[1] - p[1]].map_array(r);
         let [x, y] = [at[0] - p[0], at[1] - p[1]].map_array(r);
         let second = r(dy * x);
-        match (formula, single) {
-            (8, true) => f64::from((dx as f32).mul_add(y as f32, -second as f32)),
-            (8, false) => dx.mul_add(y, -second),
+        // Products of two floats of 32 bits are exact in 64.
+        match (formula, precision) {
+            (8, 1) => dx.mul_add(y, -second),
+            (8, _) => r(dx * y - second),
             _ => r(r(dx * y) - second),
         }
     };
@@ -595,7 +682,7 @@ pub(super) fn float(
         base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))]
     });
     // Weights that are divided by the area have its sign already.
-    let sign = if matches!(formula, 3..6 | 9..18) { 1.0 } else { sign };
+    let sign = if matches!(formula, 3..6 | 9..18 | 21..24) { 1.0 } else { sign };
     let passes = |value: f64, owns: bool| sign * value > 0.0 || (value == 0.0 && owns);
     let [a, b, c] = corners;
     let area = edge(a, b, c);
@@ -632,7 +719,7 @@ pub(super) fn float(
     // The weights of two corners and what is left for a third one, each at the side opposite to its corner.
     let opposite = |rest: usize, v: f64, w: f64| {
         let mut values = [w; 3];
-        values[(rest + 1) % 3] = r(r(1.0 - v) - w);
+        values[(rest + 1) % 3] = if formula > 20 { 1.0 - r(v + w) } else { r(r(1.0 - v) - w) };
         values[(rest + 2) % 3] = v;
         values
     };
@@ -661,18 +748,22 @@ pub(super) fn float(
                 let [u, v] = [weight(1, 2), weight(2, 0)];
                 [r(r(1.0 - u) - v), u, v]
             }
-            11..=15 => {
+            11..=15 | 21 | 22 => {
                 // Of which corner the weight is left over.
-                let rest = [0, 1, 2, 0, 2][formula - 11];
+                let rest =
+                    if formula > 20 { 2 * (formula - 21) } else { [0, 1, 2, 0, 2][formula - 11] };
                 let [a, b, c] = [0, 1, 2].map_array(|i| corners[(rest + i) % 3]);
                 let minus = |p: [f64; 2]| [r(p[0] - a[0]), r(p[1] - a[1])];
                 let [b, c, at] = [minus(b), minus(c), minus(at)];
                 let cross = |p: [f64; 2], q: [f64; 2]| r(r(p[0] * q[1]) - r(p[1] * q[0]));
                 let area = cross(b, c);
-                let part = |v: f64| if formula < 14 { r(v / area) } else { r(v * r(1.0 / area)) };
+                let part = |v: f64| match formula {
+                    14 | 15 => r(v * r(1.0 / area)),
+                    _ => r(v / area),
+                };
                 opposite(rest, part(cross(at, c)), part(cross(b, at)))
             }
-            16 | 17 => {
+            16 | 17 | 23 => {
                 let [a, b, c] = corners;
                 let minus = |p: [f64; 2]| [r(p[0] - a[0]), r(p[1] - a[1])];
                 let [b, c, at] = [minus(b), minus(c), minus(at)];
@@ -681,10 +772,11 @@ pub(super) fn float(
                 let [ab, ac] = [dot(at, b), dot(at, c)];
                 let whole = r(r(bb * cc) - r(bc * bc));
                 let part =
-                    |v: f64| if formula == 16 { r(v / whole) } else { r(v * r(1.0 / whole)) };
+                    |v: f64| if formula == 17 { r(v * r(1.0 / whole)) } else { r(v / whole) };
                 let v = part(r(r(cc * ab) - r(bc * ac)));
                 opposite(0, v, part(r(r(bb * ac) - r(bc * ab))))
             }
+            20 => sides.map_array(|[i, j]| edge(corners[j], corners[i], at)).map_array(|v| -v),
             9 => sides.map_array(|[i, j]| r(relative(corners[i], corners[j], at) / area)),
             _ => sides.map_array(|[i, j]| relative(corners[i], corners[j], at)),
         };
@@ -692,242 +784,16 @@ pub(super) fn float(
     })
 }
 
-/// In which numbers the slope of an edge is added.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Slope {
-    Single,
-    Double,
-    /// Not added: computed for each row in single precision.
-    Computed,
-    /// Not added: computed for each row in single precision, from a reciprocal of the height.
-    Reciprocal,
-    /// Not added: interpolated between the corners for each row, in single precision.
-    Between,
-    /// The same in double precision.
-    BetweenDouble,
-    /// In so many bits of fraction, the slope by one of `CUTS` and the first crossing by one of `STARTS`.
-    Fixed {
-        bits: u32,
-        cut: i64,
-        start: i64,
-    },
-}
-
-const FLOATS: [Slope; 6] = [
-    Slope::Single,
-    Slope::Double,
-    Slope::Computed,
-    Slope::Reciprocal,
-    Slope::Between,
-    Slope::BetweenDouble,
-];
-const BITS: [u32; 5] = [16, 8, 10, 12, 14];
-const CUTS: [&str; 4] = [
-    "cut toward zero",
-    "cut down",
-    "rounded to the nearest",
-    "a product with a reciprocal that is cut",
-];
-const STARTS: [&str; 3] = [
-    "",
-    ", from a first crossing that is cut toward zero",
-    ", from an exact first crossing that is cut toward zero",
-];
-
-impl Slope {
-    pub(super) const COUNT: i64 = 6 + 5 * 4 * 3;
-
-    pub(super) fn of(p: i64) -> Self {
-        match p - 6 {
-            p @ 0.. => Self::Fixed { bits: BITS[(p / 12) as usize], cut: p % 4, start: p / 4 % 3 },
-            _ => FLOATS[p as usize],
-        }
-    }
-
-    pub(super) fn about(self) -> String {
-        let said = match self {
-            Self::Single => "in floats of 32 bits",
-            Self::Double => "in floats of 64 bits",
-            Self::Computed => "(or computes it for each row) in floats of 32 bits",
-            Self::Reciprocal => {
-                "(or computes it for each row, times the reciprocal of the height) in floats of 32 bits"
-            }
-            Self::Between => {
-                "(or interpolates between its corners for each row) in floats of 32 bits"
-            }
-            Self::BetweenDouble => {
-                "(or interpolates between its corners for each row) in floats of 64 bits"
-            }
-            Self::Fixed { bits, cut, start } => {
-                let (cut, start) = (CUTS[cut as usize], STARTS[start as usize]);
-                return format!("in 1/{} px, {cut}{start}", 1 << bits);
-            }
-        };
-        said.to_owned()
-    }
-}
-
-/// How a row is filled between its crossings.
-pub(super) const ROWS: [&str; 5] = [
-    "fills the samples between the crossings",
-    "fills from the pixel of the left crossing to that of the right one",
-    "fills the samples between the crossings, the right one included and the left one not",
-    "fills from the pixel of the left crossing to the one before that of the right one",
-    "fills from the pixel nearest to the left crossing to the one nearest to the right one",
-];
-
-/// How crossings are moved along the edges of a triangle from row to row.
-#[derive(Clone, Copy)]
-pub(super) struct Stepped {
-    pub(super) slope: Slope,
-    /// The first crossing is the corner itself.
-    pub(super) late: bool,
-    /// How a row is filled between its crossings: a place in `ROWS`.
-    pub(super) row: i64,
-    /// Whether the long edge begins anew at the middle corner.
-    pub(super) restarts: bool,
-    /// What becomes of rows above the window: 0, they are walked; 1, their steps are forgotten; 2, edges begin anew in row 0.
-    pub(super) above: i64,
-}
-
-/// A crossing that is moved from row to row, in pixels.
-struct Walk {
-    x: f64,
-    slope: f64,
-    from: [f64; 2],
-    to: [f64; 2],
-    of: Slope,
-    /// The row of the first crossing.
-    row: i64,
-}
-
-impl Walk {
-    fn new(from: Point, to: Point, first_row: i64, how: Stepped) -> Self {
-        let single = |v: f64| f64::from(v as f32);
-        let row = if how.above == 2 { first_row.max(0) } else { first_row };
-        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-        let dy = if dy == 0 { 1 } else { dy };
-        let ahead = if how.late { (row - first_row) * 256 } else { row * 256 + 128 - from[1] };
-        let px = |v: i64| v as f64 / 256.0;
-        let (x, slope) = match how.slope {
-            Slope::Single | Slope::Computed => {
-                let slope = single(single(px(dx)) / single(px(dy)));
-                (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
-            }
-            Slope::Reciprocal => (0.0, single(single(px(dx)) * single(1.0 / single(px(dy))))),
-            Slope::Double | Slope::Between | Slope::BetweenDouble => {
-                let slope = px(dx) / px(dy);
-                (px(from[0]) + slope * px(ahead), slope)
-            }
-            Slope::Fixed { bits, cut, start } => {
-                let unit = 1_i128 << bits;
-                let [wide, dx, dy, ahead] = [from[0], dx, dy, ahead].map(i128::from);
-                let slope = match cut {
-                    0 => dx * unit / dy,
-                    1 => (dx * unit).div_euclid(dy),
-                    2 => (2 * dx * unit + dy).div_euclid(2 * dy),
-                    _ => (dx * (256 * unit / dy)) >> 8,
-                };
-                let x = match start {
-                    0 => wide * unit / 256 + ((slope * ahead) >> 8),
-                    1 => wide * unit / 256 + slope * ahead / 256,
-                    _ => (wide * dy + dx * ahead) * unit / (256 * dy),
-                };
-                (x as f64 / unit as f64, slope as f64 / unit as f64)
-            }
-        };
-        // A row above the window is taken for row 0.
-        let row = if how.above == 1 { row.max(0) } else { row };
-        Self { x, slope, from: from.map_array(px), to: to.map_array(px), of: how.slope, row }
-    }
-
-    /// Whether steps are added up in floats, so that each has to be walked.
-    fn is_walked(&self) -> bool {
-        matches!(self.of, Slope::Single | Slope::Double)
-    }
-
-    /// The crossing with the row, in pixels: rows are asked for in order.
-    fn at(&mut self, row: i64) -> f64 {
-        let single = |v: f64| f64::from(v as f32);
-        match self.of {
-            Slope::Computed | Slope::Reciprocal => {
-                let ahead = single(row as f64 + 0.5 - self.from[1]);
-                single(self.from[0] + single(self.slope * ahead))
-            }
-            Slope::Between | Slope::BetweenDouble => {
-                let is_double = self.of == Slope::BetweenDouble;
-                let r = |v: f64| if is_double { v } else { single(v) };
-                let [from, to] = [self.from, self.to].map_array(|p| p.map_array(r));
-                let part = r(r(row as f64 + 0.5 - from[1]) / r(to[1] - from[1]));
-                r(from[0] + r(r(to[0] - from[0]) * part))
-            }
-            Slope::Fixed { .. } => self.x + self.slope * (row - self.row) as f64,
-            _ => {
-                while self.row < row {
-                    self.x += self.slope;
-                    if self.of == Slope::Single {
-                        self.x = single(self.x);
-                    }
-                    self.row += 1;
-                }
-                self.x
-            }
-        }
-    }
-}
-
-/// The rows with a sample between the heights, from the first one on.
-fn rows(top: i64, bottom: i64) -> std::ops::Range<i64> {
-    let first = |v: i64| (v + 127).div_euclid(256);
-    first(top)..first(bottom)
-}
-
-/// Rows that are walked above the window, at most: further ones are not expected.
-const MOST_ROWS: i64 = 1 << 16;
-
-/// Row by row with crossings that are added up, from corners that are sorted.
-pub(super) fn stepped([top, middle, bottom]: [Point; 3], window: PixelRect, how: Stepped) -> Mask {
-    let mut mask = Mask::default();
-    let all = rows(top[1], bottom[1]);
-    if all.is_empty() {
-        return mask;
-    }
-    let mut long = Walk::new(top, bottom, all.start, how);
-    if long.is_walked() && long.row < -MOST_ROWS {
-        return mask;
-    }
-    for [from, to] in [[top, middle], [middle, bottom]] {
-        let part = rows(from[1], to[1]);
-        let mut short = Walk::new(from, to, part.start, how);
-        if how.restarts {
-            long = Walk::new(top, bottom, part.start, how);
-        }
-        // Corners in a wrong order do not add rows.
-        for y in part.start.max(all.start).max(0)..part.end.min(all.end).min(window.y1.into()) {
-            let (a, b) = (long.at(y), short.at(y));
-            let (left, right) = (a.min(b), a.max(b));
-            let (first, end) = match how.row {
-                0 => ((left - 0.5).ceil(), (right - 0.5).ceil()),
-                1 => (left.floor(), right.floor() + 1.0),
-                2 => ((left + 0.5).floor(), (right + 0.5).floor()),
-                3 => (left.floor(), right.floor()),
-                _ => ((left + 0.5).floor(), (right + 0.5).floor() + 1.0),
-            };
-            let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
-            for x in clamp(first)..clamp(end) {
-                mask.set(x, y as i32);
-            }
-        }
-    }
-    mask
-}
-
 /// The loop over whole pixels: bit 0 rounds corners, bit 1 divides down, bit 2 wraps products in 16 bits, bits 3 and 4 are
-/// what goes wrong at the ends, and bit 5 wraps corners in 16 bits.
+/// what goes wrong at the ends, bit 5 wraps corners in 16 bits, and bit 6 cuts corners toward zero.
 pub(super) fn whole_pixels(corners: &Corners, window: PixelRect, p: i64) -> Mask {
     let [rounds, down, short] = [0, 1, 2].map(|bit| p >> bit & 1 == 1);
-    let (ends, is_wrapped) = (p >> 3 & 3, p >> 5 == 1);
-    let whole = |v: i64| if rounds { (v + 128).div_euclid(256) } else { v.div_euclid(256) };
+    let (ends, is_wrapped) = (p >> 3 & 3, p >> 5 & 1 == 1);
+    let whole = |v: i64| match (rounds, p >> 6) {
+        (true, _) => (v + 128).div_euclid(256),
+        (_, 0) => v.div_euclid(256),
+        _ => v / 256,
+    };
     let whole = |v: i64| if is_wrapped { wrap(whole(v).into(), 16) as i64 } else { whole(v) };
     let mut points = points(corners).map_array(|c| c.map_array(whole));
     for (i, j) in [(0, 1), (1, 2), (0, 1)] {
@@ -992,10 +858,16 @@ pub(super) const LAST_ROWS: [&str; 4] = [
 ];
 
 /// The fill of a polygon of many libraries: corners cut to whole pixels, each row from the pixel of a crossing to that of the
-/// next, both included; p is one of `CROSSINGS` and eight times one of `LAST_ROWS`.
+/// next, both included; p is one of `CROSSINGS`, eight times one of `LAST_ROWS`, and 32 times how corners are cut: down, toward zero,
+/// or to the nearest pixel.
 pub(super) fn crossings(corners: &Corners, window: PixelRect, p: i64) -> Mask {
-    let [kind, last] = [p % 8, p / 8];
-    let whole = points(corners).map_array(|c| c.map_array(|v| v.div_euclid(256)));
+    let [kind, last] = [p % 8, p / 8 % 4];
+    let whole = |v: i64| match p / 32 {
+        0 => v.div_euclid(256),
+        1 => v / 256,
+        _ => (v + 128).div_euclid(256),
+    };
+    let whole = points(corners).map_array(|c| c.map_array(whole));
     let heights = whole.map_array(|c| c[1]);
     let (low, high) =
         (heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2]));

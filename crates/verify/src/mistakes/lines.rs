@@ -1,6 +1,6 @@
 //! The table of mistakes in drawing lines. To add one, add an entry: everything else follows from it.
 
-use super::fills::without_border;
+use super::fills::{rounded, without_border};
 use super::{Mistake, Parameters, border};
 use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;
@@ -24,26 +24,30 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     Mistake {
         name: "ends are clamped to the window",
         sentence: |p| {
+            let (place, axes) = (p / 3, ["ends", "x of ends", "y of ends"][(p % 3) as usize]);
             let to = [
                 "the window",
                 "one pixel beyond the window",
                 "the upper and left border",
                 "the lower and right border",
             ];
-            format!("moves ends that lie outside to {}, so that the slope changes", to[p as usize])
+            let range = || {
+                let [low, high] = range(place, 0);
+                format!("the range from {low} to {high}")
+            };
+            let to = to.get(place as usize).map_or_else(range, |to| (*to).to_owned());
+            format!("moves {axes} that lie outside to {to}, so that the slope changes")
         },
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line with an end outside that keeps its slope",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3]),
+        parameters: Parameters::Below(3 * 24),
         draws: Stroke::Instead(|ends, window, p| {
-            let clamp = |v: i64, side: i64| match p {
-                0 => v.clamp(0, side - 1),
-                1 => v.clamp(-1, side),
-                2 => v.max(0),
-                _ => v.min(side - 1),
+            let clamp = |v: i64, side: i32, other: i64| {
+                let [low, high] = range(p / 3, side.into());
+                if p % 3 == other { v } else { v.clamp(low, high) }
             };
-            vec![ends.map_array(|[x, y]| [clamp(x, window.x1.into()), clamp(y, window.y1.into())])]
+            vec![ends.map_array(|[x, y]| [clamp(x, window.x1, 2), clamp(y, window.y1, 1)])]
         }),
     },
     Mistake {
@@ -51,6 +55,11 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         sentence: |p| {
             let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
             let from = ["", ", counted from the end that is cut", ", counted from the other end"];
+            if p >= 72 {
+                return format!(
+                    "cuts lines at the window and draws the rest as a line of its own, whose new ends are both counted from the first one and {how}: the rest takes other pixels"
+                );
+            }
             let (from, turned) = (
                 from[(p / 12 % 3) as usize],
                 ["", " (turned round if its second end was cut)"][(p / 36) as usize],
@@ -62,24 +71,87 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line across the border with the pixels of the whole line",
-        parameters: Parameters::Below(72),
+        parameters: Parameters::Below(75),
         draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
     },
     Mistake {
         name: "x and y are exchanged",
         sentence: |p| {
             format!(
-                "exchanges x and y of {} lines, as where steep lines are turned and not turned back",
-                ["steep", "flat"][p as usize]
+                "exchanges x and y of {} lines{}, as where steep lines are turned and not turned back",
+                ["steep", "flat"][(p % 2) as usize],
+                [
+                    "",
+                    " that run to the left",
+                    " that run to the right",
+                    " that run up",
+                    " that run down",
+                    " that do not run to the right",
+                    " that do not run down"
+                ][(p / 2) as usize]
             )
         },
         repair: "turn the pixels back where the line was turned",
         page: "ch03",
         refuted: "such a line with its own pixels",
-        parameters: Parameters::Fixed(&[0, 1]),
+        parameters: Parameters::Below(14),
         draws: Stroke::Instead(|ends, _, p| {
-            let is_turned = is_steep(ends) == (p == 0);
+            let [[x0, y0], [x1, y1]] = ends;
+            let runs = [true, x1 < x0, x1 > x0, y1 < y0, y1 > y0, x1 <= x0, y1 <= y0];
+            let is_turned = is_steep(ends) == (p % 2 == 0) && runs[(p / 2) as usize];
             vec![if is_turned { ends.map_array(|[x, y]| [y, x]) } else { ends }]
+        }),
+    },
+    Mistake {
+        name: "pixels of the line are left out",
+        sentence: |p| {
+            let every = 2 << (p / 2);
+            let first = ["the last", "the first"][(p % 2) as usize];
+            format!("loses {first} of every {every} pixels along the line")
+        },
+        repair: "look at the last iteration of the loop over groups of pixels",
+        page: "ch03",
+        refuted: "a long line without gaps",
+        parameters: Parameters::Below(10),
+        draws: Stroke::Changed(|mask, ends, window, p| {
+            let every = 2 << (p / 2);
+            let lost = if p % 2 == 0 { every - 1 } else { 0 };
+            let [[x0, y0], _] = ends;
+            let axis = is_steep(ends);
+            mask.retain(window, &|x, y| {
+                let step = if axis { i64::from(y) - y0 } else { i64::from(x) - x0 };
+                step.abs() % every != lost
+            });
+        }),
+    },
+    Mistake {
+        name: "drawn from both ends",
+        sentence: |p| {
+            format!(
+                "draws the line from both ends to the middle, and a tie goes {} seen from the own end",
+                ["on", "not yet"][(p % 2) as usize]
+            )
+        },
+        repair: "draw from one end, or let both halves round the same way",
+        page: "ch03",
+        refuted: "a line whose halves round the same way",
+        parameters: Parameters::Below(2),
+        draws: Stroke::Own(|ends, _, p| {
+            let [[x0, y0], [x1, y1]] = ends;
+            let [dx, dy] = [x1 - x0, y1 - y0];
+            let (a, b) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+            if a > MOST_STEPS {
+                return Vec::new();
+            }
+            let at = |i: i64| (2 * b * i + a - p % 2) / (2 * a).max(1);
+            let steep = is_steep(ends);
+            (0..=a / 2)
+                .flat_map(|i| {
+                    let [u, v] = if steep { [at(i), i] } else { [i, at(i)] };
+                    let [u, v] = [dx.signum() * u, dy.signum() * v];
+                    [[x0 + u, y0 + v], [x1 - u, y1 - v]]
+                })
+                .collect()
         }),
     },
     Mistake {
@@ -98,7 +170,12 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         sentence: |p| {
             let tie =
                 ["along y", "along x", "diagonally", "through both neighbours"][(p % 4) as usize];
-            let seen = if p < 4 { "the first end" } else { "the left end" };
+            let seen = match p / 4 {
+                0 => "the first end",
+                1 => "the left end",
+                2 => "the first end, as times of crossings in floats of 64 bits have it",
+                _ => "the first end, as times of crossings in floats of 32 bits have it",
+            };
             format!(
                 "lights every pixel that the line from centre to centre touches (a supercover), and goes {tie} where it meets a corner of pixels, seen from {seen}"
             )
@@ -106,33 +183,33 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "light one pixel for each step along the longer axis",
         page: "ch03",
         refuted: "a diagonal step without a pixel between",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7]),
+        parameters: Parameters::Below(15),
         draws: Stroke::Own(supercover),
     },
     Mistake {
         name: "the slope is cut",
         sentence: |p| {
-            let (bits, how) = (p / 10, p % 10);
-            let cut = if how % 2 == 0 { "cut toward zero" } else { "cut down" };
+            let [bits, cut, start, ends] = slope_of(p);
+            let cut = ["cut toward zero", "cut down", "rounded"][cut as usize];
             let start =
-                if how / 2 == 0 { "half a pixel ahead" } else { "at the end's own coordinate" };
+                ["half a pixel ahead", "at the end's own coordinate", "a step before half a pixel"]
+                    [start as usize];
             format!(
-                "adds a slope that is {cut} to 1/{} px, beginning {start}: on long lines the far end drifts away",
-                1_i64 << bits
+                "adds a slope that is {cut} to 1/{} px, beginning {start}{}: on long lines the far end drifts away",
+                1_i64 << bits,
+                ["", ", and does not draw the last pixel"][ends as usize]
             )
         },
         repair: "keep the remainder of the division, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line that reaches its second end",
-        parameters: Parameters::Fixed(&[
-            160, 161, 162, 163, 80, 81, 82, 83, 100, 101, 120, 121, 40, 41,
-        ]),
+        parameters: Parameters::Below(9 * 3 * 3 * 2),
         draws: Stroke::Own(fixed_slope),
     },
     Mistake {
         name: "steps are added up in floats",
         sentence: |p| {
-            let (how, bits) = (p / 2, ["32", "64"][(p % 2) as usize]);
+            let (how, bits) = (p / 3, ["32", "64", "16"][(p % 3) as usize]);
             [
                 "adds up steps in floats of {} bits, rounded to the nearest: the height drifts along the line",
                 "adds up steps in floats of {} bits, cut toward zero: the height drifts along the line",
@@ -141,13 +218,18 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                 "computes each step from the slope and the height at 0 (y = m x + b) in floats of {} bits: both are rounded",
                 "computes each step from the slope and the first end in floats of {} bits: the slope is rounded",
                 "computes each step from the slope and the left end in floats of {} bits: the slope is rounded",
+                "interpolates between the ends, a + (b - a) t, in floats of {} bits, rounded",
+                "interpolates between the ends, a + (b - a) t, in floats of {} bits, cut toward zero",
+                "interpolates between the ends, a (1 - t) + b t, in floats of {} bits, rounded",
+                "interpolates between the ends, a (1 - t) + b t, in floats of {} bits, cut toward zero",
+                "rounds the slope to a float of {} bits and computes each step from the first end",
             ][how as usize]
                 .replace("{}", bits)
         },
         repair: "count in integers, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line whose height is right at the far end",
-        parameters: Parameters::Below(14),
+        parameters: Parameters::Below(36),
         draws: Stroke::Own(floats),
     },
     Mistake {
@@ -291,6 +373,19 @@ fn is_outside(window: PixelRect, [x, y]: [i64; 2]) -> bool {
     !(0..i64::from(window.x1)).contains(&x) || !(0..i64::from(window.y1)).contains(&y)
 }
 
+/// The range of a place: at a window with such a side, or powers of two.
+fn range(place: i64, side: i64) -> [i64; 2] {
+    let far = i64::from(i32::MAX);
+    let limit = 64 << ((place - 4).max(0) / 2);
+    match place {
+        0 => [0, side - 1],
+        1 => [-1, side],
+        2 => [0, far],
+        3 => [-far, side - 1],
+        _ => [-limit, limit - place % 2],
+    }
+}
+
 type IsKind = fn(Ends, PixelRect) -> bool;
 const KINDS: [(&str, IsKind); 10] = [
     ("with any end outside the window", |e, w| e.iter().any(|&p| is_outside(w, p))),
@@ -330,6 +425,9 @@ fn from_left(ends: Ends, left: bool) -> Ends {
 /// is cut before y, p / 6 mod 2 is whether the first end is cut before the second, p / 12 mod 3 is from where a new end is
 /// counted, and from 36 on a line is turned round whose second end was cut.
 fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
+    if p >= 72 {
+        return cut_both([a, b], window, p % 3);
+    }
     let last = [i64::from(window.x1) - 1, i64::from(window.y1) - 1];
     let order = if p / 3 % 2 == 0 { [1, 0] } else { [0, 1] };
     let p_order = p % 12;
@@ -381,8 +479,29 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     None
 }
 
+/// The part within the window by Liang and Barsky: both new ends are counted from the first one.
+fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
+    let way = [b[0] - a[0], b[1] - a[1]].map(|v| v as f64);
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for (k, side) in [(0, window.x1), (1, window.y1)] {
+        let [low, high] = [-a[k], i64::from(side) - 1 - a[k]].map(|v| v as f64);
+        if way[k] == 0.0 && (low > 0.0 || high < 0.0) {
+            return None;
+        }
+        if way[k] != 0.0 {
+            let [t, u] = [low / way[k], high / way[k]];
+            (first, last) = (first.max(t.min(u)), last.min(t.max(u)));
+        }
+    }
+    let at = |t: f64, k: usize| {
+        let v = a[k] as f64 + t * way[k];
+        [v as i64, v.floor() as i64, v.round() as i64][how as usize]
+    };
+    (first <= last).then(|| [first, last].map(|t| [at(t, 0), at(t, 1)]))
+}
+
 fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
-    let [[mut x, mut y], [x1, y1]] = from_left(ends, p >= 4);
+    let [[mut x, mut y], [x1, y1]] = from_left(ends, p / 4 == 1);
     let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
     let (dx, dy) = ((x1 - x).abs(), (y1 - y).abs());
     if dx + dy > MOST_STEPS {
@@ -390,6 +509,27 @@ fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
     }
     let mut error = dx - dy;
     let mut pixels = vec![[x, y]];
+    if p >= 8 {
+        let r = |v: f64| if p >= 12 { f64::from(v as f32) } else { v };
+        let step = [dx, dy].map(|d| r(1.0 / d as f64));
+        let mut next = [dx, dy].map(|d| r(0.5 / d as f64));
+        // What has lost its way never arrives.
+        while [x, y] != [x1, y1] && pixels.len() as i64 <= dx + dy {
+            let is_tie = next[0] == next[1];
+            let along_x = next[0] < next[1] || (is_tie && p % 4 > 0);
+            let along_y = next[1] < next[0] || (is_tie && p % 2 == 0);
+            if along_x {
+                x += sx;
+                next[0] = r(next[0] + step[0]);
+            }
+            if along_y {
+                y += sy;
+                next[1] = r(next[1] + step[1]);
+            }
+            pixels.push([x, y]);
+        }
+        return pixels;
+    }
     while [x, y] != [x1, y1] {
         let is_tie = error == 0;
         let (along_x, along_y) = match (is_tie, p % 4) {
@@ -417,35 +557,57 @@ fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
     pixels
 }
 
+/// Bits of fraction, how the slope is cut, where the line begins, and whether the last pixel is left out.
+fn slope_of(p: i64) -> [i64; 4] {
+    [[16, 8, 10, 12, 4, 6, 7, 14, 20][(p % 9) as usize], p / 9 % 3, p / 27 % 3, p / 81]
+}
+
 fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
-    let (bits, how) = (p / 10, p % 10);
+    let [bits, how, start, without_last] = slope_of(p);
     let steps = (x1 - x0).abs().max((y1 - y0).abs());
     if steps > MOST_STEPS {
         return Vec::new();
     }
-    let cut = |d: i64| match (steps, how % 2) {
+    let cut = |d: i64| match (steps, how) {
         (0, _) => 0,
         (_, 0) => (d << bits) / steps,
-        _ => (d << bits).div_euclid(steps),
+        (_, 1) => (d << bits).div_euclid(steps),
+        _ => ((d << bits) * 2 + steps).div_euclid(2 * steps),
     };
     let (sx, sy) = (cut(x1 - x0), cut(y1 - y0));
-    let half = if how / 2 == 0 { 1 << (bits - 1) } else { 0 };
-    (0..=steps)
+    let half = [1 << (bits - 1), 0, (1 << (bits - 1)) - 1][start as usize];
+    (0..=steps - without_last)
         .map(|i| [((x0 << bits) + half + i * sx) >> bits, ((y0 << bits) + half + i * sy) >> bits])
         .collect()
 }
 
 fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
-    let (how, single) = (p / 2, p % 2 == 0);
-    let r = |v: f64| if single { f64::from(v as f32) } else { v };
+    let (how, precision) = (p / 3, p % 3);
+    let r = |v: f64| rounded(v, precision);
     let steps = (x1 - x0).abs().max((y1 - y0).abs());
     if steps > MOST_STEPS {
         return Vec::new();
     }
     let slope = |d: i64| if steps == 0 { 0.0 } else { r(d as f64 / steps as f64) };
     let (sx, sy) = (slope(x1 - x0), slope(y1 - y0));
+    if how >= 7 {
+        let at = |i: i64, a: i64, b: i64| {
+            let t = r(i as f64 / steps.max(1) as f64);
+            let v = match how {
+                11 => a as f64 + r((b - a) as f64 / steps.max(1) as f64) * i as f64,
+                7 | 8 => r(a as f64 + r(r((b - a) as f64) * t)),
+                _ => r(r(a as f64 * r(1.0 - t)) + r(b as f64 * t)),
+            };
+            match how {
+                11 => (v + 0.5).floor() as i64,
+                7 | 9 => v.round() as i64,
+                _ => v as i64,
+            }
+        };
+        return (0..=steps).map(|i| [at(i, x0, x1), at(i, y0, y1)]).collect();
+    }
     if how >= 4 {
-        return sloped([[x0, y0], [x1, y1]], how, single);
+        return sloped([[x0, y0], [x1, y1]], how, precision);
     }
     let ahead = if how == 3 { 0.5 } else { 0.0 };
     let (mut x, mut y) = (r(x0 as f64 + ahead), r(y0 as f64 + ahead));
@@ -464,8 +626,8 @@ fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
 }
 
 /// Each step from a slope in floats: 4, as y = m x + b; 5, from the first end; 6, from the left end.
-fn sloped(ends: Ends, how: i64, single: bool) -> Vec<[i64; 2]> {
-    let r = |v: f64| if single { f64::from(v as f32) } else { v };
+fn sloped(ends: Ends, how: i64, precision: i64) -> Vec<[i64; 2]> {
+    let r = |v: f64| rounded(v, precision);
     let steep = is_steep(ends);
     let turned = |[x, y]: [i64; 2]| if steep { [y, x] } else { [x, y] };
     let [first, last] = ends.map_array(turned);

@@ -11,6 +11,7 @@ mod common;
 mod fills;
 mod lines;
 mod questions;
+mod scans;
 mod thresholds;
 mod triangles;
 pub mod values;
@@ -56,6 +57,10 @@ enum Parameters {
     Below(i64),
     /// Limits between what is drawn and what is not, read off the answers.
     Sizes,
+    /// Ranges that coordinates are clamped to, as the answers have them.
+    Clamps,
+    /// Those ways of filling row by row that come near the answers, and of which it is true.
+    Scans(fn(i64) -> bool),
 }
 
 /// The entry that lines and triangles share: a row or a column at the border of the window is never drawn.
@@ -206,6 +211,9 @@ impl fmt::Display for Mistakes {
     }
 }
 
+/// Wrong answers that are enough, and how often a program is asked for more of them.
+const ENOUGH_WRONG: usize = 24;
+const MOST_ROUNDS: u64 = 6;
 /// Questions that are asked at once, so that a slow program can be left in time.
 const AT_ONCE: usize = 100;
 /// The questions are the same in every run.
@@ -251,8 +259,8 @@ impl Answered<TriangleQuestion> {
 }
 
 /// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems to be:
-/// where that is certain, answers are judged by it. Nothing where all answers are right. It asks for 1,200 triangles, as
-/// long as `goes_on` is true.
+/// where that is certain, answers are judged by it. Nothing where all answers are right. It asks for 1,200 triangles, and for
+/// more where few of these are wrong, as long as `goes_on` is true.
 pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Known,
@@ -278,22 +286,66 @@ pub fn of_triangles(
             }
         }
     };
-    ask_all(&questions::triangles(known, sample_of(expected), SEED), &mut answered);
+    // Where few answers are wrong, some more are needed.
+    for seed in SEED..SEED + MOST_ROUNDS {
+        ask_all(&questions::triangles(known, sample_of(expected), seed), &mut answered);
+        let wrong = answered.iter().filter(|a| a.is_wrong()).count();
+        if wrong == 0 || wrong >= ENOUGH_WRONG {
+            break;
+        }
+    }
     // Width, height and area are told apart near the limits between what is drawn and what is not.
     let sizes = limits(&answered).into_iter().map(triangles::size);
     ask_all(&thresholds::near(sizes, known, expected), &mut answered);
     if ask.is_abandoned() {
         return None;
     }
+    let found_bases = bases(&known.declared, found);
+    let mut why = explain(&answered, &found_bases, programs);
+    // In a tiny window a convention may not have been found, and explain what is wrong.
+    let is_one = |base: &&Base| base.convention != *expected && base.explains(&answered);
+    if let Some(base) = found_bases.iter().find(is_one) {
+        let words = base.said.as_ref().map_or_else(String::new, |said| said.concat());
+        let said = format!("As far as these answers tell, it {words}: this is a convention.");
+        let as_one = |why| Mistakes { causes: Vec::new(), lead: None, common: vec![said], ..why };
+        return with_limits(why.map(as_one), answered.len(), Vec::new());
+    }
+    if why.as_ref().is_some_and(|why| !why.is_known())
+        && answered.iter().any(|a| !a.twice.is_empty())
+    {
+        // Pixels may be drawn twice beside another mistake.
+        answered.iter_mut().for_each(|a| a.twice = Mask::default());
+        if let Some(once) = explain(&answered, &found_bases, programs).filter(Mistakes::is_known) {
+            let mut causes = once.causes;
+            for cause in &mut causes {
+                cause.does += " (that it draws pixels more than once is left aside)";
+            }
+            why = why.map(|why| Mistakes { causes, lead: None, common: Vec::new(), ..why });
+        }
+    }
+    with_limits(why, answered.len(), thresholds::of_triangles(ask, known, expected, goes_on))
+}
+
+/// The mistake that explains answers about triangles.
+fn explain(
+    answered: &[Answered<TriangleQuestion>],
+    bases: &[Base],
+    programs: &[Program<'_, TriangleQuestion, Coverage>],
+) -> Option<Mistakes> {
     let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
-    let bases = bases(&known.declared, found);
     // What each base draws, once it is needed.
     let whole: Vec<OnceCell<Option<Mask>>> =
         (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
+    let scans = OnceCell::new();
     let mut hypotheses = Vec::new();
     for mistake in triangles::TABLE {
         let parameters = match mistake.parameters {
-            Parameters::Sizes => limits(&answered),
+            Parameters::Sizes => limits(answered),
+            Parameters::Clamps => triangles::clamps(&clamped(answered)),
+            Parameters::Scans(is_one) => {
+                let all = scans.get_or_init(|| scans::fitting(&near(answered, &is_wrong)));
+                all.iter().copied().filter(|p| is_one(*p)).collect()
+            }
             others => numbers(others),
         };
         for p in parameters {
@@ -302,9 +354,12 @@ pub fn of_triangles(
             let is_told = |base: &&Base| {
                 mistake.name != BY_WINDING || base.convention.draws == Windings::Both
             };
-            let served = bases.iter().enumerate().filter(|(_, base)| base.serves(mistake.draws));
+            let is_many = matches!(mistake.parameters, Parameters::Clamps);
+            let served = bases.iter().enumerate().filter(|(_, base)| {
+                base.serves(mistake.draws) && (!is_many || base.is_first || base.is_found())
+            });
             for (number, base) in served.filter(|(_, base)| is_told(base)) {
-                let (answered, whole) = (&answered, &whole[number * answered.len()..]);
+                let whole = &whole[number * answered.len()..];
                 let predicts = move |i: usize| {
                     let TriangleQuestion { corners, window } = &answered[i].question;
                     let whole = || *whole[i].get_or_init(|| base.convention.mask(corners, *window));
@@ -320,14 +375,13 @@ pub fn of_triangles(
         }
     }
     hypotheses.extend(programs.iter().map(|program| {
-        program.hypothesis(&answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
+        program.hypothesis(answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
     }));
     let seen = || answered.iter().map(common::Seen::triangle).collect();
     let is_near = |i: usize| {
         fills::metric(&answered[i].question.corners, fills::FARTHEST) <= i64::from(NEAR_PX) * 256
     };
-    let found = conclude(hypotheses, &is_wrong, &is_near, &seen);
-    with_limits(found, is_wrong.len(), thresholds::of_triangles(ask, known, expected, goes_on))
+    conclude(hypotheses, &is_wrong, &is_near, &seen)
 }
 
 /// The same for a line drawer: it asks for 700 lines of at most 40,000 steps.
@@ -349,10 +403,16 @@ pub fn of_lines(
         let pixels: Vec<_> = pixels.iter().map(|p| p.map_array(i64::from)).collect();
         [lines::mask(&pixels, question.window), Mask::default()]
     };
-    for questions in questions::lines(known, SEED).chunks(AT_ONCE) {
-        if !goes_on() {
+    // Where few answers are wrong, some more are needed.
+    let all = (SEED..SEED + MOST_ROUNDS).map(|seed| questions::lines(known, seed));
+    for questions in all.flat_map(|all| all.chunks(AT_ONCE).map(<[_]>::to_vec).collect::<Vec<_>>())
+    {
+        let wrong = answered.iter().filter(|a| a.is_wrong()).count();
+        let is_enough = answered.len() >= questions::LINES && (wrong == 0 || wrong >= ENOUGH_WRONG);
+        if is_enough || !goes_on() {
             break;
         }
+        let questions = &questions;
         let answers = ask.ask_lines(questions);
         for (question, answer) in questions.iter().zip(answers) {
             let right = lines::of_convention(expected, wide(question.ends), question.window);
@@ -441,7 +501,7 @@ fn numbers(parameters: Parameters) -> Vec<i64> {
     match parameters {
         Parameters::Fixed(parameters) => parameters.to_vec(),
         Parameters::Below(end) => (0..end).collect(),
-        Parameters::Sizes => Vec::new(),
+        Parameters::Sizes | Parameters::Clamps | Parameters::Scans(_) => Vec::new(),
     }
 }
 
@@ -578,6 +638,16 @@ struct Base {
 }
 
 impl Base {
+    /// Whether it explains all answers, of which some are wrong.
+    fn explains(&self, answered: &[Answered<TriangleQuestion>]) -> bool {
+        let is_explained = |a: &Answered<TriangleQuestion>| {
+            let TriangleQuestion { corners, window } = &a.question;
+            let mask = self.convention.mask(corners, *window);
+            mask.is_none_or(|mask| a.is(mask, Mask::default()))
+        };
+        answered.iter().any(Answered::is_wrong) && answered.iter().all(is_explained)
+    }
+
     /// Whether a mistake needs it: one with a rule of its own needs each place once, another one may need none.
     fn serves(&self, draws: Fill) -> bool {
         match draws {
@@ -585,6 +655,11 @@ impl Base {
             Fill::Sampled(_) => self.is_first,
             _ => true,
         }
+    }
+
+    /// Whether it was found, and is not one of those that are tried of every program.
+    fn is_found(&self) -> bool {
+        self.said.as_ref().is_some_and(|[_, rule]| rule.is_empty())
     }
 
     fn words(&self, draws: Fill) -> String {
@@ -644,6 +719,40 @@ fn limits(answered: &[Answered<TriangleQuestion>]) -> Vec<i64> {
     limits
 }
 
+/// Answers that scans are fitted to.
+const FITTED: usize = 80;
+
+/// Some of the answers that hypotheses are chosen by: those of triangles that are small, so that slopes do not matter much.
+fn near<'a>(
+    answered: &'a [Answered<TriangleQuestion>],
+    is_wrong: &[bool],
+) -> Vec<scans::Drawn<'a>> {
+    let small = |i: &usize| fills::metric(&answered[*i].question.corners, 3) < 64 * 256;
+    let all = chosen_by(is_wrong).into_iter().filter(small).map(|i| {
+        let Answered { question, drawn, .. } = &answered[i];
+        (&question.corners, question.window, *drawn)
+    });
+    all.take(FITTED).collect()
+}
+
+/// Limits in pixels below which no answer is wrong, by the farthest coordinate of both axes or of one: some numbers before the
+/// first wrong one.
+fn clamped(answered: &[Answered<TriangleQuestion>]) -> Vec<i64> {
+    let mut limits = Vec::new();
+    for metric in fills::FARTHEST..fills::METRICS.len() {
+        let of = |a: &Answered<TriangleQuestion>| fills::metric(&a.question.corners, metric) / 256;
+        let wrong = answered.iter().filter(|a| a.is_wrong()).map(of);
+        let Some(least) = wrong.min().filter(|least| *least > i64::from(questions::SIDE_PX)) else {
+            continue;
+        };
+        let is_near = |limit: &i64| least - limit < 32 || limit % 100 == 0;
+        limits.extend((least - least / 5..=least).rev().filter(is_near).take(64));
+    }
+    limits.sort_unstable();
+    limits.dedup();
+    limits
+}
+
 /// All mistakes, with an example of the parameter: triangles first.
 #[must_use]
 pub fn table() -> Vec<Explanation> {
@@ -652,6 +761,7 @@ pub fn table() -> Vec<Explanation> {
             Parameters::Fixed(parameters) => parameters[0],
             Parameters::Below(_) => 1,
             Parameters::Sizes => triangles::packed_size(0, true, 131_072),
+            Parameters::Clamps | Parameters::Scans(_) => 1,
         };
         says(mistake, p)
     }

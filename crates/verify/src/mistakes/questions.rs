@@ -9,7 +9,7 @@ use rasterproof_core::triangle::Corners;
 /// The largest side of a window that is asked for, in pixels.
 pub(super) const SIDE_PX: i32 = 32;
 const TRIANGLES: usize = 1200;
-const LINES: usize = 700;
+pub(super) const LINES: usize = 700;
 /// The longest line: some programs walk each pixel of it.
 pub(super) const LONGEST_PX: i64 = 40_000;
 

@@ -1,6 +1,7 @@
 //! The table of mistakes in filling triangles. To add one, add an entry: everything else follows from it.
 
-use super::fills::{self, ROWS, Slope, Stepped, Words};
+use super::fills::{self, Words};
+use super::scans::{self, Scan};
 use super::{Mistake, Parameters, border};
 use crate::comparison::area2;
 use crate::convention::{Convention, Mask, Quantum, Rounding, Ties, Windings};
@@ -169,6 +170,23 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         }),
     },
     Mistake {
+        name: "areas are compared",
+        sentence: |p| {
+            let (bits, most) = (["32", "64"][(p % 2) as usize], AREAS[(p / 4) as usize]);
+            let areas = ["twice the areas", "the areas"][(p / 2 % 2) as usize];
+            format!(
+                "draws where {areas} that a sample makes with the sides add up to the whole, in floats of {bits} bits, with at most {most:e} between"
+            )
+        },
+        repair: "test the sign of the three edge functions, in whole numbers",
+        page: "ch02-edge-functions",
+        refuted: "a large triangle that is drawn wholly",
+        parameters: Parameters::Below(4 * AREAS.len() as i64),
+        draws: Fill::Sampled(|corners, window, base, p| {
+            fills::areas(corners, window, base, AREAS[(p / 4) as usize], p)
+        }),
+    },
+    Mistake {
         name: "an edge is not tested",
         sentence: |p| {
             format!(
@@ -211,6 +229,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a triangle whose products do not fit and that is drawn rightly",
         parameters: Parameters::Fixed(&[
             832, 432, 32, 16, 416, 632, 1832, 1432, 1032, 1016, 1416, 1632, 2832, 2432, 3832, 3432,
+            824, 424, 24, 1824, 1424, 1024, 2824, 3824, 816, 1816, 848, 1848,
         ]),
         draws: Fill::Ruled(fills::wrapping),
     },
@@ -237,55 +256,27 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "each axis on a grid of its own",
         sentence: |p| {
-            let (axis, step, rounding) = (p % 2, STEPS[(p / 2 % 4) as usize], p / 8);
-            let grid = grid(step);
-            let [moved, kept] = if axis == 0 { ["x", "y"] } else { ["y", "x"] };
-            let how = ["down", "to the nearest", "toward zero", "to the nearest, halves to even"]
-                [rounding as usize];
+            let [x, y] = axes(p).map_array(|(step, rounding)| match step {
+                1 => "keeps its fraction".to_owned(),
+                _ => format!("is moved to {} ({})", grid(step), ROUNDINGS[rounding].0),
+            });
             format!(
-                "moves {moved} of the corners to {grid} ({how}) and keeps the fraction of {kept}, so that slopes change"
+                "puts the coordinates of corners on two grids: x {x}, y {y}, so that slopes change"
             )
         },
-        repair: "snap both coordinates to the same grid, once, for every triangle",
+        repair: "snap both coordinates to the same grid in the same way, once, for every triangle",
         page: "ch01",
-        refuted: "a corner with such a fraction whose edges pass where they should",
-        parameters: Parameters::Below(32),
+        refuted: "a corner that these grids move apart and whose edges pass where they should",
+        parameters: Parameters::Below(AXIS * AXIS),
         draws: Fill::Instead(|corners, _, p| {
-            let (step, rounding) = (STEPS[(p / 2 % 4) as usize], p / 8);
-            let cut = |v: i32| match rounding {
-                0 => v.div_euclid(step) * step,
-                1 => v.saturating_add(step / 2).div_euclid(step) * step,
-                2 => v / step * step,
-                // As `round` of Python and C# does.
-                _ => Quantum { step, rounding: Rounding::HalfEven }.apply(v) as i32,
-            };
-            let to = |c: SubpixelPoint| {
-                if p % 2 == 0 {
-                    SubpixelPoint::new(cut(c.x), c.y)
-                } else {
-                    SubpixelPoint::new(c.x, cut(c.y))
-                }
-            };
-            vec![corners.map_array(to)]
-        }),
-    },
-    Mistake {
-        name: "each axis is rounded in its own way",
-        sentence: |p| {
-            let (step, x, y) = own_rounding(p);
-            let grid = grid(step);
-            format!("moves corners to {grid}, x {} and y {}", ROUNDINGS[x].0, ROUNDINGS[y].0)
-        },
-        repair: "round both coordinates in the same way, best to the nearest",
-        page: "ch01",
-        refuted: "a corner that both ways move elsewhere and whose edges pass where they should",
-        parameters: Parameters::Below(48),
-        draws: Fill::Instead(|corners, _, p| {
-            let (step, x, y) = own_rounding(p);
-            let to = |c: SubpixelPoint| {
-                SubpixelPoint::new(ROUNDINGS[x].1(c.x, step), ROUNDINGS[y].1(c.y, step))
-            };
-            vec![corners.map_array(to)]
+            let [x, y] = axes(p).map_array(|(step, rounding)| {
+                move |v: i32| if step == 1 { v } else { ROUNDINGS[rounding].1(v, step) }
+            });
+            // The same for both is a convention.
+            if p / AXIS == p % AXIS {
+                return Vec::new();
+            }
+            vec![corners.map_array(|c| SubpixelPoint::new(x(c.x), y(c.y)))]
         }),
     },
     Mistake {
@@ -356,35 +347,40 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "corners are clamped",
         sentence: |p| {
+            let [limit, axes, _] = clamp_of(p);
             let where_ = [
                 "the window",
                 "the last pixels of the window",
                 "the upper and left border",
                 "the lower and right border",
+                "a guard band as wide as the window around it",
+                "a guard band half as wide as the window around it",
             ];
-            let range = || {
-                let [low, high] = clamped_to(p, 0);
-                format!("the range from {} to {} px", low / 256, high / 256)
-            };
+            let where_ = where_.get(limit as usize).map_or_else(
+                || {
+                    let [low, high] = clamped_to(p, 0);
+                    format!("the range from {} to {} px", low / 256, high / 256)
+                },
+                |place| (*place).to_owned(),
+            );
             format!(
-                "moves corners that lie outside to {}, so that the slopes of edges change",
-                where_.get(p as usize).map_or_else(range, |place| (*place).to_owned())
+                "moves {} that lie outside to {where_}, so that the slopes of edges change",
+                ["corners", "x of corners", "y of corners"][axes as usize]
             )
         },
         repair: "clip the edges, or draw the box of the triangle within the window by unchanged edges",
         page: "ch07",
         refuted: "a triangle with a corner outside whose edges keep their slope",
-        parameters: Parameters::Below(4 + 3 * 9),
+        parameters: Parameters::Clamps,
         draws: Fill::Instead(|corners, window, p| {
-            let clamp = |v: i32, side_px: i32| {
+            let [_, axes, _] = clamp_of(p);
+            let clamp = |v: i32, side_px: i32, other: i64| {
                 let [low, high] = clamped_to(p, side_px);
-                v.clamp(low, high)
+                if axes == other { v } else { v.clamp(low, high) }
             };
-            vec![
-                corners.map_array(|c| {
-                    SubpixelPoint::new(clamp(c.x, window.x1), clamp(c.y, window.y1))
-                }),
-            ]
+            vec![corners.map_array(|c| {
+                SubpixelPoint::new(clamp(c.x, window.x1, 2), clamp(c.y, window.y1, 1))
+            })]
         }),
     },
     Mistake {
@@ -529,7 +525,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "the box runs from the floor of the smallest coordinate to the ceiling of the largest one",
         page: "games101",
         refuted: "a covered pixel outside that box that is drawn",
-        parameters: Parameters::Below(18),
+        parameters: Parameters::Below(24),
         draws: Fill::Changed(|mask, corners, window, p| {
             let of = BOXES[(p / 3) as usize].1;
             let bounds = |axis: usize| {
@@ -545,6 +541,52 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         }),
     },
     Mistake {
+        name: "the box misses a corner",
+        sentence: |p| {
+            format!(
+                "looks for pixels in a box whose {} comes from two of the corners, without the {}{}",
+                ["left side", "upper side", "right side", "lower side"][(p % 4) as usize],
+                ["first", "second", "third"][(p / 4 % 3) as usize],
+                exchanged(p / 12)
+            )
+        },
+        repair: "the box holds all three corners",
+        page: "games101",
+        refuted: "a covered pixel near that corner that is drawn",
+        parameters: Parameters::Below(12 * ORDERS.len() as i64),
+        draws: Fill::Changed(|mask, corners, window, p| {
+            let ordered = in_order(corners, p / 12, area2(corners) > 0);
+            let without = (p / 4 % 3) as usize;
+            let ends = [0, 1].map_array(|i: usize| {
+                let c = ordered[(without + 1 + i) % 3];
+                if p % 2 == 0 { c.x } else { c.y }
+            });
+            let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            mask.retain(window, &|x, y| {
+                let at = if p % 2 == 0 { x } else { y };
+                if p % 4 < 2 { at >= low.div_euclid(256) } else { at <= high.div_euclid(256) }
+            });
+        }),
+    },
+    Mistake {
+        name: "width and height are exchanged",
+        sentence: |p| {
+            [
+                "ends its loop over columns at the height of the window",
+                "ends its loop over rows at the width of the window",
+                "exchanges the width and the height of the window",
+            ][p as usize]
+                .to_owned()
+        },
+        repair: "columns end at the width, and rows at the height",
+        page: "ch11",
+        refuted: "a pixel beyond that in a window that is no square",
+        parameters: Parameters::Below(3),
+        draws: Fill::Changed(|mask, _, window, p| {
+            mask.retain(window, &|x, y| (p == 1 || x < window.y1) && (p == 0 || y < window.x1));
+        }),
+    },
+    Mistake {
         name: "tiles are skipped",
         sentence: |p| {
             let side = p % 100;
@@ -555,8 +597,6 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "skips tiles of {} px of whose corners none lies in the triangle",
                 "skips tiles of {} px whose middle lies farther from an edge than half their side",
                 "skips tiles of {} px whose first corner lies outside",
-                "draws blocks of {} px wholly or not at all, as it draws their first pixel",
-                "draws blocks of {} px wholly if it draws any pixel of them",
                 "loses the last column that a triangle has in each tile of {} px",
                 "skips tiles of {} px of whose corner pixels in the window none is covered",
             ][(p / 100) as usize];
@@ -567,6 +607,27 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a covered pixel in such a tile that is drawn",
         parameters: Parameters::Fixed(&TILES),
         draws: Fill::Changed(fills::tiles),
+    },
+    Mistake {
+        name: "blocks are drawn whole",
+        sentence: |p| {
+            format!(
+                "draws blocks of {} x {} px wholly or not at all, {}",
+                1 << (p % 5),
+                1 << (p / 5 % 5),
+                [
+                    "as their first sample is covered",
+                    "as their middle is covered",
+                    "as their last sample is covered",
+                    "wholly if any of their samples is covered"
+                ][(p / 25) as usize]
+            )
+        },
+        repair: "test the sample of each pixel",
+        page: "speed",
+        refuted: "two pixels of such a block of which one is drawn",
+        parameters: Parameters::Below(100),
+        draws: Fill::Ruled(fills::blocks),
     },
     Mistake {
         name: "the rest of a group",
@@ -583,13 +644,14 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "draws every row in groups that begin at multiples of {}, beyond both edges",
                 "loses the last rows of the box around a triangle that do not fill a group of {}",
                 "loses the last rows of the window that do not fill a group of {}",
+                "begins the box around a triangle at the multiple of {} before it and loses the last columns that do not fill a group",
             ][kind as usize];
             what.replace("{}", &n.to_string())
         },
         repair: "draw what is left after the last whole group pixel by pixel, or by a mask",
         page: "speed",
         refuted: "a row whose length is no multiple of the group and that is right",
-        parameters: Parameters::Below(40),
+        parameters: Parameters::Below(44),
         draws: Fill::Changed(fills::groups),
     },
     Mistake {
@@ -605,28 +667,30 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "the last column of a triangle",
                 "all pixels of a triangle",
                 "the pixels at the border of a triangle",
+                "the column that holds the rightmost corner",
             ];
             format!("draws {} twice, so that what is blended there is too strong", what[p as usize])
         },
         repair: "compare the bounds of the loops: one ends where the next one begins",
         page: "ch02-scanline",
         refuted: "such a pixel that is drawn once",
-        parameters: Parameters::Below(9),
+        parameters: Parameters::Below(10),
         draws: Fill::Twice(fills::twice),
     },
     Mistake {
         name: "edges in whole numbers",
         sentence: |p| {
             format!(
-                "cuts the steps of the edge functions to {}, so that edges turn{}",
+                "cuts the steps of the edge functions to {}, so that edges turn{}{}",
                 grid(STEPS_WITH_ONE[(p % 4) as usize]),
-                ["", ", and begins with a whole number too"][(p / 4) as usize]
+                ["", ", and begins with a whole number too"][(p / 4 % 2) as usize],
+                ["", "; triangles without area are drawn as others"][(p / 8) as usize]
             )
         },
         repair: "keep the fraction of the steps, or snap the corners before the steps are computed",
         page: "ch02-edge-functions",
         refuted: "a long edge between corners with a fraction that passes where it should",
-        parameters: Parameters::Below(8),
+        parameters: Parameters::Below(16),
         draws: Fill::Ruled(fills::cut_edges),
     },
     Mistake {
@@ -651,7 +715,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "rounding of floats",
         sentence: |p| {
-            let (formula, precision) = (p / 4, ["32", "64"][(p % 2) as usize]);
+            let (formula, precision) = (p / 6, ["32", "64", "16"][(p % 3) as usize]);
             format!(
                 "computes in floats of {precision} bits {}: rounding decides about samples on and near edges",
                 fills::FORMULAS[formula as usize]
@@ -661,62 +725,50 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "stability",
         refuted: "a sample on an edge that this formula rounds away and that is drawn rightly",
         // A formula, whether corners are exchanged where they turn the other way, and the precision.
-        parameters: Parameters::Below(4 * fills::FORMULAS.len() as i64),
+        parameters: Parameters::Below(6 * fills::FORMULAS.len() as i64),
         draws: Fill::Ruled(|corners, window, base, p| {
-            fills::float(corners, window, base, (p / 4) as usize, p / 2 % 2 == 0, p % 2 == 0)
+            fills::float(corners, window, base, (p / 6) as usize, p / 3 % 2 == 0, p % 3)
         }),
     },
     Mistake {
         name: "crossings are stepped",
-        sentence: |p| {
-            let Stepped { slope, late, row, restarts, above } = stepped(p);
-            format!(
-                "adds the slope of an edge row by row {}{}{}{}, and {}",
-                slope.about(),
-                if late { ", beginning at the corner and not at the first row" } else { "" },
-                if restarts { ", begins anew at the middle corner" } else { "" },
-                [
-                    "",
-                    ", begins in row 0 with the crossing of a first row above the window",
-                    ", begins anew in row 0"
-                ][above as usize],
-                ROWS[row as usize]
-            )
-        },
+        sentence: Scan::sentence,
         repair: "compute each crossing from the corner, or keep the remainder of the division as Bresenham's algorithm does",
         page: "ch02-scanline",
         refuted: "a long edge whose last rows are where they should be",
-        parameters: Parameters::Below(STEPPED),
-        draws: Fill::Own(|corners, window, p| {
-            fills::stepped(fills::sorted(corners), window, stepped(p))
-        }),
+        parameters: Parameters::Scans(Scan::is_rounded),
+        draws: Fill::Own(scans::scanned),
     },
     Mistake {
         name: "corners are sorted by whole rows",
-        sentence: |p| {
-            format!(
-                "sorts the corners by their heights in whole pixels ({}), so that corners in one row keep the order in which they are given, and {}",
-                ["cut down", "rounded", "rounded up"][(p / 5) as usize],
-                ROWS[(p % 5) as usize]
-            )
-        },
-        repair: "sort by the heights that the slopes are computed from",
+        sentence: Scan::sentence,
+        repair: "sort by the heights that slopes are computed from",
         page: "ch02-scanline",
         refuted: "two corners in one row, the lower one first, and a triangle that is drawn rightly",
-        parameters: Parameters::Below(15),
-        draws: Fill::Own(|corners, window, p| {
-            let slope = Slope::BetweenDouble;
-            let sorted = fills::sorted_by_rows(corners, p / 5);
-            let how = Stepped { slope, late: false, row: p % 5, restarts: false, above: 0 };
-            fills::stepped(sorted, window, how)
-        }),
+        parameters: Parameters::Scans(Scan::is_sorted_by_rows),
+        draws: Fill::Own(scans::scanned),
+    },
+    Mistake {
+        name: "rows end elsewhere",
+        sentence: Scan::sentence,
+        repair: "keep the fraction of the corners, take the crossings at the height of the samples, and draw the samples between them",
+        page: "ch02-scanline",
+        refuted: "a row whose ends are where they should be",
+        parameters: Parameters::Scans(Scan::is_exact),
+        draws: Fill::Own(scans::scanned),
     },
     Mistake {
         name: "whole pixels by integer divisions",
         sentence: |p| {
             let mut words = format!(
                 "cuts corners to whole pixels ({}), divides {} for each row, and draws both ends of it: the loop of many libraries for small displays",
-                if p & 1 == 0 { "down" } else { "to the nearest" },
+                if p & 1 == 1 {
+                    "to the nearest"
+                } else if p & 64 == 0 {
+                    "down"
+                } else {
+                    "toward zero"
+                },
                 if p & 2 == 0 { "toward zero" } else { "down" }
             );
             if p & 4 != 0 {
@@ -736,22 +788,23 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         repair: "neighbours draw the pixels of a shared edge twice: keep the fraction of the corners and follow a fill rule",
         page: "ch02-scanline",
         refuted: "a corner whose fraction moves an edge",
-        parameters: Parameters::Below(64),
+        parameters: Parameters::Below(128),
         draws: Fill::Own(fills::whole_pixels),
     },
     Mistake {
         name: "whole pixels between crossings",
         sentence: |p| {
             format!(
-                "cuts corners to whole pixels and fills each row from the pixel of a crossing to that of the next, {}, {}: the polygon of many libraries",
+                "cuts corners to whole pixels{} and fills each row from the pixel of a crossing to that of the next, {}, {}: the polygon of many libraries",
+                ["", " toward zero", " (to the nearest)"][(p / 32) as usize],
                 fills::CROSSINGS[(p % 8) as usize],
-                fills::LAST_ROWS[(p / 8) as usize]
+                fills::LAST_ROWS[(p / 8 % 4) as usize]
             )
         },
         repair: "keep the fraction of the corners, and draw the samples between the crossings: what lies on the right edge belongs to the neighbour",
         page: "ch02-scanline",
         refuted: "a corner whose fraction moves an edge",
-        parameters: Parameters::Below(32),
+        parameters: Parameters::Below(96),
         draws: Fill::Own(fills::crossings),
     },
     Mistake {
@@ -801,6 +854,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
 /// The rules that mistakes are looked for with.
 pub(super) const RULES: [&str; 6] =
     ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
+const AREAS: [f64; 8] = [0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 const EPSILONS: [f64; 7] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 const PAIRS: [i64; 30] = {
     let mut pairs = [0; 30];
@@ -828,24 +882,33 @@ fn grid(step: i32) -> String {
 
 /// Ways to bring a coordinate to a step.
 type Round = fn(i32, i32) -> i32;
-const ROUNDINGS: [(&str, Round); 4] = [
+const ROUNDINGS: [(&str, Round); 5] = [
     ("down", |v, step| v.div_euclid(step) * step),
     ("up", |v, step| -((-i64::from(v)).div_euclid(step.into()) * i64::from(step)) as i32),
     ("to the nearest", |v, step| v.saturating_add(step / 2).div_euclid(step) * step),
     ("toward zero", |v, step| v / step * step),
+    // As `round` of Python and C# does.
+    ("to the nearest, halves to even", |v, step| {
+        Quantum { step, rounding: Rounding::HalfEven }.apply(v) as i32
+    }),
 ];
 
-/// A step and two ways that differ.
-fn own_rounding(p: i64) -> (i32, usize, usize) {
-    let (x, y) = ((p % 4) as usize, (p / 4 % 3) as usize);
-    (STEPS[(p / 12) as usize], x, if y >= x { y + 1 } else { y })
+/// Grids of one axis: none, or a step and a way to round.
+const AXIS: i64 = 1 + 5 * 5;
+const AXIS_STEPS: [i32; 5] = [256, 128, 64, 32, 16];
+
+/// The step and the way to round of x and of y.
+fn axes(p: i64) -> [(i32, usize); 2] {
+    [p % AXIS, p / AXIS].map_array(|axis| match axis - 1 {
+        at @ 0.. => (AXIS_STEPS[(at / 5) as usize], (at % 5) as usize),
+        _ => (1, 0),
+    })
 }
 /// How far an edge may be moved, in subpixels.
 const OFFSETS: [i64; 8] = [1, 2, 8, 16, 32, 64, 128, 256];
 /// Bits of weights in whole numbers.
 const WEIGHT_BITS: [u32; 8] = [4, 7, 8, 10, 12, 14, 15, 16];
 
-const STEPS: [i32; 4] = [256, 128, 64, 16];
 const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
 const CLIP_STEPS: [i32; 4] = [256, 64, 16, 4];
 
@@ -869,7 +932,7 @@ fn size_said(p: i64) -> (&'static str, String) {
 }
 
 type IsKind = fn(&Corners, PixelRect) -> bool;
-const KINDS: [(&str, IsKind); 13] = [
+const KINDS: [(&str, IsKind); 19] = [
     ("with a level upper edge", |c, _| fills::flat(c) == Some(true)),
     ("with a level lower edge", |c, _| fills::flat(c) == Some(false)),
     ("with an upright edge", |[a, b, c], _| a.x == b.x || b.x == c.x || c.x == a.x),
@@ -891,6 +954,28 @@ const KINDS: [(&str, IsKind); 13] = [
     ("that turn round or have no area once their corners are cut to whole pixels", |c, _| {
         area2(&whole(c, 0)).signum() != area2(c).signum()
     }),
+    ("whose area of 8 bits of fraction has another sign in 32 bits", |c, _| {
+        (area2(c) as i32).signum() != area2(c).signum() as i32
+    }),
+    ("whose area of 4 bits of fraction has another sign in 32 bits", |c, _| {
+        ((area2(c) >> 8) as i32).signum() != area2(c).signum() as i32
+    }),
+    ("whose winding is not that of the first product of their area alone", |[a, b, c], _| {
+        let first = (i64::from(b.x) - i64::from(a.x)) * (i64::from(c.y) - i64::from(a.y));
+        (first >= 0) != (area2(&[*a, *b, *c]) > 0)
+    }),
+    ("whose winding is not that of the second product of their area alone", |[a, b, c], _| {
+        let second = (i64::from(b.y) - i64::from(a.y)) * (i64::from(c.x) - i64::from(a.x));
+        (second < 0) != (area2(&[*a, *b, *c]) > 0)
+    }),
+    (
+        "whose middle corner lies left of the long edge, from the upper corner that is named first",
+        |c, _| fills::side_of_long(c) < 0,
+    ),
+    (
+        "whose middle corner lies right of the long edge, from the upper corner that is named first",
+        |c, _| fills::side_of_long(c) > 0,
+    ),
 ];
 
 /// The corners in whole pixels, after so many subpixels were added.
@@ -913,7 +998,7 @@ const ENDS: [&str; 10] = [
 ];
 
 type Bounds = fn(i64, i64) -> [i64; 2];
-const BOXES: [(&str, Bounds); 6] = [
+const BOXES: [(&str, Bounds); 8] = [
     ("the pixel that holds the largest coordinate is left out", |low, high| {
         [low.div_euclid(256), high.div_euclid(256)]
     }),
@@ -933,6 +1018,12 @@ const BOXES: [(&str, Bounds); 6] = [
     ("the smallest coordinate is rounded up", |low, high| {
         [(low + 255).div_euclid(256), high.div_euclid(256) + 1]
     }),
+    ("the smallest coordinate is rounded up past the next pixel", |low, high| {
+        [(low + 255).div_euclid(256) + 1, high.div_euclid(256) + 1]
+    }),
+    ("the pixel before that of the largest coordinate is left out, too", |low, high| {
+        [low.div_euclid(256), high.div_euclid(256) - 1]
+    }),
 ];
 
 /// Every 4th, 8th and 16th row or column, the first or the last of them.
@@ -949,10 +1040,10 @@ fn suffix(number: i64) -> &'static str {
 }
 
 /// Sides and tests of tiles.
-const TILES: [i64; 48] = {
-    let mut all = [0; 48];
+const TILES: [i64; 38] = {
+    let mut all = [0; 38];
     let (mut i, mut n) = (0, 0);
-    while i < 50 {
+    while i < 40 {
         let side = 2 << (i % 5);
         // A tile as large as the window has its middle or first pixel beyond, or is all.
         if side < 32 || i / 5 == 0 || i / 5 > 2 {
@@ -982,6 +1073,16 @@ fn exchanged(order: i64) -> String {
     }
 }
 
+/// The corners once they are exchanged.
+fn in_order(corners: &Corners, order: i64, clockwise: bool) -> Corners {
+    let mut ordered = *corners;
+    if order > 0 && clockwise == (order % 2 == 0) {
+        let [i, j] = [[1, 2], [0, 1], [0, 2]][(order as usize - 1) / 2];
+        ordered.swap(i, j);
+    }
+    ordered
+}
+
 /// Where an edge comes once the corners are exchanged.
 fn place_of_edge(edge: usize, order: i64, clockwise: bool) -> usize {
     if order == 0 || clockwise == (order % 2 == 1) {
@@ -990,33 +1091,41 @@ fn place_of_edge(edge: usize, order: i64, clockwise: bool) -> usize {
     [[2, 1, 0], [0, 2, 1], [1, 0, 2]][(order as usize - 1) / 2][edge]
 }
 
-/// The range that coordinates are clamped to, in subpixels: of a window with such a side, or of a number with a power of two.
-fn clamped_to(p: i64, side_px: i32) -> [i32; 2] {
-    let far = i32::MAX;
-    let [kind, limit] = [(p - 4) % 3, 128 << ((p - 4).max(0) / 3)].map(|v| v as i32);
-    match p {
-        0 => [0, side_px * SUBPIXELS],
-        1 => [0, (side_px - 1) * SUBPIXELS],
-        2 => [0, far],
-        3 => [-far, side_px * SUBPIXELS],
-        _ => {
-            let last = limit - i32::from(kind > 0);
-            [if kind == 2 { 0 } else { -limit }, last].map_array(|v| v * SUBPIXELS)
-        }
-    }
+/// Ranges of a limit: from -L to L, from -L to L - 1, from 0 to L - 1, and from 0 to L.
+const RANGES: i64 = 4;
+
+/// The limit in pixels (below 6, a place that depends on the window), which axes, and the range.
+fn clamp_of(p: i64) -> [i64; 3] {
+    [p / (3 * RANGES), p / RANGES % 3, p % RANGES]
 }
 
-const STEPPED: i64 = Slope::COUNT * 2 * 5 * 2 * 3;
+/// The parameters of clamps: at the window, at powers of two, and at other limits in pixels.
+pub(super) fn clamps(others: &[i64]) -> Vec<i64> {
+    let all = (0..6).chain((7..16).map(|power| 1 << power)).chain(others.iter().copied());
+    let mut of = |limit: i64| {
+        // Places that depend on the window have one range.
+        (0..3 * RANGES)
+            .filter(move |p| limit >= 6 || p % RANGES == 0)
+            .map(move |p| limit * 3 * RANGES + p)
+    };
+    all.flat_map(&mut of).collect()
+}
 
-fn stepped(p: i64) -> Stepped {
-    let rest = p / Slope::COUNT;
-    Stepped {
-        slope: Slope::of(p % Slope::COUNT),
-        late: rest % 2 == 1,
-        row: rest / 2 % 5,
-        restarts: rest / 10 % 2 == 1,
-        above: rest / 20,
-    }
+/// The range that coordinates are clamped to, in subpixels, of a window with such a side.
+fn clamped_to(p: i64, side_px: i32) -> [i32; 2] {
+    let far = i32::MAX / SUBPIXELS;
+    let [limit, _, range] = clamp_of(p);
+    let limit = limit as i32;
+    let [low, high] = match limit {
+        0 => [0, side_px],
+        1 => [0, side_px - 1],
+        2 => [0, far],
+        3 => [-far, side_px],
+        4 => [-side_px, 2 * side_px],
+        5 => [-side_px / 2, side_px + side_px / 2],
+        _ => [if range > 1 { 0 } else { -limit }, limit - i32::from(range == 1 || range == 2)],
+    };
+    [low * SUBPIXELS, high * SUBPIXELS]
 }
 
 impl Convention {

@@ -54,6 +54,13 @@ fn right_values(t: &Triangle, weights: [f64; 3]) -> [f64; 3] {
     with(sum(weights, depths(t)), attributes(t, corrected(t, weights)))
 }
 
+/// Right values, where two corners have exchanged their attributes.
+fn exchanged(t: &Triangle, weights: [f64; 3], i: usize, j: usize) -> [f64; 3] {
+    let mut parts = corrected(t, weights);
+    parts.swap(i, j);
+    with(sum(weights, depths(t)), attributes(t, parts))
+}
+
 /// Twice the signed area in pixels squared.
 fn twice_px(t: &Triangle) -> f64 {
     area2(&t.corners()) as f64 / f64::from(SUBPIXELS * SUBPIXELS)
@@ -302,6 +309,64 @@ const VALUES: &[ValueMistake] = &[
         },
     },
     ValueMistake {
+        name: "one w for a triangle",
+        does: "divides attributes by the mean of 1/w for the whole triangle",
+        repair: "divide by the interpolated 1/w at every pixel",
+        page: "ch05",
+        refuted: "a triangle with unequal w and right attributes",
+        values: |t, l| {
+            let mean = t.vertices.iter().map(|v| v.inv_w).sum::<f64>() / 3.0;
+            let over_w = [0, 1, 2].map(|i| l[i] * t.vertices[i].inv_w / mean);
+            with(sum(l, depths(t)), attributes(t, over_w))
+        },
+    },
+    ValueMistake {
+        name: "attributes of other corners",
+        does: "exchanges the attributes of the first and the second corner, and not their w",
+        repair: "exchange all numbers of a corner",
+        page: "ch05",
+        refuted: "an attribute that is right at a corner",
+        values: |t, l| exchanged(t, l, 0, 1),
+    },
+    ValueMistake {
+        name: "attributes of other corners",
+        does: "exchanges the attributes of the second and the third corner, and not their w",
+        repair: "exchange all numbers of a corner",
+        page: "ch05",
+        refuted: "an attribute that is right at a corner",
+        values: |t, l| exchanged(t, l, 1, 2),
+    },
+    ValueMistake {
+        name: "attributes of other corners",
+        does: "exchanges the attributes of the first and the third corner, and not their w",
+        repair: "exchange all numbers of a corner",
+        page: "ch05",
+        refuted: "an attribute that is right at a corner",
+        values: |t, l| exchanged(t, l, 0, 2),
+    },
+    ValueMistake {
+        name: "another value",
+        does: "gives depth in place of the first attribute",
+        repair: "keep depth and attributes apart",
+        page: "ch05",
+        refuted: "a pixel with its own attribute",
+        values: |t, l| {
+            let [depth, _, second] = right_values(t, l);
+            [depth, depth, second]
+        },
+    },
+    ValueMistake {
+        name: "another value",
+        does: "gives depth with the other sign",
+        repair: "leave depth as the corners have it",
+        page: "ch06",
+        refuted: "a pixel with its own depth",
+        values: |t, l| {
+            let [depth, first, second] = right_values(t, l);
+            [-depth, first, second]
+        },
+    },
+    ValueMistake {
         name: ELSEWHERE,
         does: "computes right values",
         repair: "compute values where coverage is sampled",
@@ -312,7 +377,7 @@ const VALUES: &[ValueMistake] = &[
 ];
 
 /// Where values may be taken in a pixel, and how that is said.
-const PLACES: [([f64; 2], &str); 7] = [
+pub const PLACES: [([f64; 2], &str); 7] = [
     ([0.5, 0.5], ""),
     ([0.0, 0.0], ", at the upper left corner of the pixel"),
     ([1.0, 1.0], ", at the lower right corner of the pixel"),
@@ -340,8 +405,10 @@ pub fn weights(corners: &Corners, at: [f64; 2]) -> [f64; 3] {
 
 type Moved = fn(i32) -> i32;
 /// What becomes of corners before the weights are computed, and how that is said.
-const CORNERS: [(Moved, &str); 3] = [
+const CORNERS: [(Moved, &str); 5] = [
     (|v| v, ""),
+    (|v| v.div_euclid(16) * 16, ", from corners that are cut to 1/16 px"),
+    (|v| v.saturating_add(8).div_euclid(16) * 16, ", from corners that are rounded to 1/16 px"),
     (|v| v.div_euclid(SUBPIXELS) * SUBPIXELS, ", from corners that are cut to whole pixels"),
     (
         |v| v.saturating_add(HALF_PIXEL).div_euclid(SUBPIXELS) * SUBPIXELS,
@@ -349,22 +416,52 @@ const CORNERS: [(Moved, &str); 3] = [
     ),
 ];
 
-/// Numbers in which values are kept, and how that is said.
-type Kept = fn(f64) -> f64;
-const KEPT: [(Kept, &str); 9] = [
-    (|v| mantissa(v, 10, f64::round), "floats of 16 bits, rounded"),
-    (|v| mantissa(v, 10, f64::trunc), "floats of 16 bits, cut"),
+/// Numbers in which something is kept, with so many bits, and how that is said.
+type Kept = (fn(f64, i32) -> f64, &'static [i32], &'static str);
+const KEPT: [Kept; 8] = [
     (
-        |v| mantissa(v, 7, f64::round),
-        "floats of 16 bits with the exponent of one of 32 bits, rounded",
+        |v, bits| mantissa(v, bits, f64::round),
+        FLOATS,
+        "floats with {} bits after the first one, rounded",
     ),
-    (|v| mantissa(v, 7, f64::trunc), "floats of 16 bits with the exponent of one of 32 bits, cut"),
-    (|v| (v.clamp(0.0, 1.0) * 255.0).round() / 255.0, "8 bits between 0 and 1, rounded"),
-    (|v| (v.clamp(0.0, 1.0) * 255.0).floor() / 255.0, "8 bits between 0 and 1, cut down"),
-    (|v| (v * 256.0).floor() / 256.0, "1/256, cut down"),
-    (|v| (v * 256.0).trunc() / 256.0, "1/256, cut toward zero"),
-    (|v| v.trunc(), "whole numbers, cut toward zero"),
+    (
+        |v, bits| mantissa(v, bits, f64::trunc),
+        FLOATS,
+        "floats with {} bits after the first one, cut",
+    ),
+    (|v, bits| in_unit(v, bits, f64::round), UNITS, "{} bits between 0 and 1, rounded"),
+    (|v, bits| in_unit(v, bits, f64::floor), UNITS, "{} bits between 0 and 1, cut down"),
+    (
+        |v, bits| in_steps(v, bits, f64::floor),
+        STEPS_OF,
+        "whole numbers and {} bits of fraction, cut down",
+    ),
+    (
+        |v, bits| in_steps(v, bits, f64::trunc),
+        STEPS_OF,
+        "whole numbers and {} bits of fraction, cut toward zero",
+    ),
+    (
+        |v, bits| in_steps(v, bits, f64::round),
+        STEPS_OF,
+        "whole numbers and {} bits of fraction, rounded",
+    ),
+    (|v, _| v - v.floor(), &[0], "fractions alone, as they wrap around at 1"),
 ];
+/// Bits of floats of 16 bits, of those with the exponent of one of 32 bits, and of others.
+const FLOATS: &[i32] = &[10, 7, 5, 8, 12, 16];
+const UNITS: &[i32] = &[8, 4, 5, 6, 7, 10, 12, 16];
+const STEPS_OF: &[i32] = &[8, 0, 2, 4, 6, 10, 12, 16];
+
+fn in_unit(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {
+    let most = f64::from(2).powi(bits) - 1.0;
+    cut(v.clamp(0.0, 1.0) * most) / most
+}
+
+fn in_steps(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {
+    let unit = f64::from(2).powi(-bits);
+    cut(v / unit) * unit
+}
 
 /// The power of two of the first digit of a number that is not tiny.
 #[must_use]
@@ -381,8 +478,10 @@ fn mantissa(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {
 }
 
 /// Which values a mistake is in, and how that is said; the others are right.
-const PARTS: [([bool; 3], &str); 3] = [
+const PARTS: [([bool; 3], &str); 5] = [
     ([true; 3], ""),
+    ([false, true, false], " (the first attribute alone: the second and depth are right)"),
+    ([false, false, true], " (the second attribute alone: the first and depth are right)"),
     ([false, true, true], " (attributes alone: depth is right)"),
     ([true, false, false], " (depth alone: attributes are right)"),
 ];
@@ -395,7 +494,11 @@ pub struct ValueHypothesis {
     moved: Moved,
     values: fn(&Triangle, [f64; 3]) -> [f64; 3],
     parts: [bool; 3],
-    kept: Kept,
+    /// Numbers in which values are kept, or the weights of the corners, with their bits.
+    kept: Option<(Kept, i32)>,
+    weights: Option<(Kept, i32)>,
+    /// Pixels of a block that have one value, and the place in the block.
+    block: Option<(i32, f64)>,
     /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row.
     steps: Option<(i32, bool)>,
 }
@@ -406,9 +509,18 @@ impl ValueHypothesis {
     pub fn predict(&self, triangle: &Triangle, (x_px, y_px): (i32, i32)) -> [f64; 3] {
         let corners =
             triangle.corners().map(|p| SubpixelPoint::new((self.moved)(p.x), (self.moved)(p.y)));
-        let weights_at =
-            |x: i32| weights(&corners, [0, 1].map(|i| f64::from([x, y_px][i]) + self.place[i]));
-        let at = |x: i32| (self.values)(triangle, weights_at(x)).map(self.kept);
+        let in_bits = |kept: Option<(Kept, i32)>| {
+            move |v: f64| kept.map_or(v, |((keep, ..), bits)| keep(v, bits))
+        };
+        let weights_at = |x: i32| {
+            let at = [x, y_px];
+            let at = match self.block {
+                None => [0, 1].map(|i| f64::from(at[i]) + self.place[i]),
+                Some((side, place)) => at.map(|v| f64::from(v / side * side) + place),
+            };
+            weights(&corners, at).map(in_bits(self.weights))
+        };
+        let at = |x: i32| (self.values)(triangle, weights_at(x)).map(in_bits(self.kept));
         let mut values = at(x_px);
         if let Some((steps, from_first)) = self.steps {
             let is_in = |x: i32| weights_at(x).iter().all(|weight| *weight >= 0.0);
@@ -478,7 +590,9 @@ pub fn of_values() -> Vec<ValueHypothesis> {
         moved: CORNERS[0].0,
         values: right_values,
         parts,
-        kept: |v| v,
+        kept: None,
+        weights: None,
+        block: None,
         steps: None,
     };
     for (i, (moved, from)) in CORNERS.into_iter().enumerate() {
@@ -486,7 +600,8 @@ pub fn of_values() -> Vec<ValueHypothesis> {
             for mistake in VALUES {
                 // Right values at the right place are no mistake.
                 let is_mistake = i + k > 0 || mistake.name != ELSEWHERE;
-                let parts = if SPLIT.contains(&mistake.name) { &PARTS[..] } else { &PARTS[..1] };
+                // In depth and attributes, in one attribute, or in depth alone.
+                let parts = if SPLIT.contains(&mistake.name) { &PARTS[..] } else { &PARTS[..3] };
                 for &(parts, said) in parts.iter().filter(|_| is_mistake) {
                     let does = format!("{}{at}{from}{said}", mistake.does);
                     let values = mistake.values;
@@ -495,10 +610,25 @@ pub fn of_values() -> Vec<ValueHypothesis> {
             }
         }
     }
-    for (parts, said) in PARTS {
-        for (kept, numbers) in KEPT {
+    for (kept, bits) in KEPT.iter().flat_map(|kept| kept.1.iter().map(move |bits| (*kept, *bits))) {
+        let numbers = kept.2.replace("{}", &bits.to_string());
+        for (parts, said) in PARTS {
             let does = format!("keeps values in {numbers}{said}");
-            add(&FEW_BITS, does, ValueHypothesis { kept, ..right(parts) });
+            add(&FEW_BITS, does, ValueHypothesis { kept: Some((kept, bits)), ..right(parts) });
+        }
+        for (parts, said) in [PARTS[0], PARTS[3]] {
+            let does = format!("keeps the weights of the corners in {numbers}{said}");
+            add(&FEW_BITS, does, ValueHypothesis { weights: Some((kept, bits)), ..right(parts) });
+        }
+    }
+    for side in [2, 4, 8] {
+        for (place, at) in [(0.5, "of its first pixel"), (f64::from(side) / 2.0, "at its middle")] {
+            for (parts, said) in [PARTS[0], PARTS[3], PARTS[4]] {
+                let does = format!(
+                    "gives the pixels of a block of {side} x {side} px one value, that {at}{said}"
+                );
+                add(&BLOCKS, does, ValueHypothesis { block: Some((side, place)), ..right(parts) });
+            }
         }
     }
     for (steps, from_first) in
@@ -529,6 +659,14 @@ const FEW_BITS: ValueMistake = ValueMistake {
     repair: "compute in floats of 32 bits, and shorten what is stored",
     page: "ch05",
     refuted: "a value between two such numbers",
+    values: right_values,
+};
+const BLOCKS: ValueMistake = ValueMistake {
+    name: "one value for a block",
+    does: "",
+    repair: "compute the values of each pixel",
+    page: "ch05",
+    refuted: "two pixels of a block with values of their own",
     values: right_values,
 };
 const STEPS: ValueMistake = ValueMistake {

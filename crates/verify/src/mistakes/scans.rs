@@ -1,0 +1,561 @@
+//! Wrong fills row by row between the crossings of rows with edges, as functions of the corners in subpixels (1/256 px).
+
+use super::fills::{Point, points, wrap};
+use crate::convention::Mask;
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Corners;
+
+/// In which numbers the crossing of an edge with a row is computed.
+#[derive(Clone, Copy, PartialEq)]
+enum Slope {
+    /// The slope is added row by row, in single precision or in double.
+    Added(bool),
+    /// Not added: computed for each row in single precision.
+    Computed,
+    /// The same, from a reciprocal of the height.
+    Reciprocal,
+    /// Interpolated between the corners for each row, in single precision or in double.
+    Between(bool),
+    /// The slope is a float of 16 bits; the rest is exact.
+    Half,
+    /// A product is divided by the height, by one of `DIVIDED`; in words of 16 bits or not.
+    Divided { how: i64, wraps: bool },
+    /// The slope is a product with the reciprocal of the height, which is cut to so many bits of fraction, the height being
+    /// counted in subpixels.
+    Inverse(u32),
+    /// The same, with a reciprocal that is a float with so many bits after the first one, cut.
+    Mantissa(u32),
+    /// In so many bits of fraction, the slope by one of `CUTS` and the first crossing by one of `STARTS`.
+    Fixed { bits: u32, cut: i64, start: i64 },
+}
+
+const SLOPES: [Slope; 21] = [
+    Slope::Between(false),
+    Slope::Added(true),
+    Slope::Added(false),
+    Slope::Computed,
+    Slope::Reciprocal,
+    Slope::Between(true),
+    Slope::Half,
+    Slope::Divided { how: 0, wraps: false },
+    Slope::Divided { how: 1, wraps: false },
+    Slope::Divided { how: 2, wraps: false },
+    Slope::Divided { how: 0, wraps: true },
+    Slope::Divided { how: 1, wraps: true },
+    Slope::Divided { how: 2, wraps: true },
+    Slope::Inverse(12),
+    Slope::Inverse(16),
+    Slope::Inverse(20),
+    Slope::Inverse(24),
+    Slope::Mantissa(8),
+    Slope::Mantissa(11),
+    Slope::Mantissa(12),
+    Slope::Mantissa(16),
+];
+const BITS: [u32; 6] = [16, 8, 10, 12, 14, 6];
+const CUTS: [&str; 4] = [
+    "cut toward zero",
+    "cut down",
+    "rounded to the nearest",
+    "a product with a reciprocal that is cut",
+];
+const DIVIDED: [&str; 3] = ["toward zero", "down", "to the nearest"];
+const STARTS: [&str; 4] = [
+    "",
+    ", from a first crossing that is cut toward zero",
+    ", from an exact first crossing that is cut toward zero",
+    ", from a first crossing that is not cut",
+];
+
+impl Slope {
+    const COUNT: i64 = SLOPES.len() as i64 + 6 * 4 * 4;
+
+    fn of(p: i64) -> Self {
+        match p - SLOPES.len() as i64 {
+            p @ 0.. => Self::Fixed { bits: BITS[(p / 16) as usize], cut: p % 4, start: p / 4 % 4 },
+            _ => SLOPES[p as usize],
+        }
+    }
+
+    /// Whether a step is added for each row, so that it matters where edges begin.
+    fn is_added(self) -> bool {
+        matches!(self, Self::Added(_) | Self::Fixed { .. })
+    }
+
+    fn about(self) -> String {
+        let bits = |single| if single { 32 } else { 64 };
+        match self {
+            Self::Added(single) => {
+                format!("adds the slope of an edge row by row in floats of {} bits", bits(single))
+            }
+            Self::Computed => {
+                "computes each crossing from a slope that is rounded to floats of 32 bits"
+                    .to_owned()
+            }
+            Self::Reciprocal => {
+                "computes each crossing from the reciprocal of the height in floats of 32 bits"
+                    .to_owned()
+            }
+            Self::Between(single) => format!(
+                "interpolates between the corners for each row in floats of {} bits",
+                bits(single)
+            ),
+            Self::Half => "rounds the slope of an edge to a float of 16 bits".to_owned(),
+            Self::Divided { how, wraps } => format!(
+                "divides {} for each row{}",
+                DIVIDED[how as usize],
+                if wraps {
+                    ", and the products (or sums of rows) wrap around in 16 bits"
+                } else {
+                    ""
+                }
+            ),
+            Self::Inverse(bits) => format!(
+                "multiplies by a reciprocal of the height that is cut to 1/{}",
+                1_i64 << bits
+            ),
+            Self::Mantissa(bits) => format!(
+                "multiplies by a reciprocal of the height that has {bits} bits after the first one"
+            ),
+            Self::Fixed { bits, cut, start } => format!(
+                "adds the slope of an edge row by row in 1/{} px, {}{}",
+                1_i64 << bits,
+                CUTS[cut as usize],
+                STARTS[start as usize]
+            ),
+        }
+    }
+}
+
+/// How a triangle is filled row by row; each part is a digit of a parameter.
+#[derive(Clone, Copy)]
+pub(super) struct Scan {
+    slope: Slope,
+    /// What becomes of the long edge in the lower half: a place in `LOWER`.
+    lower: i64,
+    /// What becomes of rows above the window: 0, they are walked; 1, their steps are forgotten; 2, edges begin anew in row 0.
+    above: i64,
+    /// How corners come to whole pixels, one of `WHOLE`.
+    whole: i64,
+    /// Twice one of `FIRSTS`, and one more where the last row is drawn too.
+    rows: i64,
+    /// At which height of a row crossings are: one of `HEIGHTS`.
+    height: i64,
+    /// The first pixel and the last one: places in `LEFT` and `RIGHT`.
+    left: i64,
+    right: i64,
+    /// What is drawn of a triangle in one row: 0, what the loop makes of it; 1, from its least to its greatest x; 2, nothing; 3, from
+    /// the least pixel to the greatest.
+    level: i64,
+    /// The heights that corners are sorted by: 0, exact ones; or one of `SORTED`.
+    sorted: i64,
+}
+
+const WHOLE: [&str; 5] = [
+    "",
+    "cuts corners down to whole pixels, ",
+    "rounds corners to whole pixels, ",
+    "cuts corners to whole pixels toward zero, ",
+    "rounds corners up to whole pixels, ",
+];
+const FIRSTS: [&str; 4] = [
+    "the first sample below a corner",
+    "the row that holds a corner",
+    "the first row that begins below a corner",
+    "the height of a corner, rounded,",
+];
+const HEIGHTS: [&str; 3] = [
+    "",
+    ", by the crossings with the upper side of each row",
+    ", beginning at the corner and not at the first row",
+];
+const LEFT: [&str; 5] = [
+    "the first sample right of the left crossing or on it",
+    "the first sample right of the left crossing",
+    "the pixel of the left crossing",
+    "the first pixel that begins right of the left crossing",
+    "the left crossing, cut toward zero,",
+];
+const RIGHT: [&str; 9] = [
+    "the last sample left of the right crossing",
+    "the last sample left of the right crossing or on it",
+    "the pixel before that of the right crossing",
+    "the last pixel that begins left of the right crossing",
+    "one pixel beyond the last sample left of the right crossing",
+    "one pixel beyond the last sample left of the right crossing or on it",
+    "the pixel of the right crossing",
+    "the first pixel that begins right of the right crossing",
+    "the right crossing, cut toward zero",
+];
+const SORTED: [&str; 4] = ["", "cut down", "rounded", "rounded up"];
+
+const LOWER: [&str; 4] = [
+    "",
+    ", begins anew at the middle corner",
+    ", takes the crossing of the row before on the long edge below the middle corner",
+    ", takes the crossing of the next row on the long edge below the middle corner",
+];
+
+/// How many values each digit has, in the order of the fields.
+const DIGITS: [i64; 10] = [Slope::COUNT, 4, 3, 5, 8, 3, 5, 9, 4, 4];
+
+impl Scan {
+    fn of(p: i64) -> Self {
+        let mut rest = p;
+        let [slope, lower, above, whole, rows, height, left, right, level, sorted] =
+            DIGITS.map(|many| {
+                let digit = rest % many;
+                rest /= many;
+                digit
+            });
+        let slope = Slope::of(slope);
+        Self { slope, lower, above, whole, rows, height, left, right, level, sorted }
+    }
+
+    /// The sentence, after 'it'.
+    pub(super) fn sentence(p: i64) -> String {
+        let Self { slope, lower, above, whole, rows, height, left, right, level, sorted } =
+            Self::of(p);
+        let mut words = WHOLE[whole as usize].to_owned();
+        if sorted > 0 {
+            words += &format!(
+                "sorts the corners by their heights in whole pixels ({}), so that corners in one row keep the order in which they are given, and ",
+                SORTED[sorted as usize]
+            );
+        } else if slope != SLOPES[0] {
+            words += &slope.about();
+            words += [
+                "",
+                ", begins in row 0 with the crossing of a first row above the window",
+                ", begins anew in row 0",
+            ][above as usize];
+            words += ", and ";
+        }
+        words += &format!("fills from {} to {}", LEFT[left as usize], RIGHT[right as usize]);
+        words += LOWER[lower as usize];
+        words += HEIGHTS[height as usize];
+        words += &match (rows, whole) {
+            (0, _) => String::new(),
+            (_, 1..) => {
+                [", without the row of the lowest corner", ", with the row of the lowest corner"]
+                    [(rows % 2) as usize]
+                    .to_owned()
+            }
+            _ => format!(
+                ", in rows that begin with {}{}",
+                FIRSTS[(rows / 2) as usize],
+                if rows % 2 == 1 { " and end one too late" } else { "" }
+            ),
+        };
+        words += [
+            "",
+            "; a level triangle is a row",
+            "; a level triangle is nothing",
+            "; a level triangle is a row with both ends",
+        ][level as usize];
+        words
+    }
+
+    /// Whether crossings are rounded.
+    pub(super) fn is_rounded(p: i64) -> bool {
+        p % Slope::COUNT > 0
+    }
+
+    /// Whether they are exact, and corners are sorted by their heights.
+    pub(super) fn is_exact(p: i64) -> bool {
+        !Self::is_rounded(p) && !Self::is_sorted_by_rows(p)
+    }
+
+    /// Whether corners are sorted by whole rows.
+    pub(super) fn is_sorted_by_rows(p: i64) -> bool {
+        Self::of(p).sorted > 0
+    }
+
+    /// All of a frame: what is rounded, where edges begin, what level triangles are, and how corners are sorted.
+    fn within(frame: i64) -> Vec<i64> {
+        let base = Self::of(frame);
+        // The places of the last two digits.
+        let [level_at, sorted_at] = [8, 9].map(|i| DIGITS[..i].iter().product::<i64>());
+        let mut all = Vec::new();
+        for level in 0..if base.whole > 0 { 4 } else { 1 } {
+            let frame = frame + level * level_at;
+            for (slope, begins) in
+                (0..Slope::COUNT).flat_map(|slope| (0..12).map(move |begins| (slope, begins)))
+            {
+                // Where nothing is added, it does not matter where an edge begins.
+                if Slope::of(slope).is_added() || [0, 2, 3].contains(&begins) {
+                    all.push(frame + slope + Slope::COUNT * begins);
+                }
+            }
+            if base.whole == 0 {
+                all.extend((1..4).map(|sorted| frame + sorted * sorted_at));
+            }
+        }
+        all
+    }
+
+    /// How many pixels of what was drawn it does not predict, up to a number.
+    fn missed(self, drawn: &[Drawn<'_>], most: u32) -> u32 {
+        let mut missed = 0;
+        for (corners, window, seen) in drawn {
+            missed += seen.differs(&scan(corners, *window, self)).count();
+            if missed >= most {
+                break;
+            }
+        }
+        missed
+    }
+
+    fn first_row(&self, y: i64) -> i64 {
+        (y + [127, 0, 255, 128][(self.rows / 2) as usize]).div_euclid(256)
+    }
+
+    /// How far a row lies below the corner where an edge begins, in subpixels.
+    fn ahead(&self, row: i64, first_row: i64, from: i64) -> i64 {
+        match self.height {
+            0 => row * 256 + 128 - from,
+            1 => row * 256 - from,
+            _ => (row - first_row) * 256,
+        }
+    }
+}
+
+/// A triangle with what was drawn of it.
+pub(super) type Drawn<'a> = (&'a Corners, PixelRect, Mask);
+/// The parameters of a frame: slopes, and where edges begin.
+const WITHIN: i64 = DIGITS[0] * DIGITS[1] * DIGITS[2];
+/// Frames that are tried with all ways of rounding, for each of two slopes.
+const FRAMES: usize = 6;
+
+/// The parameters whose frames (rows, heights and ends of rows) come nearest to what was drawn: with exact crossings, and with
+/// the slope and the beginning that are best in the first of these.
+pub(super) fn fitting(drawn: &[Drawn<'_>]) -> Vec<i64> {
+    let mut all = frames(drawn, 0);
+    let mut best = (u32::MAX, 0);
+    for p in Scan::within(all[0]) {
+        let missed = Scan::of(p).missed(drawn, best.0);
+        if missed < best.0 {
+            best = (missed, p);
+        }
+    }
+    all.extend(frames(drawn, best.1 % WITHIN).into_iter().map(|p| p - p % WITHIN));
+    all.sort_unstable();
+    all.dedup();
+    all.into_iter().flat_map(Scan::within).collect()
+}
+
+/// The best frames with a slope and where edges begin, the best first.
+fn frames(drawn: &[Drawn<'_>], slope: i64) -> Vec<i64> {
+    let mut best: Vec<(u32, i64)> = Vec::new();
+    for frame in (0..DIGITS[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
+        let how = Scan::of(frame);
+        // Of whole corners rows are with the last one or without, and edges begin at the corner.
+        if how.whole > 0 && (how.rows > 1 || how.height > 1) {
+            continue;
+        }
+        let most = best.get(FRAMES - 1).map_or(u32::MAX, |(missed, _)| *missed);
+        let missed = how.missed(drawn, most);
+        if missed < most {
+            let at = best.partition_point(|(other, _)| *other <= missed);
+            best.insert(at, (missed, frame));
+            best.truncate(FRAMES);
+        }
+    }
+    best.into_iter().map(|(_, frame)| frame).collect()
+}
+
+/// A crossing that is moved from row to row, in pixels.
+struct Walk {
+    x: f64,
+    slope: f64,
+    from: Point,
+    to: Point,
+    first_row: i64,
+    /// The row of `x`.
+    row: i64,
+}
+
+fn single(v: f64) -> f64 {
+    f64::from(v as f32)
+}
+
+fn px(v: i64) -> f64 {
+    v as f64 / 256.0
+}
+
+impl Walk {
+    /// Of an edge whose first row is given, from a later row on.
+    fn new(from: Point, to: Point, [first_row, begin]: [i64; 2], how: &Scan) -> Self {
+        let begin = if how.above == 2 { begin.max(0) } else { begin };
+        let ahead = how.ahead(begin, first_row, from[1]);
+        let [dx, dy] = [to[0] - from[0], (to[1] - from[1]).max(1)];
+        let (x, slope) = match how.slope {
+            Slope::Added(true) | Slope::Computed => {
+                let slope = single(single(px(dx)) / single(px(dy)));
+                (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
+            }
+            Slope::Reciprocal => (0.0, single(single(px(dx)) * single(1.0 / single(px(dy))))),
+            Slope::Half => (0.0, super::fills::rounded(px(dx) / px(dy), 2)),
+            Slope::Inverse(bits) => {
+                let unit = 1_i64 << bits;
+                (0.0, px(dx) * (unit / dy) as f64 * 256.0 / unit as f64)
+            }
+            Slope::Mantissa(bits) => {
+                let cut = f64::from(1.0 / px(dy) as f32).to_bits() >> (52 - bits) << (52 - bits);
+                (0.0, px(dx) * f64::from_bits(cut))
+            }
+            Slope::Fixed { bits, cut, start } => {
+                let unit = 1_i128 << bits;
+                let [wide, dx, dy, ahead] = [from[0], dx, dy, ahead].map(i128::from);
+                let slope = match cut {
+                    0 => dx * unit / dy,
+                    1 => (dx * unit).div_euclid(dy),
+                    2 => (2 * dx * unit + dy).div_euclid(2 * dy),
+                    _ => (dx * (256 * unit / dy)) >> 8,
+                };
+                let x = match start {
+                    0 => (wide * unit / 256 + ((slope * ahead) >> 8)) as f64,
+                    1 => (wide * unit / 256 + slope * ahead / 256) as f64,
+                    2 => ((wide * dy + dx * ahead) * unit / (256 * dy)) as f64,
+                    _ => (wide * unit + slope * ahead) as f64 / 256.0,
+                };
+                (x / unit as f64, slope as f64 / unit as f64)
+            }
+            _ => (px(from[0]) + px(dx) / px(dy) * px(ahead), px(dx) / px(dy)),
+        };
+        // A row above the window is taken for row 0.
+        let row = if how.above == 1 { begin.max(0) } else { begin };
+        Self { x, slope, from, to, first_row, row }
+    }
+
+    /// The crossing with the row, in pixels: rows are asked for in order.
+    fn at(&mut self, row: i64, how: &Scan) -> f64 {
+        let ahead = how.ahead(row, self.first_row, self.from[1]);
+        let [dx, dy] = [self.to[0] - self.from[0], (self.to[1] - self.from[1]).max(1)];
+        match how.slope {
+            Slope::Computed | Slope::Reciprocal => {
+                single(px(self.from[0]) + single(self.slope * single(px(ahead))))
+            }
+            Slope::Half | Slope::Inverse(_) | Slope::Mantissa(_) => {
+                px(self.from[0]) + self.slope * px(ahead)
+            }
+            Slope::Between(is_single) => {
+                let r = |v: f64| if is_single { single(v) } else { v };
+                let [from, to] = [self.from, self.to].map_array(|p| r(px(p[0])));
+                let part = r(px(ahead) / r(px(dy)));
+                r(from + r(r(to - from) * part))
+            }
+            Slope::Divided { how: cut, wraps } => {
+                // Of whole corners in pixels, of others in subpixels.
+                let unit = if how.whole > 0 { 256 } else { 1 };
+                let product = i128::from(dx) * i128::from(ahead);
+                let product = match wraps {
+                    true => wrap(product / 65536, 16) * 65536,
+                    false => product,
+                };
+                let by = i128::from(dy) * unit;
+                let moved = match cut {
+                    0 => product / by,
+                    1 => product.div_euclid(by),
+                    _ => (2 * product + by).div_euclid(2 * by),
+                };
+                px(self.from[0]) + (moved * unit) as f64 / 256.0
+            }
+            Slope::Fixed { .. } => self.x + self.slope * (row - self.row) as f64,
+            Slope::Added(is_single) => {
+                while self.row < row {
+                    self.x += self.slope;
+                    if is_single {
+                        self.x = single(self.x);
+                    }
+                    self.row += 1;
+                }
+                self.x
+            }
+        }
+    }
+}
+
+/// Rows that are walked above the window, at most: further ones are not expected.
+const MOST_ROWS: i64 = 1 << 16;
+
+/// The picture of a way of filling row by row.
+pub(super) fn scanned(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    scan(corners, window, Scan::of(p))
+}
+
+fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
+    let whole = |v: i64| match how.whole {
+        0 => v,
+        1 => v.div_euclid(256) * 256,
+        2 => (v + 128).div_euclid(256) * 256,
+        3 => v / 256 * 256,
+        _ => (v + 255).div_euclid(256) * 256,
+    };
+    let mut sorted = points(corners).map_array(|p| p.map_array(whole));
+    sorted.sort_by_key(|p| match how.sorted {
+        0 => p[1],
+        kind => (p[1] + [0, 0, 128, 255][kind as usize]).div_euclid(256),
+    });
+    let [top, middle, bottom] = sorted;
+    let mut mask = Mask::default();
+    let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
+    let mut fill = |y: i64, a: f64, b: f64| {
+        let (left, right) = (a.min(b), a.max(b));
+        let first = match how.left {
+            0 => (left - 0.5).ceil(),
+            1 => (left + 0.5).floor(),
+            2 => left.floor(),
+            3 => left.ceil(),
+            _ => left.trunc(),
+        };
+        let end = match how.right {
+            0 | 4 => (right - 0.5).ceil(),
+            1 | 5 => (right + 0.5).floor(),
+            2 | 6 => right.floor(),
+            3 | 7 => right.ceil(),
+            _ => right.trunc(),
+        };
+        for x in clamp(first)..clamp(end + f64::from(u8::from(how.right > 3))) {
+            mask.set(x, y as i32);
+        }
+    };
+    let starts = [top, middle, bottom].map_array(|p| how.first_row(p[1]));
+    let end = starts[2] + how.rows % 2;
+    if top[1] == bottom[1] && how.level > 0 {
+        let xs = sorted.map_array(|p| px(p[0]));
+        let (least, most) = (xs[0].min(xs[1]).min(xs[2]), xs[0].max(xs[1]).max(xs[2]));
+        if starts[0] < end && (0..i64::from(window.y1)).contains(&starts[0]) {
+            match how.level {
+                1 => fill(starts[0], least, most),
+                3 => {
+                    (clamp(least)..clamp(most + 1.0)).for_each(|x| mask.set(x, starts[0] as i32));
+                }
+                _ => {}
+            }
+        }
+        return mask;
+    }
+    if starts[0] >= end {
+        return mask;
+    }
+    let mut long = Walk::new(top, bottom, [starts[0]; 2], &how);
+    if matches!(how.slope, Slope::Added(_)) && long.row < -MOST_ROWS {
+        return mask;
+    }
+    let halves = [(top, middle, starts[0], starts[1]), (middle, bottom, starts[1], end)];
+    for (half, (from, to, first, last)) in halves.into_iter().enumerate() {
+        let mut short = Walk::new(from, to, [first; 2], &how);
+        if half == 1 && how.lower == 1 {
+            long = Walk::new(top, bottom, [starts[0], first], &how);
+        }
+        let moved = if half == 1 { [0, 0, -1, 1][how.lower as usize] } else { 0 };
+        // Corners in a wrong order do not add rows.
+        for y in first.max(starts[0]).max(0)..last.min(end).min(window.y1.into()) {
+            let (a, b) = (long.at(y + moved, &how), short.at(y, &how));
+            fill(y, a, b);
+        }
+    }
+    mask
+}
