@@ -21,6 +21,8 @@ use rasterproof_exhaustive::identity::Shard;
 use rasterproof_exhaustive::lines::Lines;
 use rasterproof_exhaustive::run;
 use rasterproof_exhaustive::triangles::Triangles;
+use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::text;
 
 const SAVE_EVERY: Duration = Duration::from_secs(3);
 
@@ -252,16 +254,12 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
         streams.output.write_all(certificate.to_json().as_bytes())?;
     }
     let done = &certificate.done;
-    for example in &done.examples {
-        writeln!(streams.errors, "wrong: {}", printable(&example.what))?;
-    }
+    let wrong = done.examples.iter().map(|example| format!("wrong: {}", printable(&example.what)));
     let Shard { part, parts } = certificate.shard;
     let whole = parts == 1;
     let agrees = certificate.agrees() && (!whole || certificate.is_complete());
-    writeln!(
-        streams.errors,
-        "{}: {} of {} cases{}, {} comparisons, {} wrong, {:.1} s on {} threads",
-        if agrees { "AGREES" } else { "DISAGREES" },
+    let sentence = format!(
+        "{} of {} cases{}, {} comparisons, {} wrong, {:.1} s on {} threads",
         done.cases,
         certificate.expected.cases,
         if whole { String::new() } else { format!(" (shard {part} of {parts})") },
@@ -269,7 +267,15 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
         done.mismatches,
         certificate.timing.seconds,
         certificate.timing.threads,
-    )?;
+    );
+    let report = Report {
+        about: certificate.identity.plan.enumeration().words(),
+        notes: wrong.collect(),
+        outcome: Some(Outcome::of(agrees, sentence)),
+        ..Report::default()
+    };
+    // Standard output may have the certificate.
+    streams.errors.write_all(text::text(&report, true, false).as_bytes())?;
     if let Some(file) = file {
         streams.save(file, certificate.to_json().as_bytes());
     }

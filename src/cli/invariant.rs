@@ -49,7 +49,7 @@ pub fn run(
     }
     drop(progress);
     let columns = "invariant 28 | >cases 8 | >left out 8 since they do not fit it | >comparisons 8 | ~outcome 1 | \
-                   what it says | tolerance | what was found";
+                   what it says | :tolerance | what was found";
     let report = Report {
         about: format!("Invariants, seed {seed}"),
         tables: vec![Table::new("", columns, rows).judged()],
@@ -90,7 +90,7 @@ impl Outcomes {
             sentence += &format!(" (--cases {cases_needed} judges them)");
         }
         match self.status() {
-            exit::USAGE => Outcome { good: false, word: "NOT JUDGED".to_owned(), sentence },
+            exit::USAGE => Outcome::new(false, "NOT JUDGED", sentence),
             status => Outcome::of(status == exit::AGREES, sentence),
         }
     }
@@ -144,7 +144,7 @@ fn judge(
     cells.extend([
         word.to_owned(),
         invariant.statement.to_owned(),
-        format!("tolerance: {}", invariant.tolerance),
+        invariant.tolerance.to_owned(),
         found,
     ]);
     let mark = if report.ruling() == Ruling::Holds { Mark::Plain } else { Mark::Wrong };

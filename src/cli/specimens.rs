@@ -101,7 +101,7 @@ fn report(
     frames.retain(|view| is_asked(&view.name));
     Report {
         title: "Published algorithms and their faults".to_owned(),
-        outcome: Some(Outcome { good, word: word.to_owned(), sentence }),
+        outcome: Some(Outcome::new(good, word, sentence)),
         command: {
             let typed = typed.clone().first("cases", arguments.cases);
             typed.first("seed", arguments.seed).line()

@@ -19,7 +19,7 @@ use rasterproof_report::study::{
     self as report, Subject, costs, costs_json, hard_cases, hard_cases_json,
 };
 use rasterproof_report::table::{Mark, Row, Table};
-use rasterproof_report::words::{number, thousands};
+use rasterproof_report::words::{self, number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::hard::{self, HardCases, Kind};
@@ -370,14 +370,14 @@ pub(super) fn verify(
         tables: vec![hard_cases(&subject, &studied.hard, &[]), engines],
         outcome: Some(match agrees {
             Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
-            None => Outcome {
-                good: false,
-                word: "NOT JUDGED".to_owned(),
-                sentence: format!(
+            None => Outcome::new(
+                false,
+                "NOT JUDGED",
+                format!(
                     "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
                      look at it from another side (--yaw, --pitch, --zoom)"
                 ),
-            },
+            ),
         }),
         data: serde_json::json!({
             "scene": studied.scene.name,
@@ -426,14 +426,14 @@ fn judge(
     })
 }
 
-/// The face of a model that the words of `inspect` name: FILE#NUMBER. Prints what is known of it, and returns its pieces
-/// as a case; nothing where it is not in the window.
+/// The face of a model that the words of `inspect` name: FILE#NUMBER. What is known of it, a line each, and its pieces as a
+/// case; nothing where it is not in the window.
 pub(super) fn face(
     (path, word): (&Path, &str),
     view: &ViewArguments,
     (typed, is_exact): (&Typed, bool),
     streams: &mut Streams<'_>,
-) -> Result<Option<Found>, Failure> {
+) -> Result<(Vec<String>, Option<Found>), Failure> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
@@ -450,8 +450,7 @@ pub(super) fn face(
     };
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
-    let out = &mut *streams.output;
-    writeln!(out, "{shown}: {}", subject.place(first))?;
+    let mut about = vec![format!("{shown}: {}", subject.place(first))];
     for (item, number) in triangles.iter().filter_map(|&one| triangle_of(scene, one)) {
         let mesh = &scene.items[item].mesh;
         let corners = mesh.triangles.positions()[number].map(|position| {
@@ -459,33 +458,32 @@ pub(super) fn face(
             let [x, y, z] = mesh.positions[position as usize].to_array();
             format!("({x:?}, {y:?}, {:?})", -z)
         });
-        writeln!(out, "  triangle, y up: {}", corners.join(" "))?;
+        about.push(format!("triangle, y up: {}", corners.join(" ")));
     }
     let has_part = |kind: &Kind| triangles.iter().any(|&one| studied.hard.is(one, *kind));
     let kinds: Vec<_> = Kind::ALL.into_iter().filter(has_part).map(Kind::name).collect();
     let kinds = if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
-    writeln!(out, "  hard cases that it has a part in: {kinds}")?;
+    about.push(format!("hard cases that it has a part in: {kinds}"));
     let of_face = |piece: &&Piece| triangles.binary_search(&piece.face).is_ok();
     let pieces: Vec<&Piece> = studied.sampled.at_centres().iter().filter(of_face).collect();
     if pieces.is_empty() {
-        writeln!(out, "  not in the window: outside of it, or seen from a side that is culled")?;
-        writeln!(out, "NOT COMPARED: nothing of this face is drawn, so nothing was compared")?;
-        return Ok(None);
+        return Ok((about, None));
     }
-    writeln!(out, "  in the window: {} piece(s)\n", pieces.len())?;
-    let mut words = Vec::new();
+    about.push(format!("in the window: {}", words::count(pieces.len() as u64, "piece", "pieces")));
+    let mut corners = Vec::new();
     for piece in pieces {
         for (i, [x, y]) in piece.px.into_iter().enumerate() {
             let (w, vertex) = (piece.w[i], &piece.triangle.vertices[i]);
-            words.push(match is_exact {
+            corners.push(match is_exact {
                 true => format!("{x:?},{y:?}"),
                 false => format!("{x:?},{y:?},{w:?},{:?}", vertex.depth),
             });
         }
     }
     let title = format!("{shown}#{}", printable(word));
-    Ok(Some(match inspect_case::triangles(&words, is_exact, Some(studied.sampled.size))? {
+    let found = match inspect_case::triangles(&corners, is_exact, Some(studied.sampled.size))? {
         Found::Case { case, expected, typed, .. } => Found::Case { title, case, expected, typed },
         found => found,
-    }))
+    };
+    Ok((about, Some(found)))
 }

@@ -87,19 +87,13 @@ fn page(seed: u64, report: &Report) -> Page {
             let share = 100.0 * worst.wrong_pixels as f64 / worst.pixels as f64;
             let picture = row.worst_picture.as_ref().map_or(String::new(), |one| {
                 let what = of(one.name, one.wrong_pixels, one.pixels);
-                format!("one picture: {what}: {}", one.scene)
+                format!("{what}: {}", one.scene)
             });
             let smallest = of(smallest.name, smallest.wrong_pixels, smallest.pixels);
             let worst = of(worst.name, worst.wrong_pixels, worst.pixels);
-            vec![
-                rule.name.to_owned(),
-                format!("smallest: {smallest}"),
-                format!("most harmful: {worst} ({share:.2}%)"),
-                picture,
-            ]
-            .into()
+            vec![rule.name.to_owned(), smallest, format!("{worst} ({share:.2}%)"), picture].into()
         };
-        let columns = "rule 15 | smallest | most harmful | one picture";
+        let columns = "~rule 15 | :smallest | :most harmful | :one picture";
         let rows = RULES.iter().zip(rows).map(row).collect();
         Table::new(&format!("What passes, on {title}"), columns, rows)
     });

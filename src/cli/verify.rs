@@ -285,7 +285,6 @@ impl Run<'_> {
         let agrees = verdict.agrees();
         let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
         let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
-        let answer = if agrees { "every engine is right" } else { "not every engine is right" };
         let (version, seed) = (env!("CARGO_PKG_VERSION"), arguments.seed);
         let families = differential::tables(verdict);
         let mut first_screen = vec![summary::table(verdict)];
@@ -299,7 +298,7 @@ impl Run<'_> {
         let cases = is_page.then(|| page_cases::of_verdict(verdict, judged, repeat));
         Report {
             title: "Verdict of rasterproof".to_owned(),
-            about: format!("rasterproof {version}, seed {seed}{shard}: {answer}"),
+            about: format!("rasterproof {version}, seed {seed}{shard}"),
             outcome: Some(differential::outcome(verdict)),
             excerpts: verdict
                 .failures

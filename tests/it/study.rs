@@ -174,7 +174,7 @@ fn a_comparison_of_nothing_says_that_nothing_was_compared() {
     folder.put("m.obj", CORNERLESS);
     let front = format!("m.obj {FROM_THE_FRONT} --size 64x48");
     let face = front.replacen("m.obj", "m.obj#1", 1);
-    let nothing = "nothing was compared";
+    let nothing = "othing was compared";
     for words in [
         format!("inspect {face} --window 0,0,4x4"),
         format!("inspect {face} --cull cw"),

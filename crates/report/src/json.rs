@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use rasterproof_precision::cost::{Recorded, prices};
+use rasterproof_registry::digest::DigestRow;
 use rasterproof_registry::published_check::SpecimenReport;
 use rasterproof_verify::cases::Kind;
 use rasterproof_verify::comparison::{Comparisons, FamilyReport, Verdict, shrink};
@@ -82,6 +83,11 @@ pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value
 /// The survey of the specimens as JSON; an infinite error is `null`.
 pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> Value {
     json!({ "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports })
+}
+
+/// What every engine computes, hashed, and all of it together.
+pub fn digest(seed: u64, cases: u64, parts: &[DigestRow], all: &str) -> Value {
+    json!({ "seed": seed, "cases": cases, "parts": parts, "sha256": all })
 }
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the rungs that nobody needs.

@@ -698,10 +698,9 @@ pub fn report(
     });
     Report {
         title: format!("A study of {}", subject.scene.name),
-        outcome: Some(Outcome {
-            good: in_view == 0,
-            word: if in_view == 0 { "CLEAN" } else { "HARD CASES" }.to_owned(),
-            sentence,
+        outcome: Some(match in_view {
+            0 => Outcome::new(true, "CLEAN", sentence),
+            _ => Outcome::new(false, "HARD CASES", sentence),
         }),
         about,
         answers,

@@ -21,8 +21,14 @@ pub fn text(report: &Report, all: bool, colour: bool) -> String {
         Some(outcome) => format!("{} ", mark(outcome.good, colour)),
         None => String::new(),
     };
-    for part in report.about.lines() {
-        lines(&mut out, part, WIDTH, ["", "  "]);
+    let answer = verdict.map_or("", |outcome| &outcome.answer);
+    for (number, part) in report.about.lines().enumerate() {
+        match answer {
+            answer if number == 0 && !answer.is_empty() => {
+                lines(&mut out, &format!("{part}: {answer}"), WIDTH, ["", "  "]);
+            }
+            _ => lines(&mut out, part, WIDTH, ["", "  "]),
+        }
     }
     if !report.answers.is_empty() {
         out += &format!("\n{}", answers(&report.answers));
@@ -30,7 +36,7 @@ pub fn text(report: &Report, all: bool, colour: bool) -> String {
     if !out.is_empty() {
         out.push('\n');
     }
-    report.excerpts.iter().for_each(|one| excerpt(&mut out, one));
+    out.extend(report.excerpts.iter().map(excerpt));
     let all = all || report.first_screen.is_empty();
     out += &match all {
         true => tables(report.plan.iter().chain(&report.tables), WIDTH, colour),
@@ -65,11 +71,13 @@ fn answers(answers: &[Answer]) -> String {
 }
 
 /// A case with its pixels, what is said of it, and where to go on.
-fn excerpt(out: &mut String, of: &Excerpt) {
+#[must_use]
+pub fn excerpt(of: &Excerpt) -> String {
+    let out = &mut String::new();
     of.title.lines().for_each(|line| lines(out, line, WIDTH, ["", "  "]));
     labelled(out, &of.exchanges);
     if !of.grid.is_empty() {
-        let gap = if of.exchanges.is_empty() { "\n" } else { "" };
+        let gap = if out.is_empty() || !of.exchanges.is_empty() { "" } else { "\n" };
         let _ = writeln!(out, "{gap}{}", of.grid.trim_end_matches('\n'));
     }
     for words in &of.notes {
@@ -77,7 +85,7 @@ fn excerpt(out: &mut String, of: &Excerpt) {
         note(out, words, WIDTH, ["", "  "]);
     }
     labelled(out, &of.places);
-    out.push('\n');
+    std::mem::take(out) + "\n"
 }
 
 /// Lines that are not broken, each behind what it is.
@@ -127,24 +135,8 @@ fn note(out: &mut String, words: &str, width: usize, indents: [&str; 2]) {
 
 /// Words in lines of at most `width` columns: the first begins with one word, the others with another.
 fn lines(out: &mut String, words: &str, width: usize, [first, rest]: [&str; 2]) {
-    let room = width - first.chars().count().max(rest.chars().count());
-    let all = lettering::lines(words, room, |line| line.chars().count());
-    for (number, line) in all.iter().enumerate() {
+    let room = width - first.len().max(rest.len());
+    for (number, line) in lettering::lines(words, room, lettering::columns).iter().enumerate() {
         let _ = writeln!(out, "{}{line}", if number == 0 { first } else { rest });
     }
-}
-
-/// The words in lines of at most 80 columns: the first begins with `first`, the others with `rest`.
-pub fn hanging(words: &str, first: &str, rest: &str) -> String {
-    let mut lines = vec![first.to_owned()];
-    for (i, word) in words.split(' ').enumerate() {
-        let line = lines.last_mut().expect("there is a first line");
-        if i > 0 && line.chars().count() + 1 + word.chars().count() > 80 {
-            lines.push(format!("{rest}{word}"));
-        } else {
-            *line += if i == 0 { "" } else { " " };
-            *line += word;
-        }
-    }
-    lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
 }
