@@ -13,7 +13,7 @@ use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
-    Board, ExternalVariant, Ladder, Options, Recorded, Timing, measure_with,
+    Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with,
 };
 use rasterproof_report::canvas::{self, Drawing};
 use rasterproof_report::html::Figure;
@@ -235,7 +235,7 @@ fn measure_all(
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let CostArguments { seed, quick, .. } = *arguments;
     let timing = Some(if quick { Timing::QUICK } else { Timing::USUAL });
-    let options = Options { seed, quick, timing };
+    let options = CostOptions { seed, quick, timing };
     let boards = ladders
         .iter()
         .enumerate()

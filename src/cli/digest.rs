@@ -3,7 +3,7 @@
 use super::page::{Shown, show};
 use super::progress::Progress;
 use super::{Status, Streams, exit};
-use rasterproof_registry::digest::{self, DigestRow, Options};
+use rasterproof_registry::digest::{self, DigestOptions, DigestRow};
 use rasterproof_report::html::Report;
 use rasterproof_report::json;
 use rasterproof_report::table::Table;
@@ -26,7 +26,7 @@ pub struct DigestArguments {
 
 pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     let DigestArguments { seed, cases, engine, json: is_json } = arguments;
-    let (options, engine) = (Options { seed: *seed, cases: *cases }, engine.as_deref());
+    let (options, engine) = (DigestOptions { seed: *seed, cases: *cases }, engine.as_deref());
     let cases_in_all = digest::case_count(options, engine);
     let progress = Progress::new(streams.progress, "cases", Some(cases_in_all));
     let parts = digest::digest(options, engine, &|more| progress.done(more));

@@ -4,9 +4,9 @@ use super::page::{Shown, show};
 use super::progress::Progress;
 use super::{Status, Streams, exit, program};
 use rasterproof_faults::planted::{self, Mutant};
+use rasterproof_invariants::implementations::Implementations;
 use rasterproof_invariants::matrix::{self, Matrix};
-use rasterproof_invariants::subject::Subject;
-use rasterproof_invariants::{CATALOGUE, Check, Invariant, MOST_LOOKED_THROUGH, Ruling};
+use rasterproof_invariants::{CATALOGUE, Invariant, MOST_LOOKED_THROUGH, Predicate, Ruling};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::words::thousands;
@@ -29,8 +29,8 @@ pub fn run(
 ) -> Status {
     let cases = cases.unwrap_or(CASES);
     let subject = match plant.and_then(Mutant::find) {
-        Some(mutant) => Subject::with(mutant),
-        None => Subject::real(),
+        Some(mutant) => Implementations::with(mutant),
+        None => Implementations::real(),
     };
     let all = names.iter().any(|name| name == ALL);
     let wanted: Vec<&Invariant> =
@@ -99,7 +99,7 @@ impl Outcomes {
 /// Judges an invariant: its row, with what was found below it.
 fn judge(
     invariant: &Invariant,
-    subject: &Subject,
+    subject: &Implementations,
     (seed, cases): (u64, u64),
     repeat: &dyn Fn(u64) -> String,
     outcomes: &mut Outcomes,
@@ -120,7 +120,7 @@ fn judge(
                     let repeat = repeat(needed);
                     format!("no case fits it; the first that fits needs more\njudge it with: {repeat}")
                 }
-                None if matches!(invariant.check, Check::Run(..) | Check::Matrix) => {
+                None if matches!(invariant.check, Predicate::Run(..) | Predicate::Matrix) => {
                     "the system refuses the threads whose verdicts it compares\nallow this user more \
                      processes (ulimit -u)"
                         .to_owned()

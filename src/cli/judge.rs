@@ -12,7 +12,7 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Status, Streams, exit, league, usage};
 use rasterproof_judge::against;
-use rasterproof_judge::ask::Ask;
+use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
@@ -101,16 +101,12 @@ fn command_line(text: &str) -> Result<CommandLine, String> {
 
 impl JudgeArguments {
     fn options(&self, baseline: Option<&Baseline>) -> Options {
-        Options {
-            known: baseline.map(|baseline| baseline.known().clone()).unwrap_or_default(),
-            seed: self.seed,
-            cases: self.cases,
-            time_limit: self.seconds,
-            families: self.family.clone(),
-            only: self.case,
-            remember: self.baseline.is_some(),
-            ..Options::default()
-        }
+        let mut options = Options::default().seed(self.seed).cases(self.cases);
+        (options.time_limit, options.only) = (self.seconds, self.case);
+        options.families.clone_from(&self.family);
+        options.terms.remember = self.baseline.is_some();
+        options.terms.known = baseline.map(|known| known.known().clone()).unwrap_or_default();
+        options
     }
 
     fn format(&self) -> Format {
@@ -137,7 +133,7 @@ fn again(arguments: &JudgeArguments, typed: &Typed) -> (String, impl Fn(&str, u6
 /// Judges a program that declares `partition`: by its polygons alone.
 fn tessellator(
     arguments: &JudgeArguments,
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     options: &Options,
     typed: &Typed,
     streams: &mut Streams<'_>,
@@ -192,7 +188,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let start = |who: &str, command: &[String]| {
         let program = Program::start(command, &arguments.words(), limits);
         let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
-        Ok::<_, Failure>(Box::new(program) as Box<dyn Ask>)
+        Ok::<_, Failure>(Box::new(program) as Box<dyn Subject>)
     };
     let mut askers = Vec::new();
     let mut others = Vec::new();
@@ -229,7 +225,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let total = cases_of(&options, &declared);
     let progress = Progress::new(streams.progress, "cases judged", Some(total));
     let scope = Scope::of(&options);
-    let recognise = |program: &mut dyn Ask| recognise(program, scope);
+    let recognise = |program: &mut dyn Subject| recognise(program, scope);
     let step = |step| progress.step(step);
     let mut verdict = if others.is_empty() {
         rasterproof_judge::judge(&mut askers, &options, &recognise, &step)

@@ -9,7 +9,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::{Status, Streams, exit, usage};
-use rasterproof_judge::ask::Ask;
+use rasterproof_judge::ask::Subject;
 use rasterproof_judge::league::{Adapter, League, Standing, date};
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
@@ -51,8 +51,8 @@ pub fn run(
             }
         };
         let everything = Scope { triangles: true, lines: true, always: true };
-        let convention = |program: &mut dyn Ask| recognise(program, everything);
-        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(program)];
+        let convention = |program: &mut dyn Subject| recognise(program, everything);
+        let mut askers: Vec<Box<dyn Subject>> = vec![Box::new(program)];
         let progress = Progress::new(streams.progress, "cases", None);
         progress.at(0, &format!("of {}", adapter.name));
         let verdict = rasterproof_judge::judge(&mut askers, options, &convention, &|step| {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rasterproof_host::text::printable_path;
 use rasterproof_invariants::acceptance::rules::{RULES, Rule};
-use rasterproof_invariants::acceptance::{Report, Row, report};
+use rasterproof_invariants::acceptance::{Acceptance, Row, report};
 use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
 use rasterproof_report::html::Report as Page;
 use rasterproof_report::table::Table;
@@ -48,14 +48,14 @@ pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status
 }
 
 /// Both sets of scenes, with what they are called.
-fn sets(report: &Report) -> [(&'static str, &[Row], usize, usize); 2] {
+fn sets(report: &Acceptance) -> [(&'static str, &[Row], usize, usize); 2] {
     [
         ("scenes such as test suites draw", &report.suites, report.scenes[0], report.visible[0]),
         ("hard cases of this project", &report.hard, report.scenes[1], report.visible[1]),
     ]
 }
 
-fn page(seed: u64, report: &Report) -> Page {
+fn page(seed: u64, report: &Acceptance) -> Page {
     let (faults, right) = (report.faults.len(), report.right.len());
     let caught = sets(report).map(|(title, rows, scenes, visible)| {
         let row = |(rule, row): (&Rule, &Row)| {
@@ -109,7 +109,7 @@ fn page(seed: u64, report: &Report) -> Page {
     }
 }
 
-fn json(seed: u64, report: &Report) -> serde_json::Value {
+fn json(seed: u64, report: &Acceptance) -> serde_json::Value {
     let fault = |fault: &rasterproof_invariants::acceptance::Passed| {
         serde_json::json!({
             "fault": fault.name, "wrong_pixels": fault.wrong_pixels, "pixels": fault.pixels,
@@ -160,7 +160,7 @@ const HARD: Ink = [20, 110, 50];
 const REFUSED: Ink = [205, 30, 30];
 
 /// For each rule the share of faults that it catches, on either set, and the share of right rasterizers that it refuses.
-fn plot(report: &Report) -> Drawing {
+fn plot(report: &Acceptance) -> Drawing {
     const LEFT: f64 = 150.0;
     const RIGHT: f64 = 770.0;
     const TOP: f64 = 92.0;

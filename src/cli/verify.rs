@@ -224,16 +224,13 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     if arguments.shard != (0, 1) {
         return Err(usage("a Vulkan device is judged whole: leave out --shard"));
     }
+    let mut asked = rasterproof_judge::Options::default().seed(options.seed);
+    (asked.time_limit, asked.only) = (options.time_limit, options.only);
+    asked.families.clone_from(&arguments.family);
     let job = super::vulkan::Job {
         engine,
         cases: arguments.cases,
-        options: rasterproof_judge::Options {
-            seed: options.seed,
-            time_limit: options.time_limit,
-            families: arguments.family.clone(),
-            only: options.only,
-            ..rasterproof_judge::Options::default()
-        },
+        options: asked,
         json: arguments.json,
         page: &arguments.page,
     };
@@ -320,7 +317,7 @@ impl Run<'_> {
     /// The smallest failure with its pixels.
     fn excerpt(&self, failure: &comparison::Failure) -> Excerpt {
         let shown = case_view::draw(&failure.case, &self.judged);
-        let blocks = shown.judged_blocks(&failure.pair[0]);
+        let blocks = shown.judged_blocks(&failure.evidence.pair[0]);
         let grid = blocks.map_or(String::new(), |blocks| {
             format!("{}\n{}", ascii::side_by_side(&blocks, 60), ascii::LEGEND)
         });
@@ -329,7 +326,7 @@ impl Run<'_> {
             grid,
             notes: self
                 .judged
-                .cause(&failure.pair[0])
+                .cause(&failure.evidence.pair[0])
                 .map(|cause| cause.headline())
                 .into_iter()
                 .collect(),
@@ -347,7 +344,7 @@ impl Run<'_> {
         let [_, others @ ..] = &self.verdict.failures[..] else { return None };
         let row = |failure: &comparison::Failure| {
             let case = format!("{}#{}", failure.family, failure.index);
-            let what = format!("{}: {} on", failure.pair[0], failure.what);
+            let what = format!("{}: {} on", failure.evidence.pair[0], failure.what);
             vec![case, what, comparison::shrink::describe(&failure.case)].into()
         };
         let caption = "The smallest case of each other family";

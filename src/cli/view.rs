@@ -16,7 +16,7 @@ use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable, printable_path};
-use rasterproof_models::{Model, Normals, Options, Origin, Pose, Up};
+use rasterproof_models::{LoadOptions, Model, Normals, Origin, Pose, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
@@ -498,7 +498,7 @@ impl ViewArguments {
         let normals = self.normals.unwrap_or_default();
         let animation = self.animation.unwrap_or(1) as usize - 1;
         let pose = self.time.map(|time_s| Pose { animation, time_s });
-        let options = Options { shading, normals, up: self.up, pose };
+        let options = LoadOptions { shading, normals, up: self.up, pose };
         let progress = Progress::new(streams.progress, "models read", None);
         let start = Instant::now();
         let mut model = rasterproof_models::load(path, options).map_err(usage)?;

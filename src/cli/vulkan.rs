@@ -58,7 +58,7 @@ pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
     let gpu = Gpu::named(job.engine).map_err(usage)?;
     let limited = job.options.time_limit.is_some();
     let cases = job.cases.unwrap_or(if limited { u64::MAX / 4 } else { CASES });
-    let options = Options { cases, ..job.options.clone() };
+    let options = job.options.clone().cases(cases);
     let families = campaign::families(&options.families).len() as u64;
     if families == 0 {
         return Err(usage(

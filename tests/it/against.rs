@@ -1,13 +1,13 @@
 //! Two programs compared: where they differ, and which of them the oracle agrees with.
 
 use rasterproof_judge::against::compare;
-use rasterproof_judge::verdict::Verdict;
+use rasterproof_judge::verdict::Judgement;
 use serde_json::Value;
 
 use crate::judge::{inside, options};
 use crate::program::{PROGRAM, Run, shared};
 
-fn compared(first: &str, second: &str, families: &[&str]) -> Verdict {
+fn compared(first: &str, second: &str, families: &[&str]) -> Judgement {
     compare(&mut [[inside(first), inside(second)]], &options(60, families), &|_| ())
 }
 

@@ -1,18 +1,24 @@
 //! What accuracy costs: errors, promises and orderings, which a seed decides. Never times.
 
-use rasterproof_precision::cost::{Board, Cell, Ladder, Options, Recorded, Run, Timing, measure};
+use rasterproof_precision::cost::{
+    Board, Cell, CostOptions, Ladder, Recorded, Run, Timing, measure,
+};
 use rasterproof_report::{board, canvas, cost_plots, json, text};
 
 use crate::program::Folder;
 use crate::snapshots::check_words;
 
 fn untimed(ladder: Ladder, seed: u64) -> Board {
-    measure(ladder, &Options { seed, quick: true, timing: None }, &|_, _| ())
+    measure(ladder, &CostOptions { seed, quick: true, timing: None }, &|_, _| ())
 }
 
 /// The smallest ladder, with times.
 fn timed(seed: u64) -> Board {
-    measure(Ladder::Lines, &Options { seed, quick: true, timing: Some(Timing::QUICK) }, &|_, _| ())
+    measure(
+        Ladder::Lines,
+        &CostOptions { seed, quick: true, timing: Some(Timing::QUICK) },
+        &|_, _| (),
+    )
 }
 
 fn recorded(boards: Vec<Board>) -> Recorded {

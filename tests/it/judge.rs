@@ -8,14 +8,14 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
+use rasterproof_judge::ask::{Answer, Asked, Misbehaviour, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::expected::Expect as _;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::verdict::{Outcome, Verdict};
-use rasterproof_judge::{Options, judge};
+use rasterproof_judge::verdict::{Judgement, Outcome};
+use rasterproof_judge::{Asking, Options, judge};
 use rasterproof_registry::engines::{self, SPECIMENS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rayon::prelude::*;
@@ -24,21 +24,23 @@ use crate::misbehave;
 use crate::program::{PROGRAM, Run, check, shared};
 
 pub fn options(cases: u64, families: &[&str]) -> Options {
-    let families = families.iter().map(|name| (*name).to_owned()).collect();
+    let families = families.iter().map(|name| (*name).to_owned());
+    let mut options = families.fold(Options::default().cases(cases), Options::family);
     // How small a failing case gets, and why it fails, is not looked at here.
-    Options { cases, families, patience: Duration::ZERO, ..Options::default() }
+    options.terms.patience = Duration::ZERO;
+    options
 }
 
 /// The same, with time to look for a cause.
-fn patient(cases: u64, families: &[&str]) -> Options {
-    Options { patience: Duration::from_secs(5), ..options(cases, families) }
+pub fn patient(cases: u64, families: &[&str]) -> Options {
+    options(cases, families).terms(Asking::default())
 }
 
-pub fn judged(asker: Box<dyn Ask>, options: &Options) -> Verdict {
+pub fn judged(asker: Box<dyn Subject>, options: &Options) -> Judgement {
     judge(&mut [asker], options, &|_| None, &|_| ())
 }
 
-pub fn inside(name: &str) -> Box<dyn Ask> {
+pub fn inside(name: &str) -> Box<dyn Subject> {
     let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
     Box::new(Inside::new(&entry.unwrap_or_else(|| panic!("{name}"))))
 }
@@ -57,7 +59,7 @@ fn misbehaving(fault: &str, limits: Limits) -> Result<Program, Misbehaviour> {
     Program::start(&misbehave::command("scanline", fault), &[], limits)
 }
 
-pub fn property(verdict: &Verdict, name: &str) -> Outcome {
+pub fn property(verdict: &Judgement, name: &str) -> Outcome {
     let found = verdict.properties.iter().find(|p| p.name == name);
     found.unwrap_or_else(|| panic!("{name} was not judged")).outcome
 }
@@ -66,7 +68,8 @@ pub fn property(verdict: &Verdict, name: &str) -> Outcome {
 fn judge_agrees_with_the_engines() {
     for name in ["scanline", "edge-function", "oracle", "dda", "bresenham", "scanline-exact"] {
         let verdict = judged(inside(name), &options(40, &[]));
-        let failures: Vec<_> = verdict.failures.iter().map(|f| (&f.property, &f.what)).collect();
+        let failures: Vec<_> =
+            verdict.failures.iter().map(|f| (&f.evidence.property, &f.what)).collect();
         assert!(verdict.agrees(), "{name}: {failures:?}");
         assert!(verdict.shapes(false) + verdict.shapes(true) > 200, "{name}");
     }
@@ -216,7 +219,7 @@ fn judge_bears_with_old_and_loud_programs() {
 /// A program that draws by any declared convention, exactly.
 struct ByRule(Declared);
 
-impl Ask for ByRule {
+impl Subject for ByRule {
     fn declared(&self) -> &Declared {
         &self.0
     }
@@ -225,10 +228,9 @@ impl Ask for ByRule {
         let one = |q: &Question| {
             let Asked::Coverage(corners) = &q.of else { panic!("it covers only") };
             let corners_are_on_grid =
-                corners.iter().all(|p| (p.x | p.y).rem_euclid(256 / self.0.grid) == 0);
+                corners.iter().all(|p| (p.x | p.y).rem_euclid(256 / self.0.grid()) == 0);
             assert!(corners_are_on_grid, "{q:?}");
-            let picture =
-                self.0.convention().picture(corners, PixelRect::window(q.width, q.height));
+            let picture = self.0.convention.picture(corners, PixelRect::window(q.width, q.height));
             Answer::Coverage(picture.map(|picture| picture.must).unwrap_or_default())
         };
         questions.iter().map(one).collect()
@@ -238,7 +240,7 @@ impl Ask for ByRule {
 /// A program that says this of itself, and answers by a function.
 pub struct Answering<F>(pub Declared, pub F);
 
-impl<F: FnMut(&[Question], u64) -> Vec<Answer> + Send> Ask for Answering<F> {
+impl<F: FnMut(&[Question], u64) -> Vec<Answer> + Send> Subject for Answering<F> {
     fn declared(&self) -> &Declared {
         &self.0
     }
@@ -249,7 +251,7 @@ impl<F: FnMut(&[Question], u64) -> Vec<Answer> + Send> Ask for Answering<F> {
 }
 
 /// A program that draws by one convention and declares another.
-fn drawing(drawn: Declared, declared: Declared) -> Box<dyn Ask> {
+fn drawing(drawn: Declared, declared: Declared) -> Box<dyn Subject> {
     let mut drawn = ByRule(drawn);
     let answer = move |questions: &[Question], most: u64| drawn.ask(questions, most);
     Box::new(Answering(declared, answer))
@@ -290,12 +292,12 @@ fn judge_goes_by_what_is_declared() {
 
 const EVERYTHING: Scope = Scope { triangles: true, lines: true, always: false };
 
-fn recognised(asker: Box<dyn Ask>, options: &Options) -> Verdict {
+fn recognised(asker: Box<dyn Subject>, options: &Options) -> Judgement {
     judge(&mut [asker], options, &|program| recognise(program, EVERYTHING), &|_| ())
 }
 
 /// What is said of a program, and its wrong pixels as declared and by its convention.
-fn said(verdict: &Verdict) -> (String, &str, u64, Option<u64>) {
+fn said(verdict: &Judgement) -> (String, &str, u64, Option<u64>) {
     let said = verdict.recognised.as_ref().expect("something is recognised");
     let score = verdict.by_convention().map(|score| score.wrong);
     (said.sentences.join(" "), said.declare.as_str(), verdict.as_declared().wrong, score)
@@ -607,7 +609,7 @@ fn judge_tells_what_leaves_the_window() {
                 engine
                     .ask(&questions.iter().map(|q| with_ends(q, change)).collect::<Vec<_>>(), most)
             });
-        let mut changes: [Box<dyn Ask>; 1] = [Box::new(changes)];
+        let mut changes: [Box<dyn Subject>; 1] = [Box::new(changes)];
         let verdict = judge(&mut changes, &options, &|program| recognise(program, scope), &|_| ());
         let text = verdict.recognised.as_ref().unwrap().sentences.concat();
         assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");

@@ -8,7 +8,7 @@ use std::time::Duration;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_judge::ask::{Answer, Ask, Asked, Breach, Question};
+use rasterproof_judge::ask::{Answer, Asked, Breach, Question, Subject};
 use rasterproof_judge::check::Check;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::Failure;
@@ -17,7 +17,7 @@ use rasterproof_judge::near_plane::asked;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::Outcome;
-use rasterproof_judge::{Options, Step, adapt_case, judge};
+use rasterproof_judge::{Step, adapt_case, judge};
 use rasterproof_registry::engines;
 use rasterproof_report::html::page;
 use rasterproof_report::text::text;
@@ -29,7 +29,7 @@ use rasterproof_verify::comparison::{Convention, Rule, judge_coverage};
 
 #[cfg(target_os = "linux")]
 use crate::judge::is_gone;
-use crate::judge::{Answering, inside, judged, of, of_misbehaving, options, property};
+use crate::judge::{Answering, inside, judged, of, of_misbehaving, options, patient, property};
 use crate::program::{PROGRAM, Run, check, shared};
 
 /// Where nothing is expected, who draws nothing does not agree: there was no judgement.
@@ -44,7 +44,7 @@ fn judge_refuses_an_empty_case() {
 /// of a pixel that it touches.
 struct Careless(Inside);
 
-impl Ask for Careless {
+impl Subject for Careless {
     fn declared(&self) -> &Declared {
         self.0.declared()
     }
@@ -71,7 +71,7 @@ impl Ask for Careless {
 /// page.
 #[test]
 fn judge_pictures_every_stage() {
-    let options = Options { patience: Duration::from_secs(5), ..options(64, &STAGES) };
+    let options = patient(64, &STAGES);
     let careless = Careless(Inside::new(engines::find("scanline").unwrap()));
     let verdict = judged(Box::new(careless), &options);
     for (property, of, triangles, bits) in [
@@ -79,8 +79,8 @@ fn judge_pictures_every_stage() {
         ("near-plane", "x and y of clip space", 1, 8),
         ("samples4", "a grid of 4 x 4 cells", 1, 12),
     ] {
-        let failure = verdict.failures.iter().find(|f| f.property == property).unwrap();
-        let picture = failure.picture.as_ref().unwrap();
+        let failure = verdict.failures.iter().find(|f| f.evidence.property == property).unwrap();
+        let picture = failure.evidence.picture.as_ref().unwrap();
         assert!(picture.of.contains(of) && picture.drawn != picture.expected, "{failure:?}");
         let Shape::Triangles { list, .. } = &failure.case.shape else { panic!("{property}") };
         let corners = list.iter().flat_map(|t| t.corners());
@@ -119,11 +119,10 @@ fn judge_keeps_its_time() {
         std::thread::sleep(Duration::from_millis(10) * questions.len() as u32);
         engine.ask(questions, most)
     });
-    let limit = Some(Duration::from_secs(6));
-    let options = Options { time_limit: limit, ..options(100_000, &[]) };
+    let options = options(100_000, &[]).time_limit(Duration::from_secs(6));
     let start = std::time::Instant::now();
     let scope = Scope { triangles: true, lines: true, always: false };
-    let recognise = |program: &mut dyn Ask| recognise(program, scope);
+    let recognise = |program: &mut dyn Subject| recognise(program, scope);
     let verdict = judge(&mut [Box::new(slow)], &options, &recognise, &|_| ());
     let took = start.elapsed();
     // Asked without a limit, 64 cases of each family alone take longer than a minute.
@@ -244,11 +243,12 @@ fn judge_shows_what_differs() {
     let mut characters = BTreeSet::new();
     for name in wrong_ones() {
         let verdict = judged(inside(name), &options(24, &[]));
-        let differs = |f: &Failure| f.picture.as_ref().is_some_and(|p| p.drawn != p.expected);
+        let differs =
+            |f: &Failure| f.evidence.picture.as_ref().is_some_and(|p| p.drawn != p.expected);
         let seen: Vec<bool> = verdict.failures.iter().map(differs).collect();
         assert!(seen.is_sorted_by(|a, b| a >= b), "{name}: {seen:?}");
         for failure in &verdict.failures {
-            let Some(picture) = &failure.picture else { continue };
+            let Some(picture) = &failure.evidence.picture else { continue };
             pictures += 1;
             if picture.drawn == picture.expected {
                 unseen += 1;

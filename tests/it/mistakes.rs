@@ -11,7 +11,7 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, Mutant, TriangleMutant};
-use rasterproof_invariants::subject::{Component, Subject, component_of, hits};
+use rasterproof_invariants::implementations::{Component, Implementations, component_of, hits};
 use rasterproof_judge as judge;
 use rasterproof_judge::ask::{Answer, Asked};
 use rasterproof_judge::in_process::Inside;
@@ -24,8 +24,8 @@ use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::convention::{
-    Convention, Known, LineConvention, LineQuestion, Quantum, Question, Rounding, Shape, Ties,
-    Windings, diagnose, diagnose_lines,
+    Convention, Known, LineConvention, LineQuestion, Quantum, Rounding, Shape, Ties,
+    TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
 use rasterproof_verify::mistakes::{self, Explanation, Mistakes};
 use rasterproof_verify::oracle::values::ExactTriangle;
@@ -819,8 +819,8 @@ const STROKES: &[(&str, Stroke)] = &[
 ];
 
 fn of_fill(fill: impl Fn(Corners, PixelRect, &mut Coverage)) -> Option<Mistakes> {
-    let mut ask = |questions: &[Question]| -> Vec<Option<Coverage>> {
-        let draw = |q: &Question| {
+    let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
+        let draw = |q: &TriangleQuestion| {
             let mut picture = Coverage::new(q.window, 0);
             fill(q.corners, q.window, &mut picture);
             Some(picture)
@@ -993,7 +993,7 @@ struct Wrong {
     changed: Box<Change>,
 }
 
-impl judge::ask::Ask for Wrong {
+impl judge::ask::Subject for Wrong {
     fn declared(&self) -> &judge::declared::Declared {
         &self.declared
     }
@@ -1027,24 +1027,26 @@ fn judged_as(
     said.collect::<Vec<_>>().join("\n")
 }
 
+/// So many cases of each family, and a minute for a cause.
+fn unhurried(cases: u64) -> judge::Options {
+    let mut options = judge::Options::default().cases(cases);
+    options.terms.patience = std::time::Duration::from_secs(60);
+    options
+}
+
 fn verdict(
     words: &str,
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
     recognise: judge::Recognise<'_>,
-) -> judge::verdict::Verdict {
+) -> judge::verdict::Judgement {
     let right = Inside::new(engines::find("scanline").unwrap());
-    let mut declared = judge::ask::Ask::declared(&right).clone();
+    let mut declared = judge::ask::Subject::declared(&right).clone();
     words.split_whitespace().for_each(|word| declared.hear(word));
-    let options = judge::Options {
-        cases: 100,
-        families: families.iter().map(|name| (*name).to_owned()).collect(),
-        patience: std::time::Duration::from_secs(60),
-        ..judge::Options::default()
-    };
-    let mut askers =
-        [Box::new(Wrong { right, declared, changed: Box::new(changed) })
-            as Box<dyn judge::ask::Ask>];
+    let mut options = unhurried(100);
+    options.families = families.iter().map(|name| (*name).to_owned()).collect();
+    let mut askers = [Box::new(Wrong { right, declared, changed: Box::new(changed) })
+        as Box<dyn judge::ask::Subject>];
     judge::judge(&mut askers, &options, recognise, &|_| ())
 }
 
@@ -1241,13 +1243,9 @@ fn mistakes_that_are_planted_are_named() {
     let mut unnamed = Vec::new();
     for name in planted.into_iter().chain(planted_lines) {
         let entry = engines::find_planted(name).unwrap();
-        let options = judge::Options {
-            cases: 120,
-            patience: std::time::Duration::from_secs(60),
-            ..judge::Options::default()
-        };
+        let options = unhurried(120);
         let scope = Scope { triangles: true, lines: true, always: false };
-        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Ask>];
+        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
         let is_named = verdict.causes.iter().any(|cause| cause.why.is_known());
@@ -1368,7 +1366,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
 
 /// The answer of a part of this project, with a planted fault, where the protocol has a question for it.
 fn planted_answer(mutant: Mutant, question: &judge::ask::Question, answer: Answer) -> Answer {
-    let subject = Subject::with(mutant);
+    let subject = Implementations::with(mutant);
     let window = PixelRect::window(question.width, question.height);
     let spans = |picture: &Coverage| {
         Answer::Coverage(
@@ -1447,12 +1445,8 @@ fn mistakes_planted_elsewhere_are_named() {
     }
     for name in ExactMutant::ALL.map(ExactMutant::name) {
         let entry = engines::find_planted(name).unwrap();
-        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Ask>];
-        let options = judge::Options {
-            cases: 100,
-            patience: std::time::Duration::from_secs(60),
-            ..judge::Options::default()
-        };
+        let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
+        let options = unhurried(100);
         let scope = Scope { triangles: true, lines: false, always: false };
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
@@ -1462,7 +1456,7 @@ fn mistakes_planted_elsewhere_are_named() {
 }
 
 /// The name of the causes, the convention, or that all answers are right.
-fn told(verdict: &judge::verdict::Verdict) -> String {
+fn told(verdict: &judge::verdict::Judgement) -> String {
     let named: Vec<_> = verdict
         .causes
         .iter()

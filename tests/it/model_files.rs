@@ -2,7 +2,7 @@
 //! wrong is named with its file and line.
 
 use image::GrayImage;
-use rasterproof_models::{BadFile, Model, Normals, Options, Up, load_texture};
+use rasterproof_models::{BadFile, LoadOptions, Model, Normals, Up, load_texture};
 use rasterproof_render::scene::Shading;
 use rasterproof_verify::cases::Rng;
 
@@ -147,7 +147,8 @@ fn fuzz(cases: u64, name: &str) {
         folder.put("m.mtl", mutated(mtl, &mut rng));
         let normals = [Normals::File, Normals::Flat, Normals::Smooth][below(&mut rng, 3)];
         let up = [None, Some(Up::Z)][below(&mut rng, 2)];
-        let options = Options { shading: Shading::Phong, normals, up, ..Options::default() };
+        let options =
+            LoadOptions { shading: Shading::Phong, normals, up, ..LoadOptions::default() };
         let load = || rasterproof_models::load(&folder.join("m.obj"), options);
         let is_read = std::panic::catch_unwind(|| is_read(&load()));
         let Ok(is_read) = is_read else {

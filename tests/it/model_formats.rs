@@ -3,7 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DVec2, DVec3};
-use rasterproof_models::{BadFile, Camera, Format, Lens, Model, Options, Pose, Up};
+use rasterproof_models::{BadFile, Camera, Format, Lens, LoadOptions, Model, Pose, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::pipeline::physical::Map;
@@ -30,7 +30,7 @@ fn load(name: &str, bytes: &[u8]) -> Result<Model, BadFile> {
 }
 
 fn load_in(folder: &Folder, name: &str, bytes: &[u8]) -> Result<Model, BadFile> {
-    let options = Options { up: Some(Up::Y), ..Options::default() };
+    let options = LoadOptions { up: Some(Up::Y), ..LoadOptions::default() };
     rasterproof_models::load(&folder.put(name, bytes), options)
 }
 
@@ -563,7 +563,7 @@ fn surfaces_of_a_gltf_are_in_linear_light() {
     };
     let folder = folder();
     let read = |name: &str, shading: Shading, change: &dyn Fn(&mut Value)| {
-        let options = Options { shading, ..Options::default() };
+        let options = LoadOptions { shading, ..LoadOptions::default() };
         let path = folder.put(name, made(change));
         let model = rasterproof_models::load(&path, options).unwrap();
         let [item] = model.items.clone().try_into().unwrap();
@@ -926,7 +926,7 @@ fn an_animation_brings_nodes_to_where_they_are() {
     let path = folder.put("moved.glb", glb((json, bytes)));
     let at = |animation: usize, time_s: f64| {
         let pose = Some(Pose { animation, time_s });
-        rasterproof_models::load(&path, Options { pose, ..Options::default() })
+        rasterproof_models::load(&path, LoadOptions { pose, ..LoadOptions::default() })
     };
     // The origin, and one unit along x.
     for (animation, time, origin, x) in [
@@ -950,7 +950,7 @@ fn an_animation_brings_nodes_to_where_they_are() {
         assert_eq!(model.not_drawn, "");
         assert_eq!((model.animations.len(), &*model.animations[1]), (7, "translation STEP"));
     }
-    let still = rasterproof_models::load(&path, Options::default()).unwrap();
+    let still = rasterproof_models::load(&path, LoadOptions::default()).unwrap();
     assert_eq!(still.items[0].mesh.positions[0].to_array(), [7.0, 7.0, -7.0]);
     for (animation, cause) in [
         (4, "animations[4]: accessors[6] has 1 numbers where 3 are needed"),

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
-use rasterproof_models::{BadFile, Model, Normals, Options, load_texture};
+use rasterproof_models::{BadFile, LoadOptions, Model, Normals, load_texture};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Shading, shapes};
 use rasterproof_verify::cases::Rng;
@@ -15,7 +15,7 @@ use serde_json::json;
 use crate::program::Folder;
 
 pub fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
-    rasterproof_models::load(path, Options { shading, ..Options::default() })
+    rasterproof_models::load(path, LoadOptions { shading, ..LoadOptions::default() })
 }
 
 /// The model of this text.
@@ -368,7 +368,7 @@ fn missing_normals_are_flat_or_smooth_as_the_file_says() {
     let squares = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nS\nf 1 2 3 4\nusemtl x\nf 2 5 6 3\n";
     let first = |lines: &str, normals: Normals| {
         let path = folder.put("m.obj", squares.replace("S\n", lines));
-        let options = Options { shading: Shading::Phong, normals, ..Options::default() };
+        let options = LoadOptions { shading: Shading::Phong, normals, ..LoadOptions::default() };
         let model = rasterproof_models::load(&path, options).unwrap();
         model.items[0].mesh.triangles.at(0)[1].normal
     };

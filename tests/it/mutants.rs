@@ -209,7 +209,7 @@ fn each_family_has_its_smallest_failure() {
     let engines = Judged::from(Engine::Mutant(TriangleMutant::InclusiveEdges));
     let verdict = engines.judge(&options(), &|_| ());
     let wrong: Vec<_> = verdict.families.iter().filter(|f| !f.pairs[0].agrees()).collect();
-    let mut shown: Vec<_> = verdict.failures.iter().map(|f| f.family.as_str()).collect();
+    let mut shown: Vec<_> = verdict.failures.iter().map(|f| f.family).collect();
     shown.sort_unstable();
     shown.dedup();
     assert_eq!((shown.len(), verdict.failures.len()), (wrong.len(), wrong.len()));

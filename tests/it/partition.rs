@@ -159,7 +159,10 @@ fn partition_with_a_filled_hole_is_reported() {
         Options::default().cases(100).family(Family::Touching).coordinates(Coordinates::Integer);
     let report = judge_partitions(&fills, &options).unwrap();
     let message = report.check().unwrap_err().to_string();
-    assert!(report.failures.iter().any(|failure| failure.kind == FaultKind::Outside), "{message}");
+    assert!(
+        report.failures.iter().any(|failure| failure.evidence.kind == FaultKind::Outside),
+        "{message}"
+    );
     for part in ["outside", "vec![vec![[", "family(Family::Touching)", "Coordinates::Integer"] {
         assert!(message.contains(part), "{part}: {message}");
     }

@@ -9,11 +9,11 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex};
+use rasterproof_invariants::implementations::Implementations;
 use rasterproof_invariants::source::{
     ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput,
 };
-use rasterproof_invariants::subject::Subject;
-use rasterproof_invariants::{CATALOGUE, Check, Invariant};
+use rasterproof_invariants::{CATALOGUE, Invariant, Predicate};
 use rasterproof_verify::cases::Triangle;
 
 /// Side of the window of triangles, in pixels.
@@ -58,22 +58,22 @@ fn line() -> impl Strategy<Value = Input> {
 }
 
 /// The inputs of a check, or nothing where it takes no generated input.
-fn inputs(check: &Check) -> Option<BoxedStrategy<Input>> {
+fn inputs(check: &Predicate) -> Option<BoxedStrategy<Input>> {
     let window = PixelRect::window(SIDE_PX, SIDE_PX);
     Some(match check {
-        Check::Triangle(_) => (triangle(), any::<u32>())
+        Predicate::Triangle(_) => (triangle(), any::<u32>())
             .prop_map(move |(triangle, salt)| {
                 Input::Triangle(TriangleInput { triangle, window, salt })
             })
             .boxed(),
-        Check::Quad(_) => {
+        Predicate::Quad(_) => {
             let size = || prop_oneof![(0..11u16).prop_map(|px| px * 256 + 128), 0..2800u16];
             let part = || prop_oneof![Just(0), Just(255), any::<u8>()];
             ([size(), size(), size(), size()], [part(), part(), part(), part()])
                 .prop_map(|(sides, along)| Input::Quad(Quad::inscribed(sides, along)))
                 .boxed()
         }
-        Check::Fan(_) => {
+        Predicate::Fan(_) => {
             let reach = prop_oneof![(1..6u16).prop_map(|half| half * 128), 1..800u16];
             (point(), proptest::array::uniform16(reach), 1..3usize, point())
                 .prop_map(|(centre, reach, every, apex)| {
@@ -81,14 +81,14 @@ fn inputs(check: &Check) -> Option<BoxedStrategy<Input>> {
                 })
                 .boxed()
         }
-        Check::Line(_) => line().boxed(),
-        Check::Position(_) => {
+        Predicate::Line(_) => line().boxed(),
+        Predicate::Position(_) => {
             let part = prop_oneof![Just(2048), 0..4096u16];
             (-100_000..100_000i32, part, -800..800i32)
                 .prop_map(|(sub, part, shift)| Input::Position(Position::new(sub, part, shift)))
                 .boxed()
         }
-        Check::Clip(_) => {
+        Predicate::Clip(_) => {
             let vertex = || {
                 (proptest::array::uniform3(-12..=12i32), -6..=12i32).prop_map(|([x, y, z], w)| {
                     // On a plane as often as not.
@@ -104,7 +104,7 @@ fn inputs(check: &Check) -> Option<BoxedStrategy<Input>> {
                 .prop_map(|vertices| Input::Clip(ClipInput { vertices }))
                 .boxed()
         }
-        Check::Run(..) | Check::Matrix => return None,
+        Predicate::Run(..) | Predicate::Matrix => return None,
     })
 }
 
@@ -119,7 +119,7 @@ fn runner() -> TestRunner {
 }
 
 fn check(invariant: &Invariant) {
-    let subject = Subject::real();
+    let subject = Implementations::real();
     let Some(strategy) = inputs(&invariant.check) else {
         // The harness itself: few cases, as generated.
         let report = invariant.run(&subject, 1, 1);
@@ -172,7 +172,7 @@ properties! {
 #[test]
 fn a_planted_fault_shrinks() {
     let mutant = rasterproof_faults::planted::Mutant::find("exclusive-edges").expect("a mutant");
-    let subject = Subject::with(mutant);
+    let subject = Implementations::with(mutant);
     let invariant = rasterproof_invariants::find("engines-agree").expect("an invariant");
     let strategy = inputs(&invariant.check).expect("triangles");
     let result = runner().run(&strategy, |input| {

@@ -3,7 +3,7 @@
 use std::fs;
 
 use rasterproof_teaching::quiz::page::{HEADINGS, section};
-use rasterproof_teaching::quiz::{Answer, CHAPTERS, Chapter, Language};
+use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Language, Right};
 
 use crate::pages::{Renewal, read};
 use crate::program::{Run, shared};
@@ -22,7 +22,7 @@ fn quiz_every_exercise_is_whole() {
             for why in &exercise.why {
                 assert_eq!(why.matches("{}").count(), solution.figures.len(), "{question}");
             }
-            let is_choice = matches!(solution.answer, Answer::Choice(_));
+            let is_choice = matches!(solution.answer, Right::Choice(_));
             assert_eq!(is_choice, !exercise.choices.is_empty(), "{question}");
             let widest = solution.grids.iter().flat_map(|(_, lines)| lines);
             assert!(widest.map(|l| l.chars().count()).max().unwrap_or(0) <= 40, "{question}");

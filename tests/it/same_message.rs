@@ -4,7 +4,7 @@
 use std::process::Command;
 
 use rasterproof_faults::planted::TriangleMutant;
-use rasterproof_judge::ask::{Answer, Ask, Question};
+use rasterproof_judge::ask::{Answer, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
@@ -71,7 +71,7 @@ int main(int, char **words) {
 /// A planted engine that says of itself what the functions of the other languages do.
 struct Planted(Inside, Declared);
 
-impl Ask for Planted {
+impl Subject for Planted {
     fn declared(&self) -> &Declared {
         &self.1
     }
@@ -95,9 +95,9 @@ impl Ask for Planted {
 fn in_rust(capability: &str, engine: &str) -> String {
     let hello = format!("HELLO 2 mine {capability} batch=1024 {DECLARED}");
     let planted = Inside::new(&find_planted(engine).unwrap());
-    let mut askers: Vec<Box<dyn Ask>> =
+    let mut askers: Vec<Box<dyn Subject>> =
         vec![Box::new(Planted(planted, Declared::parse(&hello).unwrap()))];
-    let options = rasterproof_judge::Options { cases: 20, ..Default::default() };
+    let options = rasterproof_judge::Options::default().cases(20);
     let scope = Scope::of(&options);
     let verdict =
         rasterproof_judge::judge(&mut askers, &options, &|asked| recognise(asked, scope), &|_| ());

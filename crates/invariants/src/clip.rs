@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec4};
 
 use super::Outcome;
+use super::implementations::{Implementations, hits};
 use super::source::ClipInput;
-use super::subject::{Subject, hits};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::ClipVertex;
@@ -30,7 +30,7 @@ fn bits(vertex: &Vertex) -> [u64; 6] {
 }
 
 /// 32: no plane changes a triangle that lies inside all of them.
-pub(super) fn inside(subject: &Subject, input: &ClipInput) -> Outcome {
+pub(super) fn inside(subject: &Implementations, input: &ClipInput) -> Outcome {
     let triangle = vertices(input);
     if triangle.iter().any(|vertex| outcode(vertex) != 0) {
         return Ok(0);
@@ -43,7 +43,7 @@ pub(super) fn inside(subject: &Subject, input: &ClipInput) -> Outcome {
 
 /// 33: the reversed triangle has the same vertices; and what becomes of an edge alone is found, bit
 /// for bit, in every triangle that has the edge: a neighbour makes the same vertices of it.
-pub(super) fn reversed(subject: &Subject, input: &ClipInput) -> Outcome {
+pub(super) fn reversed(subject: &Implementations, input: &ClipInput) -> Outcome {
     let [a, b, c] = vertices(input);
     let set = |triangle: [Vertex; 3]| {
         let mut set: Vec<_> = (subject.clip)(&triangle, Outcode::MAX).iter().map(bits).collect();
@@ -66,7 +66,7 @@ pub(super) fn reversed(subject: &Subject, input: &ClipInput) -> Outcome {
 }
 
 /// 35: new vertices lie on a plane exactly, no vertex lies outside any, and there are at most ten.
-pub(super) fn planes(subject: &Subject, input: &ClipInput) -> Outcome {
+pub(super) fn planes(subject: &Implementations, input: &ClipInput) -> Outcome {
     let triangle = vertices(input);
     let clipped = (subject.clip)(&triangle, Outcode::MAX);
     if clipped.len() > MOST_VERTICES {
@@ -98,7 +98,7 @@ const SIDE_PX: u32 = 16;
 /// is a whole number below 2^40, exactly. Snapping moves a vertex by at most 1/512 px in x and y, a
 /// border thus by less than sqrt(2)/512 < 1/256 px; centres nearer than 1/256 px to a border are
 /// not asked.
-pub(super) fn coverage(subject: &Subject, input: &ClipInput) -> Outcome {
+pub(super) fn coverage(subject: &Implementations, input: &ClipInput) -> Outcome {
     let window = PixelRect::window(SIDE_PX, SIDE_PX);
     let clipped = (subject.clip)(&vertices(input), Outcode::MAX);
     let viewport = Viewport::new(window);

@@ -6,8 +6,8 @@ use robust::{Coord, orient2d};
 
 use super::Outcome;
 use super::exact::{self, Nudge, TOP_LEFT, U, around, centre, owns, pixels};
+use super::implementations::{Engine, Implementations, hits};
 use super::source::{Fan, Position, Quad, TriangleInput};
-use super::subject::{Engine, Subject, hits};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
@@ -41,14 +41,14 @@ fn covered(window: PixelRect, pixels: impl Iterator<Item = (i32, i32)>) -> Cover
 }
 
 /// 1: each engine against the oracle, so against each other too.
-pub(super) fn engines_agree(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn engines_agree(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     let truth = hits(&*subject.oracle, [corners], window);
     subject.each_engine(|engine| same(&engine.hits(corners, window), &truth, "the oracle"))
 }
 
 /// 2: three signs of `robust::orient2d` at each centre decide what the oracle must say.
-pub(super) fn oracle_sign(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn oracle_sign(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     // Every i32 and every centre is a whole number below 2^32: exact in f64, and so is the sign.
     let coord = |p: SubpixelPoint| Coord { x: f64::from(p.x), y: f64::from(p.y) };
@@ -80,7 +80,7 @@ pub(super) const ORDERS: [[usize; 3]; 6] =
     [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
 
 /// 3: the set does not depend on the order of the vertices.
-pub(super) fn vertex_order(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn vertex_order(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     subject.each_engine(|engine| {
         let first = engine.hits(corners, window);
@@ -114,7 +114,7 @@ fn shift(corners: Corners, dx_px: i32, dy_px: i32) -> Option<Corners> {
 }
 
 /// 4: by a pixel, across zero, and to where floats lose their subpixels.
-pub(super) fn translation(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn translation(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     let half = (window.width() / 2) as i32;
     let shifts = [
@@ -156,7 +156,7 @@ const SYMMETRIES: [[[i32; 2]; 2]; 7] = [
 
 /// 5: the image of a triangle covers what the original covers by the rule that the same map turns
 /// into top-left: with M the map, samples of the original are nudged by the inverse of M.
-pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn conjugate_rules(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     if window.is_empty() || corners.iter().any(|p| p.x == i32::MIN || p.y == i32::MIN) {
         // The mirror image of the domain's first column lies outside the domain.
@@ -193,7 +193,7 @@ pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outco
 }
 
 /// 6: both ways to split give the same union, and no pixel twice.
-pub(super) fn quad_split(subject: &Subject, input: &Quad) -> Outcome {
+pub(super) fn quad_split(subject: &Implementations, input: &Quad) -> Outcome {
     let ([a, b, c, d], window) = (input.corners, input.window);
     subject.each_engine(|engine| {
         let one = hits(&*engine.fill, [[a, b, c], [a, c, d]], window);
@@ -210,7 +210,7 @@ fn fan_triangles(centre: SubpixelPoint, ring: &[SubpixelPoint]) -> Vec<Corners> 
 }
 
 /// 7: the triangles of a closed fan cover what its outline winds round once, once each.
-pub(super) fn closed_fan(subject: &Subject, input: &Fan) -> Outcome {
+pub(super) fn closed_fan(subject: &Implementations, input: &Fan) -> Outcome {
     let triangles = fan_triangles(input.centre, &input.ring);
     if triangles.iter().any(|corners| exact::twice_area(corners) <= 0) {
         return Ok(0);
@@ -240,7 +240,7 @@ fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec
 
 /// 8: two fans over one outline, one of them turned inside out, are closed; one of them is a disk,
 /// folded where the apex lies outside.
-pub(super) fn signed_hit_count(subject: &Subject, input: &Fan) -> Outcome {
+pub(super) fn signed_hit_count(subject: &Implementations, input: &Fan) -> Outcome {
     let disk = fan_triangles(input.apex, &input.ring);
     let turned = fan_triangles(input.centre, &input.ring).into_iter().map(|[a, b, c]| [a, c, b]);
     let closed: Vec<Corners> = disk.iter().copied().chain(turned).collect();
@@ -261,7 +261,7 @@ pub(super) fn signed_hit_count(subject: &Subject, input: &Fan) -> Outcome {
 }
 
 /// 9: what is covered of a row is one run.
-pub(super) fn contiguous_rows(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn contiguous_rows(subject: &Implementations, input: &TriangleInput) -> Outcome {
     subject.each_engine(|engine| {
         let hits = engine.hits(input.triangle.corners(), input.window);
         let mut last_row = None;
@@ -284,7 +284,7 @@ fn box_of(corners: &Corners) -> (RangeInclusive<i64>, RangeInclusive<i64>) {
 }
 
 /// 10: nothing outside the snapped box, everything strictly inside.
-pub(super) fn inside_the_box(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn inside_the_box(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     let (columns, rows) = box_of(&corners);
     let oriented = exact::clockwise(&corners);
@@ -306,7 +306,7 @@ pub(super) fn inside_the_box(subject: &Subject, input: &TriangleInput) -> Outcom
 }
 
 /// 11: triangles cut out of a triangle cover a part of it.
-pub(super) fn nesting(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn nesting(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (outer, window) = (input.triangle.corners(), input.window);
     let Some([a, b, c]) = exact::clockwise(&outer) else { return Ok(0) };
     let salt = i64::from(input.salt);
@@ -340,7 +340,7 @@ pub(super) fn nesting(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 12: flat triangles made of the input's corners: a point twice, three times, three on a line.
-pub(super) fn zero_area(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let ([a, b, _], window) = (input.triangle.corners(), input.window);
     // A third point on the line through a and b: b mirrored at a, if it lies in the domain.
     let mirrored = |a: i32, b: i32| i32::try_from(2 * i64::from(a) - i64::from(b)).ok();
@@ -370,7 +370,7 @@ pub(super) fn zero_area(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 13: a triangle and the same one seen from behind.
-pub(super) fn windings(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn windings(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let ([a, b, c], window) = (input.triangle.corners(), input.window);
     let sign = exact::twice_area(&[a, b, c]).signum();
     for (corners, sign) in [([a, b, c], sign), ([c, b, a], -sign)] {
@@ -388,7 +388,7 @@ pub(super) fn windings(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 14: the window cut into tiles, drawn on several threads, gives the window; so do the values.
-pub(super) fn crop(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn crop(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (triangle, window) = (&input.triangle, input.window);
     let side = 1 + (input.salt % 19) as i32;
     let cut = |low: i32, high: i32| {
@@ -443,7 +443,7 @@ const TOP_LEFT_ARMS: u8 = 0b1110_0001;
 /// 15: eight triangles around a centre, and eight edges through one. Of the 256 sets of directions
 /// only top-left has this fingerprint; of the 16 consistent ones (one of two opposite directions
 /// owns) the fan alone tells it from the others.
-pub(super) fn identifies_the_rule(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn identifies_the_rule(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let target = fingerprint(TOP_LEFT_ARMS);
     for rule in (0..=u8::MAX).filter(|&rule| rule != TOP_LEFT_ARMS) {
         let consistent = rule ^ rule.rotate_left(4) == u8::MAX;
@@ -489,7 +489,7 @@ fn first_column(a: SubpixelPoint, b: SubpixelPoint, y_sub: i64) -> i128 {
 
 /// 16: each half-plane of a row starts at the ceiling of the crossing, by its sign as by division;
 /// so a row of a triangle is what lies between its two ceilings.
-pub(super) fn edge_lemma(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn edge_lemma(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     let mut compared = 0;
     for y_px in window.y0..window.y1 {
@@ -533,7 +533,7 @@ pub(super) fn edge_lemma(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// 17: sizes up to the widest, around the thresholds of the words. The functions are bounded by
 /// the box at its corners (they are linear, so everywhere in it), the chosen word holds them with
 /// one step more, and the engines neither panic nor err.
-pub(super) fn edge_bound(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn edge_bound(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let corners = sized(input);
     let (columns, rows) = box_of(&corners);
     let [width, height] = [&columns, &rows].map(|ends| (ends.end() - ends.start()) as u32);
@@ -593,7 +593,7 @@ fn sized(input: &TriangleInput) -> Corners {
 }
 
 /// 18: half a subpixel at most, ties to even, moved with whole pixels; the rest is refused.
-pub(super) fn snapping(subject: &Subject, input: &Position) -> Outcome {
+pub(super) fn snapping(subject: &Implementations, input: &Position) -> Outcome {
     let Position { px, shift_px } = *input;
     let scale = f64::from(SUBPIXELS);
     let snap = subject.snap;
@@ -629,7 +629,7 @@ pub(super) fn snapping(subject: &Subject, input: &Position) -> Outcome {
 /// 19: pixels against area. A convex region of area A and perimeter P, in general position to the
 /// lattice (the nudge puts it there), has A - P/2 < N < A + P/2 + 1 lattice points (Nosarzewska
 /// 1948), so |N - A| < P/2 + 1.
-pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn area(subject: &Implementations, input: &TriangleInput) -> Outcome {
     const MOST_PX: u32 = 512;
     let corners = input.triangle.corners();
     let window = around(&corners, DOMAIN);
@@ -659,7 +659,7 @@ pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
 
 /// 20: N x N samples a pixel, as N^2 shifted triangles, are the pixels of the triangle N times as
 /// large. N is 2 or 4: the samples lie at odd multiples of S / 2N, on the lattice.
-pub(super) fn supersampling(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn supersampling(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
     let n: i32 = if input.salt.is_multiple_of(2) { 2 } else { 4 };
     let small = |v: i32| v.unsigned_abs() < 1 << 27;

@@ -1,14 +1,14 @@
 //! Invariant 46: an effect that is switched off, or not called for, makes no call at all.
 
 use super::Outcome;
-use super::subject::Subject;
+use super::implementations::Implementations;
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::random;
 
 /// 46: random scenes with one effect switched off, and scenes that call for nothing.
-pub(super) fn disabled(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn disabled(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let mut checked = 0;
     for index in 0..cases {
         let scene = random::scene(seed, index);

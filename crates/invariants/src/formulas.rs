@@ -4,7 +4,7 @@
 use glam::{DMat4, DVec2, DVec3};
 
 use super::Outcome;
-use super::subject::Subject;
+use super::implementations::Implementations;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::raster::scanline::Scanline;
@@ -23,7 +23,7 @@ fn colour(rng: &mut Rng) -> Colour {
 }
 
 /// 48: every opacity with random colours.
-pub(super) fn over(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn over(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let over = subject.formulas.over;
     let mut rng = Rng::new("over", seed, 0);
     let mut checked = 0;
@@ -56,7 +56,7 @@ pub(super) fn over(subject: &Subject, seed: u64, cases: u64) -> Outcome {
 }
 
 /// 49: lists of layers, many of which have the same depth, in random orders.
-pub(super) fn layers(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn layers(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let mut rng = Rng::new("layers", seed, 0);
     for case in 0..cases {
         let count = rng.int(1, 7) as usize;
@@ -96,7 +96,7 @@ pub(super) fn layers(subject: &Subject, seed: u64, cases: u64) -> Outcome {
 /// 50: a footprint `ratio` times as long as wide, turned, and the same half and a quarter as large in the window.
 ///
 /// Levels are logarithms below 64, and powers of two change no other bit: each is off by two roundings at most, of 2^-47.
-pub(super) fn footprints(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn footprints(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     const MARGIN: f64 = 4.0 / (1u64 << 47) as f64;
     const SIDE: u32 = 64;
     const MOST: u8 = 16;
@@ -152,7 +152,7 @@ pub(super) fn footprints(subject: &Subject, seed: u64, cases: u64) -> Outcome {
 }
 
 /// 51: random planes in random light, with something beside them that gives the map a depth.
-pub(super) fn planes_in_light(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn planes_in_light(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let mut rng = Rng::new("planes in light", seed, 0);
     let mut checked = 0;
     for case in 0..cases {

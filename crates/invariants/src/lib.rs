@@ -1,6 +1,6 @@
 //! Invariants: what must hold of every implementation, each under a number and a name.
 //!
-//! A check is a function of a [`Subject`] (the implementations under test) and an [`Input`]. Inputs
+//! A check is a function of a [`Implementations`] (the implementations under test) and an [`Input`]. Inputs
 //! come from (seed, number) here and from a property test's small numbers in `tests/it`; mutants
 //! are put in the place of the real thing to show that each check can fail ([`matrix`]).
 //!
@@ -13,32 +13,32 @@ mod coverage;
 mod effects;
 mod exact;
 mod formulas;
+pub mod implementations;
 mod lines;
 mod lists;
 pub mod matrix;
 mod meta;
 pub mod source;
-pub mod subject;
 mod values;
 
+use implementations::{Component, Implementations};
 use rasterproof_core::parallel;
 use rasterproof_verify::comparison::caught;
 use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
-use subject::{Component, Subject};
 
 /// What a check compared (0 where the input does not fit it), or the first thing that is wrong.
 pub type Outcome = Result<u64, String>;
 
 #[derive(Clone, Copy)]
-pub enum Check {
-    Triangle(fn(&Subject, &TriangleInput) -> Outcome),
-    Quad(fn(&Subject, &Quad) -> Outcome),
-    Fan(fn(&Subject, &Fan) -> Outcome),
-    Line(fn(&Subject, &LineInput) -> Outcome),
-    Position(fn(&Subject, &Position) -> Outcome),
-    Clip(fn(&Subject, &ClipInput) -> Outcome),
+pub enum Predicate {
+    Triangle(fn(&Implementations, &TriangleInput) -> Outcome),
+    Quad(fn(&Implementations, &Quad) -> Outcome),
+    Fan(fn(&Implementations, &Fan) -> Outcome),
+    Line(fn(&Implementations, &LineInput) -> Outcome),
+    Position(fn(&Implementations, &Position) -> Outcome),
+    Clip(fn(&Implementations, &ClipInput) -> Outcome),
     /// Of a whole run: its seed, its cases of each family, at most the number given.
-    Run(fn(&Subject, u64, u64) -> Outcome, u64),
+    Run(fn(&Implementations, u64, u64) -> Outcome, u64),
     Matrix,
 }
 
@@ -51,11 +51,11 @@ pub struct Invariant {
     /// How much may be missing; derived where the check stands.
     pub tolerance: &'static str,
     pub components: &'static [Component],
-    pub check: Check,
+    pub check: Predicate,
 }
 
 #[derive(Clone, Debug)]
-pub struct Report {
+pub struct Trial {
     pub cases: u64,
     /// Inputs that do not fit the property and were left out.
     pub skipped: u64,
@@ -82,7 +82,7 @@ pub enum Ruling {
     NotJudged,
 }
 
-impl Report {
+impl Trial {
     #[must_use]
     pub fn ruling(&self) -> Ruling {
         match self.failure {
@@ -97,30 +97,30 @@ pub const MOST_LOOKED_THROUGH: u64 = 10_000;
 
 impl Invariant {
     /// The input of a number: a pure function of the three, as far as the subject's source is.
-    pub fn input(&self, subject: &Subject, seed: u64, index: u64) -> Input {
+    pub fn input(&self, subject: &Implementations, seed: u64, index: u64) -> Input {
         match self.check {
-            Check::Triangle(_) => source::triangle(subject.make_case, seed, index),
-            Check::Quad(_) => source::quad(seed, index),
-            Check::Fan(_) => source::fan(seed, index),
-            Check::Line(_) => source::line(subject.make_case, seed, index),
-            Check::Position(_) => source::position(seed, index),
-            Check::Clip(_) => source::clip(seed, index),
-            Check::Run(_, cases) => Input::Run { seed, cases },
-            Check::Matrix => Input::Run { seed, cases: matrix::CASES },
+            Predicate::Triangle(_) => source::triangle(subject.make_case, seed, index),
+            Predicate::Quad(_) => source::quad(seed, index),
+            Predicate::Fan(_) => source::fan(seed, index),
+            Predicate::Line(_) => source::line(subject.make_case, seed, index),
+            Predicate::Position(_) => source::position(seed, index),
+            Predicate::Clip(_) => source::clip(seed, index),
+            Predicate::Run(_, cases) => Input::Run { seed, cases },
+            Predicate::Matrix => Input::Run { seed, cases: matrix::CASES },
         }
     }
 
     /// Checks one input; an input of another kind is nothing to compare.
-    pub fn judge(&self, subject: &Subject, input: &Input) -> Outcome {
+    pub fn judge(&self, subject: &Implementations, input: &Input) -> Outcome {
         let outcome = caught(|| match (self.check, input) {
-            (Check::Triangle(check), Input::Triangle(input)) => check(subject, input),
-            (Check::Quad(check), Input::Quad(input)) => check(subject, input),
-            (Check::Fan(check), Input::Fan(input)) => check(subject, input),
-            (Check::Line(check), Input::Line(input)) => check(subject, input),
-            (Check::Position(check), Input::Position(input)) => check(subject, input),
-            (Check::Clip(check), Input::Clip(input)) => check(subject, input),
-            (Check::Run(check, _), &Input::Run { seed, cases }) => check(subject, seed, cases),
-            (Check::Matrix, &Input::Run { seed, cases }) => {
+            (Predicate::Triangle(check), Input::Triangle(input)) => check(subject, input),
+            (Predicate::Quad(check), Input::Quad(input)) => check(subject, input),
+            (Predicate::Fan(check), Input::Fan(input)) => check(subject, input),
+            (Predicate::Line(check), Input::Line(input)) => check(subject, input),
+            (Predicate::Position(check), Input::Position(input)) => check(subject, input),
+            (Predicate::Clip(check), Input::Clip(input)) => check(subject, input),
+            (Predicate::Run(check, _), &Input::Run { seed, cases }) => check(subject, seed, cases),
+            (Predicate::Matrix, &Input::Run { seed, cases }) => {
                 let matrix = matrix::Matrix::compute(seed, cases, &|| ());
                 let problems = matrix.problems();
                 let cells = matrix.rows.len() * matrix.columns.len();
@@ -133,7 +133,7 @@ impl Invariant {
 
     /// Whether any of the first inputs fails.
     #[must_use]
-    pub fn kills(&self, subject: &Subject, seed: u64, cases: u64) -> bool {
+    pub fn kills(&self, subject: &Implementations, seed: u64, cases: u64) -> bool {
         (0..self.count(cases))
             .any(|index| self.judge(subject, &self.input(subject, seed, index)).is_err())
     }
@@ -141,7 +141,7 @@ impl Invariant {
     /// Runs of the whole harness take one input, whatever the number asked for.
     fn count(&self, cases: u64) -> u64 {
         match self.check {
-            Check::Run(..) | Check::Matrix => 1,
+            Predicate::Run(..) | Predicate::Matrix => 1,
             _ => cases,
         }
     }
@@ -149,8 +149,8 @@ impl Invariant {
     /// The number of cases with which something is compared: one more than the number of the first
     /// input that fits. Nothing where none of the first [`MOST_LOOKED_THROUGH`] fits, and for a run of
     /// the whole harness, where the number changes nothing.
-    pub fn cases_needed(&self, subject: &Subject, seed: u64) -> Option<u64> {
-        if matches!(self.check, Check::Run(..) | Check::Matrix) {
+    pub fn cases_needed(&self, subject: &Implementations, seed: u64) -> Option<u64> {
+        if matches!(self.check, Predicate::Run(..) | Predicate::Matrix) {
             return None;
         }
         let fits = |index| self.judge(subject, &self.input(subject, seed, index)) != Ok(0);
@@ -159,9 +159,9 @@ impl Invariant {
 
     /// Checks the inputs of a seed on all cores and makes the first failing one small.
     #[must_use]
-    pub fn run(&self, subject: &Subject, seed: u64, cases: u64) -> Report {
+    pub fn run(&self, subject: &Implementations, seed: u64, cases: u64) -> Trial {
         const BLOCK: u64 = 64;
-        let mut report = Report { cases: 0, skipped: 0, compared: 0, failure: None };
+        let mut report = Trial { cases: 0, skipped: 0, compared: 0, failure: None };
         let count = self.count(cases);
         let mut start = 0;
         while start < count && report.failure.is_none() {
@@ -188,7 +188,7 @@ impl Invariant {
         report
     }
 
-    fn shrunk(&self, subject: &Subject, seed: u64, index: u64, message: String) -> Failure {
+    fn shrunk(&self, subject: &Implementations, seed: u64, index: u64, message: String) -> Failure {
         let input = self.input(subject, seed, index);
         let input = source::smallest(input, |input| self.judge(subject, input).is_err());
         let message = self.judge(subject, &input).err().unwrap_or(message);
@@ -212,7 +212,7 @@ const fn invariant(
     statement: &'static str,
     tolerance: &'static str,
     components: &'static [Component],
-    check: Check,
+    check: Predicate,
 ) -> Invariant {
     Invariant { number, name, statement, tolerance, components, check }
 }
@@ -221,152 +221,152 @@ const fn invariant(
 pub const CATALOGUE: &[Invariant] = &[
     invariant(1, "engines-agree",
         "Scanline, edge functions, tiles and oracle hit every pixel the same number of times.",
-        "0", JUDGED, Check::Triangle(coverage::engines_agree)),
+        "0", JUDGED, Predicate::Triangle(coverage::engines_agree)),
     invariant(2, "oracle-sign",
         "The oracle covers a sample iff the three signs of robust::orient2d say so.",
-        "0", &[Component::Oracle], Check::Triangle(coverage::oracle_sign)),
+        "0", &[Component::Oracle], Predicate::Triangle(coverage::oracle_sign)),
     invariant(3, "vertex-order",
         "All six orders of the vertices cover the same pixels.",
-        "0", ENGINE, Check::Triangle(coverage::vertex_order)),
+        "0", ENGINE, Predicate::Triangle(coverage::vertex_order)),
     invariant(4, "translation",
         "Moving a triangle by whole pixels, across zero or far away, moves its pixels along.",
-        "0", ENGINE, Check::Triangle(coverage::translation)),
+        "0", ENGINE, Predicate::Triangle(coverage::translation)),
     invariant(5, "conjugate-rules",
         "A mirrored or turned triangle covers the image of what the conjugate tie rule covers.",
-        "0", ENGINE, Check::Triangle(coverage::conjugate_rules)),
+        "0", ENGINE, Predicate::Triangle(coverage::conjugate_rules)),
     invariant(6, "quad-split",
         "A convex quadrilateral split on either diagonal covers the same pixels, each once.",
-        "0", ENGINE, Check::Quad(coverage::quad_split)),
+        "0", ENGINE, Predicate::Quad(coverage::quad_split)),
     invariant(7, "closed-fan",
         "A closed fan hits each pixel its outline winds round exactly once, and no other.",
-        "0", ENGINE, Check::Fan(coverage::closed_fan)),
+        "0", ENGINE, Predicate::Fan(coverage::closed_fan)),
     invariant(8, "signed-hit-count",
         "Signed hits are 0 everywhere on a closed mesh, and on a disk what its outline winds.",
-        "0", ENGINE, Check::Fan(coverage::signed_hit_count)),
+        "0", ENGINE, Predicate::Fan(coverage::signed_hit_count)),
     invariant(9, "contiguous-rows",
         "What a triangle covers of a row is one run of pixels.",
-        "0", ENGINE, Check::Triangle(coverage::contiguous_rows)),
+        "0", ENGINE, Predicate::Triangle(coverage::contiguous_rows)),
     invariant(10, "inside-the-box",
         "No covered sample lies outside the snapped bounding box, every sample strictly inside is covered.",
-        "0", ENGINE, Check::Triangle(coverage::inside_the_box)),
+        "0", ENGINE, Predicate::Triangle(coverage::inside_the_box)),
     invariant(11, "nesting",
         "A triangle inside another covers a part of its pixels.",
-        "0", ENGINE, Check::Triangle(coverage::nesting)),
+        "0", ENGINE, Predicate::Triangle(coverage::nesting)),
     invariant(12, "zero-area",
         "A triangle of zero snapped area covers nothing and emits no fragment.",
-        "0", ENGINE, Check::Triangle(coverage::zero_area)),
+        "0", ENGINE, Predicate::Triangle(coverage::zero_area)),
     invariant(13, "windings",
         "Both windings cover the same pixels, and culling tells them apart by the snapped area's sign.",
-        "0", &[Component::Engine, Component::Cull], Check::Triangle(coverage::windings)),
+        "0", &[Component::Engine, Component::Cull], Predicate::Triangle(coverage::windings)),
     invariant(14, "crop",
         "Bounds, tiles and threads only crop: pixels and values of a tile are those of the window.",
-        "0, bit for bit", ENGINE, Check::Triangle(coverage::crop)),
+        "0, bit for bit", ENGINE, Predicate::Triangle(coverage::crop)),
     invariant(15, "identifies-the-rule",
         "Eight triangles and eight edges around a centre have the fingerprint of top-left alone.",
-        "0", ENGINE, Check::Triangle(coverage::identifies_the_rule)),
+        "0", ENGINE, Predicate::Triangle(coverage::identifies_the_rule)),
     invariant(16, "edge-lemma",
         "In every row {x : E >= 0} is {x >= ceil(crossing)}, and a triangle is what lies between.",
-        "0", ENGINE, Check::Triangle(coverage::edge_lemma)),
+        "0", ENGINE, Predicate::Triangle(coverage::edge_lemma)),
     invariant(17, "edge-bound",
         "|E| <= Wx Wy in the box, the chosen word holds it, and nothing overflows in the domain.",
-        "0", &[Component::Engine, Component::EdgeValues, Component::WordWidth], Check::Triangle(coverage::edge_bound)),
+        "0", &[Component::Engine, Component::EdgeValues, Component::WordWidth], Predicate::Triangle(coverage::edge_bound)),
     invariant(18, "snapping",
         "Snapping moves by half a subpixel at most, ties to even, alike everywhere; or refuses.",
-        "1/2 subpixel, the definition", &[Component::Snap], Check::Position(coverage::snapping)),
+        "1/2 subpixel, the definition", &[Component::Snap], Predicate::Position(coverage::snapping)),
     invariant(19, "area",
         "The number of covered pixels differs from the area by half the perimeter + 1 at most.",
-        "perimeter / 2 + 1 (Nosarzewska)", ENGINE, Check::Triangle(coverage::area)),
+        "perimeter / 2 + 1 (Nosarzewska)", ENGINE, Predicate::Triangle(coverage::area)),
     invariant(20, "supersampling",
         "N x N samples a pixel are the pixels of the triangle N times as large.",
-        "0", ENGINE, Check::Triangle(coverage::supersampling)),
+        "0", ENGINE, Predicate::Triangle(coverage::supersampling)),
     invariant(21, "edges-sum",
         "The three edge functions add up to twice the area at every centre.",
-        "0", &[Component::EdgeValues], Check::Triangle(values::edges_sum)),
+        "0", &[Component::EdgeValues], Predicate::Triangle(values::edges_sum)),
     invariant(22, "weights-sum",
         "The weights of the vertices lie in [0, 1] and add up to 1.",
-        "6 u (3 ulp) in the sum, 4 u at the ends", ENGINE, Check::Triangle(values::weights_sum)),
+        "6 u (3 ulp) in the sum, 4 u at the ends", ENGINE, Predicate::Triangle(values::weights_sum)),
     invariant(23, "perspective-values",
         "Depth and values are the exact rationals within the bounds derived for each engine.",
-        "u (d D + m M), verify::tolerance", JUDGED, Check::Triangle(values::perspective)),
+        "u (d D + m M), verify::tolerance", JUDGED, Predicate::Triangle(values::perspective)),
     invariant(24, "hull",
         "No depth or value leaves the range of the vertices by more than the bound of rounding.",
-        "u (d D + m M)", ENGINE, Check::Triangle(values::hull)),
+        "u (d D + m M)", ENGINE, Predicate::Triangle(values::hull)),
     invariant(25, "constant-attribute",
         "A constant attribute comes out bit for bit.",
-        "0, bit for bit", ENGINE, Check::Triangle(values::constant)),
+        "0, bit for bit", ENGINE, Predicate::Triangle(values::constant)),
     invariant(26, "equal-w",
         "Three equal w give what affine interpolation gives, bit for bit.",
-        "0, bit for bit", ENGINE, Check::Triangle(values::equal_w)),
+        "0, bit for bit", ENGINE, Predicate::Triangle(values::equal_w)),
     invariant(27, "scaled-w",
         "Scaling every w by a power of two changes no bit.",
-        "0, bit for bit", ENGINE, Check::Triangle(values::scaled_w)),
+        "0, bit for bit", ENGINE, Predicate::Triangle(values::scaled_w)),
     invariant(28, "rotated-vertices",
         "Rotating or reversing the vertices changes no bit of any value.",
-        "0, bit for bit", ENGINE, Check::Triangle(values::rotated_vertices)),
+        "0, bit for bit", ENGINE, Predicate::Triangle(values::rotated_vertices)),
     invariant(29, "shared-edge",
         "Both sides of a shared edge give the same values at a sample on it.",
-        "the bounds of both triangles", ENGINE, Check::Triangle(values::shared_edge)),
+        "the bounds of both triangles", ENGINE, Predicate::Triangle(values::shared_edge)),
     invariant(30, "flat-depth",
         "A flat depth comes out bit for bit, so a depth test does not depend on the order.",
-        "0, bit for bit", ENGINE, Check::Triangle(values::flat_depth)),
+        "0, bit for bit", ENGINE, Predicate::Triangle(values::flat_depth)),
     invariant(31, "finite",
         "No NaN and no infinity for any w, depth and value of the accepted domain.",
-        "0", ENGINE, Check::Triangle(values::finite)),
+        "0", ENGINE, Predicate::Triangle(values::finite)),
     invariant(32, "clip-inside", "What is entirely inside is the same with and without clipping.",
-        "0, bit for bit", CLIP, Check::Clip(clip::inside)),
+        "0, bit for bit", CLIP, Predicate::Clip(clip::inside)),
     invariant(33, "clip-reversed", "Clipping A to B and B to A gives the same vertices, so neighbours across an edge meet.",
-        "0, bit for bit", CLIP, Check::Clip(clip::reversed)),
+        "0, bit for bit", CLIP, Predicate::Clip(clip::reversed)),
     invariant(34, "clip-coverage", "The clipped fan covers what lies in the triangle and in front of the eye, exactly.",
-        "0 beyond 1/256 px of the border, where snapping decides", CLIP, Check::Clip(clip::coverage)),
+        "0 beyond 1/256 px of the border, where snapping decides", CLIP, Predicate::Clip(clip::coverage)),
     invariant(35, "clip-plane", "Every clipped vertex satisfies its plane exactly, and no vertex lies outside any.",
-        "0", CLIP, Check::Clip(clip::planes)),
+        "0", CLIP, Predicate::Clip(clip::planes)),
     invariant(36, "nearest-pixel",
         "Every pixel of a line is the nearest one, |2 (dx y - x dy)| <= dx, ties as the contract says.",
-        "0", DRAWER, Check::Line(lines::nearest_pixel)),
+        "0", DRAWER, Predicate::Line(lines::nearest_pixel)),
     invariant(37, "one-per-step",
         "A line has max(|dx|, |dy|) + 1 pixels, one a step, touching, from its first to its last end.",
-        "0", DRAWER, Check::Line(lines::one_per_step)),
+        "0", DRAWER, Predicate::Line(lines::one_per_step)),
     invariant(38, "reversal",
         "A line drawn backwards lights the same pixels.",
-        "0", DRAWER, Check::Line(lines::reversal)),
+        "0", DRAWER, Predicate::Line(lines::reversal)),
     invariant(39, "octants",
         "The eight octants are images of each other, ties conjugate.",
-        "0", DRAWER, Check::Line(lines::octants)),
+        "0", DRAWER, Predicate::Line(lines::octants)),
     invariant(40, "clipped-line",
         "A line in a window is the window of the line, in work bounded by the window.",
-        "0, bit for bit", DRAWER, Check::Line(lines::clipped_line)),
+        "0, bit for bit", DRAWER, Predicate::Line(lines::clipped_line)),
     invariant(41, "listed-differences",
         "The list of a line's pixels that differ from exact rounding is empty, not 'within 1 px'.",
-        "0", DRAWER, Check::Line(lines::listed_differences)),
+        "0", DRAWER, Predicate::Line(lines::listed_differences)),
     invariant(42, "every-mutant-dies",
         "Every invariant kills a mutant, and every mutant dies.",
-        "0", &[Component::Matrix], Check::Matrix),
+        "0", &[Component::Matrix], Predicate::Matrix),
     invariant(43, "quotas",
         "Of the generated triangles a quarter has ties, a tenth are slivers, a twentieth is empty.",
-        "0", &[Component::Source], Check::Run(meta::quotas, 200)),
+        "0", &[Component::Source], Predicate::Run(meta::quotas, 200)),
     invariant(44, "replay",
         "A seed gives the same cases and the same verdict, in debug and release, on any thread.",
-        "0, bit for bit", &[Component::Source], Check::Run(meta::replay, 40)),
+        "0, bit for bit", &[Component::Source], Predicate::Run(meta::replay, 40)),
     invariant(45, "metrics-report-only",
         "One wrong pixel of a large frame is a disagreement, whatever an image metric makes of it.",
-        "0", &[Component::Judge], Check::Run(meta::metrics_report_only, 12)),
+        "0", &[Component::Judge], Predicate::Run(meta::metrics_report_only, 12)),
     invariant(46, "disabled-effect", "A disabled effect makes no call at all.",
-        "0", &[Component::Render], Check::Run(effects::disabled, 24)),
+        "0", &[Component::Render], Predicate::Run(effects::disabled, 24)),
     invariant(47, "lists",
         "A list covers what each of its triangles covers, in their order, in every instruction set.",
-        "0", &[Component::Lists], Check::Triangle(lists::one_by_one)),
+        "0", &[Component::Lists], Predicate::Triangle(lists::one_by_one)),
     invariant(48, "over",
         "Mixing two colours gives the nearest step, and is associative where an opacity is 0 or 1.",
-        "half a step, the definition", FORMULAS, Check::Run(formulas::over, 40)),
+        "half a step, the definition", FORMULAS, Predicate::Run(formulas::over, 40)),
     invariant(49, "layers",
         "The order in which layers are drawn changes nothing, and neither do layers behind what is opaque.",
-        "0", FORMULAS, Check::Run(formulas::layers, 400)),
+        "0", FORMULAS, Predicate::Run(formulas::layers, 400)),
     invariant(50, "footprint",
         "A footprint N times as long as wide is read N times, and half as large one level higher.",
-        "2^-45 in the level, four roundings", FORMULAS, Check::Run(formulas::footprints, 400)),
+        "2^-45 in the level, four roundings", FORMULAS, Predicate::Run(formulas::footprints, 400)),
     invariant(51, "plane-in-light",
         "A plane does not keep the light from itself, in any light and any format of the map.",
-        "0", FORMULAS, Check::Run(formulas::planes_in_light, 200)),
+        "0", FORMULAS, Predicate::Run(formulas::planes_in_light, 200)),
 ];
 
 #[cfg(test)]

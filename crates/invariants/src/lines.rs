@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::Outcome;
+use super::implementations::{Drawer, Implementations};
 use super::source::LineInput;
-use super::subject::{Drawer, Subject};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, PixelPoint};
@@ -68,7 +68,7 @@ fn is_nearest(line: &[[i64; 2]; 2], pixel: [i64; 2]) -> bool {
 }
 
 /// 36: |2 (dx y - x dy)| <= dx, and at equality the pixel farther along.
-pub(super) fn nearest_pixel(subject: &Subject, input: &LineInput) -> Outcome {
+pub(super) fn nearest_pixel(subject: &Implementations, input: &LineInput) -> Outcome {
     let line = near(&input.line);
     let whole = ends(&line);
     subject.each_drawer(|drawer| {
@@ -84,7 +84,7 @@ pub(super) fn nearest_pixel(subject: &Subject, input: &LineInput) -> Outcome {
 }
 
 /// 37: one pixel for each step, neighbours touch, and both ends are the ends.
-pub(super) fn one_per_step(subject: &Subject, input: &LineInput) -> Outcome {
+pub(super) fn one_per_step(subject: &Implementations, input: &LineInput) -> Outcome {
     let line = near(&input.line);
     let whole = ends(&line);
     let [a, b] = whole;
@@ -114,7 +114,7 @@ fn gcd(a: i64, b: i64) -> i64 {
 
 /// 38: backwards, the same pixels. The control: rounding half away from the first end, whichever
 /// that is, gives another set exactly where the length over the common divisor is even.
-pub(super) fn reversal(subject: &Subject, input: &LineInput) -> Outcome {
+pub(super) fn reversal(subject: &Implementations, input: &LineInput) -> Outcome {
     let line = near(&input.line);
     let mut back = line;
     back.ends.reverse();
@@ -143,7 +143,7 @@ pub(super) fn reversal(subject: &Subject, input: &LineInput) -> Outcome {
 
 /// 39: the other seven octants are images of the first; where the major axis is mirrored the end
 /// that decides a tie is the other one, so a tie goes the other way.
-pub(super) fn octants(subject: &Subject, input: &LineInput) -> Outcome {
+pub(super) fn octants(subject: &Implementations, input: &LineInput) -> Outcome {
     let [a, b] = ends(&near(&input.line));
     let (dx, dy) = ((b[0] - a[0]).abs(), (b[1] - a[1]).abs());
     let (du, dv) = (dx.max(dy), dx.min(dy));
@@ -183,7 +183,7 @@ pub(super) fn octants(subject: &Subject, input: &LineInput) -> Outcome {
 
 /// 40: pixels and values of a window are those of the whole line there; of a line of any length no
 /// more pixels come out than the window is long, all of them nearest.
-pub(super) fn clipped_line(subject: &Subject, input: &LineInput) -> Outcome {
+pub(super) fn clipped_line(subject: &Implementations, input: &LineInput) -> Outcome {
     let line = near(&input.line);
     let window = PixelRect { x0: 5, y0: -7, x1: 33, y1: 21 };
     subject.each_drawer(|drawer| {
@@ -212,7 +212,7 @@ const KNOWN: [[i32; 2]; 4] = [[12, 2], [12, 10], [6, 1], [353, 337]];
 
 /// 41: the pixels that differ from exact rounding, as a complete list. For the drawers here it is
 /// empty; a drawer that steps in floats shows its list in the message.
-pub(super) fn listed_differences(subject: &Subject, input: &LineInput) -> Outcome {
+pub(super) fn listed_differences(subject: &Implementations, input: &LineInput) -> Outcome {
     let origin = PixelPoint::new(0, 0);
     let known = KNOWN.map(|[x, y]| plain_line(origin, PixelPoint::new(x, y)));
     let lines = known.into_iter().chain([near(&input.line)]);

@@ -2,8 +2,8 @@
 //! triangle covers must not depend on its place, its neighbours, or how full the last batch is.
 
 use super::Outcome;
+use super::implementations::{Implementations, hits};
 use super::source::TriangleInput;
-use super::subject::{Subject, hits};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -13,7 +13,7 @@ use rasterproof_tiles::coverage::{CoverList, Piece};
 const MOST: u32 = 40;
 
 /// 47: every triangle of a list against the oracle, and the order of the pieces.
-pub(super) fn one_by_one(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn one_by_one(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let list = list_around(input.triangle.corners(), 1 + input.salt % MOST);
     let window = input.window;
     let truth: Vec<Coverage> =

@@ -3,8 +3,8 @@
 
 use std::fmt::Write as _;
 
-use super::subject::{Subject, component_of};
-use super::{CATALOGUE, Check, Invariant};
+use super::implementations::{Implementations, component_of};
+use super::{CATALOGUE, Invariant, Predicate};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::parallel;
 use rasterproof_faults::planted::Mutant;
@@ -35,8 +35,8 @@ impl Matrix {
             let marks = parallel::map(columns.len(), |column| {
                 let invariant = columns[column];
                 invariant.components.contains(&component_of(&mutant))
-                    && !matches!(invariant.check, Check::Matrix)
-                    && invariant.kills(&Subject::with(mutant), seed, cases)
+                    && !matches!(invariant.check, Predicate::Matrix)
+                    && invariant.kills(&Implementations::with(mutant), seed, cases)
             });
             step();
             (mutant.name().to_owned(), marks)

@@ -2,7 +2,7 @@
 //! never forgiven. (42 is [`super::matrix`].)
 
 use super::Outcome;
-use super::subject::Subject;
+use super::implementations::Implementations;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Coverage;
@@ -17,7 +17,7 @@ use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 
 /// 43: ties in a quarter of the cases, slivers in a tenth, nothing to draw in a twentieth.
-pub(super) fn quotas(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn quotas(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let jobs: Vec<(&Family, u64)> = cases::triangles::FAMILIES
         .iter()
         .flat_map(|family| (0..cases).map(move |index| (family, index)))
@@ -83,7 +83,7 @@ const PINNED: [(&str, u64); 3] = [
 
 /// 44: the same case for the same seed and number, whenever and on whichever thread it is made, and
 /// the same verdict on one thread and on three.
-pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let families: Vec<&Family> = cases::families().collect();
     let make =
         |seed, (family, index): &(&Family, u64)| fold(&(subject.make_case)(family, seed, *index));
@@ -153,7 +153,7 @@ impl Rasterize for OneWrong {
 /// 45: one pixel of a frame of 128 to 1024 pixels a side is missing, extra or hit twice. Over N
 /// pixels the peak signal-to-noise ratio is 10 log10 N, 42 to 60 dB: every metric that averages
 /// would let it pass. The coverages are not allowed to agree, and a run is not either.
-pub(super) fn metrics_report_only(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+pub(super) fn metrics_report_only(subject: &Implementations, seed: u64, cases: u64) -> Outcome {
     let mut compared = 0;
     for index in 0..cases {
         let side = 128 << (index % 4);

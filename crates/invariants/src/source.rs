@@ -8,7 +8,7 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::{self, Case, Family, Line, Rng, Shape, Triangle, named};
 use rasterproof_verify::comparison::shrink;
 
-use super::subject::MakeCase;
+use super::implementations::MakeCase;
 
 const SIDE_PX: u32 = 24;
 const SIDE: i64 = SIDE_PX as i64 * SUBPIXELS as i64;

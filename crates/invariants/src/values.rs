@@ -9,8 +9,8 @@ use glam::{DVec2, DVec3};
 use super::Outcome;
 use super::coverage::ORDERS;
 use super::exact::{self, U};
+use super::implementations::Implementations;
 use super::source::TriangleInput;
-use super::subject::Subject;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, MAX_VALUE, MAX_W, MIN_W, ScreenTriangle, ScreenVertex};
@@ -70,7 +70,7 @@ fn with(triangle: &Triangle, change: impl Fn(usize, &mut ScreenVertex<DVec2>)) -
 
 /// 21: the three functions add up to twice the area at every centre, whichever way the corners go
 /// round.
-pub(super) fn edges_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn edges_sum(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let corners = input.triangle.corners();
     let area = exact::twice_area(&corners);
     let mut compared = 0;
@@ -98,7 +98,7 @@ pub(super) fn edges_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
 ///
 /// Each weight lies in [0, 1] but for the roundings of a difference, a product and an addition
 /// around 1: 3 u below and 4 u above.
-pub(super) fn weights_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn weights_sum(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let unit = [DVec3::X, DVec3::Y, DVec3::Z];
     let vertices = [0, 1, 2].map_array(|i| {
         let ScreenVertex { position, depth, inv_w, .. } = input.triangle.vertices[i];
@@ -151,7 +151,7 @@ fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> 
 
 /// 23: values against exact rationals within the derived bounds; the oracle's too, which are the
 /// rationals rounded.
-pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn perspective(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let t = &input.triangle;
     let depths = t.vertices.map_array(|v| v.depth);
     let attributes = t.vertices.map_array(|v| v.varying.to_array());
@@ -188,7 +188,7 @@ pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// 24: no value beyond those of the vertices by more than the engine's own bound of rounding. The
 /// exact value is a mean of the three with weights in [0, 1]; so this bound is as derived, and a
 /// clamp would only hide a larger error.
-pub(super) fn hull(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn hull(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let t = &input.triangle;
     subject.each_engine(|engine| {
         let within = |value: f64, ends: [f64; 3], bound: Bound| {
@@ -206,7 +206,7 @@ pub(super) fn hull(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 25: a constant comes out as it went in.
-pub(super) fn constant(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn constant(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let value = input.triangle.vertices[0].varying;
     let flat = with(&input.triangle, |_, vertex| vertex.varying = value);
     subject.each_engine(|engine| {
@@ -216,7 +216,7 @@ pub(super) fn constant(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 26: any three equal w are as good as 1.
-pub(super) fn equal_w(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn equal_w(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let inv_w = input.triangle.vertices[0].inv_w;
     let equal = with(&input.triangle, |_, vertex| vertex.inv_w = inv_w);
     let affine = with(&input.triangle, |_, vertex| vertex.inv_w = 1.0);
@@ -227,7 +227,7 @@ pub(super) fn equal_w(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 27: a power of two moves the exponent of every w and of nothing else.
-pub(super) fn scaled_w(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn scaled_w(subject: &Implementations, input: &TriangleInput) -> Outcome {
     subject.each_engine(|engine| {
         let still = engine.fragments(&input.triangle, input.window);
         let mut compared = 0;
@@ -247,7 +247,7 @@ pub(super) fn scaled_w(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 28: not only the rotations but all six orders.
-pub(super) fn rotated_vertices(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn rotated_vertices(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let v = &input.triangle.vertices;
     subject.each_engine(|engine| {
         let first = engine.fragments(&input.triangle, input.window);
@@ -263,7 +263,7 @@ pub(super) fn rotated_vertices(subject: &Subject, input: &TriangleInput) -> Outc
 /// 29: a sample exactly on an edge belongs to one side only, so each side is asked where it owns:
 /// as it is, or turned by half a turn about the sample, which changes no exact value. Both answers
 /// are the same number, the value on the edge, within the bounds of the two triangles together.
-pub(super) fn shared_edge(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let [a, b, c] = input.triangle.corners();
     let window = PixelRect::window(48, 48);
     let (px, py) = ((input.salt % 48) as i32, (input.salt / 48 % 48) as i32);
@@ -334,7 +334,7 @@ pub(super) fn shared_edge(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 30: a flat depth is exact, so a depth test gives one picture for every order of submission.
-pub(super) fn flat_depth(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn flat_depth(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let depths = input.triangle.vertices.map_array(|vertex| vertex.depth);
     // The triangle and two copies a few pixels on, each at a depth of its own.
     let copies: Vec<Option<Triangle>> = (0..3)
@@ -377,7 +377,7 @@ pub(super) fn flat_depth(subject: &Subject, input: &TriangleInput) -> Outcome {
 }
 
 /// 31: the corners of the domain of w, of depth and of values.
-pub(super) fn finite(subject: &Subject, input: &TriangleInput) -> Outcome {
+pub(super) fn finite(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let (smallest, largest) = (1.0 / MAX_W, 1.0 / MIN_W);
     let inv_ws = [
         [smallest, largest, 1.0],

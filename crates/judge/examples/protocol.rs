@@ -5,7 +5,7 @@
 
 use std::process::ExitCode;
 
-use rasterproof_judge::ask::Ask;
+use rasterproof_judge::ask::Subject;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::{Options, judge, process_group, server};
@@ -55,8 +55,8 @@ fn ask(cases: u64, declare: &str, command: &[String]) -> ExitCode {
         }
     };
     let scope = Scope { triangles: true, lines: true, always: false };
-    let mut askers = [Box::new(program) as Box<dyn Ask>];
-    let options = Options { cases, ..Options::default() };
+    let mut askers = [Box::new(program) as Box<dyn Subject>];
+    let options = Options::default().cases(cases);
     let verdict = judge(&mut askers, &options, &|program| recognise(program, scope), &|_| {});
     let pixels: u64 = verdict.found.rows.iter().map(|row| row.pixels).sum();
     for property in verdict.properties.iter().filter(|property| !property.outcome.is_good()) {

@@ -6,7 +6,7 @@
 //! whose windows do not, is left out.
 
 use super::declared::Declared;
-use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_verify::cases::{self, Case, Family, Shape};
 
@@ -49,11 +49,7 @@ pub fn put(mut case: Case, declared: &Declared) -> Case {
     }
     match &mut case.shape {
         Shape::Triangles { list, disjoint } => {
-            for vertex in list.iter_mut().flat_map(|t| &mut t.vertices) {
-                let [x, y] = [(vertex.position.x, 0), (vertex.position.y, 1)]
-                    .map(|(sub, axis)| coordinate(sub, declared.origin[axis], declared));
-                vertex.position = SubpixelPoint::new(x, y);
-            }
+            declared.convention.put(list, declared.range);
             let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
             *disjoint = list.len() > 1 && super::mesh::is_disjoint(&corners);
         }
@@ -73,28 +69,6 @@ pub fn put(mut case: Case, declared: &Declared) -> Case {
     case
 }
 
-fn coordinate(sub: i32, origin: i32, declared: &Declared) -> i32 {
-    let step = i64::from(SUBPIXELS / declared.grid);
-    let moved = i64::from(sub) + i64::from(origin - HALF_PIXEL);
-    let on_grid = (moved + step / 2).div_euclid(step) * step;
-    let (least, most) = limits(declared);
-    on_grid.clamp(least, most) as i32
-}
-
-/// The coordinates that are asked, in subpixels: the domain, with room at its ends for a mirror
-/// image where one is needed to know the truth.
-fn limits(declared: &Declared) -> (i64, i64) {
-    let step = i64::from(SUBPIXELS / declared.grid);
-    let room = if declared.convention().is_standard() { 0 } else { 1 << 23 };
-    let (least, most) = match declared.range {
-        Some(range) => (-i64::from(range) * 256, i64::from(range) * 256),
-        None => (i64::from(i32::MIN), i64::from(i32::MAX)),
-    };
-    let least = least.max(i64::from(i32::MIN) + room);
-    let most = most.min(i64::from(i32::MAX) - room);
-    (-(-least).div_euclid(step) * step, most.div_euclid(step) * step)
-}
-
 /// Whether a case, shrunk perhaps, is one that the program says it draws.
 #[must_use]
 pub fn holds(case: &Case, declared: &Declared) -> bool {
@@ -103,13 +77,8 @@ pub fn holds(case: &Case, declared: &Declared) -> bool {
     if (w.x0, w.y0) != (0, 0) || !fits {
         return false;
     }
-    let (least, most) = limits(declared);
-    let step = SUBPIXELS / declared.grid;
-    let is_on = |v: i32| (least..=most).contains(&i64::from(v)) && v.rem_euclid(step) == 0;
     match &case.shape {
-        Shape::Triangles { list, .. } => {
-            list.iter().flat_map(|t| t.corners()).all(|p| is_on(p.x) && is_on(p.y))
-        }
+        Shape::Triangles { list, .. } => declared.convention.takes(list, declared.range),
         Shape::Lines(_) => put(case.clone(), declared) == *case,
         Shape::Unsnapped { .. } => false,
     }

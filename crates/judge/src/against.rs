@@ -5,25 +5,25 @@
 
 use std::time::Instant;
 
-use super::ask::{Answer, Ask, Misbehaviour, Question};
+use super::ask::{Answer, Misbehaviour, Question, Subject};
 use super::check::Truth;
 use super::declared::Declared;
 use super::failures;
 use super::recognise::{self, Why};
 use super::run::{self, Sides};
 use super::timed::Timed;
-use super::verdict::Verdict;
+use super::verdict::Judgement;
 use super::windings::Windings;
-use super::{Options, Step, reach};
+use super::{Options, Step, for_families, reach};
 
-/// Two programs behind one [`Ask`]: each answer is [`Answer::Two`].
+/// Two programs behind one [`Subject`]: each answer is [`Answer::Two`].
 struct Pair<'a> {
-    sides: [&'a mut dyn Ask; 2],
+    sides: [&'a mut dyn Subject; 2],
     /// What both can answer, with the conventions of the first.
     declared: Declared,
 }
 
-impl Ask for Pair<'_> {
+impl Subject for Pair<'_> {
     fn declared(&self) -> &Declared {
         &self.declared
     }
@@ -96,10 +96,10 @@ fn said_by(name: &str, what: Misbehaviour) -> Misbehaviour {
 /// If `pairs` is empty.
 #[must_use]
 pub fn compare(
-    pairs: &mut [[Box<dyn Ask>; 2]],
+    pairs: &mut [[Box<dyn Subject>; 2]],
     options: &Options,
     progress: &(dyn Fn(Step) + Sync),
-) -> Verdict {
+) -> Judgement {
     let start = Instant::now();
     let end = options.time_limit.map(|limit| start + limit);
     progress(Step::Rule);
@@ -120,8 +120,9 @@ pub fn compare(
         })
         .collect();
     pairs.iter_mut().for_each(|pair| pair.end_at(end));
-    let mut askers: Vec<&mut dyn Ask> = pairs.iter_mut().map(|pair| pair as &mut dyn Ask).collect();
-    let options = &options.for_families(start);
+    let mut askers: Vec<&mut dyn Subject> =
+        pairs.iter_mut().map(|pair| pair as &mut dyn Subject).collect();
+    let options = &for_families(options, start);
     let mut found = run::run(&mut askers, options, &truth, &|cases| progress(Step::Judged(cases)));
     progress(Step::Smaller);
     let pair = &mut pairs[0];
@@ -133,7 +134,7 @@ pub fn compare(
     let complaints = pair.complaints();
     let [first, second] = both;
     let windings = Windings::default();
-    let mut verdict = Verdict::new(first, options, windings, None, found, failures, complaints);
+    let mut verdict = Judgement::new(first, options, windings, None, found, failures, complaints);
     verdict.causes = causes;
     verdict.reach = truth.declared.reach;
     verdict.compared_with(second);
@@ -159,7 +160,7 @@ fn causes(
         let rows = found.rows.iter().filter(|row| row.sides.as_ref().is_some_and(is_wrong));
         let checks = run::checks_of(rows);
         let start = Instant::now();
-        let goes_on = || start.elapsed() < options.patience;
+        let goes_on = || start.elapsed() < options.terms.patience;
         let mut asked = Timed::new(&mut **side, end);
         let why = recognise::mistakes(&mut asked, &checks, truth, None, &goes_on);
         causes.extend(why.into_iter().map(|why| Why { by: name.clone(), ..why }));

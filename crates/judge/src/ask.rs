@@ -1,4 +1,4 @@
-//! Questions and answers as values, and who answers them: anybody behind [`Ask`].
+//! Questions and answers as values, and who answers them: anybody behind [`Subject`].
 //!
 //! A child process and an engine of the registry are asked alike, so that one judge serves both and
 //! the tests can compare them.
@@ -165,7 +165,7 @@ impl fmt::Display for Misbehaviour {
     }
 }
 
-pub trait Ask: Send {
+pub trait Subject: Send {
     fn declared(&self) -> &Declared;
 
     /// An answer for each question, in order; fewer where that many of them are deaths, or where its time

@@ -13,7 +13,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::run::Failing;
-use super::verdict::{Outcome, Verdict};
+use super::verdict::{Judgement, Outcome};
 
 const HEADER: &str = "# rasterproof baseline 1, seed ";
 
@@ -77,7 +77,7 @@ impl Baseline {
     }
 
     /// Sorts the outcomes of a verdict into known and new.
-    pub fn apply(&self, verdict: &mut Verdict) {
+    pub fn apply(&self, verdict: &mut Judgement) {
         let is_known = |f: &&Failing| self.known.get(&f.name()) == Some(&f.fingerprint);
         verdict.known = verdict.found.failing.iter().filter(is_known).count() as u64;
         let failing = failing(verdict);
@@ -106,7 +106,7 @@ impl Baseline {
     ///
     /// # Errors
     /// More fails than is worth remembering.
-    pub fn updated(&self, verdict: &Verdict) -> Result<String, String> {
+    pub fn updated(&self, verdict: &Judgement) -> Result<String, String> {
         if verdict.found.forgot {
             let most = super::run::MOST_REMEMBERED;
             return Err(format!("more than {most} cases fail: ask fewer with --cases"));
@@ -126,12 +126,12 @@ impl Baseline {
 }
 
 /// The cases that were judged, as in the file.
-fn judged(verdict: &Verdict) -> HashSet<String> {
+fn judged(verdict: &Judgement) -> HashSet<String> {
     verdict.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect()
 }
 
 /// What fails, as in the file. What the whole run shows has one case.
-fn failing(verdict: &Verdict) -> BTreeMap<String, u64> {
+fn failing(verdict: &Judgement) -> BTreeMap<String, u64> {
     let cases = verdict.found.failing.iter();
     let mut all: BTreeMap<_, _> = cases.map(|f| (f.name(), f.fingerprint)).collect();
     // That the program draws, in which winding, and by the protocol.

@@ -10,7 +10,7 @@ use super::ask::{Answer, Asked, Question};
 use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values, value_bounds};
-use super::finding::{Finding, hits, mix};
+use super::judged::{Judged, hits, mix};
 use super::pixels::{compare, length, masks_of, mesh_of, picks, picture_of, pixel_of, sequence};
 use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::frame::Coverage;
@@ -69,16 +69,16 @@ impl Truth {
         Self {
             expect: Box::new(declared.clone()),
             recognised: None,
-            drawn: declared.convention().seen_winding(),
+            drawn: declared.convention.seen_winding(),
             declared: declared.clone(),
             of_two: None,
         }
     }
 }
 
-impl Finding {
+impl Judged {
     pub fn describe(&self, check: Check) -> String {
-        let Tally { missing, extra, twice, order } = self.tally;
+        let Tally { missing, extra, twice, order } = self.finding.tally;
         let behind = if check == Check::Depth { "show what lies behind" } else { "out of order" };
         let counts = match check {
             _ if self.right.is_some() => vec![
@@ -109,8 +109,8 @@ impl Finding {
             .filter(|(n, _)| *n > 0)
             .map(|(n, what)| format!("{n} {what}"))
             .collect();
-        if self.worst > 1.0 {
-            parts.push(format!("a value off by {:.3e} times the tolerance", self.worst));
+        if self.finding.worst() > 1.0 {
+            parts.push(format!("a value off by {:.3e} times the tolerance", self.finding.worst()));
         }
         if self.refused > 0 {
             parts.push(format!("{} refused ({})", self.refused, self.reason));
@@ -193,7 +193,8 @@ impl Check {
                     if index.is_multiple_of(4) && list.len() == 1 {
                         checks.push(Self::Order);
                     }
-                    let is_centred = declared.origin == [HALF_PIXEL; 2] && declared.grid > 1;
+                    let is_centred =
+                        declared.convention.sample == [HALF_PIXEL; 2] && declared.grid() > 1;
                     if family == "half-integer"
                         && declared.line
                         && is_centred
@@ -209,7 +210,7 @@ impl Check {
                 }
                 if declared.samples4
                     && declared.shape == declared::Shape::Sample
-                    && declared.convention().is_standard()
+                    && declared.convention.is_standard()
                     && index % 8 == 1
                     && !is_perspective
                 {
@@ -261,7 +262,7 @@ impl Check {
                 })
             })),
             (Shape::Lines(lines), check) => {
-                let whole = truth.declared.grid == 1;
+                let whole = truth.declared.grid() == 1;
                 for [a, b] in lines.iter().map(|l| l.ends.map(|end| end.pixel)) {
                     out.push(ask(Asked::Line { ends: [a, b], whole }));
                     if check == Self::Direction {
@@ -275,45 +276,45 @@ impl Check {
 
     /// What happened instead of answers, where some of them are missing.
     #[must_use]
-    pub fn judge_deaths(answers: &[Answer]) -> Finding {
-        let mut finding = Finding { mark: 0xcbf2_9ce4_8422_2325, ..Finding::default() };
+    pub fn judge_deaths(answers: &[Answer]) -> Judged {
+        let mut judged = Judged { mark: 0xcbf2_9ce4_8422_2325, ..Judged::default() };
         for (i, answer) in answers.iter().enumerate() {
             match answer {
-                Answer::Died(misbehaviour) => finding.died.push((i, misbehaviour.clone())),
+                Answer::Died(misbehaviour) => judged.died.push((i, misbehaviour.clone())),
                 Answer::Refused(reason) => {
-                    finding.answered += 1;
-                    finding.refuse(reason);
+                    judged.answered += 1;
+                    judged.refuse(reason);
                 }
-                _ => finding.answered += 1,
+                _ => judged.answered += 1,
             }
         }
-        finding
+        judged
     }
 
     /// Judges the answers to the questions of [`Check::questions`].
     #[must_use]
-    pub fn judge(self, case: &Case, answers: &[Answer], truth: &Truth) -> Finding {
+    pub fn judge(self, case: &Case, answers: &[Answer], truth: &Truth) -> Judged {
         if let Some(of_two) = &truth.of_two {
             return self::of_two(self, case, answers, of_two);
         }
-        let mut finding = Self::judge_deaths(answers);
+        let mut judged = Self::judge_deaths(answers);
         match (&case.shape, self) {
             (Shape::Triangles { list, .. }, Self::Order) => {
-                finding.shapes = list.len() as u64;
-                answers.chunks(3).for_each(|same| alike(&mut finding, same, case.window));
+                judged.shapes = list.len() as u64;
+                answers.chunks(3).for_each(|same| alike(&mut judged, same, case.window));
             }
             (Shape::Triangles { .. }, Self::Outline) => {
-                answers.chunks(4).for_each(|of| outline::compare(&mut finding, of, case.window));
+                answers.chunks(4).for_each(|of| outline::compare(&mut judged, of, case.window));
             }
             (Shape::Triangles { list, .. }, Self::Watertight) => {
-                watertight(&mut finding, list, answers, case.window);
+                watertight(&mut judged, list, answers, case.window);
             }
             (Shape::Triangles { list, .. }, Self::Depth) => {
                 let pile = Pile::new(list, case.window, &*truth.expect, &truth.declared);
                 if let (Some(pile), Some(Answer::Seen(runs))) = (pile, answers.first()) {
-                    pile.compare(&mut finding, runs);
+                    pile.compare(&mut judged, runs);
                 }
-                finding.unscored += u64::from(truth.recognised.is_some());
+                judged.unscored += u64::from(truth.recognised.is_some());
             }
             (Shape::Triangles { .. }, Self::Near | Self::Carried) => {
                 let mut questions = Vec::new();
@@ -321,44 +322,44 @@ impl Check {
                 for (question, answer) in questions.iter().zip(answers) {
                     let asked = near_plane::asked(&question.of);
                     if let (Some(triangle), Some(corners)) = (asked, answer.polygon()) {
-                        near_plane::compare(&mut finding, &triangle, corners, &truth.declared);
+                        near_plane::compare(&mut judged, &triangle, corners, &truth.declared);
                     }
                 }
             }
             (Shape::Triangles { list, .. }, _) => {
                 for (triangle, answer) in list.iter().zip(answers) {
-                    one_triangle(&mut finding, triangle, answer, case.window, truth);
+                    one_triangle(&mut judged, triangle, answer, case.window, truth);
                 }
             }
             (Shape::Lines(lines), Self::Direction) => {
-                finding.shapes = lines.len() as u64;
-                answers.chunks(2).for_each(|both| alike(&mut finding, both, case.window));
+                judged.shapes = lines.len() as u64;
+                answers.chunks(2).for_each(|both| alike(&mut judged, both, case.window));
             }
             (Shape::Lines(lines), _) => {
                 for (line, answer) in lines.iter().zip(answers) {
-                    one_line(&mut finding, line, answer, case.window, truth);
+                    one_line(&mut judged, line, answer, case.window, truth);
                 }
             }
             (Shape::Unsnapped { .. }, _) => {}
         }
-        finding
+        judged
     }
 }
 
 /// How the answers of two programs differ, and whether each is right.
-fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) -> Finding {
+fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) -> Judged {
     let sides = difference::sides(answers);
     let [first, second] = [0, 1].map(|at| check.judge(case, &sides[at], &of_two[at]));
     // What died is the same on both sides.
     let died = first.died.clone();
-    let mut finding = Finding {
+    let mut judged = Judged {
         shapes: first.shapes,
         pixels: first.pixels,
         answered: first.answered,
         right: died.is_empty().then(|| [!first.is_wrong(), !second.is_wrong()]),
         died,
         mark: first.mark ^ second.mark.rotate_left(1),
-        ..Finding::default()
+        ..Judged::default()
     };
     let declared = &of_two[0].declared;
     for (at, (first, second)) in sides[0].iter().zip(&sides[1]).enumerate() {
@@ -369,9 +370,9 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
             Shape::Triangles { list, .. } => list.get(at),
             _ => None,
         };
-        difference::difference(&mut finding, [first, second], triangle, case.window, declared);
+        difference::difference(&mut judged, [first, second], triangle, case.window, declared);
     }
-    finding
+    judged
 }
 
 /// The triangle turned over where this winding alone is drawn and it has the other.
@@ -385,7 +386,7 @@ fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
 }
 
 fn one_triangle(
-    finding: &mut Finding,
+    judged: &mut Judged,
     triangle: &Triangle,
     answer: &Answer,
     window: PixelRect,
@@ -393,61 +394,61 @@ fn one_triangle(
 ) {
     let corners = triangle.corners();
     let Some(picture) = truth.expect.picture(&corners, window) else { return };
-    finding.shapes += 1;
-    finding.pixels += length(&picture.must);
-    let compare_both = |runs: &[Span], finding: &mut Finding| {
-        let before = finding.tally.total();
-        compare(&mut finding.tally, &mut finding.mark, runs, &picture, window);
-        let wrong = finding.tally.total() - before;
+    judged.shapes += 1;
+    judged.pixels += length(&picture.must);
+    let compare_both = |runs: &[Span], judged: &mut Judged| {
+        let before = judged.finding.tally.total();
+        compare(&mut judged.finding.tally, &mut judged.mark, runs, &picture, window);
+        let wrong = judged.finding.tally.total() - before;
         let Some(recognised) = &truth.recognised else { return };
         match recognised.picture(&corners, window) {
             Some(picture) => {
-                finding.other_pixels += length(&picture.must);
-                compare(&mut finding.other, &mut 0, runs, &picture, window);
+                judged.other_pixels += length(&picture.must);
+                compare(&mut judged.other, &mut 0, runs, &picture, window);
             }
-            None => leave_out(finding, wrong),
+            None => leave_out(judged, wrong),
         }
     };
     match answer {
-        Answer::Coverage(runs) => compare_both(runs, finding),
+        Answer::Coverage(runs) => compare_both(runs, judged),
         Answer::Values(fragments) => {
             let runs: Vec<_> = fragments.iter().map(pixel_of).collect();
-            compare_both(&runs, finding);
+            compare_both(&runs, judged);
             let expected = hits(&picture.must, window).0;
-            values(finding, triangle, fragments, &expected, truth);
+            values(judged, triangle, fragments, &expected, truth);
         }
-        Answer::Samples(runs) => samples(finding, &corners, runs, window, truth),
+        Answer::Samples(runs) => samples(judged, &corners, runs, window, truth),
         _ => {}
     }
 }
 
 /// Counts the pixels in which answers differ from the first one.
-fn alike(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
+fn alike(judged: &mut Judged, answers: &[Answer], window: PixelRect) {
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, window)).collect();
     let Some((first, others)) = drawn.split_first() else { return };
-    finding.pixels += first.covered();
+    judged.pixels += first.covered();
     for other in others {
-        finding.tally += Tally::between(other, first);
+        judged.finding.tally += Tally::between(other, first);
         if other != first {
             first.rows().zip(other.rows()).for_each(|((_, a), (_, b))| {
-                a.iter().zip(b).for_each(|(a, b)| mix(&mut finding.mark, u64::from(*a ^ *b)));
+                a.iter().zip(b).for_each(|(a, b)| mix(&mut judged.mark, u64::from(*a ^ *b)));
             });
         }
     }
 }
 
-fn watertight(finding: &mut Finding, list: &[Triangle], answers: &[Answer], window: PixelRect) {
-    finding.shapes = list.len() as u64;
+fn watertight(judged: &mut Judged, list: &[Triangle], answers: &[Answer], window: PixelRect) {
+    judged.shapes = list.len() as u64;
     let Some(sum) = mesh_of(answers, window) else { return };
-    finding.pixels += sum.covered();
+    judged.pixels += sum.covered();
     let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
     let (holes, doubles) = mesh::holes_and_doubles(&corners, &sum);
-    finding.tally += Tally { missing: holes, twice: doubles, ..Tally::default() };
+    judged.finding.tally += Tally { missing: holes, twice: doubles, ..Tally::default() };
 }
 
 /// Compares the values of some fragments, where these belong.
 fn values(
-    finding: &mut Finding,
+    judged: &mut Judged,
     triangle: &Triangle,
     fragments: &[Fragment<DVec2>],
     expected: &Coverage,
@@ -462,68 +463,61 @@ fn values(
         let (depth, [a, b]) = exact.at(f.x_px, f.y_px);
         let bounds = truth.expect.bounds(triangle, (f.x_px, f.y_px)).unwrap_or(bounds);
         let errors = [depth.distance(f.depth), a.distance(f.varying.x), b.distance(f.varying.y)];
-        for (error, bound) in errors.into_iter().zip(bounds) {
-            finding.values += 1;
-            // The distance to what is no number is infinite.
-            if error / bound > finding.worst {
-                finding.worst = error / bound;
-                finding.worst_at = Some((f.x_px, f.y_px));
-            }
-        }
+        judged.off(f, [0, 1, 2].map(|i| errors[i] / bounds[i]));
     }
 }
 
 /// Compares masks bit by bit; the samples have fixed places, so the declared one does not matter.
 fn samples(
-    finding: &mut Finding,
+    judged: &mut Judged,
     corners: &Corners,
     runs: &[(Span, u8)],
     window: PixelRect,
     truth: &Truth,
 ) {
-    let drawn = truth.declared.convention().draws(area2(corners));
+    let drawn = truth.declared.convention.draws(area2(corners));
     let Some(expected) = multisample::masks(&Oracle, *corners, window).filter(|_| drawn) else {
         return;
     };
     let actual = masks_of(runs, window);
     let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
     let (hit, outside) = hits(&all, window);
-    finding.tally.extra += outside;
+    judged.finding.tally.extra += outside;
     for (y, row) in actual.rows() {
         for ((&a, &e), &n) in row.iter().zip(expected.row(y)).zip(hit.row(y)) {
-            finding.tally.missing += u64::from((e & !a).count_ones());
-            finding.tally.extra += u64::from((a & !e).count_ones());
-            finding.tally.twice += u64::from(n.saturating_sub(1));
-            mix(&mut finding.mark, u64::from(a ^ e));
+            judged.finding.tally.missing += u64::from((e & !a).count_ones());
+            judged.finding.tally.extra += u64::from((a & !e).count_ones());
+            judged.finding.tally.twice += u64::from(n.saturating_sub(1));
+            mix(&mut judged.mark, u64::from(a ^ e));
         }
     }
 }
 
-fn one_line(finding: &mut Finding, line: &Line, answer: &Answer, window: PixelRect, truth: &Truth) {
+fn one_line(judged: &mut Judged, line: &Line, answer: &Answer, window: PixelRect, truth: &Truth) {
     let Answer::Line(pixels) = answer else { return };
     let ends = line.ends.map(|end| end.pixel);
     let Some(expected) = truth.expect.line(&ends, window) else { return };
-    finding.shapes += 1;
-    finding.pixels += expected.len() as u64;
+    judged.shapes += 1;
+    judged.pixels += expected.len() as u64;
     let in_order = !truth.declared.line_set;
-    let before = finding.tally.total();
-    sequence(&mut finding.tally, &mut finding.mark, pixels, &expected, window, in_order);
-    let wrong = finding.tally.total() - before;
+    let before = judged.finding.tally.total();
+    sequence(&mut judged.finding.tally, &mut judged.mark, pixels, &expected, window, in_order);
+    let wrong = judged.finding.tally.total() - before;
     let Some(recognised) = &truth.recognised else { return };
     match recognised.line(&ends, window) {
         Some(expected) => {
-            finding.other_pixels += expected.len() as u64;
+            judged.other_pixels += expected.len() as u64;
             let in_order = in_order && recognised.keeps_order();
-            sequence(&mut finding.other, &mut 0, pixels, &expected, window, in_order);
+            sequence(&mut judged.other, &mut 0, pixels, &expected, window, in_order);
         }
-        None => leave_out(finding, wrong),
+        None => leave_out(judged, wrong),
     }
 }
 
 /// Counts a shape of which the recognised convention says nothing, and its pixels that are wrong as declared.
-fn leave_out(finding: &mut Finding, wrong: u64) {
-    finding.unscored += 1;
-    finding.unscored_wrong += wrong;
+fn leave_out(judged: &mut Judged, wrong: u64) {
+    judged.unscored += 1;
+    judged.unscored_wrong += wrong;
 }
 
 /// The answer that was expected to each question of a check, where there is one.

@@ -7,9 +7,9 @@
 use std::fmt;
 
 use super::text::{number, printable, px};
-use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, MAX_SIDE_PX, SUBPIXELS};
+use rasterproof_core::grid::{DOMAIN_PX, MAX_SIDE_PX, SUBPIXELS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
-use rasterproof_verify::partition;
+use rasterproof_verify::partition::{self, Tessellation};
 
 /// What a program declares; the default is what version 1 promises.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,16 +32,10 @@ pub struct Declared {
     pub clip: bool,
     /// Answers A: clips corners that carry an attribute.
     pub clip_attributes: bool,
-    /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
-    pub grid: i32,
-    /// Where in a pixel its sample lies, in subpixels from the upper left corner.
-    pub origin: [i32; 2],
-    pub rule: Rule,
+    /// Its rule, winding, sample and grid of corners, of 0, 4, 6 or 8 bits.
+    pub convention: Convention,
     /// Which pixels belong to a triangle, its edges apart.
     pub shape: Shape,
-    pub winding: Winding,
-    /// Its own y axis points up: top and bottom, cw and ccw change places.
-    pub yup: bool,
     /// Coordinates lie in [-range, range] px; none means the whole domain.
     pub range: Option<i32>,
     /// The largest window it draws; none means any.
@@ -79,31 +73,20 @@ rasterproof_core::named! {
     }
 }
 
-/// What a tessellator promises, in the words of the module [`partition`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tessellation {
-    pub fill_rule: partition::FillRule,
-    pub winding: partition::Winding,
-    pub coordinates: partition::Coordinates,
-    pub t_junctions: bool,
-    pub degenerate: bool,
-}
-
-impl Tessellation {
-    const FILL_RULES: [(&'static str, partition::FillRule); 2] =
-        [("even-odd", partition::FillRule::EvenOdd), ("nonzero", partition::FillRule::NonZero)];
-    const WINDINGS: [(&'static str, partition::Winding); 4] = [
-        ("alike", partition::Winding::Alike),
-        ("ccw", partition::Winding::Counterclockwise),
-        ("cw", partition::Winding::Clockwise),
-        ("any", partition::Winding::Any),
-    ];
-    const COORDINATES: [(&'static str, partition::Coordinates); 3] = [
-        ("f64", partition::Coordinates::F64),
-        ("f32", partition::Coordinates::F32),
-        ("integer", partition::Coordinates::Integer),
-    ];
-}
+/// The words for what a tessellator promises.
+const FILL_RULES: [(&str, partition::FillRule); 2] =
+    [("even-odd", partition::FillRule::EvenOdd), ("nonzero", partition::FillRule::NonZero)];
+const WINDINGS: [(&str, partition::Winding); 4] = [
+    ("alike", partition::Winding::Alike),
+    ("ccw", partition::Winding::Counterclockwise),
+    ("cw", partition::Winding::Clockwise),
+    ("any", partition::Winding::Any),
+];
+const COORDINATES: [(&str, partition::Coordinates); 3] = [
+    ("f64", partition::Coordinates::F64),
+    ("f32", partition::Coordinates::F32),
+    ("integer", partition::Coordinates::Integer),
+];
 
 /// What a word stands for in a list.
 fn meant<T: Copy>(list: &[(&str, T)], word: &str) -> Option<T> {
@@ -133,12 +116,8 @@ impl Default for Declared {
             depth: false,
             clip: false,
             clip_attributes: false,
-            grid: SUBPIXELS,
-            origin: [HALF_PIXEL; 2],
-            rule: Rule::TopLeft,
+            convention: Convention::default(),
             shape: Shape::Sample,
-            winding: Winding::Both,
-            yup: false,
             range: None,
             window: None,
             batch: 1,
@@ -191,36 +170,32 @@ impl Declared {
             ("partition", None) => self.partition = true,
             ("t-junctions", None) => self.tessellation.t_junctions = true,
             ("degenerate", None) => self.tessellation.degenerate = true,
-            ("fill-rule", Some(v)) => {
-                self.tessellation.fill_rule = meant(&Tessellation::FILL_RULES, v)?
-            }
-            ("triangles", Some(v)) => {
-                self.tessellation.winding = meant(&Tessellation::WINDINGS, v)?
-            }
-            ("coordinates", Some(v)) => {
-                self.tessellation.coordinates = meant(&Tessellation::COORDINATES, v)?
-            }
-            ("yup", None) => self.yup = true,
+            ("fill-rule", Some(v)) => self.tessellation.fill_rule = meant(&FILL_RULES, v)?,
+            ("triangles", Some(v)) => self.tessellation.winding = meant(&WINDINGS, v)?,
+            ("coordinates", Some(v)) => self.tessellation.coordinates = meant(&COORDINATES, v)?,
+            ("yup", None) => self.convention.y_up = true,
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
             ("grid", Some(v)) => {
-                self.grid = whole(v, SUBPIXELS).filter(|g| [1, 16, 64, 256].contains(g))?;
+                let grid = whole(v, SUBPIXELS).filter(|g| [1, 16, 64, 256].contains(g))?;
+                self.convention.subpixel_bits = grid.ilog2();
             }
             ("origin", Some(v)) => {
                 let (x, y) = v.split_once(',')?;
-                self.origin = [subpixels(x)?, subpixels(y)?];
+                self.convention.sample = [subpixels(x)?, subpixels(y)?];
             }
             ("rule", Some(v)) => {
-                self.rule = Rule::ALL.iter().find(|(word, _)| *word == v).map(|(_, r)| *r)?;
+                self.convention.rule =
+                    Rule::ALL.iter().find(|(word, _)| *word == v).map(|(_, r)| *r)?;
             }
             ("shape", Some(v)) => {
                 self.shape = Shape::ALL.into_iter().find(|shape| shape.name() == v)?;
             }
             ("near", Some("zero")) => self.near_is_zero = true,
             ("near", Some("minus-w")) => self.near_is_zero = false,
-            ("winding", Some("cw")) => self.winding = Winding::Clockwise,
-            ("winding", Some("ccw")) => self.winding = Winding::CounterClockwise,
-            ("winding", Some("both")) => self.winding = Winding::Both,
+            ("winding", Some("cw")) => self.convention.winding = Winding::Clockwise,
+            ("winding", Some("ccw")) => self.convention.winding = Winding::CounterClockwise,
+            ("winding", Some("both")) => self.convention.winding = Winding::Both,
             ("range", Some(v)) => self.range = Some(whole(v, DOMAIN_PX - 1)?),
             ("window", Some(v)) => {
                 let (w, h) = v.split_once('x')?;
@@ -255,7 +230,9 @@ impl Declared {
             clip: self.clip && other.clip,
             clip_attributes: self.clip_attributes && other.clip_attributes,
             partition: self.partition && other.partition,
-            grid: self.grid.min(other.grid),
+            convention: self
+                .convention
+                .subpixel_bits(self.convention.subpixel_bits.min(other.convention.subpixel_bits)),
             range: least(self.range, other.range),
             reach: least(self.reach, other.reach),
             window,
@@ -266,10 +243,10 @@ impl Declared {
         }
     }
 
-    pub fn convention(&self) -> Convention {
-        let [x, y] = self.origin;
-        let convention = Convention::default().rule(self.rule).winding(self.winding).sample(x, y);
-        if self.yup { convention.y_up() } else { convention }
+    /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
+    #[must_use]
+    pub fn grid(&self) -> i32 {
+        1 << self.convention.subpixel_bits
     }
 
     pub fn capabilities(&self) -> Vec<&'static str> {
@@ -298,18 +275,19 @@ impl fmt::Display for Declared {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.capabilities().join(" "))?;
         if self.partition {
-            let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate } =
+            let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate, .. } =
                 &self.tessellation;
-            let fill_rule = word_of(&Tessellation::FILL_RULES, fill_rule);
-            let winding = word_of(&Tessellation::WINDINGS, winding);
-            let coordinates = word_of(&Tessellation::COORDINATES, coordinates);
+            let fill_rule = word_of(&FILL_RULES, fill_rule);
+            let winding = word_of(&WINDINGS, winding);
+            let coordinates = word_of(&COORDINATES, coordinates);
             write!(f, " fill-rule={fill_rule} triangles={winding} coordinates={coordinates}")?;
             f.write_str(if *t_junctions { " t-junctions" } else { "" })?;
             return f.write_str(if *degenerate { " degenerate" } else { "" });
         }
-        write!(f, " grid={} origin={},{}", self.grid, px(self.origin[0]), px(self.origin[1]))?;
-        write!(f, " rule={} winding={}", self.rule.word(), self.winding.word())?;
-        let flags = [("yup", self.yup), ("mask", self.mask), ("line-set", self.line_set)];
+        let Convention { rule, winding, sample: [x, y], y_up, .. } = self.convention;
+        write!(f, " grid={} origin={},{}", self.grid(), px(x), px(y))?;
+        write!(f, " rule={} winding={}", rule.word(), winding.word())?;
+        let flags = [("yup", y_up), ("mask", self.mask), ("line-set", self.line_set)];
         for (word, _) in flags.iter().filter(|(_, is_set)| *is_set) {
             write!(f, " {word}")?;
         }
@@ -342,9 +320,9 @@ mod tests {
         let line = "HELLO 2 mine coverage attributes depth clip clip-attributes grid=16 origin=0,0.25 rule=strict winding=ccw \
                     yup mask shape=touched near=zero range=4096 window=64x32 batch=8 tolerance=1e-5";
         let declared = Declared::parse(line).unwrap();
-        assert_eq!((declared.grid, declared.origin), (16, [0, 64]));
+        assert_eq!((declared.grid(), declared.convention.sample), (16, [0, 64]));
         assert_eq!(
-            (declared.rule, declared.convention().seen_winding()),
+            (declared.convention.rule, declared.convention.seen_winding()),
             (Rule::Strict, Winding::Clockwise)
         );
         assert_eq!((declared.range, declared.window), (Some(4096), Some([64, 32])));
@@ -373,10 +351,10 @@ mod tests {
         let declared = Declared::parse(line).unwrap();
         assert_eq!(declared.unknown.len(), 5, "{:?}", declared.unknown);
         assert!(declared.name.chars().all(|c| !c.is_control()));
-        assert_eq!((declared.grid, declared.batch), (256, 1));
+        assert_eq!((declared.grid(), declared.batch), (256, 1));
         assert_eq!(Declared::parse("HELLO 3 x coverage"), None);
         assert_eq!(Declared::parse("HELLO 1"), None);
         let flipped = Declared::parse("HELLO 2 gl coverage rule=top-left yup").unwrap();
-        assert_eq!(flipped.convention().seen_rule(), Rule::BottomLeft);
+        assert_eq!(flipped.convention.seen_rule(), Rule::BottomLeft);
     }
 }

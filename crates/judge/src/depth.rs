@@ -6,7 +6,7 @@
 
 use super::declared::Declared;
 use super::expected::{Expect, exact_values};
-use super::finding::{Finding, hits, mix, push};
+use super::judged::{Judged, hits, mix, push};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
@@ -82,25 +82,25 @@ impl Pile {
     }
 
     /// Counts the pixels that show nothing, what is not there, or what lies behind.
-    pub fn compare(&self, finding: &mut Finding, runs: &[(Span, u8)]) {
-        finding.shapes += self.layers.len() as u64;
+    pub fn compare(&self, judged: &mut Judged, runs: &[(Span, u8)]) {
+        judged.shapes += self.layers.len() as u64;
         let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
         let (counts, outside) = hits(&all, self.window);
-        finding.tally.extra += outside;
+        judged.finding.tally.extra += outside;
         for (y, row) in counts.rows() {
             for (x, &count) in row.iter().enumerate() {
                 let (seen, must) = self.seen(x, y);
-                finding.pixels += u64::from(must);
-                finding.tally.twice += u64::from(count.saturating_sub(1));
-                finding.tally.missing += u64::from(count == 0 && must);
-                finding.tally.extra += u64::from(count > 0 && seen.is_empty());
+                judged.pixels += u64::from(must);
+                judged.finding.tally.twice += u64::from(count.saturating_sub(1));
+                judged.finding.tally.missing += u64::from(count == 0 && must);
+                judged.finding.tally.extra += u64::from(count > 0 && seen.is_empty());
                 let shown = shown(runs, self.window.x0 + x as i32, y);
                 let is_behind = !seen.is_empty() && shown.is_some_and(|t| !seen.contains(&t));
-                finding.tally.order += u64::from(is_behind);
+                judged.finding.tally.order += u64::from(is_behind);
                 if count > 1 || is_behind || (count == 0) == (must || seen.is_empty()) {
                     [y as u64, x as u64, u64::from(count)]
                         .iter()
-                        .for_each(|w| mix(&mut finding.mark, *w));
+                        .for_each(|w| mix(&mut judged.mark, *w));
                 }
             }
         }
@@ -182,18 +182,18 @@ mod tests {
         let is_wrong = |index: &u64| {
             let case = FAMILIES[0].case(1, *index);
             let Shape::Triangles { list, .. } = &case.shape else { return true };
-            let expect = declared.convention();
+            let expect = declared.convention;
             let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { return true };
-            let mut finding = Finding::default();
+            let mut judged = Judged::default();
             let runs = answer(list, case.window);
-            pile.compare(&mut finding, &runs);
+            pile.compare(&mut judged, &runs);
             let (_, [drawn, expected]) = pile.pictures(&runs).unwrap();
             // What is wrong is seen in the picture, unless it is a pixel drawn twice.
             assert!(
-                finding.tally.twice > 0 || finding.is_wrong() == (drawn != expected),
+                judged.finding.tally.twice > 0 || judged.is_wrong() == (drawn != expected),
                 "{index}"
             );
-            finding.is_wrong()
+            judged.is_wrong()
         };
         (0..200).filter(is_wrong).count()
     }
@@ -235,11 +235,11 @@ mod tests {
             for index in 0..20 {
                 let case = FAMILIES[0].case(2, index);
                 let Shape::Triangles { list, .. } = &case.shape else { panic!("triangles") };
-                let expect = declared.convention();
+                let expect = declared.convention;
                 let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { continue };
-                let mut finding = Finding::default();
-                pile.compare(&mut finding, &pile.runs());
-                assert!(!finding.is_wrong(), "{words} {index}: {:?}", finding.tally);
+                let mut judged = Judged::default();
+                pile.compare(&mut judged, &pile.runs());
+                assert!(!judged.is_wrong(), "{words} {index}: {:?}", judged.finding.tally);
             }
         }
     }

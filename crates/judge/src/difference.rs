@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::ask::Answer;
 use super::declared::Declared;
 use super::expected::value_bounds;
-use super::finding::{Finding, mix};
+use super::judged::{Judged, mix};
 use super::near_plane;
 use super::pixels::{hits_of, painted, picks, sequence};
 use rasterproof_core::frame::Coverage;
@@ -28,7 +28,7 @@ pub(super) fn sides(answers: &[Answer]) -> [Vec<Answer>; 2] {
 
 /// Adds how two answers to the same question differ.
 pub(super) fn difference(
-    finding: &mut Finding,
+    judged: &mut Judged,
     [first, second]: [&Answer; 2],
     triangle: Option<&Triangle>,
     window: PixelRect,
@@ -37,17 +37,17 @@ pub(super) fn difference(
     match (first, second) {
         (Answer::Refused(_), Answer::Refused(_)) => return,
         (Answer::Refused(why), _) | (_, Answer::Refused(why)) => {
-            finding.refuse(&format!("by one of both: {why}"));
+            judged.refuse(&format!("by one of both: {why}"));
             return;
         }
         (Answer::Line(first), Answer::Line(second)) => {
             let in_order = !declared.line_set;
-            sequence(&mut finding.tally, &mut finding.mark, first, second, window, in_order);
+            sequence(&mut judged.finding.tally, &mut judged.mark, first, second, window, in_order);
             return;
         }
         (Answer::Polygon(first), Answer::Polygon(second))
         | (Answer::Carried(first), Answer::Carried(second)) => {
-            corners(finding, first, second, triangle, declared);
+            corners(judged, first, second, triangle, declared);
             return;
         }
         _ => {}
@@ -56,9 +56,9 @@ pub(super) fn difference(
     let [Some((first_hits, first_outside)), Some((second_hits, second_outside))] = both else {
         return;
     };
-    finding.tally.extra += first_outside.saturating_sub(second_outside);
-    finding.tally.missing += second_outside.saturating_sub(first_outside);
-    pixels(finding, &first_hits, &second_hits, declared.mask);
+    judged.finding.tally.extra += first_outside.saturating_sub(second_outside);
+    judged.finding.tally.missing += second_outside.saturating_sub(first_outside);
+    pixels(judged, &first_hits, &second_hits, declared.mask);
     match (first, second) {
         (Answer::Samples(first), Answer::Samples(second))
         | (Answer::Seen(first), Answer::Seen(second)) => {
@@ -68,25 +68,25 @@ pub(super) fn difference(
                 for (x, (a, b)) in a.iter().zip(b).enumerate() {
                     let are_covered = a.is_some() && b.is_some();
                     if are_covered && a != b {
-                        finding.tally.order += 1;
-                        [y as u64, x as u64].iter().for_each(|word| mix(&mut finding.mark, *word));
+                        judged.finding.tally.order += 1;
+                        [y as u64, x as u64].iter().for_each(|word| mix(&mut judged.mark, *word));
                     }
                 }
             }
         }
         (Answer::Values(first), Answer::Values(second)) => {
             if let Some(triangle) = triangle {
-                values(finding, first, second, triangle, declared);
+                values(judged, first, second, triangle, declared);
             }
         }
         _ => {}
     }
 }
 
-fn pixels(finding: &mut Finding, first: &Coverage, second: &Coverage, is_mask: bool) {
+fn pixels(judged: &mut Judged, first: &Coverage, second: &Coverage, is_mask: bool) {
     for ((y, a), (_, b)) in first.rows().zip(second.rows()) {
         for (x, (&a, &b)) in a.iter().zip(b).enumerate() {
-            let tally = &mut finding.tally;
+            let tally = &mut judged.finding.tally;
             match (a, b) {
                 (0, 0) => continue,
                 (0, _) => tally.missing += 1,
@@ -94,16 +94,14 @@ fn pixels(finding: &mut Finding, first: &Coverage, second: &Coverage, is_mask: b
                 _ if a == b || is_mask => continue,
                 _ => tally.twice += 1,
             }
-            [y as u64, x as u64, u64::from(a)]
-                .iter()
-                .for_each(|word| mix(&mut finding.mark, *word));
+            [y as u64, x as u64, u64::from(a)].iter().for_each(|word| mix(&mut judged.mark, *word));
         }
     }
 }
 
 /// Two right values lie within twice the tolerance of each other.
 fn values(
-    finding: &mut Finding,
+    judged: &mut Judged,
     first: &[Fragment<DVec2>],
     second: &[Fragment<DVec2>],
     triangle: &Triangle,
@@ -116,20 +114,12 @@ fn values(
         };
         let errors =
             [f.depth - g.depth, f.varying.x - g.varying.x, f.varying.y - g.varying.y].map(f64::abs);
-        for (error, bound) in errors.into_iter().zip(bounds) {
-            finding.values += 1;
-            // The difference to what is no number is no number.
-            let share = if error.is_nan() { f64::INFINITY } else { error / bound };
-            if share > finding.worst {
-                finding.worst = share;
-                finding.worst_at = Some((f.x_px, f.y_px));
-            }
-        }
+        judged.off(f, [0, 1, 2].map(|i| errors[i] / bounds[i]));
     }
 }
 
 fn corners(
-    finding: &mut Finding,
+    judged: &mut Judged,
     first: &[ClipCorner],
     second: &[ClipCorner],
     triangle: Option<&Triangle>,
@@ -140,6 +130,6 @@ fn corners(
     let near = |a: &ClipCorner, b: &ClipCorner| {
         a.iter().zip(b).zip(bounds).all(|((a, b), bound)| (a - b).abs() <= bound)
     };
-    finding.tally +=
+    judged.finding.tally +=
         near_plane::between(second.len(), first.len(), |i, j| near(&second[i], &first[j]));
 }

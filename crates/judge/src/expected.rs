@@ -55,7 +55,7 @@ impl Expect for Declared {
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
         // Half a pixel further out, or further in, along both axes.
         let reach = match self.shape {
-            Shape::Sample => return self.convention().picture(corners, window),
+            Shape::Sample => return self.convention.picture(corners, window),
             Shape::Touched => HALF_PIXEL,
             Shape::Covered => -HALF_PIXEL,
         };
@@ -63,7 +63,7 @@ impl Expect for Declared {
         if area2(corners) == 0 {
             return None;
         }
-        let known = Known::from(&self.convention());
+        let known = Known::from(&self.convention);
         let shape = convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach, square: true };
         let of = |rule: &str| {
             let ties = Ties::named(rule)?;
@@ -74,13 +74,13 @@ impl Expect for Declared {
     }
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {
-        self.convention().line(ends, window)
+        self.convention.line(ends, window)
     }
 }
 
 /// The exact values at the declared sample; w is the one that the request names.
 pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTriangle<2>> {
-    let corners = declared.convention().centred(&triangle.corners());
+    let corners = declared.convention.centred(&triangle.corners());
     let v = &triangle.vertices;
     let inv_w = v.map(|v| 1.0 / (1.0 / v.inv_w));
     ExactTriangle::new(&corners, v.map(|v| v.depth), inv_w, v.map(|v| v.varying.to_array()))

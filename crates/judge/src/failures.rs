@@ -5,25 +5,24 @@ use std::time::{Duration, Instant};
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Ask, Breach, Misbehaviour, Question, show};
+use super::ask::{Answer, Breach, Misbehaviour, Question, Subject, show};
 use super::check::{Check, Truth, expected_answer};
-use super::finding::Finding;
+use super::judged::Judged;
 use super::pictured::{Pictured, pictured};
 use super::run::{Failing, Found, MOST_DEATHS, Row};
 use super::shrink::smaller;
 use rasterproof_verify::cases::Case;
 
+/// A failing case, shrunk.
+pub type Failure = rasterproof_verify::judge::Failure<Case, Exchanged>;
+
+/// What was asked and answered in a failing case.
 #[derive(Clone, Debug)]
-pub struct Failure {
+pub struct Exchanged {
     pub property: &'static str,
     pub check: Check,
-    pub family: &'static str,
-    pub index: u64,
-    pub what: String,
     /// How far it was made smaller, in words.
     pub shrunk: &'static str,
-    /// The smallest case found that still fails.
-    pub case: Case,
     pub exchanges: Vec<Exchange>,
     /// All its answers as one picture, and the one expected, where there are both.
     pub picture: Option<Pictured>,
@@ -46,7 +45,7 @@ const MOST_SHOWN: usize = 6;
 /// The first failing case of each property that is not known, shrunk: holes and doubles, then those of the most
 /// often wrong. Where the pictures show what is wrong, it comes first.
 pub fn failures(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     found: &Found,
     options: &Options,
     truth: &Truth,
@@ -55,14 +54,15 @@ pub fn failures(
     let share = |row: &Row| if row.name == "watertight" { f64::INFINITY } else { row.share() };
     rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let is_known = |f: &Failing| {
-        !options.known.is_empty() && options.known.get(&f.name()) == Some(&f.fingerprint)
+        !options.terms.known.is_empty()
+            && options.terms.known.get(&f.name()) == Some(&f.fingerprint)
     };
     let news: Vec<&Failing> = found.failing.iter().filter(|f| !is_known(f)).collect();
     let of = |name: &str| news.iter().find(|f| f.property == name);
     let firsts = rows.into_iter().filter_map(|row| of(row.name)).take(MOST_SHOWN);
     let shown = firsts.filter_map(|failing| failure(program, found, failing, options, truth));
     let mut shown: Vec<_> = shown.collect();
-    let is_same = |f: &Failure| f.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
+    let is_same = |f: &Failure| f.evidence.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
     shown.sort_by_key(is_same);
     shown
 }
@@ -71,32 +71,32 @@ pub fn failures(
 pub struct Asked {
     pub questions: Vec<Question>,
     pub answers: Vec<Answer>,
-    pub finding: Finding,
+    pub judged: Judged,
 }
 
 impl Asked {
-    fn of(program: &mut dyn Ask, check: Check, case: &Case, truth: &Truth) -> Self {
+    fn of(program: &mut dyn Subject, check: Check, case: &Case, truth: &Truth) -> Self {
         let mut questions = Vec::new();
         check.questions(case, truth, &mut questions);
         let answers = program.ask(&questions, MOST_DEATHS);
-        let finding = judge(check, case, &answers, questions.len(), truth);
-        Self { questions, answers, finding }
+        let judged = judge(check, case, &answers, questions.len(), truth);
+        Self { questions, answers, judged }
     }
 
     /// Whether answers are missing, and not because the program died: the time is up.
     fn is_late(&self) -> bool {
-        self.answers.len() < self.questions.len() && self.finding.died.is_empty()
+        self.answers.len() < self.questions.len() && self.judged.died.is_empty()
     }
 
     /// Whether it takes long to go wrong.
     fn is_slow(&self) -> bool {
         let is_slow = |m: &Misbehaviour| matches!(m.breach, Breach::Hangs | Breach::Late);
-        self.finding.died.iter().any(|(_, m)| is_slow(m))
+        self.judged.died.iter().any(|(_, m)| is_slow(m))
     }
 }
 
 fn failure(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     found: &Found,
     failing: &Failing,
     options: &Options,
@@ -111,12 +111,13 @@ fn failure(
     let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
     let first = Asked::of(program, check, &case, truth);
     let was_asked = !first.is_late();
-    let search = Search { check, truth, patience: options.patience, may_be: &may_be };
+    let (seed, patience) = (options.seed, options.terms.patience);
+    let search = Search { check, truth, seed, patience, may_be: &may_be };
     let mut failure = search.smallest(program, failing, case, first);
     if !was_asked {
         let described = found.described.get(&failing.name());
         failure.what = described.map_or("wrong", String::as_str).to_owned();
-        failure.picture = None;
+        failure.evidence.picture = None;
     }
     Some(failure)
 }
@@ -125,6 +126,8 @@ fn failure(
 pub struct Search<'a> {
     pub check: Check,
     pub truth: &'a Truth,
+    /// The seed of the case.
+    pub seed: u64,
     pub patience: Duration,
     /// Whether a smaller case is one to ask.
     pub may_be: &'a dyn Fn(&Case) -> bool,
@@ -134,17 +137,17 @@ impl Search<'_> {
     /// What takes long to go wrong is shown as it is, and not asked again.
     pub fn smallest(
         &self,
-        program: &mut dyn Ask,
+        program: &mut dyn Subject,
         failing: &Failing,
         original: Case,
         first: Asked,
     ) -> Failure {
-        let &Self { check, truth, patience, may_be } = self;
+        let &Self { check, truth, seed, patience, may_be } = self;
         let program = RefCell::new(program);
         let ask = |case: &Case| Asked::of(*program.borrow_mut(), check, case, truth);
         let start = Instant::now();
         let (was_wrong, was_late, is_slow) =
-            (first.finding.is_wrong(), first.is_late(), first.is_slow());
+            (first.judged.is_wrong(), first.is_late(), first.is_slow());
         // The answers to the smallest case so far.
         let kept = RefCell::new(first);
         let case = if !was_wrong || is_slow {
@@ -159,7 +162,7 @@ impl Search<'_> {
                     return false;
                 }
                 let asked = ask(&smaller);
-                let is_wrong = asked.finding.is_wrong();
+                let is_wrong = asked.judged.is_wrong();
                 if is_wrong {
                     *kept.borrow_mut() = asked;
                 }
@@ -175,10 +178,10 @@ impl Search<'_> {
             (_, true) => "shrunk until the time was up",
             (_, false) => "shrunk",
         };
-        let Asked { questions, answers, finding } = again.unwrap_or_else(|| kept.into_inner());
+        let Asked { questions, answers, judged } = again.unwrap_or_else(|| kept.into_inner());
         // Asked again, it was right: the program does not repeat itself.
-        let what = match was_wrong && finding.is_wrong() {
-            true => finding.describe(check),
+        let what = match was_wrong && judged.is_wrong() {
+            true => judged.describe(check),
             false => "wrong at first, right when asked again".to_owned(),
         };
         let expected = |question: &Question| {
@@ -194,22 +197,19 @@ impl Search<'_> {
             },
             expected: expected(question),
         });
-        Failure {
+        let evidence = Exchanged {
             property: failing.property,
             check,
-            family: failing.family,
-            index: failing.index,
-            what,
             shrunk,
             exchanges: exchanges.collect(),
             picture: pictured(check, &case, &answers, truth),
-            case,
-        }
+        };
+        Failure::new(failing.family, failing.index, seed, what, case, evidence)
     }
 }
 
 /// What is found in the answers to a case; there are fewer where the program died or the time was up.
-pub fn judge(check: Check, case: &Case, answers: &[Answer], of: usize, truth: &Truth) -> Finding {
+pub fn judge(check: Check, case: &Case, answers: &[Answer], of: usize, truth: &Truth) -> Judged {
     if answers.len() < of {
         Check::judge_deaths(answers)
     } else {

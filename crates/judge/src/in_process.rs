@@ -1,6 +1,6 @@
 //! An engine of the registry as a judged program without a process: the server answers in memory.
 
-use super::ask::{Answer, Ask, Breach, Question};
+use super::ask::{Answer, Breach, Question, Subject};
 use super::declared::{Declared, MOST_IN_FLIGHT};
 use super::server;
 use super::text::Words;
@@ -69,7 +69,7 @@ impl Inside {
     }
 }
 
-impl Ask for Inside {
+impl Subject for Inside {
     fn declared(&self) -> &Declared {
         &self.declared
     }

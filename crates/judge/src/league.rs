@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::verdict::{Score, Verdict};
+use super::verdict::{Judgement, Score};
 
 /// An adapter, as `adapters/league.json` names it.
 #[derive(Clone, Debug, Deserialize)]
@@ -58,7 +58,7 @@ pub struct League {
 
 impl Standing {
     #[must_use]
-    pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
+    pub fn new(adapter: &Adapter, date: String, verdict: &Judgement) -> Self {
         let row = |name: &str| verdict.found.rows.iter().find(|row| row.name == name);
         let kind = |lines: bool, about: &str| {
             let as_declared = verdict.score(Some(lines), |r| (r.tally.total(), r.pixels, 0));

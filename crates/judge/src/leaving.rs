@@ -9,7 +9,7 @@ use super::ask::{Answer, Asked, Question};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::expected::Expect;
-use super::finding::hits;
+use super::judged::hits;
 use super::pixels::picture_of;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};

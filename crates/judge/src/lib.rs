@@ -4,7 +4,7 @@
 //! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`in_process`] an
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
-//! wrong with a case ([`finding`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
+//! wrong with a case ([`judged`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
 //! [`polygons`] judges tessellators. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
@@ -19,8 +19,8 @@ mod depth;
 mod difference;
 pub mod expected;
 pub mod failures;
-pub mod finding;
 pub mod in_process;
+pub mod judged;
 pub mod league;
 mod leaving;
 pub mod mesh;
@@ -45,24 +45,22 @@ pub mod windings;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use ask::{Answer, Ask, Question};
+use ask::{Answer, Question, Subject};
 use check::Truth;
 use declared::Declared;
+use rasterproof_verify::judge::Terms;
 use rasterproof_verify::partition;
 use recognise::{Recognised, Said};
 use run::Incident;
 use timed::Timed;
-use verdict::Verdict;
+use verdict::Judgement;
 
+/// The time limit is that of all questions. An answer that is still missing at its end is awaited a short while longer.
+pub type Options = rasterproof_verify::judge::Options<String, Asking>;
+
+/// What is done about failing cases of a program.
 #[derive(Clone, Debug)]
-pub struct Options {
-    pub seed: u64,
-    pub cases: u64,
-    /// The time for all questions. An answer that is still missing at its end is awaited a short while longer.
-    pub time_limit: Option<Duration>,
-    /// Names of families; empty means all.
-    pub families: Vec<String>,
-    pub only: Option<u64>,
+pub struct Asking {
     /// How long the smallest failing case of a property is looked for.
     pub patience: Duration,
     /// Every case and every failure is remembered, for a baseline.
@@ -71,31 +69,24 @@ pub struct Options {
     pub known: BTreeMap<String, u64>,
 }
 
-impl Default for Options {
+impl Default for Asking {
     fn default() -> Self {
-        Self {
-            seed: 1,
-            cases: 1000,
-            time_limit: None,
-            families: Vec::new(),
-            only: None,
-            patience: Duration::from_secs(5),
-            remember: false,
-            known: BTreeMap::new(),
-        }
+        Self { patience: Duration::from_secs(5), remember: false, known: BTreeMap::new() }
     }
 }
 
-impl Options {
-    /// Of a limited time that began then, what is left for the families: a tenth of all is for the questions after them.
-    fn for_families(&self, start: Instant) -> Self {
-        let mut options = self.clone();
-        if let Some(limit) = self.time_limit {
-            options.time_limit = Some((limit - limit / 10).saturating_sub(start.elapsed()));
-            options.patience = options.patience.min(limit / 10);
-        }
-        options
+impl Terms for Asking {
+    const CASES: u64 = 1000;
+}
+
+/// Of a limited time that began then, what is left for the families: a tenth of all is for the questions after them.
+fn for_families(options: &Options, start: Instant) -> Options {
+    let mut options = options.clone();
+    if let Some(limit) = options.time_limit {
+        options.time_limit = Some((limit - limit / 10).saturating_sub(start.elapsed()));
+        options.terms.patience = options.terms.patience.min(limit / 10);
     }
+    options
 }
 
 /// The names of all families, those of polygons last.
@@ -119,7 +110,7 @@ pub enum Step {
 }
 
 /// Recognises the convention of a program by asking it; nothing where it draws as it declares.
-pub type Recognise<'a> = &'a dyn Fn(&mut dyn Ask) -> Option<Recognised>;
+pub type Recognise<'a> = &'a dyn Fn(&mut dyn Subject) -> Option<Recognised>;
 
 /// Judges whoever answers; several are the same program and share the work.
 ///
@@ -127,11 +118,11 @@ pub type Recognise<'a> = &'a dyn Fn(&mut dyn Ask) -> Option<Recognised>;
 /// If nobody is there to be asked.
 #[must_use]
 pub fn judge(
-    askers: &mut [Box<dyn Ask>],
+    askers: &mut [Box<dyn Subject>],
     options: &Options,
     recognise: Recognise<'_>,
     progress: &(dyn Fn(Step) + Sync),
-) -> Verdict {
+) -> Judgement {
     let start = Instant::now();
     let end = options.time_limit.map(|limit| start + limit);
     askers.iter_mut().for_each(|asker| asker.end_at(end));
@@ -156,8 +147,8 @@ pub fn judge(
             (Some(Said { sentences: vec![late], ..Said::default() }), None);
     }
     let before = first.incidents;
-    let options = &options.for_families(start);
-    let mut all: Vec<&mut dyn Ask> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
+    let options = &for_families(options, start);
+    let mut all: Vec<&mut dyn Subject> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
     let mut found = run::run(&mut all, options, &truth, &|cases| progress(Step::Judged(cases)));
     found.incidents.splice(0..0, before);
     found.incidents.truncate(run::MOST_INCIDENTS);
@@ -169,13 +160,20 @@ pub fn judge(
         progress(Step::Cause);
     }
     let start = Instant::now();
-    let goes_on = || start.elapsed() < options.patience;
+    let goes_on = || start.elapsed() < options.terms.patience;
     let mut asked = Timed::new(first, end);
     let causes = recognise::mistakes(&mut asked, &checks, &truth, found_before.as_ref(), &goes_on);
     found.strays.extend(first.strays());
     first.end_at(None);
-    let mut verdict =
-        Verdict::new(declared, options, windings, recognised, found, failures, first.complaints());
+    let mut verdict = Judgement::new(
+        declared,
+        options,
+        windings,
+        recognised,
+        found,
+        failures,
+        first.complaints(),
+    );
     verdict.causes = causes;
     verdict.reach = truth.declared.reach;
     verdict
@@ -187,7 +185,7 @@ struct Watched<'a> {
     incidents: Vec<Incident>,
 }
 
-impl Ask for Watched<'_> {
+impl Subject for Watched<'_> {
     fn declared(&self) -> &Declared {
         self.asked.declared()
     }

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::ask::Asked;
 use super::declared::Declared;
-use super::finding::Finding;
+use super::judged::Judged;
 use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
@@ -64,7 +64,7 @@ pub fn asked(of: &Asked) -> Option<Triangle> {
 
 /// Compares a polygon with the exact one.
 pub(super) fn compare(
-    finding: &mut Finding,
+    judged: &mut Judged,
     triangle: &Triangle,
     answer: &[ClipCorner],
     declared: &Declared,
@@ -78,13 +78,13 @@ pub(super) fn compare(
     let near = |at: &Corner, corner: &ClipCorner| {
         at.iter().zip(corner).zip(bounds).all(|((e, v), bound)| e.distance(*v) <= bound)
     };
-    finding.shapes += 1;
-    finding.pixels += exact.len() as u64;
+    judged.shapes += 1;
+    judged.pixels += exact.len() as u64;
     // What has no area may be left out.
     if answer.is_empty() && exact.len() < 3 {
         return;
     }
-    finding.tally += between(exact.len(), answer.len(), |i, j| near(&exact[i], &answer[j]));
+    judged.finding.tally += between(exact.len(), answer.len(), |i, j| near(&exact[i], &answer[j]));
 }
 
 /// Corners that an answer lacks, corners that it has alone, and whether the same corners run another way; `near` says of a corner
@@ -132,10 +132,10 @@ mod tests {
             let Shape::Triangles { list, .. } = FAMILIES[1].case(1, *index).shape else {
                 return true;
             };
-            let mut finding = Finding::default();
+            let mut judged = Judged::default();
             let declared = Declared { tolerance: 1e-9, ..Declared::default() };
-            compare(&mut finding, &list[0], &clip(clip_corners(&list[0])), &declared);
-            finding.is_wrong()
+            compare(&mut judged, &list[0], &clip(clip_corners(&list[0])), &declared);
+            judged.is_wrong()
         };
         (0..400).filter(is_wrong).count()
     }
@@ -193,7 +193,7 @@ mod tests {
             wrong(shortened),
         ];
         assert!(faults.iter().all(|found| *found > 40), "{faults:?}");
-        let nothing = Finding::default();
+        let nothing = Judged::default();
         assert!(!nothing.is_wrong());
     }
 }

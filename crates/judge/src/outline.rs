@@ -5,7 +5,7 @@
 //! outline itself, nothing else is open.
 
 use super::ask::Answer;
-use super::finding::{Finding, mix};
+use super::judged::{Judged, mix};
 use super::pixels::picture_of;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
@@ -73,14 +73,14 @@ fn outside(outline: &Frame<bool>) -> Frame<bool> {
 }
 
 /// Counts filled pixels outside of the outline, and pixels that it encloses and that are not filled.
-pub(super) fn compare(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
-    finding.shapes += 1;
+pub(super) fn compare(judged: &mut Judged, answers: &[Answer], window: PixelRect) {
+    judged.shapes += 1;
     let Some([filled, mended]) = pictures(answers, window) else { return };
-    finding.pixels += mended.covered();
-    finding.tally += Tally::between(&filled, &mended);
+    judged.pixels += mended.covered();
+    judged.finding.tally += Tally::between(&filled, &mended);
     for ((y, a), (_, b)) in filled.rows().zip(mended.rows()) {
         for (x, _) in a.iter().zip(b).enumerate().filter(|(_, (a, b))| a != b) {
-            [y as u64, x as u64].iter().for_each(|word| mix(&mut finding.mark, *word));
+            [y as u64, x as u64].iter().for_each(|word| mix(&mut judged.mark, *word));
         }
     }
 }

@@ -7,7 +7,7 @@
 use super::ask::{Answer, Asked, Question};
 use super::check::{Check, Truth, expected_answer};
 use super::depth::Pile;
-use super::finding::Finding;
+use super::judged::Judged;
 use super::pixels::{hits_of, mesh_of, picture_of};
 use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::contract::Rasterize as _;
@@ -49,12 +49,12 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
     };
     let beside = picture.other.as_ref().unwrap_or(&picture.expected);
     if picture.drawn == *beside && answers.len() == questions.len() {
-        let finding = check.judge(case, answers, truth);
-        if finding.is_wrong() {
+        let judged = check.judge(case, answers, truth);
+        if judged.is_wrong() {
             let space = if picture.of.is_empty() { "" } else { "; " };
             picture.of += &format!(
                 "{space}both pictures are the same; what differs is {}",
-                unseen(check, case, answers, &finding)
+                unseen(check, case, answers, &judged)
             );
         }
     }
@@ -62,7 +62,7 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
 }
 
 /// What is wrong with answers whose picture is right.
-fn unseen(check: Check, case: &Case, answers: &[Answer], finding: &Finding) -> String {
+fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &Judged) -> String {
     let outside = answers.iter().filter_map(|answer| Some(hits_of(answer, case.window)?.1));
     let outside: u64 = outside.sum();
     let mut parts = Vec::new();
@@ -79,19 +79,19 @@ fn unseen(check: Check, case: &Case, answers: &[Answer], finding: &Finding) -> S
     if outside > 0 {
         parts.push(format!("{outside} pixels outside the window"));
     }
-    if finding.tally.order > 0 && check != Check::Depth {
+    if judged.finding.tally.order > 0 && check != Check::Depth {
         parts.push("the order in which the pixels come".to_owned());
     }
-    if finding.tally.twice > 0 {
-        parts.push(format!("{} pixels that come twice", finding.tally.twice));
+    if judged.finding.tally.twice > 0 {
+        parts.push(format!("{} pixels that come twice", judged.finding.tally.twice));
     }
-    if let Some((x, y)) = finding.worst_at.filter(|_| finding.worst > 1.0) {
+    if let Some((x, y)) = judged.worst_at.filter(|_| judged.finding.worst() > 1.0) {
         parts.push(format!("a value, at pixel ({x}, {y})"));
     }
-    if finding.refused + finding.died.len() as u64 > 0 {
+    if judged.refused + judged.died.len() as u64 > 0 {
         parts.push("a request that is not answered".to_owned());
     }
-    if parts.is_empty() { finding.describe(check) } else { parts.join(", ") }
+    if parts.is_empty() { judged.describe(check) } else { parts.join(", ") }
 }
 
 fn picture(
@@ -184,7 +184,7 @@ fn samples(
         let Asked::Samples(corners) = &question.of else { continue };
         let four = |sub: i32| sub.saturating_mul(FINER);
         moved.push(corners.map(|p| SubpixelPoint::new(four(p.x), four(p.y))));
-        let is_drawn = truth.declared.convention().draws(area2(corners));
+        let is_drawn = truth.declared.convention.draws(area2(corners));
         let masks = multisample::masks(&Oracle, *corners, window).filter(|_| is_drawn);
         for (y, row) in masks.iter().flat_map(|masks| masks.rows()) {
             (window.x0..).zip(row).for_each(|(x, mask)| hit(&mut expected, x, y, *mask));

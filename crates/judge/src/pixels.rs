@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::ask::Answer;
-use super::finding::{hits, mix};
+use super::judged::{hits, mix};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};

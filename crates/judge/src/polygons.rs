@@ -4,37 +4,28 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::Options;
-use super::ask::{Answer, Ask, Asked, Question};
-use super::declared::{Declared, Tessellation};
+use super::ask::{Answer, Asked, Question, Subject};
+use super::declared::Declared;
 use super::run::{Found, MOST_DEATHS, Row};
-use super::verdict::Verdict;
+use super::verdict::Judgement;
 use super::windings::Windings;
-use rasterproof_verify::partition::{self, Family, Polygon, Refused, Report, Triangle};
+use rasterproof_verify::partition::{self, Family, Polygon, Refused, Triangle};
 
 /// The options of partitions for a program that declares this.
 fn options(options: &Options, declared: &Declared) -> partition::Options {
-    let Tessellation { fill_rule, winding, coordinates, t_junctions, degenerate } =
-        declared.tessellation;
-    let mut all = partition::Options::default()
-        .seed(options.seed)
-        .cases(options.cases)
-        .fill_rule(fill_rule)
-        .winding(winding)
-        .coordinates(coordinates);
-    all.only = options.only;
+    let (seed, cases) = (options.seed, options.cases);
     let wanted = |family: &Family| options.families.iter().any(|name| name == family.name());
-    all.families = Family::ALL.into_iter().filter(wanted).collect();
-    if t_junctions {
-        all = all.allow_t_junctions();
-    }
-    if degenerate { all.allow_degenerate_triangles() } else { all }
+    let mut all =
+        partition::Options::default().seed(seed).cases(cases).terms(declared.tessellation);
+    (all.only, all.families) = (options.only, Family::ALL.into_iter().filter(wanted).collect());
+    all
 }
 
 /// Judges whoever answers polygons. An answer that begins with `unsupported` leaves a polygon out.
 ///
 /// # Errors
 /// No polygon was judged; why, in words.
-pub fn judge(program: &mut dyn Ask, given: &Options) -> Result<Report, String> {
+pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Verdict, String> {
     let options = options(given, program.declared());
     if options.families.is_empty() && !given.families.is_empty() {
         return Err("no case was judged: these families hold no polygons".to_owned());
@@ -67,8 +58,8 @@ pub fn judge(program: &mut dyn Ask, given: &Options) -> Result<Report, String> {
 
 /// The report as a verdict with a property for each family, for what is written for machines.
 #[must_use]
-pub fn verdict(declared: &Declared, options: &Options, report: &Report) -> Verdict {
-    let row = |family: &partition::FamilyReport| Row {
+pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdict) -> Judgement {
+    let row = |family: &partition::Polygons| Row {
         name: family.family.name(),
         cases: family.polygons,
         shapes: family.triangles,
@@ -80,7 +71,7 @@ pub fn verdict(declared: &Declared, options: &Options, report: &Report) -> Verdi
     let found = Found { rows, answered: report.sum().polygons, ..Found::default() };
     let (windings, none) = (Windings::default(), Vec::new());
     let declared = declared.clone();
-    let mut verdict = Verdict::new(declared, options, windings, None, found, none, Vec::new());
+    let mut verdict = Judgement::new(declared, options, windings, None, found, none, Vec::new());
     // The families of cases have a text of their own.
     for property in verdict.properties.iter_mut().filter(|property| property.about.is_empty()) {
         "every polygon is covered exactly once".clone_into(&mut property.about);

@@ -15,7 +15,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::ask::{Answer, Ask, Breach, Misbehaviour, Question};
+use super::ask::{Answer, Breach, Misbehaviour, Question, Subject};
 use super::declared::Declared;
 use super::process_group::Group;
 use super::text::{Words, printable};
@@ -212,7 +212,7 @@ impl Program {
     }
 }
 
-impl Ask for Program {
+impl Subject for Program {
     fn declared(&self) -> &Declared {
         &self.declared
     }

@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::ask::{Answer, Ask, Asked, Question};
+use super::ask::{Answer, Asked, Question, Subject};
 use rasterproof_core::triangle::PixelPoint;
 
 /// The first length that is tried, in steps, and by how much the next one is longer.
@@ -17,13 +17,13 @@ const SHORT: Duration = Duration::from_millis(50);
 const ALLOWED: Duration = Duration::from_millis(30);
 
 /// The longest line that a program draws in 30 ms, in steps; nothing where it draws any.
-pub fn reach(program: &mut dyn Ask) -> Option<i32> {
+pub fn reach(program: &mut dyn Subject) -> Option<i32> {
     let declared = program.declared();
     if !declared.line {
         return None;
     }
     let most = declared.range.map_or(MOST, |range| range.saturating_mul(2));
-    let whole = declared.grid == 1;
+    let whole = declared.grid() == 1;
     let mut time = |steps: i32| {
         let ends = [PixelPoint::new(-steps / 2, 1), PixelPoint::new(steps / 2 - 1, 1)];
         let question = Question { width: 16, height: 16, of: Asked::Line { ends, whole } };

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Ask, Asked, Question};
+use super::ask::{Answer, Asked, Question, Subject};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::expected::{Expect, runs};
@@ -77,10 +77,10 @@ const LOOK: [&str; 4] = ["half-integer", "rectangle", "fan", "uniform"];
 const LOOK_CASES: u64 = 16;
 
 /// The convention of a program; nothing where it draws as it declares.
-pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
+pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
     let mut bench = Bench { program, deaths_left: MOST_DEATHS, is_over: false };
-    let open = declared.rule == Rule::Unspecified;
+    let open = declared.convention.rule == Rule::Unspecified;
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
@@ -108,7 +108,7 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     let compass = triangles.as_ref().and_then(compass);
     let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
     let mut found =
-        Found { declaration: declared.convention(), triangles, lines, otherwise: [false; 2] };
+        Found { declaration: declared.convention, triangles, lines, otherwise: [false; 2] };
     found.look_at_leaving(&mut bench, &declared, &mut sentences);
     let said = Said { sentences, compass, declare, is_explained };
     let (triangles, lines) = (found.triangles.clone(), found.lines.clone());
@@ -169,7 +169,8 @@ impl Expect for Found {
             return None;
         }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
-        let coverage = found.expected(&convention::Question { corners: *corners, window })?;
+        let coverage =
+            found.expected(&convention::TriangleQuestion { corners: *corners, window })?;
         Some(Picture { must: runs(&coverage), may: None })
     }
 
@@ -188,9 +189,8 @@ impl Expect for Found {
 }
 
 fn known(declared: &Declared) -> Known {
-    let known = Known::from(&declared.convention());
+    let known = Known::from(&declared.convention);
     Known {
-        grid: declared.grid,
         range_px: declared.range.unwrap_or(known.range_px).min(declared.reach.unwrap_or(i32::MAX)),
         window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
@@ -200,7 +200,7 @@ fn known(declared: &Declared) -> Known {
 
 /// Why a program is wrong in each kind of check, where no convention explains it; asked as long as `goes_on`.
 pub fn mistakes(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     checks: &[Check],
     truth: &Truth,
     recognised: Option<&Recognised>,
@@ -289,7 +289,7 @@ fn programs<'a, Q: 'a, A: 'a>(
     entries().map(program).collect()
 }
 
-fn of_triangle(question: &convention::Question, program: &mut Inside) -> Option<Coverage> {
+fn of_triangle(question: &convention::TriangleQuestion, program: &mut Inside) -> Option<Coverage> {
     let asked = triangle_question(question);
     program.ask(&[asked], 1).first().and_then(|answer| picture_of(answer, question.window))
 }
@@ -298,7 +298,7 @@ fn of_line(question: &LineQuestion, program: &mut Inside) -> Option<Vec<[i32; 2]
     program.ask(&[line_question(question, false)], 1).pop().and_then(pixels_of)
 }
 
-fn triangle_question(q: &convention::Question) -> Question {
+fn triangle_question(q: &convention::TriangleQuestion) -> Question {
     let (width, height) = (q.window.width(), q.window.height());
     Question { width, height, of: Asked::Coverage(q.corners) }
 }
@@ -318,7 +318,7 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 
 /// The program as the questions want it; asked no more once it has died too often.
 struct Bench<'a> {
-    program: &'a mut dyn Ask,
+    program: &'a mut dyn Subject,
     deaths_left: u64,
     /// Whether the time for answers is over.
     is_over: bool,
@@ -365,7 +365,7 @@ impl Bench<'_> {
 }
 
 impl convention::Ask for Bench<'_> {
-    fn ask(&mut self, questions: &[convention::Question]) -> Vec<Option<Coverage>> {
+    fn ask(&mut self, questions: &[convention::TriangleQuestion]) -> Vec<Option<Coverage>> {
         let asked: Vec<_> = questions.iter().map(triangle_question).collect();
         let answers = self.answers(&asked);
         answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()
@@ -374,7 +374,7 @@ impl convention::Ask for Bench<'_> {
 
 impl convention::AskLine for Bench<'_> {
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
-        let whole = self.program.declared().grid == 1;
+        let whole = self.program.declared().grid() == 1;
         let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();
         self.answers(&asked).into_iter().map(pixels_of).collect()
     }
@@ -382,15 +382,15 @@ impl convention::AskLine for Bench<'_> {
 
 /// The words that declare what was found and is not declared; none where the protocol has none.
 fn words(declared: &Declared, found: &Diagnosis) -> String {
-    let Some(found) = found.declaration(&declared.convention()) else { return String::new() };
+    let Some(found) = found.declaration(&declared.convention) else { return String::new() };
     let grid =
         [256, 64, 16].into_iter().find(|grid| *grid <= 1 << found.subpixel_bits).unwrap_or(1);
-    let [x, y] = found.sample;
+    let (declared, [x, y]) = (&declared.convention, found.sample);
     let mut out = String::new();
-    if grid < declared.grid {
+    if grid < 1 << declared.subpixel_bits {
         let _ = write!(out, " grid={grid}");
     }
-    if [x, y] != declared.origin {
+    if [x, y] != declared.sample {
         let _ = write!(out, " origin={},{}", px(x), px(y));
     }
     if found.rule != declared.rule {

@@ -11,10 +11,10 @@ use std::time::Instant;
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Ask, Misbehaviour, Question};
+use super::ask::{Answer, Misbehaviour, Question, Subject};
 use super::check::{Check, Truth};
 use super::declared::Declared;
-use super::finding::Finding;
+use super::judged::Judged;
 use super::timed::Timed;
 use rasterproof_verify::cases::{Case, Family};
 use rasterproof_verify::comparison::Tally;
@@ -104,21 +104,21 @@ impl Row {
         Self { name, ..Self::default() }
     }
 
-    fn count(&mut self, finding: &Finding) {
+    fn count(&mut self, judged: &Judged) {
         self.cases += 1;
-        self.shapes += finding.shapes;
-        self.pixels += finding.pixels;
-        self.wrong_cases += u64::from(finding.is_wrong());
-        self.tally += finding.tally;
-        self.recognised += finding.other;
-        self.recognised_pixels += finding.other_pixels;
-        self.unscored += finding.unscored;
-        self.unscored_wrong += finding.unscored_wrong;
-        self.refused += finding.refused;
-        self.values += finding.values;
-        self.worst = self.worst.max(finding.worst);
-        self.deaths += finding.died.len() as u64;
-        self.add_sides(finding.right.map(|right| Sides::of(right, finding.is_wrong())));
+        self.shapes += judged.shapes;
+        self.pixels += judged.pixels;
+        self.wrong_cases += u64::from(judged.is_wrong());
+        self.tally += judged.finding.tally;
+        self.recognised += judged.other;
+        self.recognised_pixels += judged.other_pixels;
+        self.unscored += judged.unscored;
+        self.unscored_wrong += judged.unscored_wrong;
+        self.refused += judged.refused;
+        self.values += judged.finding.values;
+        self.worst = self.worst.max(judged.finding.worst());
+        self.deaths += judged.died.len() as u64;
+        self.add_sides(judged.right.map(|right| Sides::of(right, judged.is_wrong())));
     }
 
     fn add_sides(&mut self, sides: Option<Sides>) {
@@ -314,7 +314,7 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
 }
 
 pub fn run(
-    askers: &mut [&mut dyn Ask],
+    askers: &mut [&mut dyn Subject],
     options: &Options,
     truth: &Truth,
     progress: &(dyn Fn(u64) + Sync),
@@ -374,7 +374,7 @@ pub fn run(
 /// Judges with one copy of the program: it takes the blocks whose number, modulo the copies, is `part`. `progress`
 /// hears how many cases were judged.
 fn copy(
-    asker: &mut dyn Ask,
+    asker: &mut dyn Subject,
     part: u64,
     shared: &Shared<'_>,
     progress: &(dyn Fn(u64) + Sync),
@@ -422,7 +422,7 @@ fn copy(
 
 /// Asks the checks of some cases of a family, and judges the answers: of how many cases all of them.
 fn block(
-    asker: &mut dyn Ask,
+    asker: &mut dyn Subject,
     family: &'static Family,
     indices: std::ops::Range<u64>,
     pass: bool,
@@ -448,27 +448,27 @@ fn block(
     }
     let left = MOST_DEATHS.saturating_sub(deaths.load(Ordering::Relaxed));
     let answers = asker.ask(&questions, left.max(1));
-    let mut judged = 0;
+    let mut whole = 0;
     for (at, (index, first, check, case)) in jobs.iter().enumerate() {
         let next = jobs.get(at + 1).map_or(questions.len(), |(_, next, ..)| *next);
         // Where the program was given up, the rest of the answers is not there.
         let here = &answers[*first.min(&answers.len())..next.min(answers.len())];
         let is_whole = here.len() == next - first;
-        let finding = match (is_whole, here.iter().any(Answer::is_death)) {
-            (false, false) => return judged,
+        let judged = match (is_whole, here.iter().any(Answer::is_death)) {
+            (false, false) => return whole,
             (true, _) => check.judge(&cases[*case], here, truth),
             (false, true) => Check::judge_deaths(here),
         };
-        let died = finding.died.len() as u64;
+        let died = judged.died.len() as u64;
         deaths.fetch_add(died, Ordering::Relaxed);
         shared.deaths_in_all.fetch_add(died, Ordering::Relaxed);
-        shared.answered.fetch_add(finding.answered, Ordering::Relaxed);
+        shared.answered.fetch_add(judged.answered, Ordering::Relaxed);
         let asked = &questions[*first..next];
-        note(found, family, *index, *check, &finding, (asked, shared.options.remember));
+        note(found, family, *index, *check, &judged, (asked, shared.options.terms.remember));
         let is_last = jobs.get(at + 1).is_none_or(|(.., next)| next != case);
-        judged += u64::from(is_last);
+        whole += u64::from(is_last);
     }
-    judged
+    whole
 }
 
 fn note(
@@ -476,16 +476,16 @@ fn note(
     family: &'static Family,
     index: u64,
     check: Check,
-    finding: &Finding,
+    judged: &Judged,
     (asked, remember): (&[Question], bool),
 ) {
     let property = check.name(family.name);
-    found.answered += finding.answered;
-    found.row(property).count(finding);
+    found.answered += judged.answered;
+    found.row(property).count(judged);
     if remember {
         found.judged.push((property, family.name, index));
     }
-    for (at, what) in &finding.died {
+    for (at, what) in &judged.died {
         if found.incidents.len() < MOST_INCIDENTS {
             let request = asked.get(*at).map_or_else(String::new, |q| q.text(1));
             found.incidents.push(Incident {
@@ -496,16 +496,16 @@ fn note(
             });
         }
     }
-    if finding.is_wrong() {
+    if judged.is_wrong() {
         let of_it = found.failing.iter().filter(|f| f.property == property).take(KEPT).count();
         if !remember && of_it >= KEPT {
             return;
         }
         if found.failing.len() < MOST_REMEMBERED {
-            let fingerprint = finding.fingerprint();
+            let fingerprint = judged.fingerprint();
             let failing = Failing { property, family: family.name, index, fingerprint };
             if of_it < KEPT {
-                found.described.insert(failing.name(), finding.describe(check));
+                found.described.insert(failing.name(), judged.describe(check));
             }
             found.failing.push(failing);
         } else {

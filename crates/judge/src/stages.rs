@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::adapt_case;
-use super::ask::{Answer, Ask, Asked, Question};
+use super::ask::{Answer, Asked, Question, Subject};
 use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::in_process::Inside;
@@ -39,7 +39,7 @@ const CASES: u64 = 400;
 const SEED: u64 = 7;
 
 fn answered(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     check: Check,
     families: &[&str],
     truth: &Truth,
@@ -63,11 +63,11 @@ fn answered(
             {
                 continue;
             }
-            let finding = check.judge(&case, &answers, truth);
+            let judged = check.judge(&case, &answers, truth);
             let is_wrong = match check {
                 // Their pixels are judged as coverage.
-                Check::Values => finding.worst > 1.0,
-                _ => finding.tally.total() > 0,
+                Check::Values => judged.finding.worst() > 1.0,
+                _ => judged.finding.tally.total() > 0,
             };
             all.push(Answered { questions, answers, is_wrong });
         }
@@ -88,7 +88,7 @@ fn families(check: Check) -> &'static [&'static str] {
 
 /// The mistake of a program in what this check judges, where it is wrong.
 pub fn mistakes(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     check: Check,
     truth: &Truth,
     programs: &[(RefCell<Inside>, String)],

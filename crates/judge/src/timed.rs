@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::ask::{Answer, Ask, Misbehaviour, Question};
+use super::ask::{Answer, Misbehaviour, Question, Subject};
 use super::declared::Declared;
 
 /// A batch is to take this part of the time that is left.
@@ -13,7 +13,7 @@ const MOST_AT_ONCE: usize = 1 << 16;
 /// Asks in batches that begin with one request and grow as far as the measured time per answer allows. Without a
 /// limit all requests are one batch.
 pub struct Timed<'a> {
-    asked: &'a mut dyn Ask,
+    asked: &'a mut dyn Subject,
     /// No batch is begun after this.
     pub end: Option<Instant>,
     /// Requests of the next batch.
@@ -23,12 +23,12 @@ pub struct Timed<'a> {
 }
 
 impl<'a> Timed<'a> {
-    pub fn new(asked: &'a mut dyn Ask, end: Option<Instant>) -> Self {
+    pub fn new(asked: &'a mut dyn Subject, end: Option<Instant>) -> Self {
         Self { asked, end, batch: 1, is_late: false }
     }
 }
 
-impl Ask for Timed<'_> {
+impl Subject for Timed<'_> {
     fn declared(&self) -> &Declared {
         self.asked.declared()
     }

@@ -35,7 +35,7 @@ pub struct Property {
 }
 
 #[derive(Clone, Debug)]
-pub struct Verdict {
+pub struct Judgement {
     pub declared: Declared,
     /// What the second of two compared programs says of itself; the rows then count cases in which both differ.
     pub against: Option<Declared>,
@@ -83,7 +83,7 @@ const CHECKS: [(&str, &str); 7] = [
     ("fill-and-outline", "the fill of a triangle is what its outline encloses"),
 ];
 
-impl Verdict {
+impl Judgement {
     #[must_use]
     pub fn new(
         declared: Declared,
@@ -155,8 +155,8 @@ impl Verdict {
                 "{} of {} clockwise and {} of {} counter-clockwise plain triangles, seen with y down",
                 w.clockwise[0], w.clockwise[1], w.counter_clockwise[0], w.counter_clockwise[1]
             );
-            let is_declared = w.seen() == Some(self.declared.convention().seen_winding());
-            let declared = self.declared.winding.word();
+            let is_declared = w.seen() == Some(self.declared.convention.seen_winding());
+            let declared = self.declared.convention.winding.word();
             all.push(property("draws", "it draws at all", w.any(), counts.clone()));
             let about = format!("it draws the declared winding ({declared})");
             all.push(property("winding", &about, is_declared, counts));

@@ -1,7 +1,7 @@
 //! The first stages: does it draw at all, and which windings.
 
 use super::adapt_case;
-use super::ask::{Answer, Ask, Asked, Question};
+use super::ask::{Answer, Asked, Question, Subject};
 use super::declared::Declared;
 use super::expected::Expect as _;
 use super::pixels::picture_of;
@@ -51,7 +51,7 @@ impl Windings {
     }
 }
 
-pub fn windings(program: &mut dyn Ask, seed: u64) -> Windings {
+pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
     let declared = program.declared().clone();
     let mut windings = Windings::default();
     if !declared.coverage {
@@ -84,7 +84,7 @@ pub fn windings(program: &mut dyn Ask, seed: u64) -> Windings {
 }
 
 fn is_fat(corners: &Corners, window: PixelRect, declared: &Declared) -> bool {
-    let any = declared.convention().winding(Winding::Both);
+    let any = declared.convention.winding(Winding::Both);
     any.picture(corners, window).is_some_and(|picture| {
         let pixels = picture.must.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px)));
         pixels.sum::<u64>() >= FEW_PIXELS

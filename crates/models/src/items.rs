@@ -22,7 +22,7 @@ use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Sides,
 use crate::gltf::encoded;
 use crate::polygons::{self, Odd, Shape};
 use crate::tangents;
-use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
+use crate::{BadFile, Format, LoadOptions, Model, Normals, Origin, Up, Warnings, bad, counted};
 
 /// The largest coordinate: products of three stay far below the largest double.
 pub(crate) const MOST_COORDINATE: f64 = 1e38;
@@ -32,7 +32,7 @@ pub(crate) fn model(
     path: &Path,
     mut contents: Contents,
     format: Format,
-    options: Options,
+    options: LoadOptions,
 ) -> Result<Model, BadFile> {
     let up = options.up.unwrap_or(format.usual_up());
     let turn = match up {
@@ -264,7 +264,7 @@ fn exponent(size: f64) -> Option<i32> {
     (size > 0.0 && size.is_finite()).then(|| libm::ilogb(size))
 }
 
-fn material(surface: Option<&Surface>, part: &FilePart, options: Options) -> Material {
+fn material(surface: Option<&Surface>, part: &FilePart, options: LoadOptions) -> Material {
     let shading = options.shading;
     let vertex_colours = !(part.colours.is_empty() && part.face_colours.is_empty());
     match surface {

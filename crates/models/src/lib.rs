@@ -86,7 +86,7 @@ pub enum Normals {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Options {
+pub struct LoadOptions {
     pub shading: Shading,
     pub normals: Normals,
     /// The axis that points up; by default the one that is usual for the format.
@@ -102,7 +102,7 @@ pub struct Pose {
     pub time_s: f64,
 }
 
-impl Options {
+impl LoadOptions {
     /// Whether light is computed of the normal at each fragment, as physical surfaces need it.
     pub(crate) fn is_per_fragment(self) -> bool {
         matches!(self.shading, Shading::Flat | Shading::Phong)
@@ -189,7 +189,7 @@ pub(crate) const PIECE_BYTES: u64 = 1 << 20;
 /// [`BadFile`] for a file that cannot be read, a coordinate that is no finite number, an index that
 /// is out of range, a model without faces. A material file or a texture that is missing or cannot be read is a
 /// warning: the surface is drawn in its colour, or grey.
-pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
+pub fn load(path: &Path, options: LoadOptions) -> Result<Model, BadFile> {
     let failed = |error: FileError| bad(path, None, error.cause);
     let mut file = Pieces::open(path, limits::MODEL_BYTES).map_err(failed)?;
     let length = file.length_bytes();

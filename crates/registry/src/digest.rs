@@ -24,7 +24,7 @@ use rasterproof_render::scene::{Scene, chapters, random};
 use rasterproof_verify::cases::{self, Case, Family, Shape, unsnapped};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Options {
+pub struct DigestOptions {
     pub seed: u64,
     /// Cases of each family, and random scenes.
     pub cases: u64,
@@ -88,7 +88,7 @@ impl Job {
         families as u64 * cases
     }
 
-    fn hash(self, Options { seed, cases }: Options, index: u64) -> [u8; 32] {
+    fn hash(self, DigestOptions { seed, cases }: DigestOptions, index: u64) -> [u8; 32] {
         let mut hash = Hash(Sha256::new());
         let of = |families: &[Family]| families[(index / cases) as usize].case(seed, index % cases);
         match self {
@@ -122,7 +122,7 @@ pub fn engines() -> Vec<&'static str> {
 /// The digests of all engines, or of one. `progress` is told how many more cases are done.
 #[must_use]
 pub fn digest(
-    options: Options,
+    options: DigestOptions,
     engine: Option<&str>,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Vec<DigestRow> {
@@ -143,7 +143,7 @@ pub fn digest(
 }
 
 /// How many cases [`digest`] goes through.
-pub fn case_count(options: Options, engine: Option<&str>) -> u64 {
+pub fn case_count(options: DigestOptions, engine: Option<&str>) -> u64 {
     let wanted = |job: &Job| engine.is_none_or(|name| job.names().0 == name);
     jobs().into_iter().filter(wanted).map(|job| job.count(options.cases)).sum()
 }
@@ -269,7 +269,7 @@ fn frames(drawer: Drawer, scene: &Scene, index: u64, hash: &mut Hash) {
 mod tests {
     use super::*;
 
-    const FEW: Options = Options { seed: 1, cases: 2 };
+    const FEW: DigestOptions = DigestOptions { seed: 1, cases: 2 };
 
     #[test]
     fn every_nan_is_one_and_zeros_are_two() {
@@ -289,7 +289,7 @@ mod tests {
     /// Another seed is another digest, and so is a last bit of a value.
     #[test]
     fn a_last_bit_shows() {
-        let other = digest(Options { seed: 2, ..FEW }, Some("dda"), &|_| ());
+        let other = digest(DigestOptions { seed: 2, ..FEW }, Some("dda"), &|_| ());
         assert_ne!(other, digest(FEW, Some("dda"), &|_| ()));
         let case = cases::triangles::FAMILIES[0].case(1, 0);
         let hash = |case: &Case| {

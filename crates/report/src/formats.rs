@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::html;
 use super::json::{self as json_text, pretty};
-use rasterproof_judge::verdict::{Outcome, Property, Verdict};
+use rasterproof_judge::verdict::{Judgement, Outcome, Property};
 use rasterproof_verify::comparison::shrink;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +44,7 @@ impl Format {
 
 /// The verdict in a format other than text; `repeat` gives the command that repeats a case.
 pub fn write(
-    verdict: &Verdict,
+    verdict: &Judgement,
     format: Format,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
@@ -65,11 +65,15 @@ pub fn write(
 }
 
 /// What was found, and where it fails the smallest case.
-fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
+fn message(
+    verdict: &Judgement,
+    property: &Property,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> String {
     let mut out = format!("{}: {}", property.about, property.detail);
-    for failure in verdict.failures.iter().filter(|f| f.property == property.name) {
+    for failure in verdict.failures.iter().filter(|f| f.evidence.property == property.name) {
         let _ = write!(out, "\n{}", failure.what);
-        for e in failure.exchanges.iter().take(3) {
+        for e in failure.evidence.exchanges.iter().take(3) {
             let _ = write!(out, "\nrequest:  {}\nanswer:   {}", e.request, e.answer);
             if !e.other.is_empty() {
                 let _ = write!(out, "\nother:    {}", e.other);
@@ -94,7 +98,7 @@ fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) ->
 /// Everything that was found, as JSON.
 #[must_use]
 pub fn everything(
-    verdict: &Verdict,
+    verdict: &Judgement,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Value {
@@ -104,6 +108,7 @@ pub fn everything(
         .iter()
         .map(|f| {
             let exchanges: Vec<Value> = f
+                .evidence
                 .exchanges
                 .iter()
                 .map(|e| {
@@ -116,8 +121,8 @@ pub fn everything(
                 })
                 .collect();
             json!({
-                "property": f.property, "family": f.family, "index": f.index, "what": f.what,
-                "shrunk": shrink::describe(&f.case), "how_far": f.shrunk, "window": f.case.window,
+                "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
+                "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
                 "exchanges": exchanges, "repeat": repeat(f.family, f.index),
             })
         })
@@ -155,7 +160,7 @@ fn xml(text: &str) -> String {
     html::escape(text).replace('\n', "&#10;")
 }
 
-fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
+fn junit(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let count = |wanted: &dyn Fn(Outcome) -> bool| {
         verdict.properties.iter().filter(|p| wanted(p.outcome)).count()
     };
@@ -195,7 +200,7 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     out + "  </testsuite>\n</testsuites>\n"
 }
 
-fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
+fn tap(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let mut out = format!("TAP version 14\n1..{}\n", verdict.properties.len());
     for (p, number) in verdict.properties.iter().zip(1..) {
         let (word, mark) = match p.outcome {
@@ -232,7 +237,7 @@ pub fn gradescope(tests: &[(&str, bool, String)], about: &str, seconds: f64) -> 
     })
 }
 
-fn classroom(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+fn classroom(verdict: &Judgement, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
     let tests = verdict.properties.iter().map(|p| {
         let good = p.outcome.is_good();
         json!({

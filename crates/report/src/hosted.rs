@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use super::{judge_text, text};
-use rasterproof_judge::ask::{Answer, Ask, Breach, Question};
+use rasterproof_judge::ask::{Answer, Breach, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
@@ -21,7 +21,7 @@ struct Host {
     declared: Declared,
 }
 
-impl Ask for Host {
+impl Subject for Host {
     fn declared(&self) -> &Declared {
         &self.declared
     }
@@ -149,7 +149,7 @@ impl Job {
             return Ok((report.sum().wrong == 0, text));
         }
         let scope = Scope::of(&self.options);
-        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(host)];
+        let mut askers: Vec<Box<dyn Subject>> = vec![Box::new(host)];
         let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
         if let Some(why) = verdict.judged_nothing(&self.options) {
             return Err(why);

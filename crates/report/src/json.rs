@@ -55,7 +55,7 @@ pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value
     let failures = verdict.failures.iter().map(|f| FailureJson {
         family: &f.family,
         index: f.index,
-        pair: f.pair.each_ref().map(String::as_str),
+        pair: f.evidence.pair.each_ref().map(String::as_str),
         what: &f.what,
         shrunk: shrink::describe(&f.case),
         window: f.case.window,

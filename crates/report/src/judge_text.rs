@@ -12,8 +12,8 @@ use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow, Sides};
-use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
-use rasterproof_verify::partition::{self, Family, Polygon};
+use rasterproof_judge::verdict::{self, Judgement, Score, per_million};
+use rasterproof_verify::partition::{self, Polygon};
 
 const MOST_EXCHANGES: usize = 3;
 const MOST_INCIDENTS: usize = 2;
@@ -22,7 +22,7 @@ const MOST_INCIDENTS: usize = 2;
 /// danger, both scores, and the table of families where something is wrong or it is asked for.
 #[must_use]
 pub fn report(
-    verdict: &Verdict,
+    verdict: &Judgement,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
     with_table: bool,
@@ -86,7 +86,7 @@ pub fn report(
 /// The same with what JSON and a page hold beside it: everything that was found, and each failing case as it is drawn.
 #[must_use]
 pub fn whole(
-    verdict: &Verdict,
+    verdict: &Judgement,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
     with_table: bool,
@@ -104,7 +104,7 @@ fn by(seed: u64) -> String {
     format!("rasterproof {}, seed {seed}", env!("CARGO_PKG_VERSION"))
 }
 
-fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
+fn outcome(verdict: &Judgement, names: Option<&[String; 2]>) -> Outcome {
     let (good, name) = (verdict.agrees(), &verdict.declared.name);
     let answer = match good {
         true => format!("{name} is right"),
@@ -117,7 +117,7 @@ fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
 }
 
 /// The first mistake that is known, or what the convention is, after a colon.
-fn why_in_short(verdict: &Verdict) -> String {
+fn why_in_short(verdict: &Judgement) -> String {
     let mistake = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
     let convention = verdict.recognised.as_ref().filter(|found| found.is_explained);
     match (mistake, convention) {
@@ -131,7 +131,7 @@ fn why_in_short(verdict: &Verdict) -> String {
 #[must_use]
 pub fn of_polygons(
     declared: &Declared,
-    report: &partition::Report,
+    report: &partition::Verdict,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Report {
@@ -143,8 +143,7 @@ pub fn of_polygons(
     if !agrees {
         // As most languages write lists.
         let show = |polygon: &Polygon| format!("{:?}", polygon.contours);
-        let of = |family: Family, index| repeat(family.name(), index);
-        let _ = report.write(&mut grid, &show, &of);
+        let _ = report.write(&mut grid, &show, repeat);
     }
     let [polygons, triangles, left_out, wrong] =
         [sum.polygons, sum.triangles, sum.left_out, sum.wrong].map(thousands);
@@ -170,7 +169,7 @@ fn speaks(name: &str, declared: &Declared) -> String {
 }
 
 /// The end of what it said on standard error.
-fn complaints(verdict: &Verdict) -> Option<Excerpt> {
+fn complaints(verdict: &Judgement) -> Option<Excerpt> {
     let lines = verdict.complaints.iter().map(|line| format!("  | {line}"));
     (!verdict.complaints.is_empty()).then(|| Excerpt {
         title: "the end of its standard error:".to_owned(),
@@ -180,13 +179,15 @@ fn complaints(verdict: &Verdict) -> Option<Excerpt> {
 }
 
 /// A row for how it keeps the protocol, for its winding, for each danger and for each other check.
-fn dangers(verdict: &Verdict) -> Table {
+fn dangers(verdict: &Judgement) -> Table {
     let is_good =
         |name: &str| verdict.properties.iter().all(|p| p.name != name || p.outcome.is_good());
     let mut out = Vec::new();
     for p in verdict.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
         let what = match (p.name, p.outcome.is_good()) {
-            ("winding", true) => format!("{}, as it declares", verdict.declared.winding.word()),
+            ("winding", true) => {
+                format!("{}, as it declares", verdict.declared.convention.winding.word())
+            }
             _ => p.detail.clone(),
         };
         out.push(summary::row(p.outcome.is_good(), p.name, &what));
@@ -228,7 +229,7 @@ fn score(of: Score, left_out_wrong: u64) -> String {
     format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
 }
 
-fn scores(verdict: &Verdict) -> Table {
+fn scores(verdict: &Judgement) -> Table {
     let found = match (&verdict.recognised, verdict.by_convention()) {
         (None, _) => "the same: no other one was recognised".to_owned(),
         (Some(_), Some(found)) => score(found, verdict.left_out_wrong()),
@@ -238,7 +239,8 @@ fn scores(verdict: &Verdict) -> Table {
     if let Some(recognised) = &verdict.recognised {
         notes.extend(recognised.sentences.iter().chain(&recognised.compass).cloned());
         if !recognised.declare.is_empty() {
-            let turned = if verdict.declared.yup { " (in its words, y up)" } else { "" };
+            let turned =
+                if verdict.declared.convention.y_up { " (in its words, y up)" } else { "" };
             let declare = &recognised.declare;
             notes.push(format!("to be judged by it: --declare '{declare}'{turned}"));
         }
@@ -255,7 +257,7 @@ fn cause(why: &Why) -> Table {
 }
 
 /// Every family, with what was wrong.
-fn families(verdict: &Verdict) -> Table {
+fn families(verdict: &Judgement) -> Table {
     let columns = "property 18 | >cases 8 | >shapes 8 | >pixels 8 | >missing 8 | >extra 8 | >twice 8 | >order 8 | \
                    >refused 8 | >wrong 7";
     let row = |row: &FamilyRow| {
@@ -294,7 +296,7 @@ fn families(verdict: &Verdict) -> Table {
 }
 
 /// What broke the protocol: the first of each kind.
-fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
+fn incidents(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
     let mut shown: Vec<&str> = Vec::new();
     let mut out = Vec::new();
     for incident in &verdict.found.incidents {
@@ -330,8 +332,8 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
 #[must_use]
 pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt {
     let (family, index) = (failure.family, failure.index);
-    let (property, what) = (failure.property, &failure.what);
-    let exchanges = failure.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
+    let (property, what) = (failure.evidence.property, &failure.what);
+    let exchanges = failure.evidence.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
         let lines = [
             ("request", &exchange.request),
             ("answer", &exchange.answer),
@@ -343,17 +345,17 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
             .filter(|(_, line)| !line.is_empty())
             .map(|(what, line)| (what, line.clone()))
     });
-    let more = failure.exchanges.len().saturating_sub(MOST_EXCHANGES);
+    let more = failure.evidence.exchanges.len().saturating_sub(MOST_EXCHANGES);
     let mut notes = Vec::new();
     if more > 0 {
         notes.push(format!("and {more} requests more"));
     }
-    let picture = failure.picture.as_ref();
+    let picture = failure.evidence.picture.as_ref();
     if let Some(of) = picture.map(|picture| &picture.of).filter(|of| !of.is_empty()) {
         notes.push(format!("({of})"));
     }
     Excerpt {
-        title: format!("{property}: {what} (from {family} #{index}, {})", failure.shrunk),
+        title: format!("{property}: {what} (from {family} #{index}, {})", failure.evidence.shrunk),
         exchanges: exchanges.collect(),
         grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
         notes,
@@ -377,7 +379,7 @@ pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
 }
 
 /// Whether both of two compared programs answer the same.
-fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
+fn difference(verdict: &Judgement, [first, second]: &[String; 2]) -> String {
     let rows = &verdict.found.rows;
     let sum = |of: fn(&FamilyRow) -> u64| rows.iter().map(of).sum::<u64>();
     let cases = thousands(sum(|row| row.cases));
@@ -403,7 +405,7 @@ fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
 }
 
 /// For each family which of two programs is right.
-fn sides(verdict: &Verdict) -> Table {
+fn sides(verdict: &Judgement) -> Table {
     let columns =
         "property 18 | >cases 7 | >differ 7 | >1st right 7 | >2nd right 7 | >neither 7 | >both 7";
     let row = |row: &FamilyRow| {
@@ -418,13 +420,13 @@ fn sides(verdict: &Verdict) -> Table {
 }
 
 /// The families, those with the largest share of wrong cases first.
-fn by_share(verdict: &Verdict) -> Vec<&FamilyRow> {
+fn by_share(verdict: &Judgement) -> Vec<&FamilyRow> {
     let mut rows: Vec<_> = verdict.found.rows.iter().collect();
     rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
     rows
 }
 
-fn closing(verdict: &Verdict) -> String {
+fn closing(verdict: &Judgement) -> String {
     let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
         verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
@@ -457,7 +459,7 @@ fn closing(verdict: &Verdict) -> String {
 
 /// What each program draws of each failing case.
 fn views(
-    verdict: &Verdict,
+    verdict: &Judgement,
     names: Option<&[String; 2]>,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Vec<page_cases::CaseView> {
@@ -467,11 +469,15 @@ fn views(
     };
     let view = |f: &Failure| {
         let name = format!("{}#{}", f.family, f.index);
-        let about = format!("{}: found in {} #{}, {}", f.property, f.family, f.index, f.shrunk);
-        let mut view = page_cases::of_program(name, about, &f.case, &programs, f.picture.as_ref());
+        let about = format!(
+            "{}: found in {} #{}, {}",
+            f.evidence.property, f.family, f.index, f.evidence.shrunk
+        );
+        let mut view =
+            page_cases::of_program(name, about, &f.case, &programs, f.evidence.picture.as_ref());
         view.found.clone_from(&f.what);
         view.command = repeat(f.family, f.index);
-        let chapter = match f.check {
+        let chapter = match f.evidence.check {
             Check::Depth => Some(("chapter 6, depth", "ch06.md")),
             Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),
             Check::Samples => Some(("GAMES101, four samples", "games101.md")),
@@ -485,7 +491,7 @@ fn views(
     verdict.failures.iter().map(view).collect()
 }
 
-fn properties(verdict: &Verdict) -> Table {
+fn properties(verdict: &Judgement) -> Table {
     let row = |p: &verdict::Property| Row {
         cells: vec![
             p.name.to_owned(),
@@ -494,7 +500,11 @@ fn properties(verdict: &Verdict) -> Table {
             p.detail.clone(),
         ],
         mark: if p.outcome.is_good() { Mark::Plain } else { Mark::Wrong },
-        search: verdict.failures.iter().any(|f| f.property == p.name).then(|| p.name.to_owned()),
+        search: verdict
+            .failures
+            .iter()
+            .any(|f| f.evidence.property == p.name)
+            .then(|| p.name.to_owned()),
         ..Row::default()
     };
     let (bad, good): (Vec<_>, Vec<_>) =

@@ -208,7 +208,7 @@ mod tests {
     fn long_texts_are_broken_at_spaces() {
         let lines = wrapped("one two  three-and-more four", Size::Small, 7 * 9);
         assert_eq!(lines, ["one two", "three-and-more", "four"]);
-        let chinese = |text, room| super::lines(text, room, columns);
+        let chinese = |text, room| super::lines(text, room, super::columns);
         assert_eq!(chinese("像素在中心。答案是 12 个", 8), ["像素在中", "心。答案", "是 12 个"]);
         assert_eq!(chinese("像素在中心，", 10), ["像素在中", "心，"]);
     }

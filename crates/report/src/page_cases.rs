@@ -99,9 +99,9 @@ pub fn of_verdict(
     for f in &verdict.failures {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("found in {} #{} of seed {}, shrunk", f.family, f.index, f.seed);
-        let found = format!("{} against {}: {}", f.pair[0], f.pair[1], f.what);
+        let found = format!("{} against {}: {}", f.evidence.pair[0], f.evidence.pair[1], f.what);
         let mut view = of_case(name, about, Kind::Failing, &f.case, judged);
-        view.start = [view.place(&f.pair[0], 0), view.place(&f.pair[1], 1)];
+        view.start = [view.place(&f.evidence.pair[0], 0), view.place(&f.evidence.pair[1], 1)];
         views.push(CaseView { found, command: repeat(&f.family, f.index), ..view });
     }
     views.extend(closest(verdict, judged));

@@ -13,8 +13,8 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Span, check_value};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Board, Finish, Ladder, Options, Pass, Race, Spread, Timing, Variant, measure_on, race, time,
-    variants, wrong_pixels, wrong_values,
+    Board, CostOptions, Finish, Ladder, Pass, Race, Spread, Timing, Variant, measure_on, race,
+    time, variants, wrong_pixels, wrong_values,
 };
 use rasterproof_precision::ladder::snap;
 use rasterproof_registry::engines::Drawer;
@@ -580,7 +580,7 @@ fn ladder(
         Effort::Quick => Timing::QUICK,
         Effort::Once => Timing::ONCE,
     };
-    let options = Options { seed: 0, quick: effort != Effort::Usual, timing: Some(timing) };
+    let options = CostOptions { seed: 0, quick: effort != Effort::Usual, timing: Some(timing) };
     let measures: &[Measure] = match ladder {
         Ladder::Interpolation => &[Measure {
             title: "worst error over the largest value; up to half a step of 8 bits is good",

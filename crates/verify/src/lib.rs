@@ -188,6 +188,8 @@ pub mod comparison;
 #[doc(hidden)]
 pub mod convention;
 #[doc(hidden)]
+pub mod judge;
+#[doc(hidden)]
 pub mod mistakes;
 pub mod oracle;
 pub mod partition;

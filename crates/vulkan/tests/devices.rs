@@ -46,8 +46,8 @@ fn devices() -> Vec<String> {
 }
 
 fn options(cases: u64, families: &[&str]) -> Options {
-    let families = families.iter().map(|f| (*f).to_owned()).collect();
-    Options { cases, families, ..Options::default() }
+    let families = families.iter().map(|f| (*f).to_owned());
+    families.fold(Options::default().cases(cases), Options::family)
 }
 
 fn judged(engine: &str, options: &Options) -> DeviceReport {
@@ -105,10 +105,10 @@ fn planted_faults_are_caught() {
             let text = said(&stand);
             assert_eq!(class(&stand, property), expected, "{plant}: {text}");
             assert!(!stand.agrees());
-            let failure = &stand.verdict.failures.iter().find(|f| f.property == property);
+            let failure = &stand.verdict.failures.iter().find(|f| f.evidence.property == property);
             let failure = failure.unwrap_or_else(|| panic!("{plant}: {text}"));
             if property == family {
-                assert!(failure.picture.is_some(), "{plant}: {text}");
+                assert!(failure.evidence.picture.is_some(), "{plant}: {text}");
                 assert!(text.contains("judged"), "{text}");
                 let is_explained =
                     stand.verdict.recognised.is_some() || !stand.verdict.causes.is_empty();

@@ -9,7 +9,7 @@ use crate::figures;
 
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
-enum Question {
+enum Request {
     /// The picture and the texts of a live figure for a position of its grips.
     Figure(figures::Ask),
 }
@@ -23,7 +23,7 @@ pub fn answer(question: &str) -> String {
 fn ask(question: Value) -> Result<Value, String> {
     match question["ask"].as_str() {
         Some("figure") => {
-            let Question::Figure(figure) =
+            let Request::Figure(figure) =
                 serde_json::from_value(question).map_err(|error| error.to_string())?;
             figure.answer()
         }

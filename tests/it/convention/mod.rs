@@ -9,8 +9,8 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_report::phrases::chinese;
 use rasterproof_verify::convention::{
-    Ask, Confidence, Convention, Diagnosis, Known, LineTie, Mirror, Pattern, Quantum, Question,
-    Rounding, Scan, Shape, Ties, Windings, diagnose, diagnose_lines,
+    Ask, Confidence, Convention, Diagnosis, Known, LineTie, Mirror, Pattern, Quantum, Rounding,
+    Scan, Shape, Ties, TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
 use rayon::prelude::*;
 
@@ -191,7 +191,7 @@ fn conventions_of_mirrors_predict() {
         let side = if mirror == Mirror::Exchanged { 20 } else { 24 };
         let window = PixelRect::window(side, 20);
         let corners = [(256, 300), (4000, 700), (900, 4700)].map(|(x, y)| SubpixelPoint::new(x, y));
-        let question = Question { corners, window };
+        let question = TriangleQuestion { corners, window };
         assert_eq!(found.expected(&question), program.ask(&[question])[0], "{mirror:?}");
         let said = found.sentence().contains("draws its picture ");
         assert_eq!(said, mirror != Mirror::None, "{}", found.sentence());
@@ -212,7 +212,7 @@ fn conventions_of_another_are_not_confused() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_noise_are_unexplained() {
-    let question = Question {
+    let question = TriangleQuestion {
         corners: [(256, 256), (2560, 300), (700, 2560)].map(|(x, y)| SubpixelPoint::new(x, y)),
         window: PixelRect::window(16, 16),
     };
@@ -228,32 +228,32 @@ fn conventions_of_noise_are_unexplained() {
 /// A rasterizer that is a function of a question.
 struct By<F>(F);
 
-impl<F: FnMut(&Question) -> Option<Coverage>> Ask for By<F> {
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+impl<F: FnMut(&TriangleQuestion) -> Option<Coverage>> Ask for By<F> {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         questions.iter().map(&mut self.0).collect()
     }
 }
 
 /// A rasterizer that is none: its hits are a function of its corners' box, or of nothing.
-fn other(hits: fn(&Question, i32, i32) -> bool) -> impl Ask {
-    By(move |q: &Question| Some(picture(q.window, |x, y| hits(q, x, y))))
+fn other(hits: fn(&TriangleQuestion, i32, i32) -> bool) -> impl Ask {
+    By(move |q: &TriangleQuestion| Some(picture(q.window, |x, y| hits(q, x, y))))
 }
 
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_other_shapes_are_unexplained() {
-    let boxes = |q: &Question, x: i32, y: i32| {
+    let boxes = |q: &TriangleQuestion, x: i32, y: i32| {
         let holds = |v: [i32; 3], px: i32| {
             let at = px * 256 + 128;
             v.iter().any(|&c| c <= at) && v.iter().any(|&c| c > at)
         };
         holds(q.corners.map(|c| c.x), x) && holds(q.corners.map(|c| c.y), y)
     };
-    let discs = |q: &Question, x: i32, y: i32| {
+    let discs = |q: &TriangleQuestion, x: i32, y: i32| {
         let at = |v: [i32; 3], px: i32| f64::from(v.iter().sum::<i32>()) / 768.0 - f64::from(px);
         at(q.corners.map(|c| c.x), x).hypot(at(q.corners.map(|c| c.y), y)) < 4.0
     };
-    type Hits = fn(&Question, i32, i32) -> bool;
+    type Hits = fn(&TriangleQuestion, i32, i32) -> bool;
     let all: [(&str, Hits); 3] =
         [("boxes", boxes), ("discs", discs), ("everything", |_, _, _| true)];
     for (name, hits) in all {
@@ -269,7 +269,7 @@ fn conventions_of_other_shapes_are_unexplained() {
 fn conventions_of_the_silent_are_unknown() {
     struct Silent;
     impl Ask for Silent {
-        fn ask(&mut self, _: &[Question]) -> Vec<Option<Coverage>> {
+        fn ask(&mut self, _: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
             Vec::new()
         }
     }
@@ -304,7 +304,7 @@ fn conventions_by_corner_order_are_said_to_be_so() {
 fn conventions_of_scans_are_named() {
     // Of 1,000 pictures so many have a pixel more.
     let drawn = |convention: Convention, wrong: u64| {
-        By(move |q: &Question| {
+        By(move |q: &TriangleQuestion| {
             let mut picture = convention.cover(&q.corners, q.window)?;
             let key = q.corners.iter().fold(7, |h, p| hash(h ^ p.x as u64) ^ p.y as u64);
             if hash(key) % 1000 < wrong {
@@ -344,7 +344,7 @@ fn conventions_on_coarse_grids_predict() {
         for _ in 0..100 {
             let mut place = || dice.roll(20 * grid as u64) as i32 * (256 / grid);
             let corners = [0; 3].map(|_| SubpixelPoint::new(place(), place()));
-            let question = Question { corners, window };
+            let question = TriangleQuestion { corners, window };
             if let Some(expected) = found.expected(&question) {
                 wrong += u64::from(Some(expected) != made.ask(&[question])[0]);
             }

@@ -10,10 +10,10 @@ use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_verify::convention::{Ask, AskLine, LineQuestion, Question};
+use rasterproof_verify::convention::{Ask, AskLine, LineQuestion, TriangleQuestion};
 
 /// A question in words, as recordings keep it: the side of the window, then the corners in 1/256 px.
-fn key(question: &Question) -> String {
+fn key(question: &TriangleQuestion) -> String {
     let corners = question.corners.map(|c| format!(" {} {}", c.x, c.y));
     format!("T {}{}", question.window.x1, corners.concat())
 }
@@ -64,7 +64,7 @@ impl Recording {
 }
 
 impl Ask for Recording {
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         questions.iter().map(|q| picture(q.window, self.get(&key(q)))).collect()
     }
 }
@@ -129,7 +129,7 @@ impl Recorder {
 }
 
 impl Ask for Recorder {
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         let px = |v: i32| f64::from(v) / 256.0;
         questions
             .iter()

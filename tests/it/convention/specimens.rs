@@ -6,7 +6,7 @@ use rasterproof_faults::published::from_lattice;
 use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_verify::cases::{self, Shape};
 use rasterproof_verify::convention::{
-    Confidence, Convention, Known, Question, Shape as Drawn, diagnose,
+    Confidence, Convention, Known, Shape as Drawn, TriangleQuestion, diagnose,
 };
 use rasterproof_verify::oracle::Oracle;
 
@@ -20,7 +20,7 @@ fn conventions_of_specimens_are_named() {
     let Some(Specimen::Triangle(specimen)) = engines::find("games101-int").unwrap().specimen else {
         panic!("it draws triangles")
     };
-    let mut program = By(|question: &Question| {
+    let mut program = By(|question: &TriangleQuestion| {
         let mut picture = Coverage::new(question.window, 0);
         let mut hit = |span: Span| picture.hit(span.y_px, span.x0_px, span.x1_px);
         specimen.cover(&from_lattice(question.corners), question.window, &mut hit).ok()?;

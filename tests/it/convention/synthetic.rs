@@ -4,7 +4,7 @@
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_verify::convention::{
-    Ask, LineTie, Mirror, Pattern, Question, Rounding, Shape, Windings,
+    Ask, LineTie, Mirror, Pattern, Rounding, Shape, TriangleQuestion, Windings,
 };
 
 /// What a made-up rasterizer does on an edge.
@@ -30,7 +30,7 @@ pub struct Synthetic {
 type Point = [f64; 2];
 
 impl Ask for Synthetic {
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         questions.iter().map(|question| Some(self.draw(question))).collect()
     }
 }
@@ -39,8 +39,8 @@ impl Ask for Synthetic {
 pub struct Mirrored(pub Synthetic, pub Mirror);
 
 impl Ask for Mirrored {
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
-        let draw = |question: &Question| {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
+        let draw = |question: &TriangleQuestion| {
             let (drawn, window) = (self.0.draw(question), question.window);
             let (right, bottom) = (window.x1 - 1, window.y1 - 1);
             Some(picture(window, |x, y| {
@@ -91,7 +91,7 @@ impl Synthetic {
         }
     }
 
-    fn draw(&self, question: &Question) -> Coverage {
+    fn draw(&self, question: &TriangleQuestion) -> Coverage {
         let p = question.corners.map(|c| [self.snap(c.x), self.snap(c.y)]);
         let area = cross(p[0], p[1], p[2]);
         if area != 0.0 && !self.draws.draws(area > 0.0) {

@@ -16,7 +16,7 @@ use rasterproof_verify::comparison::{Convention, Rule, caught};
 use super::scenes::{Paint, Scene};
 
 #[derive(Clone, Copy, Debug)]
-pub enum Subject {
+pub enum Rasterizer {
     /// The scanline engine: the picture that rules compare with.
     Reference,
     Planted(TriangleMutant),
@@ -50,7 +50,7 @@ const RIGHT: [(&str, Permitted); 6] = [
     ("grid of 1/16 px, bottom-left", permitted(Rule::BottomLeft, 4, true)),
 ];
 
-impl Subject {
+impl Rasterizer {
     pub fn all() -> Vec<Self> {
         // These two are faults by what this project declares. Specifications permit both, and they are among the right
         // rasterizers here.
@@ -232,7 +232,7 @@ impl Drawn {
 }
 
 #[must_use]
-pub fn draw(subject: &Subject, scene: &Scene) -> Drawn {
+pub fn draw(subject: &Rasterizer, scene: &Scene) -> Drawn {
     let mut fragments = Vec::new();
     let drawing = caught(|| {
         scene.triangles.iter().enumerate().all(|(i, triangle)| {

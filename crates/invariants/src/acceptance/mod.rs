@@ -12,7 +12,7 @@ pub mod scenes;
 
 use rasterproof_core::parallel;
 
-use drawing::{Drawn, Subject, draw};
+use drawing::{Drawn, Rasterizer, draw};
 use rules::{RULES, View};
 use scenes::{Scene, scenes};
 
@@ -62,7 +62,7 @@ impl Row {
 }
 
 #[derive(Clone, Debug, Default)]
-pub struct Report {
+pub struct Acceptance {
     pub faults: Vec<&'static str>,
     pub right: Vec<&'static str>,
     /// Scenes such as test suites use, one row for each of [`RULES`].
@@ -84,17 +84,18 @@ struct Judged {
 
 /// Computes the report; a pure function of the seed. `step` is called for every scene.
 #[must_use]
-pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Report {
-    let (subjects, list) = (Subject::all(), scenes(seed));
+pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Acceptance {
+    let (subjects, list) = (Rasterizer::all(), scenes(seed));
     let judged = parallel::map(list.len(), |i| {
         let judged = judge(&list[i], &subjects);
         step();
         judged
     });
     let names = |right: bool| -> Vec<&'static str> {
-        subjects.iter().filter(|s| s.is_right() == right).map(Subject::name).collect()
+        subjects.iter().filter(|s| s.is_right() == right).map(Rasterizer::name).collect()
     };
-    let mut report = Report { faults: names(false), right: names(true), ..Report::default() };
+    let mut report =
+        Acceptance { faults: names(false), right: names(true), ..Acceptance::default() };
     for (set, of_suites) in [(0, true), (1, false)] {
         let scenes: Vec<usize> =
             (0..list.len()).filter(|&i| list[i].of_suites == of_suites).collect();
@@ -117,14 +118,14 @@ pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Report {
 }
 
 /// What each subject's picture of a scene came to, and for each rule whether it accepts the right picture.
-fn judge(scene: &Scene, subjects: &[Subject]) -> (Vec<Judged>, Vec<Option<bool>>) {
-    let right = draw(&Subject::Reference, scene);
+fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<Judged>, Vec<Option<bool>>) {
+    let right = draw(&Rasterizer::Reference, scene);
     let seen = rules::Seen::new(scene, &right);
-    let accepts = |subject: &Subject, drawn: &Drawn| -> Vec<Option<bool>> {
+    let accepts = |subject: &Rasterizer, drawn: &Drawn| -> Vec<Option<bool>> {
         let view = View { scene, seen: &seen, right: &right, drawn, subject };
         RULES.iter().map(|rule| rule.accepts(&view)).collect()
     };
-    let usable = accepts(&Subject::Reference, &right);
+    let usable = accepts(&Rasterizer::Reference, &right);
     let mut all = Vec::new();
     for subject in subjects {
         if !subject.can_draw(scene) {
@@ -151,7 +152,7 @@ fn differing(right: &Drawn, drawn: &Drawn) -> u64 {
     right.pixels.iter().zip(&drawn.pixels).filter(|(a, b)| a != b).count() as u64
 }
 
-fn row(rule: usize, subjects: &[Subject], scenes: &[(&Scene, &[Judged])]) -> Row {
+fn row(rule: usize, subjects: &[Rasterizer], scenes: &[(&Scene, &[Judged])]) -> Row {
     let mut row = Row::default();
     for (s, subject) in subjects.iter().enumerate() {
         let (mut refused, mut seen, mut wrong, mut pixels) = (0, 0, 0, 0);

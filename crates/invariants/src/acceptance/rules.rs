@@ -8,7 +8,7 @@ use rasterproof_verify::comparison::single_precision::perspective_bounds;
 use rasterproof_verify::comparison::tolerance;
 
 use super::deqp::{self, Cover};
-use super::drawing::{Drawn, Subject};
+use super::drawing::{Drawn, Rasterizer};
 use super::perceptual;
 use super::scenes::{Paint, Scene};
 
@@ -18,7 +18,7 @@ pub struct View<'a> {
     pub right: &'a Drawn,
     pub drawn: &'a Drawn,
     /// Whose it is, for what a device reports about itself.
-    pub subject: &'a Subject,
+    pub subject: &'a Rasterizer,
 }
 
 pub struct Seen {

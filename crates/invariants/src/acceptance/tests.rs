@@ -8,7 +8,7 @@ use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_verify::cases::Triangle;
 
 use super::deqp::{self, Cover};
-use super::drawing::{Drawn, Subject, draw};
+use super::drawing::{Drawn, Rasterizer, draw};
 use super::perceptual::{Flip, lab_of_all, pixelmatch, ssim_error};
 use super::rules::{RULES, Seen, View};
 use super::scenes::{Paint, Scene};
@@ -33,7 +33,7 @@ fn scene(paint: Paint, side: u32, triangles: Vec<Triangle>) -> Scene {
 
 fn accepts_of(rule: &str, scene: &Scene, right: &Drawn, drawn: &Drawn) -> Option<bool> {
     let seen = Seen::new(scene, right);
-    let view = View { scene, seen: &seen, right, drawn, subject: &Subject::Reference };
+    let view = View { scene, seen: &seen, right, drawn, subject: &Rasterizer::Reference };
     RULES.iter().find(|own| own.name == rule).unwrap().accepts(&view)
 }
 
@@ -142,7 +142,7 @@ fn deqp_leaves_pixels_near_edges_open() {
         };
         assert_eq!(*cover, expected, "pixel {place}");
     }
-    let right = draw(&Subject::Reference, &scene);
+    let right = draw(&Rasterizer::Reference, &scene);
     let with = |places: &[usize], colour| {
         let mut drawn = right.clone();
         places.iter().for_each(|&place| drawn.pixels[place] = colour);
@@ -157,7 +157,7 @@ fn deqp_leaves_pixels_near_edges_open() {
     // A column of 12 wrong pixels is more than 10.
     let tall = self::scene(Paint::White, 16, vec![triangle([[0, 0], [8, 0], [0, 8]])]);
     let covers = deqp::covers(&tall.triangles, tall.window, 8);
-    let mut drawn = draw(&Subject::Reference, &tall);
+    let mut drawn = draw(&Rasterizer::Reference, &tall);
     (0..10).for_each(|y| drawn.pixels[y * 16 + 15] = WHITE);
     assert!(deqp::accepts(&covers, &drawn.pixels, deqp::WEAK));
     drawn.pixels[10 * 16 + 15] = WHITE;
@@ -190,7 +190,7 @@ fn deqp_adds_once() {
 fn the_own_rule_counts_hits_and_compares_values() {
     let halves = [[[0, 0], [8, 0], [0, 8]], [[8, 0], [8, 8], [0, 8]]].map(triangle).to_vec();
     let scene = scene(Paint::Values, 8, halves);
-    let right = draw(&Subject::Reference, &scene);
+    let right = draw(&Rasterizer::Reference, &scene);
     let accepts = |change: &dyn Fn(&mut Drawn)| {
         let mut drawn = right.clone();
         change(&mut drawn);
@@ -205,7 +205,7 @@ fn the_own_rule_counts_hits_and_compares_values() {
     let moved =
         |doubles: f64| accepts(&|drawn| drawn.fragments[5].1.depth += doubles * f64::EPSILON / 2.0);
     assert!(moved(1.0) && !moved(3.0));
-    let planted = draw(&Subject::Planted(TriangleMutant::InclusiveEdges), &scene);
+    let planted = draw(&Rasterizer::Planted(TriangleMutant::InclusiveEdges), &scene);
     assert_eq!(accepts_of("same-picture", &scene, &right, &planted), Some(true));
     assert_eq!(accepts_of("rasterproof", &scene, &right, &planted), Some(false));
 }
@@ -213,8 +213,8 @@ fn the_own_rule_counts_hits_and_compares_values() {
 #[test]
 fn a_program_that_panics_is_refused_by_every_rule() {
     let scene = scene(Paint::White, 8, vec![triangle([[4, 0], [8, 8], [0, 8]])]);
-    let right = draw(&Subject::Reference, &scene);
-    let drawn = draw(&Subject::Planted(TriangleMutant::PanicsOnFlatBottom), &scene);
+    let right = draw(&Rasterizer::Reference, &scene);
+    let drawn = draw(&Rasterizer::Planted(TriangleMutant::PanicsOnFlatBottom), &scene);
     for rule in &RULES {
         assert!(accepts_of(rule.name, &scene, &right, &drawn).is_none_or(|accepts| !accepts));
     }

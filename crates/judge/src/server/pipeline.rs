@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec4};
 use rasterproof_host::limits::{self, REQUEST_FRAGMENTS};
 
-use crate::finding::push;
+use crate::judged::push;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Span};

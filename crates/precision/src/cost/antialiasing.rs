@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung, Told};
+use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung, Told};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
@@ -82,7 +82,7 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     (sum / count.max(1) as f64).sqrt()
 }
 
-pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     let pixels = if options.quick { 8_000 } else { 30_000 };
     let scenes = scenes(options.seed, Size { side_px: 256, pixels });
     measure_on(&scenes, options, (progress, &mut |_, _| ()))
@@ -90,7 +90,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
 
 pub(super) fn measure_on(
     scenes: &[Scene],
-    options: &Options,
+    options: &CostOptions,
     (progress, afterwards): Told<'_>,
 ) -> Board {
     let variants = variants();

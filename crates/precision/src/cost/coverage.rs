@@ -8,7 +8,7 @@ use std::cell::RefCell;
 
 use super::external::ExternalVariant;
 use super::tiles::Lists;
-use super::{Board, Column, Draft, Ladder, Measure, Name, Options, Prepared, Rung};
+use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared, Rung};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
@@ -342,7 +342,7 @@ fn prepare_external<'a>(
 /// Measures one of the two ladders, with external variants on it.
 pub(super) fn measure(
     ladder: Ladder,
-    options: &Options,
+    options: &CostOptions,
     external: &mut [Box<dyn ExternalVariant>],
     progress: &dyn Fn(f64, &str),
 ) -> Board {

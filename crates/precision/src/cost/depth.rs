@@ -3,7 +3,7 @@
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
+use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -151,7 +151,7 @@ fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
     ]
 }
 
-pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     let variants = variants();
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };

@@ -9,7 +9,7 @@ use super::bounds::{Bound, Place, largest};
 use super::drawn::{AnyValues, Drawn, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
-use super::{Board, Column, Draft, Ladder, Measure, Name, Options, Prepared, Rung, Told};
+use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared, Rung, Told};
 use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -263,7 +263,7 @@ pub fn wrong_values(scene: &Scene) -> WrongValues {
     WrongValues { wrong, pixels: samples.len() as u64, of: pixels(&drawn) as u64 }
 }
 
-pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     let pixels = if options.quick { 8_000 } else { 60_000 };
     let scenes = scenes(options.seed, Size { side_px: 512, pixels });
     let count = if options.quick { 500 } else { SAMPLES };
@@ -274,7 +274,7 @@ pub(super) const SAMPLES: usize = 4000;
 
 pub(super) fn measure_on(
     scenes: &[Scene],
-    options: &Options,
+    options: &CostOptions,
     count: usize,
     (progress, afterwards): Told<'_>,
 ) -> Board {

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 use super::drawn::{AnyValues, Drawn, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
+use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
@@ -126,7 +126,7 @@ fn variants() -> Vec<(Rung, Box<AnyLevel>)> {
     ]
 }
 
-pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     let size = if options.quick { 20_000 } else { 200_000 };
     let scenes = scenes(options.seed, Size { side_px: 512, pixels: size });
     let variants = variants();

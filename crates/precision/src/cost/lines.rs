@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Size, scenes};
-use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
+use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -143,7 +143,7 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
     missing(&truth, &ours).max(missing(&ours, &truth)) + ours.len().abs_diff(truth.len()) as u64
 }
 
-pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };
     let variants = variants();
     // The classes of the other ladders, for their names and windows.

@@ -73,7 +73,7 @@ impl Ladder {
 pub type Name = Cow<'static, str>;
 
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub struct CostOptions {
     /// Decides every scene, and with them every error.
     pub seed: u64,
     /// Smaller scenes.
@@ -181,14 +181,14 @@ impl Board {
 }
 
 /// Measures a ladder. `progress` gets the share done, from 0 to 1, and a word about it.
-pub fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+pub fn measure(ladder: Ladder, options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     measure_with(ladder, options, &mut [], progress)
 }
 
 /// The same with external variants on the ladder of edge functions.
 pub fn measure_with(
     ladder: Ladder,
-    options: &Options,
+    options: &CostOptions,
     external: &mut [Box<dyn ExternalVariant>],
     progress: &dyn Fn(f64, &str),
 ) -> Board {
@@ -212,7 +212,7 @@ pub type Afterwards<'a> = &'a mut dyn FnMut(&Board, &mut [Pass<'_>]);
 pub fn measure_on(
     ladder: Ladder,
     scenes: &[scene::Scene],
-    options: &Options,
+    options: &CostOptions,
     afterwards: Afterwards<'_>,
 ) -> Option<Board> {
     let told: Told<'_> = (&|_, _| (), afterwards);
@@ -271,7 +271,7 @@ impl<'a> Draft<'a> {
     }
 
     /// Adds the usual classes of scenes, on which a ladder is not measured that has columns of its own.
-    fn leave_out_classes(&mut self, options: &Options, why: &str) {
+    fn leave_out_classes(&mut self, options: &CostOptions, why: &str) {
         for class in scene::scenes(options.seed, scene::Size { side_px: 64, pixels: 0 }) {
             self.leave_out(Column::new(class.name, class.about, 0, 0), why);
         }
@@ -281,7 +281,7 @@ impl<'a> Draft<'a> {
     fn finish(
         self,
         measures: Vec<Measure>,
-        options: &Options,
+        options: &CostOptions,
         (progress, afterwards): Told<'_>,
     ) -> Board {
         let Self { ladder, rungs, columns, cells: prepared } = self;

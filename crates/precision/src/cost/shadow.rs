@@ -4,7 +4,7 @@
 //! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
-use super::{Board, Column, Draft, Ladder, Measure, Options, Prepared, Rung};
+use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_verify::cases::Rng;
 
@@ -146,7 +146,7 @@ fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
     ]
 }
 
-pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     let variants = variants();
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };

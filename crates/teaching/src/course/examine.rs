@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::misconceptions::{self, Misconception};
 use super::{Exercise, Step};
-use rasterproof_judge::ask::{Answer, Ask};
+use rasterproof_judge::ask::{Answer, Subject};
 use rasterproof_judge::check::{Check, Truth};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Asked, Failure, Search, judge};
@@ -58,7 +58,7 @@ struct Wrong<'a> {
 
 /// Asks all exercises of a step. What the program says of its rule, its grid and its range does not
 /// count here: the course has one convention.
-pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
+pub fn examine(program: &mut dyn Subject, step: &Step, amount: &Amount) -> Outcome {
     let mut outcome = Outcome::default();
     let mut failing = None;
     let mut restarts = run::MOST_DEATHS;
@@ -93,8 +93,9 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     outcome.cause = unexplained.and_then(|failing| cause(program, failing, amount.patience));
     outcome.failure = failing.map(|Wrong { exercise, is, case, truth, asked }| {
         let may_be = |case: &Case| (exercise.prepare)(case.clone()).as_ref() == Some(case);
-        let (check, patience) = (exercise.check, amount.patience);
-        let search = Search { check, truth: &truth, patience, may_be: &may_be };
+        let &Amount { seed, patience, .. } = amount;
+        let search =
+            Search { check: exercise.check, truth: &truth, seed, patience, may_be: &may_be };
         search.smallest(program, &is, case, asked)
     });
     outcome
@@ -106,7 +107,7 @@ const ASKED_OF_A_FAMILY: usize = 200;
 /// Asks the cases of a family; the first that fails. No step is passed with a request that the program does not answer, so
 /// the rest is not asked after the first of these: each would cost the whole time limit again.
 fn ask_family<'a>(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     exercise: &'a Exercise,
     name: &str,
     amount: &Amount,
@@ -154,9 +155,9 @@ fn ask_family<'a>(
             break;
         }
         let here = &answers[range.start..range.end.min(answers.len())];
-        let finding = judge(check, &case, here, range.len(), &truth);
+        let judged = judge(check, &case, here, range.len(), &truth);
         outcome.cases += 1;
-        let is_wrong = finding.is_wrong();
+        let is_wrong = judged.is_wrong();
         outcome.wrong += u64::from(is_wrong);
         let exchanged = || (questions[range.clone()].to_vec(), here.to_vec());
         if here.len() == range.len() && range.end <= ASKED_OF_A_FAMILY {
@@ -165,11 +166,11 @@ fn ask_family<'a>(
         }
         if is_wrong && first.is_none() {
             let (questions, answers) = exchanged();
-            first = Some((index, case, Asked { questions, answers, finding }));
+            first = Some((index, case, Asked { questions, answers, judged }));
         }
     }
     first.map(|(index, case, asked)| {
-        let (property, fingerprint) = (check.name(family.name), asked.finding.fingerprint());
+        let (property, fingerprint) = (check.name(family.name), asked.judged.fingerprint());
         let is = Failing { property, family: family.name, index, fingerprint };
         Wrong { exercise, is, case, truth, asked }
     })
@@ -183,8 +184,8 @@ fn truth(exercise: &Exercise) -> Truth {
 }
 
 /// The mistake of a program that answers, where a known one explains it.
-fn cause(program: &mut dyn Ask, failing: &Wrong<'_>, patience: Duration) -> Option<Mistakes> {
-    if !failing.asked.finding.died.is_empty() {
+fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> Option<Mistakes> {
+    if !failing.asked.judged.died.is_empty() {
         return None;
     }
     let start = Instant::now();
@@ -199,7 +200,7 @@ fn cause(program: &mut dyn Ask, failing: &Wrong<'_>, patience: Duration) -> Opti
 }
 
 /// The last line of a program's standard error, if it wrote any.
-pub fn complaint(program: &dyn Ask) -> Option<String> {
+pub fn complaint(program: &dyn Subject) -> Option<String> {
     program.complaints().pop()
 }
 
@@ -217,7 +218,7 @@ mod tests {
         asked: usize,
     }
 
-    impl Ask for Silent {
+    impl Subject for Silent {
         fn declared(&self) -> &Declared {
             &self.declared
         }

@@ -11,7 +11,7 @@ use image::{Rgb, RgbImage, imageops};
 use rasterproof_core::angle::{cos, sin};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, PixelPoint, ScreenVertex, Span};
-use rasterproof_judge::ask::{Answer, Ask, Asked, Question};
+use rasterproof_judge::ask::{Answer, Asked, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::run::MOST_DEATHS;
@@ -62,7 +62,7 @@ impl Right {
     }
 }
 
-impl Ask for Right {
+impl Subject for Right {
     fn declared(&self) -> &Declared {
         self.triangles.declared()
     }
@@ -78,7 +78,7 @@ impl Ask for Right {
 
 /// Turns the answers of a program into pictures, and counts the requests that had no usable answer.
 struct Studio<'a> {
-    asked: &'a mut dyn Ask,
+    asked: &'a mut dyn Subject,
     unanswered: u64,
 }
 
@@ -286,7 +286,7 @@ fn shade(surface: &Surface<'_>, weights: DVec2) -> DVec3 {
 }
 
 /// The pictures of a step, by the program and by this project's engines.
-pub fn step(program: &mut dyn Ask, step: &Step) -> Vec<Shown> {
+pub fn step(program: &mut dyn Subject, step: &Step) -> Vec<Shown> {
     type Draw = fn(&mut Studio<'_>) -> RgbImage;
     let pictures: &[(&'static str, Draw)] = match step.name.as_str() {
         "pixel" => &[("pixels of a circle; some lie outside", |s| s.lines(16, 12, &circle()))],
@@ -355,7 +355,7 @@ pub fn step(program: &mut dyn Ask, step: &Step) -> Vec<Shown> {
 /// # Errors
 /// The scene has a vertex that the pipeline refuses.
 pub fn scene(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     title: &'static str,
     scene: &Scene,
     size: (u32, u32),
@@ -366,7 +366,7 @@ pub fn scene(
 }
 
 fn both(
-    program: &mut dyn Ask,
+    program: &mut dyn Subject,
     title: &'static str,
     draw: &mut dyn FnMut(&mut Studio<'_>) -> RgbImage,
 ) -> Shown {

@@ -2,7 +2,7 @@
 
 use super::examine::Outcome;
 use super::{Step, number};
-use rasterproof_judge::failures::{Exchange, Failure};
+use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::judge_text;
 
@@ -20,7 +20,8 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
     };
     let about = format!("step {}, {}: {came_out}", number(step), step.title);
     let Some(failure) = &outcome.failure else { return Report { about, ..Report::default() } };
-    let Failure { what, family, index, shrunk, exchanges, .. } = failure;
+    let Failure { what, family, index, evidence, .. } = failure;
+    let Exchanged { shrunk, exchanges, .. } = evidence;
     let again = match &exchanges[..] {
         [Exchange { request, .. }] => format!("echo '{request}' | {command}"),
         _ => String::new(),

@@ -3,7 +3,7 @@
 use super::{Language, Text};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Answer {
+pub enum Right {
     /// One of the choices, counted from 0.
     Choice(usize),
     Pixel([i32; 2]),
@@ -23,7 +23,7 @@ pub enum Given {
     Number(f64),
 }
 
-impl Answer {
+impl Right {
     /// The one choice that holds.
     ///
     /// # Panics
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn answers_are_read_and_judged() {
         let pixels: &[Text] = &["(0, 3)", "(2, 2)"].map(|text| [text, text].map(str::to_owned));
-        let choice = Answer::only(&[false, true]);
+        let choice = Right::only(&[false, true]);
         for word in ["b", "B", "2", "2,2", " (2, 2) "] {
             assert!(
                 choice.accepts(choice.read(word, pixels, Language::English).unwrap()),
@@ -160,16 +160,16 @@ mod tests {
             assert!(refusal(Language::English).contains("a to b"), "{word}");
             assert!(refusal(Language::Chinese).contains("a 到 b"), "{word}");
         }
-        let third = Answer::Number { value: 1.0 / 3.0, decimals: 2 };
+        let third = Right::Number { value: 1.0 / 3.0, decimals: 2 };
         let right = ["1/3", "0.33", "0.333", ".334"];
-        let read = |answer: &Answer, word: &str| answer.read(word, &[], Language::English);
+        let read = |answer: &Right, word: &str| answer.read(word, &[], Language::English);
         let given = |word: &str| read(&third, word).unwrap();
         assert!(right.iter().all(|word| third.accepts(given(word))));
         assert!(!["0.32", "0.34", "-1/3", "33"].iter().any(|word| third.accepts(given(word))));
         assert!(["1/0", "nan", "inf", "x", "3,3"].iter().all(|w| read(&third, w).is_err()));
-        let whole = Answer::Number { value: 4.0, decimals: 0 };
+        let whole = Right::Number { value: 4.0, decimals: 0 };
         assert!(whole.accepts(Given::Number(4.0)) && !whole.accepts(Given::Number(4.4)));
-        let pixel = Answer::Pixel([4, -2]);
+        let pixel = Right::Pixel([4, -2]);
         assert!(pixel.accepts(read(&pixel, "4,-2").unwrap()));
         assert!(!pixel.accepts(read(&pixel, "-2,4").unwrap()) && read(&pixel, "4").is_err());
     }
@@ -177,6 +177,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "exactly one")]
     fn two_right_choices_are_no_question() {
-        let _ = Answer::only(&[true, true]);
+        let _ = Right::only(&[true, true]);
     }
 }

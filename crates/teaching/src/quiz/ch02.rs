@@ -2,7 +2,7 @@
 
 use super::answer::pixel;
 use super::tools::{Px, hits, published, truth};
-use super::{Answer, Solution, Text};
+use super::{Right, Solution, Text};
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
@@ -32,7 +32,7 @@ fn halfway(_: &[Text]) -> Solution {
     let row = (0..4).find(|&y| hits(&there, [4, y]) > 0).expect("every column is lit");
     // Either direction must light it.
     assert_eq!(there, back, "a line does not depend on its direction");
-    Solution::new(Answer::Pixel([4, row])).grid("0,0 8,3", &there, &there)
+    Solution::new(Right::Pixel([4, row])).grid("0,0 8,3", &there, &there)
 }
 
 /// A square of two halves with its corners on centres.

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::tools::draw;
-use super::{Answer, Solution, Text};
+use super::{Right, Solution, Text};
 use rasterproof_faults::published::{games101_box, games101_depth};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
@@ -47,7 +47,7 @@ fn average(_: &[Text]) -> Solution {
 
 fn bounding_box(_: &[Text]) -> Solution {
     let (x, y) = games101_box::lands(11, 4, 8);
-    Solution::new(Answer::Pixel([x, y])).figure(4 * 8 + 11)
+    Solution::new(Right::Pixel([x, y])).figure(4 * 8 + 11)
 }
 
 fn depth(_: &[Text]) -> Solution {

@@ -35,7 +35,7 @@ mod stability;
 mod sysu;
 mod tools;
 
-pub use answer::{Answer, Given};
+pub use answer::{Given, Right};
 
 use std::sync::LazyLock;
 
@@ -79,19 +79,19 @@ pub struct Exercise {
 /// What the project's code says about an exercise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    pub answer: Answer,
+    pub answer: Right,
     pub figures: Vec<String>,
     /// Pixel grids with their titles, as of [`rasterproof_report::ascii`].
     pub grids: Vec<(String, Vec<String>)>,
 }
 
 impl Solution {
-    fn new(answer: Answer) -> Self {
+    fn new(answer: Right) -> Self {
         Self { answer, figures: Vec::new(), grids: Vec::new() }
     }
 
     fn number(value: f64, decimals: usize) -> Self {
-        Self::new(Answer::Number { value, decimals })
+        Self::new(Right::Number { value, decimals })
     }
 
     fn count(value: u64) -> Self {
@@ -99,7 +99,7 @@ impl Solution {
     }
 
     fn choice(holds: &[bool]) -> Self {
-        Self::new(Answer::only(holds))
+        Self::new(Right::only(holds))
     }
 
     fn figure(mut self, figure: impl ToString) -> Self {

@@ -7,7 +7,7 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_faults::planted::{Mutant, TriangleMutant};
 use rasterproof_invariants::find;
-use rasterproof_invariants::subject::Subject;
+use rasterproof_invariants::implementations::Implementations;
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::oracle::Oracle;
 
@@ -17,7 +17,7 @@ solvers!(notices, orders, moved, metric);
 const ASKED: [&str; 3] = ["constant-attribute", "contiguous-rows", "closed-fan"];
 
 fn notices(_: &[Text]) -> Solution {
-    let subject = Subject::with(Mutant::Triangle(TriangleMutant::InclusiveEdges));
+    let subject = Implementations::with(Mutant::Triangle(TriangleMutant::InclusiveEdges));
     let kills = |name| find(name).expect("an invariant's name").kills(&subject, 1, 42);
     Solution::choice(&ASKED.map(kills))
 }

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec4};
 
 use super::tools::{Px, corners};
-use super::{Answer, Solution, Text};
+use super::{Right, Solution, Text};
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
@@ -58,7 +58,7 @@ fn backwards(_: &[Text]) -> Solution {
     let [there, back] = [[first, last], [last, first]].map(published_row);
     // The question gives the way there.
     assert_eq!(there, 1);
-    Solution::new(Answer::Pixel([1, back])).figure(rows([2, 1])[1])
+    Solution::new(Right::Pixel([1, back])).figure(rows([2, 1])[1])
 }
 
 /// Corners on the screen, where w is 1 and visible is -1 to 1.

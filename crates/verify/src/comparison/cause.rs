@@ -3,7 +3,9 @@
 use std::fmt;
 
 use super::Convention;
-use crate::convention::{Ask, Confidence, Diagnosis, Known, LineDiagnosis, LineQuestion, Question};
+use crate::convention::{
+    Ask, Confidence, Diagnosis, Known, LineDiagnosis, LineQuestion, TriangleQuestion,
+};
 use crate::mistakes::{self, Mistakes};
 use rasterproof_core::frame::Coverage;
 
@@ -27,9 +29,9 @@ impl Cause {
     /// Asks for about 1,900 triangles in a small window.
     pub(super) fn of_triangles(
         declared: &Convention,
-        mut draw: impl FnMut(&Question) -> Option<Coverage>,
+        mut draw: impl FnMut(&TriangleQuestion) -> Option<Coverage>,
     ) -> Self {
-        let mut ask = |questions: &[Question]| questions.iter().map(&mut draw).collect();
+        let mut ask = |questions: &[TriangleQuestion]| questions.iter().map(&mut draw).collect();
         Self::by_asking(&mut ask, &Known::from(declared), declared)
     }
 

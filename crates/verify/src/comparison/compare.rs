@@ -5,7 +5,6 @@ use glam::DVec2;
 use super::cause::Cause;
 use super::convention::{Convention, Rule};
 use super::finding::{Finding, Tally};
-use super::panics::{EnginePanic, caught};
 use super::spans::{
     Covered, engine_coverage, exact_coverage, fragments_against, line_coverage, unsnapped_truth,
 };
@@ -13,7 +12,8 @@ use super::tolerance::Tolerance;
 use super::truth::{Bounds, Truth, compare_on_line};
 use crate::cases::named::plain_line;
 use crate::cases::{Case, Kind, Line, Shape, Triangle};
-use crate::convention::{LineQuestion, Question};
+use crate::convention::{LineQuestion, TriangleQuestion};
+use crate::judge::{EnginePanic, caught};
 use crate::mistakes::{self, Mistakes};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
@@ -194,14 +194,15 @@ impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
 
     fn cause(&self, engine: &str) -> Option<Cause> {
         let (_, engine, tolerance) = self.engines.iter().find(|(name, ..)| *name == engine)?;
-        let cause = Cause::of_triangles(&self.convention, |Question { corners, window }| {
-            let hits = caught(|| {
-                let mut hits = Coverage::new(*window, 0);
-                engine.cover(*corners, *window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-                hits
+        let cause =
+            Cause::of_triangles(&self.convention, |TriangleQuestion { corners, window }| {
+                let hits = caught(|| {
+                    let mut hits = Coverage::new(*window, 0);
+                    engine.cover(*corners, *window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                    hits
+                });
+                hits.ok()
             });
-            hits.ok()
-        });
         let values = tolerance.and_then(|tolerance| self.mistakes_in_values(engine, tolerance));
         Some(cause.with(values))
     }
@@ -271,7 +272,7 @@ impl<R: Interpolate + Sync> TriangleComparer<'_, R> {
             let (mut truth, mut finding) = (Truth::new(triangle)?, Finding::default());
             let bounds = Bounds::new(tolerance, triangle);
             fragments.iter().for_each(|f| truth.compare(f, &bounds, &mut finding));
-            let is_wrong = finding.attribute.max(finding.depth) > 1.0;
+            let is_wrong = finding.worst() > 1.0;
             let Bounds { attributes: [a, b], depth } = bounds;
             Some((fragments, [depth, a, b], is_wrong))
         })
@@ -513,9 +514,10 @@ impl<E: RasterizeExact + Sync> CompareCases for UnsnappedComparer<'_, E> {
 
     fn cause(&self, engine: &str) -> Option<Cause> {
         let (_, engine) = self.engines.iter().find(|(name, _)| *name == engine)?;
-        let cause = Cause::of_triangles(&Convention::default(), |Question { corners, window }| {
-            exact_coverage(engine, &[(*corners).into()], *window).ok().map(|(hits, _)| hits)
-        });
+        let cause =
+            Cause::of_triangles(&Convention::default(), |TriangleQuestion { corners, window }| {
+                exact_coverage(engine, &[(*corners).into()], *window).ok().map(|(hits, _)| hits)
+            });
         // These are judged by one convention.
         Some(Cause { declare: None, ..cause })
     }

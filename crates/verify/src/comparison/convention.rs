@@ -9,7 +9,7 @@
 
 use std::fmt;
 
-use crate::cases::{Case, Shape};
+use crate::cases::{Case, Shape, Triangle};
 use crate::oracle::Oracle;
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
@@ -231,12 +231,14 @@ impl Convention {
         }
     }
 
-    /// The coordinates of cases, in subpixels: the domain, with room at its ends for a mirror image where one is needed
-    /// to know the truth.
-    fn limits(&self) -> (i64, i64) {
+    /// The coordinates of cases, in subpixels: those in [-range, range] px, or the domain, with room at its ends for a mirror image
+    /// where one is needed to know the truth.
+    fn limits(&self, range_px: Option<i32>) -> (i64, i64) {
         let step = self.step();
         let room = if self.is_standard() { 0 } else { 1 << 23 };
         let (least, most) = (i64::from(i32::MIN) + room, i64::from(i32::MAX) - room);
+        let range = range_px.map_or(i64::MAX, |px| i64::from(px) * i64::from(SUBPIXELS));
+        let (least, most) = (least.max(-range), most.min(range));
         (-(-least).div_euclid(step) * step, most.div_euclid(step) * step)
     }
 
@@ -244,37 +246,48 @@ impl Convention {
         1 << SUBPIXEL_BITS.saturating_sub(self.subpixel_bits)
     }
 
-    /// Puts a case where the rasterizer draws: what lay on a pixel's centre lies on the declared sample, then every
-    /// coordinate is rounded to the declared grid. Ties stay ties where the grid holds the sample.
-    pub(super) fn place(&self, mut case: Case) -> Case {
-        if *self == Self::default() {
-            return case;
-        }
-        let (step, (least, most)) = (self.step(), self.limits());
+    /// The corners put where a rasterizer draws whose coordinates lie in [-range, range] px: what lay on a pixel's centre lies on
+    /// the declared sample, then every coordinate is rounded to the declared grid. Ties stay ties where the grid holds the sample.
+    #[doc(hidden)]
+    pub fn put(&self, list: &mut [Triangle], range_px: Option<i32>) {
+        let (step, (least, most)) = (self.step(), self.limits(range_px));
         let place = |sub: i32, axis: usize| {
             let moved = i64::from(sub) + i64::from(self.sample[axis] - HALF_PIXEL);
             ((moved + step / 2).div_euclid(step) * step).clamp(least, most) as i32
         };
+        for vertex in list.iter_mut().flat_map(|triangle| &mut triangle.vertices) {
+            let SubpixelPoint { x, y } = vertex.position;
+            vertex.position = SubpixelPoint::new(place(x, 0), place(y, 1));
+        }
+    }
+
+    /// Whether corners lie where such a rasterizer draws.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn takes(&self, list: &[Triangle], range_px: Option<i32>) -> bool {
+        let (step, (least, most)) = (self.step(), self.limits(range_px));
+        let is_on =
+            |v: i32| (least..=most).contains(&v.into()) && i64::from(v).rem_euclid(step) == 0;
+        list.iter().flat_map(|t| t.corners()).all(|p| is_on(p.x) && is_on(p.y))
+    }
+
+    /// Puts a case where the rasterizer draws.
+    pub(super) fn place(&self, mut case: Case) -> Case {
+        if *self == Self::default() {
+            return case;
+        }
         if let Shape::Triangles { list, disjoint } = &mut case.shape {
             // Rounding may have folded a mesh, and some rules draw pixels twice.
             *disjoint = false;
-            for vertex in list.iter_mut().flat_map(|triangle| &mut triangle.vertices) {
-                let SubpixelPoint { x, y } = vertex.position;
-                vertex.position = SubpixelPoint::new(place(x, 0), place(y, 1));
-            }
+            self.put(list, None);
         }
         case
     }
 
     /// Whether a case, shrunk perhaps, lies where the rasterizer draws.
     pub(super) fn holds(&self, case: &Case) -> bool {
-        let (step, (least, most)) = (self.step(), self.limits());
-        let is_on =
-            |v: i32| (least..=most).contains(&v.into()) && i64::from(v).rem_euclid(step) == 0;
         match &case.shape {
-            Shape::Triangles { list, .. } => {
-                list.iter().flat_map(|t| t.corners()).all(|p| is_on(p.x) && is_on(p.y))
-            }
+            Shape::Triangles { list, .. } => self.takes(list, None),
             _ => true,
         }
     }

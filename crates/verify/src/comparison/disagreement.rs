@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::{self, Write as _};
 
-use super::{Cause, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
+use super::{Cause, Compared, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
 use crate::cases::{Case, FamilyName, Shape};
 use rasterproof_core::frame::Coverage;
 
@@ -60,7 +60,7 @@ impl Disagreement {
             families,
             smallest: verdict.failures.first().cloned(),
             cause: verdict.cause.clone(),
-            declared: verdict.options.convention,
+            declared: verdict.options.terms,
         }
     }
 }
@@ -68,7 +68,7 @@ impl Disagreement {
 impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [wrong, all] = self.wrong_cases;
-        let two = self.smallest.as_ref().filter(|failure| failure.pair[1] != ORACLE);
+        let two = self.smallest.as_ref().filter(|failure| failure.evidence.pair[1] != ORACLE);
         let what = if two.is_some() { "pixels differ" } else { "wrong pixels" };
         writeln!(f, "{} {what}, in {wrong} of {all} cases", self.wrong_pixels)?;
         if self.panics > 0 {
@@ -88,14 +88,14 @@ impl fmt::Display for Disagreement {
                 window.height()
             )?;
             let fits = window.width().max(window.height()) <= MOST_SIDE_PX;
-            match &failure.drawn {
-                Some(drawn) if fits => f.write_str(&grids(drawn, failure))?,
+            match &failure.evidence.drawn {
+                Some(drawn) if fits => f.write_str(&grids(drawn, &failure.evidence))?,
                 Some(_) => {}
                 None => writeln!(f, "  the engine panics on it")?,
             }
             if two.is_some() {
-                let [first, second] = [&failure.drawn, &failure.other]
-                    .map(|drawn| drawn.as_ref() == Some(&failure.expected));
+                let [first, second] = [&failure.evidence.drawn, &failure.evidence.other]
+                    .map(|drawn| drawn.as_ref() == Some(&failure.evidence.expected));
                 let who = match (first, second) {
                     (true, false) => "the first is right here",
                     (false, true) => "the second is right here",
@@ -107,7 +107,9 @@ impl fmt::Display for Disagreement {
         }
         if let Some(cause) = &self.cause {
             match two {
-                Some(failure) => writeln!(f, "\nof the {}: {cause}", failure.who_is_wrong())?,
+                Some(failure) => {
+                    writeln!(f, "\nof the {}: {cause}", failure.evidence.who_is_wrong())?
+                }
                 None => writeln!(f, "\n{cause}")?,
             }
         }
@@ -140,9 +142,9 @@ impl fmt::Display for Disagreement {
 }
 
 /// What was drawn, of two engines by each, and what is expected beside each other; pixels that differ from it are marked.
-fn grids(drawn: &Coverage, failure: &Failure) -> String {
-    let expected = &failure.expected;
-    let drawn: Vec<&Coverage> = [drawn].into_iter().chain(&failure.other).collect();
+fn grids(drawn: &Coverage, compared: &Compared) -> String {
+    let expected = &compared.expected;
+    let drawn: Vec<&Coverage> = [drawn].into_iter().chain(&compared.other).collect();
     let titles: &[&str] = if drawn.len() == 2 { &["first", "second"] } else { &["drawn"] };
     let title = titles.iter().map(|title| title.len()).max().unwrap_or(0);
     let width = (expected.bounds().width() as usize).max(title);

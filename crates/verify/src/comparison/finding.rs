@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-use super::panics::EnginePanic;
+use crate::judge::EnginePanic;
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::frame::Coverage;
 
@@ -96,6 +96,12 @@ impl Finding {
             || self.panic.is_some()
             || self.attribute > 1.0
             || self.depth > 1.0
+    }
+
+    /// The larger of the two worst differences, each as a fraction of its bound.
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        self.attribute.max(self.depth)
     }
 
     /// The disagreement in words.

@@ -16,7 +16,6 @@ mod convention;
 mod disagreement;
 mod finding;
 mod nothing;
-mod panics;
 pub mod shrink;
 #[doc(hidden)]
 pub mod single_precision;
@@ -27,9 +26,9 @@ mod truth;
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::AddAssign;
-use std::time::{Duration, Instant};
 
 use crate::cases::{Case, Family, FamilyName, Kind, Shape};
+use crate::judge;
 use compare::{
     CompareCases, Cover, CoverageOnly, EachOther, LineComparer, ORACLE, OneOf, TriangleComparer,
     UnsnappedComparer,
@@ -40,151 +39,35 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
 use tolerance::Tolerance;
 
+pub use crate::judge::{EnginePanic, NoSuchShard, NothingJudged, Shard};
+#[doc(hidden)]
+pub use crate::judge::{Watch, caught, is_judging};
 pub use cause::Cause;
 pub use convention::{Convention, Rule, Winding};
 pub use disagreement::Disagreement;
 pub use finding::{Finding, Tally};
-pub use nothing::{NoSuchShard, NothingJudged};
-pub use panics::EnginePanic;
 #[doc(hidden)]
 pub use {
     compare::{is_sliver, line_has_tie},
     convention::{Picture, area2},
-    panics::{Watch, caught, is_judging},
     spans::{
         engine_coverage, exact_coverage, line_coverage, oracle_coverage, oracle_hits,
         oracle_pixels_each,
     },
 };
 
-/// A part of all cases: case i belongs to part i mod n of n.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    part: u64,
-    parts: u64,
-}
-
-impl Shard {
-    /// All cases.
-    pub const WHOLE: Self = Self { part: 0, parts: 1 };
-
-    /// Part number `part`, from 0, of so many.
-    ///
-    /// # Errors
-    /// There is no such part: `part` is not below `parts`.
-    ///
-    /// ```
-    /// use rasterproof_verify::comparison::Shard;
-    /// assert!(Shard::new(3, 4).is_ok());
-    /// assert!(Shard::new(4, 4).is_err() && Shard::new(0, 0).is_err());
-    /// ```
-    pub fn new(part: u64, parts: u64) -> Result<Self, NoSuchShard> {
-        if part < parts { Ok(Self { part, parts }) } else { Err(NoSuchShard { part, parts }) }
-    }
-
-    /// Which part it is, from 0.
-    #[must_use]
-    pub fn part(self) -> u64 {
-        self.part
-    }
-
-    /// Of how many parts.
-    #[must_use]
-    pub fn parts(self) -> u64 {
-        self.parts
-    }
-}
-
 /// What is judged: which cases, and by which convention.
-///
-/// ```
-/// use std::time::Duration;
-/// use rasterproof_verify::cases::FamilyName;
-/// use rasterproof_verify::comparison::{NoSuchShard, Options, Shard};
-/// let options = Options::default()
-///     .cases(5_000)
-///     .seed(7)
-///     .family(FamilyName::Sliver)
-///     .family(FamilyName::NearTie)
-///     .time_limit(Duration::from_secs(10))
-///     .shard(Shard::new(0, 4)?);
-/// # Ok::<(), NoSuchShard>(())
-/// ```
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Options {
-    /// Decides every generated case.
-    pub seed: u64,
-    /// Cases of each family.
-    pub cases: u64,
-    /// Stop starting new cases after this long; the number of cases done is then what varies.
-    pub time_limit: Option<Duration>,
-    /// Families; empty means all.
-    pub families: Vec<FamilyName>,
-    /// The part of the cases.
-    pub shard: Shard,
-    /// Only the case of this number.
-    pub only: Option<u64>,
-    /// What a rasterizer of triangles promises.
-    pub convention: Convention,
-}
+pub type Options = judge::Options<FamilyName, Convention>;
 
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            seed: 1,
-            cases: 20_000,
-            time_limit: None,
-            families: Vec::new(),
-            shard: Shard::WHOLE,
-            only: None,
-            convention: Convention::default(),
-        }
-    }
+impl judge::Terms for Convention {
+    const CASES: u64 = 20_000;
 }
 
 impl Options {
-    /// The same with this many cases of each family.
-    #[must_use]
-    pub fn cases(self, cases: u64) -> Self {
-        Self { cases, ..self }
-    }
-
-    /// The same with other generated cases.
-    #[must_use]
-    pub fn seed(self, seed: u64) -> Self {
-        Self { seed, ..self }
-    }
-
-    /// The same, but new cases are no longer started after this long.
-    #[must_use]
-    pub fn time_limit(self, limit: Duration) -> Self {
-        Self { time_limit: Some(limit), ..self }
-    }
-
-    /// The same with one more family; without any, all are judged.
-    #[must_use]
-    pub fn family(mut self, name: FamilyName) -> Self {
-        self.families.push(name);
-        self
-    }
-
-    /// The same with a part of the cases.
-    #[must_use]
-    pub fn shard(self, shard: Shard) -> Self {
-        Self { shard, ..self }
-    }
-
     /// The same for a rasterizer that promises something else.
     #[must_use]
     pub fn convention(self, convention: Convention) -> Self {
-        Self { convention, ..self }
-    }
-
-    /// The same with the case of this number alone.
-    #[must_use]
-    pub fn only(self, number: u64) -> Self {
-        Self { only: Some(number), ..self }
+        self.terms(convention)
     }
 
     fn wants(&self, family: &str) -> bool {
@@ -264,29 +147,23 @@ pub struct FamilyReport {
 }
 
 /// A failing case, shrunk.
+pub type Failure = judge::Failure<Case, Compared>;
+
+/// What two draw in a case in which they differ.
 #[derive(Clone, Debug)]
-pub struct Failure {
-    /// Family and number of the case it was found in.
-    pub family: String,
-    /// Number of the case.
-    pub index: u64,
-    /// Seed of the run.
-    pub seed: u64,
+#[non_exhaustive]
+pub struct Compared {
     /// Engine and what it was judged by.
     pub pair: [String; 2],
-    /// What is wrong with the shrunk case.
-    pub what: String,
-    /// The smallest case found that still fails.
-    pub case: Case,
-    /// What the engine draws in it; nothing where it panics.
+    /// What the engine draws; nothing where it panics.
     pub drawn: Option<Coverage>,
     /// What the engine draws by which it was judged; nothing where that was the oracle, or it panics.
     pub other: Option<Coverage>,
-    /// What the oracle draws in it.
+    /// What the oracle draws.
     pub expected: Coverage,
 }
 
-impl Failure {
+impl Compared {
     /// Which of two compared engines draws other pixels than the oracle; the first one where both do.
     fn who_is_wrong(&self) -> &str {
         let is_first_right = self.drawn.as_ref() == Some(&self.expected);
@@ -296,25 +173,15 @@ impl Failure {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [actual, target] = &self.pair;
+        let [actual, target] = &self.evidence.pair;
         write!(f, "{actual} against {target}: {} on {}", self.what, shrink::describe(&self.case))?;
         write!(f, " (from {} #{} of seed {})", self.family, self.index, self.seed)
     }
 }
 
-/// The outcome of a run.
-#[derive(Clone, Debug)]
-#[must_use = "a verdict may be that something is wrong: call `check`"]
-pub struct Verdict {
-    /// The options it was run with.
-    pub options: Options,
-    /// One for each family, in the order of the catalogue.
-    pub families: Vec<FamilyReport>,
-    /// The smallest failing case found of each family and pair, shrunk, smallest first.
-    pub failures: Vec<Failure>,
-    /// Why it is wrong, where one engine alone is judged and is.
-    pub cause: Option<Cause>,
-}
+/// The outcome of a run. Its failures are the smallest of each family and pair, smallest first; its cause is looked for where one
+/// engine alone is judged and is wrong.
+pub type Verdict = judge::Verdict<Options, FamilyReport, Failure, Cause>;
 
 impl Verdict {
     /// Nothing, or what a failing test has to print.
@@ -408,7 +275,7 @@ impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engine
     /// Judges them against the oracle, and those on the lattice against each other. Where nothing is selected, the verdict
     /// has no families, and the caller has to notice.
     pub fn judge(&self, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Verdict {
-        let triangles = TriangleComparer::new(&self.triangles, options.convention);
+        let triangles = TriangleComparer::new(&self.triangles, options.terms);
         let (lines, unsnapped) =
             (LineComparer::new(&self.lines), UnsnappedComparer::new(&self.unsnapped));
         drive(&[&triangles, &lines, &unsnapped], options, progress, &Watch::begin())
@@ -505,7 +372,7 @@ fn judge_triangles<R: Interpolate + Sync>(
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
     let engines = [(CANDIDATE, engine, tolerance)];
-    judge_alone(&TriangleComparer::new(&engines, options.convention), options)
+    judge_alone(&TriangleComparer::new(&engines, options.terms), options)
 }
 
 /// Judges pixels and values of any line drawer against the oracle.
@@ -560,7 +427,7 @@ pub fn compare_coverage<A: Rasterize + Sync, B: Rasterize + Sync>(
         }];
     let [first, second] = covers.map(CoverageOnly);
     let engines = [(BOTH[0], first, None), (BOTH[1], second, None)];
-    judge_alone(&EachOther(TriangleComparer::new(&engines, options.convention)), options)
+    judge_alone(&EachOther(TriangleComparer::new(&engines, options.terms)), options)
 }
 
 /// Compares the pixels of any two line drawers, in drawing order, as [`compare_coverage`] compares rasterizers.
@@ -578,23 +445,20 @@ pub fn compare_lines<A: DrawLine + Sync, B: DrawLine + Sync>(
 }
 
 fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict, NothingJudged> {
-    NothingJudged::by(options, comparer.kind())?;
-    if comparer.kind() != Kind::Triangles && options.convention != Convention::default() {
+    nothing::check(options, comparer.kind())?;
+    if comparer.kind() != Kind::Triangles && options.terms != Convention::default() {
         return Err(NothingJudged::NoConventions);
     }
     let watch = Watch::begin();
     let mut verdict = drive(&[comparer], options, &|_| (), &watch).of_cases()?;
     if !verdict.agrees() {
-        let who = verdict.failures.first().map_or(CANDIDATE, Failure::who_is_wrong).to_owned();
+        let who =
+            verdict.failures.first().map_or(CANDIDATE, |f| f.evidence.who_is_wrong()).to_owned();
         verdict.cause = watch.during(|| comparer.cause(&who));
     }
     Ok(verdict)
 }
 
-/// Cases that a thread judges in one go.
-const BLOCK: u64 = 64;
-/// Cases of a family judged before the next family's turn: bounds the list of blocks.
-const MOST_PER_ROUND: u64 = 1 << 20;
 /// Failing cases of each family and pair that are shrunk; the smaller result is kept.
 const KEPT: usize = 2;
 
@@ -623,47 +487,6 @@ impl Partial {
     }
 }
 
-/// Judges the cases of each family, by number, within the limits and the shard of `options`; in blocks, on all threads.
-/// `progress` hears how many were judged.
-fn in_blocks(
-    families: &[Chosen<'_>],
-    options: &Options,
-    progress: &(dyn Fn(u64) + Sync),
-    watch: &Watch,
-) -> Vec<Partial> {
-    let start = Instant::now();
-    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
-    let mut partials: Vec<Option<Partial>> = families.iter().map(|_| None).collect();
-    // With a time limit, families advance together, a few blocks at a time.
-    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
-    let all = match options.only {
-        Some(index) => index..index.saturating_add(1),
-        None => 0..options.cases,
-    };
-    let Shard { part, parts } = options.shard;
-    let mut done = all.start;
-    while done < all.end && !(done > all.start && expired()) {
-        let end = all.end.min(done.saturating_add(round));
-        for (slot, chosen) in partials.iter_mut().zip(families) {
-            let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
-                let first = done + number as u64 * BLOCK;
-                let block = first..end.min(first.saturating_add(BLOCK));
-                let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
-                let partial = watch.during(|| judge_block(chosen, &indices, options));
-                progress(indices.len() as u64);
-                partial
-            });
-            let merged = blocks.into_iter().reduce(Partial::merge);
-            *slot = match (slot.take(), merged) {
-                (Some(a), Some(b)) => Some(a.merge(b)),
-                (a, b) => a.or(b),
-            };
-        }
-        done = end;
-    }
-    partials.into_iter().flatten().collect()
-}
-
 /// The families that `options` ask for among those that `comparers` judge.
 fn drive(
     comparers: &[&dyn CompareCases],
@@ -684,7 +507,10 @@ fn drive(
             }));
         }
     }
-    let partials = in_blocks(&chosen, options, progress, watch);
+    let block = |family: usize, numbers: &[u64]| {
+        watch.during(|| judge_block(&chosen[family], numbers, options))
+    };
+    let partials = judge::in_blocks(chosen.len(), options, progress, &block, Partial::merge);
     let failures = shrink_failures(&partials, &chosen, options, watch);
     Verdict {
         cause: None,
@@ -701,7 +527,7 @@ fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Parti
         // What an earlier case reached need not be looked into again.
         let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
         let known = report.pairs.iter().map(known).collect();
-        let case = options.convention.place(chosen.family.case(options.seed, index));
+        let case = options.terms.place(chosen.family.case(options.seed, index));
         let (facts, findings) = chosen.comparer.judge(&case, known);
         report.count(&facts);
         for (pair, finding) in findings.iter().enumerate() {
@@ -775,7 +601,7 @@ impl PairReport {
     fn count(&mut self, index: u64, finding: &Finding) {
         self.tally += finding.tally;
         self.fragments += finding.fragments;
-        if finding.attribute.max(finding.depth) > self.worst() {
+        if finding.worst() > self.worst() {
             self.worst_case = index;
         }
         self.worst_attribute = self.worst_attribute.max(finding.attribute);
@@ -818,22 +644,18 @@ fn shrink_failures(
     let shrunk = |number: usize| {
         let (place, pair, index) = failing[number];
         let Chosen { family, comparer, pairs } = &chosen[place];
-        let original = options.convention.place(family.case(options.seed, index));
-        let fails = |case: &Case| {
-            options.convention.holds(case) && comparer.findings(case)[pair].is_wrong()
-        };
+        let original = options.terms.place(family.case(options.seed, index));
+        let fails =
+            |case: &Case| options.terms.holds(case) && comparer.findings(case)[pair].is_wrong();
         let case = shrink::shrink(original, fails);
-        Failure {
-            family: family.name.to_owned(),
-            index,
-            seed: options.seed,
+        let evidence = Compared {
             pair: pairs[pair].clone(),
-            what: comparer.findings(&case)[pair].describe(),
             drawn: comparer.coverage(&pairs[pair][0], &case),
             other: comparer.coverage(&pairs[pair][1], &case),
-            expected: expected(&case, options.convention),
-            case,
-        }
+            expected: expected(&case, options.terms),
+        };
+        let what = comparer.findings(&case)[pair].describe();
+        Failure { family: family.name, index, seed: options.seed, what, case, evidence }
     };
     let shrunk = parallel::map(failing.len(), |number| watch.during(|| shrunk(number)));
     let size = |failure: &Failure| {

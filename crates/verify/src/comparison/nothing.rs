@@ -1,114 +1,21 @@
-//! Options by which nothing is judged: an error, since a verdict on nothing would agree.
+//! Which options leave no case to the comparison.
 
-use std::error::Error;
-use std::fmt;
+use super::{NothingJudged, Options};
+use crate::cases::Kind;
 
-use super::{Options, Shard};
-use crate::cases::{FamilyName, Kind};
-
-/// Why a judge has no verdict: no case was judged by these [`Options`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum NothingJudged {
-    /// Every family of [`Options::families`] holds shapes that this judge does not ask for.
-    OtherShapes {
-        /// The names in [`Options::families`].
-        asked: Vec<FamilyName>,
-        /// The families that this judge takes its cases from.
-        fitting: Vec<&'static str>,
-    },
-    /// [`Options::cases`] is 0.
-    NoCases,
-    /// The case numbers of [`Options::shard`] are beyond [`Options::cases`], or not [`Options::only`].
-    EmptyShard(Shard),
-    /// No rasterizer can be judged by [`Options::convention`]: why, and what is expected.
-    BadConvention(String),
-    /// [`Options::convention`] is declared where shapes other than triangles on the lattice are judged.
-    NoConventions,
-    /// No case number is below [`Options::time_limit`] or the end of the case numbers.
-    NoneReached,
-    /// The tessellator accepts none of the polygons.
-    NoneAccepted,
-}
-
-impl NothingJudged {
-    /// Why `options` leave nothing to judge in the families of a kind, if they do.
-    pub(super) fn by(options: &Options, kind: Kind) -> Result<(), Self> {
-        let families = Kind::ALL.iter().filter(|(of, _)| *of == kind);
-        let fitting: Vec<_> = families.flat_map(|(_, all)| *all).map(|f| f.name).collect();
-        if let Some(why) = options.convention.nonsense() {
-            return Err(Self::BadConvention(why));
-        }
-        if !fitting.iter().any(|name| options.wants(name)) {
-            let asked = options.families.clone();
-            return Err(Self::OtherShapes { asked, fitting });
-        }
-        let Shard { part, parts } = options.shard;
-        match options.only {
-            Some(index) if index % parts != part => Err(Self::EmptyShard(options.shard)),
-            Some(_) => Ok(()),
-            None if options.cases == 0 => Err(Self::NoCases),
-            None if part >= options.cases => Err(Self::EmptyShard(options.shard)),
-            None => Ok(()),
-        }
+/// Why `options` leave nothing to judge in the families of a kind, if they do.
+pub(super) fn check(options: &Options, kind: Kind) -> Result<(), NothingJudged> {
+    let families = Kind::ALL.iter().filter(|(of, _)| *of == kind);
+    let fitting: Vec<_> = families.flat_map(|(_, all)| *all).map(|f| f.name).collect();
+    if let Some(why) = options.terms.nonsense() {
+        return Err(NothingJudged::BadConvention(why));
     }
-}
-
-impl fmt::Display for NothingJudged {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("no case was judged: ")?;
-        match self {
-            Self::OtherShapes { asked, fitting } => {
-                let asked: Vec<_> = asked.iter().map(|name| name.as_str()).collect();
-                write!(
-                    f,
-                    "Options.families: {} hold other shapes than this judge compares; expected some of {}",
-                    asked.join(", "),
-                    fitting.join(", ")
-                )
-            }
-            Self::NoCases => f.write_str("Options.cases is 0; expected at least 1"),
-            Self::EmptyShard(Shard { part, parts }) => write!(
-                f,
-                "Options.shard, part {part} of {parts}, holds no case; case i belongs to part i mod {parts}, \
-                 so give more cases or fewer parts"
-            ),
-            Self::BadConvention(why) => write!(f, "Options.convention: {why}"),
-            Self::NoConventions => f.write_str(
-                "Options.convention is declared, which is one of triangles on the lattice; lines and triangles off \
-                 the lattice are judged without one",
-            ),
-            Self::NoneAccepted => f.write_str(
-                "the tessellator accepts none of the polygons; name other families, or accept more",
-            ),
-            Self::NoneReached => f.write_str(
-                "Options.time_limit ended before the first case of Options.shard, or Options.only \
-                 is the largest number of all; allow more time, or name another case",
-            ),
-        }
+    if !fitting.iter().any(|name| options.wants(name)) {
+        let asked = options.families.clone();
+        return Err(NothingJudged::OtherShapes { asked, fitting });
     }
+    options.check()
 }
-
-impl Error for NothingJudged {}
-
-/// Numbers that are no part of a whole; see [`Shard::new`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoSuchShard {
-    pub(super) part: u64,
-    pub(super) parts: u64,
-}
-
-impl fmt::Display for NoSuchShard {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { part, parts } = self;
-        write!(
-            f,
-            "there is no part {part} of {parts}; parts count from 0, so it must be below their number"
-        )
-    }
-}
-
-impl Error for NoSuchShard {}
 
 #[cfg(test)]
 mod tests {
@@ -121,7 +28,7 @@ mod tests {
 
     use crate::cases::{self, unsnapped};
     use crate::comparison::{
-        Convention, Rule, judge_coverage, judge_exact, judge_lines, judge_values, tolerance,
+        Convention, Rule, Shard, judge_coverage, judge_exact, judge_lines, judge_values, tolerance,
     };
 
     /// What each judge says of right engines by these options.

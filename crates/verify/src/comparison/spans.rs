@@ -3,8 +3,8 @@
 //! Two engines that agree mostly emit the same spans, and then nothing needs to be drawn.
 
 use super::finding::Tally;
-use super::panics::{EnginePanic, caught};
 use crate::cases::{Case, Line, Shape, Triangle};
+use crate::judge::{EnginePanic, caught};
 use crate::oracle::Oracle;
 use crate::oracle::rational::cover_and_count_ties;
 use rasterproof_core::contract::{Decisions, DrawLine, Rasterize, RasterizeExact};

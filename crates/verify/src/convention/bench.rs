@@ -9,7 +9,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Question {
+pub struct TriangleQuestion {
     /// Its corners in subpixels (1/256 px), on the grid that is declared.
     pub corners: Corners,
     /// The pixels that are looked at: a window at the origin, at most 32 x 32.
@@ -20,7 +20,7 @@ pub struct Question {
 pub trait Ask {
     /// One answer for each question, in order: the hits of each pixel of its window, or None where
     /// the program refused or died.
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>>;
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>>;
 
     /// Whether nobody waits for a conclusion: the answers come later, and all is asked again.
     fn is_abandoned(&self) -> bool {
@@ -28,8 +28,8 @@ pub trait Ask {
     }
 }
 
-impl<F: FnMut(&[Question]) -> Vec<Option<Coverage>>> Ask for F {
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+impl<F: FnMut(&[TriangleQuestion]) -> Vec<Option<Coverage>>> Ask for F {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         self(questions)
     }
 }
@@ -70,7 +70,7 @@ impl Known {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Answer {
+pub(super) struct Drawn {
     pub(super) corners: Corners,
     pub(super) drawn: Mask,
     /// Pixels hit more than once.
@@ -118,16 +118,17 @@ impl<'a> Bench<'a> {
     }
 
     /// The answers, without those that were refused.
-    pub(super) fn draw(&mut self, questions: &[Corners]) -> Vec<Answer> {
+    pub(super) fn draw(&mut self, questions: &[Corners]) -> Vec<Drawn> {
         self.draw_all(questions).into_iter().flatten().collect()
     }
 
-    pub(super) fn draw_all(&mut self, questions: &[Corners]) -> Vec<Option<Answer>> {
+    pub(super) fn draw_all(&mut self, questions: &[Corners]) -> Vec<Option<Drawn>> {
         if questions.is_empty() {
             return Vec::new();
         }
         let window = self.window;
-        let list: Vec<_> = questions.iter().map(|&corners| Question { corners, window }).collect();
+        let list: Vec<_> =
+            questions.iter().map(|&corners| TriangleQuestion { corners, window }).collect();
         let mut answers = self.ask.ask(&list);
         answers.resize_with(list.len(), || None);
         self.asked += list.len() as u64;
@@ -135,7 +136,7 @@ impl<'a> Bench<'a> {
             .iter()
             .zip(answers)
             .map(|(&corners, answer)| {
-                answer.filter(|a| a.bounds() == window).map(|coverage| Answer {
+                answer.filter(|a| a.bounds() == window).map(|coverage| Drawn {
                     corners,
                     drawn: Mask::of(&coverage, 1).mirrored(self.mirror, window),
                     twice: Mask::of(&coverage, 2).mirrored(self.mirror, window),

@@ -1,6 +1,6 @@
 //! What was found: the convention, how much it explains, and how sure that is.
 
-use super::bench::{Answer, Bench, Question};
+use super::bench::{Bench, Drawn, TriangleQuestion};
 use super::candidate::Candidate;
 use super::fit::Fit;
 use super::mirror::Mirror;
@@ -35,7 +35,7 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    fn of(convention: &Convention, answers: &[Answer], bench: &Bench<'_>) -> Self {
+    fn of(convention: &Convention, answers: &[Drawn], bench: &Bench<'_>) -> Self {
         let mut sum = Self::default();
         for answer in answers {
             let Some(mask) = convention.mask(&answer.corners, bench.window) else { continue };
@@ -127,7 +127,7 @@ impl Bench<'_> {
         &mut self,
         candidate: &Candidate,
         others: &[Candidate],
-        fitted: &[Answer],
+        fitted: &[Drawn],
     ) -> Diagnosis {
         let draws = candidate.draws;
         // One set for the rule, one to try it on.
@@ -211,7 +211,7 @@ impl Confidence {
 impl Diagnosis {
     /// The pixels that the convention expects, to judge again by what was found. None where it is
     /// not known, or says nothing.
-    pub fn expected(&self, question: &Question) -> Option<Coverage> {
+    pub fn expected(&self, question: &TriangleQuestion) -> Option<Coverage> {
         (self.confidence != Confidence::Unexplained)
             .then(|| self.convention.cover(&question.corners, question.window))
             .flatten()

@@ -1,7 +1,7 @@
 //! The questions that need no hypothesis: triangles in general position, edges that are moved until
 //! a pixel flips, orders of the corners, triangles without area.
 
-use super::bench::{Answer, Bench};
+use super::bench::{Bench, Drawn};
 use super::place::turn;
 use super::rule::Windings;
 use super::{Count, Quantum};
@@ -55,7 +55,7 @@ impl Bench<'_> {
     }
 
     /// As many answers to triangles in general position, of a winding that is drawn.
-    pub(super) fn generals(&mut self, count: usize, draws: Windings) -> Vec<Answer> {
+    pub(super) fn generals(&mut self, count: usize, draws: Windings) -> Vec<Drawn> {
         let questions: Vec<_> = (0..count).map(|_| drawable(self.general(), draws)).collect();
         let questions: Vec<_> = questions
             .into_iter()
@@ -65,7 +65,7 @@ impl Bench<'_> {
     }
 
     /// Which windings leave pixels, and what they leave.
-    pub(super) fn windings(&mut self) -> (Windings, Vec<Answer>) {
+    pub(super) fn windings(&mut self) -> (Windings, Vec<Drawn>) {
         let (mut drawn, mut all) = ([0, 0], Vec::new());
         let fat: Vec<_> = (0..10)
             .map(|_| {

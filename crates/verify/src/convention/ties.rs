@@ -1,7 +1,7 @@
 //! The compass: who owns a sample that lies exactly on an edge, read off for each direction that the
 //! edge can face, once point and grid are known.
 
-use super::bench::{Answer, Bench};
+use super::bench::{Bench, Drawn};
 use super::candidate::Candidate;
 use super::general::{area, drawable};
 use super::place::Place;
@@ -84,7 +84,7 @@ impl Compass {
     }
 
     /// Adds what the answers show of one shape's ties.
-    fn read(&mut self, candidate: &Candidate, answers: &[Answer], bench: &Bench<'_>) {
+    fn read(&mut self, candidate: &Candidate, answers: &[Drawn], bench: &Bench<'_>) {
         self.each(candidate, answers, bench, |compass, place, drawn| match place {
             Place::Edge(facing) => compass.edges[facing].add(drawn),
             Place::Corner(_) => compass.corners.add(drawn),
@@ -104,7 +104,7 @@ impl Compass {
     fn each(
         &mut self,
         candidate: &Candidate,
-        answers: &[Answer],
+        answers: &[Drawn],
         bench: &Bench<'_>,
         count: impl Fn(&mut Self, Place, bool),
     ) {
@@ -235,7 +235,7 @@ impl Bench<'_> {
     }
 
     /// The compass of a shape by the answers to such questions.
-    pub(super) fn compass(&self, candidate: &Candidate, answers: &[Answer]) -> Compass {
+    pub(super) fn compass(&self, candidate: &Candidate, answers: &[Drawn]) -> Compass {
         let mut compass = Compass::default();
         compass.read(candidate, answers, self);
         compass

@@ -3,7 +3,7 @@
 use super::Answered;
 use super::fills;
 use crate::comparison::area2;
-use crate::convention::{LineQuestion, Mask, Question};
+use crate::convention::{LineQuestion, Mask, TriangleQuestion};
 use rasterproof_core::grid::PixelRect;
 
 /// What can be said of a question and its answer.
@@ -98,8 +98,8 @@ impl Seen {
         }
     }
 
-    pub(super) fn triangle(answered: &Answered<Question>) -> Self {
-        let Question { corners, window } = answered.question;
+    pub(super) fn triangle(answered: &Answered<TriangleQuestion>) -> Self {
+        let TriangleQuestion { corners, window } = answered.question;
         let corners = &corners;
         let clockwise = area2(corners) > 0;
         let leaves = corners.iter().any(|c| !fills::holds(window, *c));

@@ -21,7 +21,7 @@ use std::fmt;
 
 use crate::convention::{
     Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
-    LineQuestion, LineRounding, LineTie, Mask, Question, Shape, Ties, Windings,
+    LineQuestion, LineRounding, LineTie, Mask, Shape, Ties, TriangleQuestion, Windings,
 };
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
@@ -77,17 +77,18 @@ const fn border<D: Copy>(draws: D) -> Mistake<D> {
 }
 
 /// A program whose answers are known, such as a published algorithm.
-pub struct Program<'a, Question, Picture> {
+pub struct Program<'a, TriangleQuestion, Picture> {
     /// Its name.
     pub name: &'static str,
     /// What is wrong with it, after 'it'.
     pub about: String,
     /// What it draws; none where it has no answer.
-    pub draw: Draw<'a, Question, Picture>,
+    pub draw: Draw<'a, TriangleQuestion, Picture>,
 }
 
 /// What a program draws for a question.
-pub type Draw<'a, Question, Picture> = Box<dyn Fn(&Question) -> Option<Picture> + 'a>;
+pub type Draw<'a, TriangleQuestion, Picture> =
+    Box<dyn Fn(&TriangleQuestion) -> Option<Picture> + 'a>;
 
 /// A mistake that explains what is wrong, or the nearest one.
 #[derive(Clone, Debug, PartialEq)]
@@ -212,8 +213,8 @@ const AT_ONCE: usize = 100;
 const SEED: u64 = 1;
 
 /// A question with its answer.
-struct Answered<Question> {
-    question: Question,
+struct Answered<TriangleQuestion> {
+    question: TriangleQuestion,
     drawn: Mask,
     /// Pixels that were hit more than once; none where that cannot be seen.
     twice: Mask,
@@ -221,7 +222,7 @@ struct Answered<Question> {
     right: Mask,
 }
 
-impl<Question> Answered<Question> {
+impl<TriangleQuestion> Answered<TriangleQuestion> {
     fn is_wrong(&self) -> bool {
         !self.is(self.right, Mask::default())
     }
@@ -231,7 +232,7 @@ impl<Question> Answered<Question> {
     }
 }
 
-impl Answered<Question> {
+impl Answered<TriangleQuestion> {
     /// Whether a mistake predicts it: what is hit twice where only that is wrong, and otherwise hit twice or not. Many programs
     /// test the samples of a box around the corners, and no others.
     fn may_be(&self, drawn: Mask, twice: Mask, draws: Fill) -> bool {
@@ -239,7 +240,7 @@ impl Answered<Question> {
         if self.is(drawn, twice) || (self.is(drawn, once) && !matches!(draws, Fill::Twice(_))) {
             return true;
         }
-        let Question { corners, window } = &self.question;
+        let TriangleQuestion { corners, window } = &self.question;
         !matches!(draws, Fill::Twice(_))
             && self.drawn.beyond(&drawn) == 0
             && fills::boxes(corners).iter().any(|bounds| {
@@ -257,14 +258,15 @@ pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Known,
     found: Option<&Diagnosis>,
-    programs: &[Program<'_, Question, Coverage>],
+    programs: &[Program<'_, TriangleQuestion, Coverage>],
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
-    let mut answered: Vec<Answered<Question>> = Vec::new();
+    let mut answered: Vec<Answered<TriangleQuestion>> = Vec::new();
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
-    let mut ask_all = |questions: &[Question], answered: &mut Vec<Answered<Question>>| {
+    let mut ask_all = |questions: &[TriangleQuestion],
+                       answered: &mut Vec<Answered<TriangleQuestion>>| {
         for questions in questions.chunks(AT_ONCE).take_while(|_| goes_on()) {
             for (question, answer) in questions.iter().zip(ask.ask(questions)) {
                 let right = expected.mask(&question.corners, question.window);
@@ -305,7 +307,7 @@ pub fn of_triangles(
             for (number, base) in served.filter(|(_, base)| is_told(base)) {
                 let (answered, whole) = (&answered, &whole[number * answered.len()..]);
                 let predicts = move |i: usize| {
-                    let Question { corners, window } = &answered[i].question;
+                    let TriangleQuestion { corners, window } = &answered[i].question;
                     let whole = || *whole[i].get_or_init(|| base.convention.mask(corners, *window));
                     let mask = fill(mistake.draws, p, &base.convention, corners, *window, &whole);
                     mask.is_none_or(|[drawn, twice]| {
@@ -416,13 +418,13 @@ pub fn of_lines(
     with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected, goes_on))
 }
 
-impl<Question, Picture> Program<'_, Question, Picture> {
+impl<TriangleQuestion, Picture> Program<'_, TriangleQuestion, Picture> {
     /// That the answers are those of this program. `masks` are the pixels of its picture, and those that it hits more than
     /// once.
     fn hypothesis<'a>(
         &'a self,
-        answered: &'a [Answered<Question>],
-        masks: impl Fn(&Question, &Picture) -> [Mask; 2] + 'a,
+        answered: &'a [Answered<TriangleQuestion>],
+        masks: impl Fn(&TriangleQuestion, &Picture) -> [Mask; 2] + 'a,
     ) -> Hypothesis<'a> {
         let predicts = move |i: usize| {
             let Answered { question, .. } = &answered[i];
@@ -619,7 +621,7 @@ fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
 }
 
 /// Limits of size between what is drawn and what is not.
-fn limits(answered: &[Answered<Question>]) -> Vec<i64> {
+fn limits(answered: &[Answered<TriangleQuestion>]) -> Vec<i64> {
     let mut limits = Vec::new();
     for metric in 0..fills::METRICS.len() {
         let sizes = |lost: bool| {

@@ -1,7 +1,7 @@
 //! What a program is asked when it is wrong: triangles and lines of every kind in which mistakes differ.
 
 use crate::cases::Rng;
-use crate::convention::{Known, LineQuestion, Question};
+use crate::convention::{Known, LineQuestion, TriangleQuestion};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -112,7 +112,7 @@ impl Room {
 }
 
 /// The same questions for the same seed and declaration. The kinds take turns, so that a part of them has all.
-pub(super) fn triangles(known: &Known, sample: [i32; 2], seed: u64) -> Vec<Question> {
+pub(super) fn triangles(known: &Known, sample: [i32; 2], seed: u64) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, seed);
     (0..TRIANGLES)
         .map(|number| {
@@ -121,7 +121,7 @@ pub(super) fn triangles(known: &Known, sample: [i32; 2], seed: u64) -> Vec<Quest
             if room.rng.chance(2) {
                 corners.swap(1, 2);
             }
-            Question { corners, window }
+            TriangleQuestion { corners, window }
         })
         .collect()
 }

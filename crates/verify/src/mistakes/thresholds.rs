@@ -7,7 +7,8 @@ use super::fills::{FARTHEST, decimal};
 use super::questions::{LONGEST_PX, Room};
 use super::{lines, sample_of};
 use crate::convention::{
-    Ask, AskLine, Convention, Count, Known, LineConvention, LineQuestion, Mask, Mirror, Question,
+    Ask, AskLine, Convention, Count, Known, LineConvention, LineQuestion, Mask, Mirror,
+    TriangleQuestion,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
@@ -267,7 +268,7 @@ pub(super) fn near(
     limits: impl Iterator<Item = (usize, bool, i64)>,
     known: &Known,
     expected: &Convention,
-) -> Vec<Question> {
+) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, 4);
     let mut questions = Vec::new();
     for (metric, _, limit) in limits {
@@ -323,7 +324,7 @@ pub(super) fn of_lines(
 }
 
 struct Shape {
-    question: Question,
+    question: TriangleQuestion,
     /// The window in which it lies, and how far that is from the origin in pixels.
     near: PixelRect,
     moved_px: [i32; 2],
@@ -438,7 +439,7 @@ fn triangle(room: &mut Room, axis: Axis, measure: i64, sample: [i32; 2]) -> (i64
     };
     let [x, y] = moved_px;
     let window = PixelRect::window((wide + x) as u32, (high + y) as u32);
-    (measure, Shape { question: Question { corners, window }, near, moved_px })
+    (measure, Shape { question: TriangleQuestion { corners, window }, near, moved_px })
 }
 
 /// The largest ratio of an edge's sides, without level and upright ones.
@@ -561,12 +562,12 @@ mod tests {
     use rasterproof_core::contract::Rasterize as _;
     use rasterproof_core::raster::scanline::Scanline;
 
-    type IsWrong<'a> = &'a dyn Fn(&Question) -> bool;
+    type IsWrong<'a> = &'a dyn Fn(&TriangleQuestion) -> bool;
 
     /// The limits of a right rasterizer that leaves a pixel out of triangles of a kind.
     fn limits(is_wrong: IsWrong<'_>) -> Vec<Threshold> {
-        let mut ask = |questions: &[Question]| {
-            let draw = |question: &Question| {
+        let mut ask = |questions: &[TriangleQuestion]| {
+            let draw = |question: &TriangleQuestion| {
                 let mut picture = Coverage::new(question.window, 0);
                 let mut first = is_wrong(question);
                 Scanline.cover(question.corners, question.window, |s| {
@@ -589,7 +590,7 @@ mod tests {
 
     #[test]
     fn limits_are_found() {
-        let largest = |q: &Question| sides(&q.corners).into_iter().max().unwrap();
+        let largest = |q: &TriangleQuestion| sides(&q.corners).into_iter().max().unwrap();
         let found = limits(&|q| largest(q) > 300 * 256 + 77);
         let [limit] = &found[..] else { panic!("{found:?}") };
         assert_eq!((limit.of, limit.hint.as_deref()), ("size", None));
@@ -604,7 +605,8 @@ mod tests {
         assert!(said.contains(hint), "{said}");
 
         // A coordinate in 16 bits.
-        let far = |q: &Question| q.corners.iter().any(|c| c.x.abs().max(c.y.abs()) >= 1 << 15);
+        let far =
+            |q: &TriangleQuestion| q.corners.iter().any(|c| c.x.abs().max(c.y.abs()) >= 1 << 15);
         let found = limits(&far);
         assert_eq!(found.len(), 1, "{found:?}");
         let said = found[0].to_string();

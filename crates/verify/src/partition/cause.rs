@@ -8,14 +8,14 @@ use std::fmt::Write as _;
 
 use super::exact::orientation;
 use super::region::region;
-use super::{FaultKind, FillRule, Finding, Options, Point, Polygon, Triangle, key};
+use super::{FaultKind, Faults, FillRule, Options, Point, Polygon, Triangle, key};
 use crate::mistakes::{Explanation, Hypothesis, Mistakes, of_answers};
 
 /// What a tessellator made of a polygon.
 pub(super) struct Made {
     pub polygon: Polygon,
     pub triangles: Vec<Triangle>,
-    pub finding: Finding,
+    pub finding: Faults,
 }
 
 /// Samples along each side of the box of a polygon.
@@ -222,7 +222,7 @@ fn says(name: &'static str, does: String, repair: &'static str) -> Explanation {
 pub(super) fn cause(made: &[Made], options: &Options) -> Option<Mistakes> {
     let is_wrong: Vec<bool> = made.iter().map(|made| !made.finding.faults.is_empty()).collect();
     // Of each polygon, how often samples are covered, and how often they should be.
-    let rule = options.fill_rule;
+    let rule = options.terms.fill_rule;
     let seen: Vec<Vec<(Point, i64, bool)>> = made
         .iter()
         .map(|Made { polygon, triangles, .. }| {

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::exact::{orientation, sides};
-use super::{Fault, FaultKind, Finding, Options, Point, Triangle, Winding, key, order};
+use super::{Fault, FaultKind, Faults, Options, Point, Triangle, Winding, key, order};
 
 /// A directed edge by its lower end and its upper end, and whether it runs from the lower to the upper one (1) or back (-1).
 #[derive(Clone, Copy)]
@@ -23,12 +23,8 @@ impl Edge {
 }
 
 /// Compares the triangles with the boundary of the region; the module documentation has the argument.
-pub(super) fn decide(
-    boundary: &[[Point; 2]],
-    triangles: &[Triangle],
-    options: &Options,
-) -> Finding {
-    let mut finding = Finding::default();
+pub(super) fn decide(boundary: &[[Point; 2]], triangles: &[Triangle], options: &Options) -> Faults {
+    let mut finding = Faults::default();
     let mut add = |fault: Fault| finding.add(fault, options);
     // Triangles with an area, turned counterclockwise; and those without, as they are.
     let (mut whole, mut flat) = (Vec::new(), Vec::new());
@@ -53,7 +49,7 @@ pub(super) fn decide(
         signs.push((number, corners, sign));
     }
     let turned_left = signs.iter().filter(|(_, _, sign)| sign.is_gt()).count();
-    let expected = match options.winding {
+    let expected = match options.terms.winding {
         Winding::Counterclockwise => Some(Ordering::Greater),
         Winding::Clockwise => Some(Ordering::Less),
         Winding::Alike if 2 * turned_left >= signs.len() => Some(Ordering::Greater),

@@ -40,7 +40,7 @@
 //! without area, [`FaultKind::Degenerate`], covers nothing. Both are faults unless
 //! [`Options::allow_t_junctions`] or [`Options::allow_degenerate_triangles`] declares that they are allowed.
 //!
-//! Points that the tessellator adds (Steiner points) are allowed inside the region, and counted in [`Finding::added_points`]. On the
+//! Points that the tessellator adds (Steiner points) are allowed inside the region, and counted in [`Faults::added_points`]. On the
 //! boundary they lie exactly on an edge, or there is a gap or an overlap; and there they are T-junctions, since a neighbour of the polygon does not
 //! have them.
 //!
@@ -92,10 +92,11 @@ use std::cmp::Ordering;
 use std::error::Error;
 use std::fmt;
 
+use crate::judge;
 pub use families::{Coordinates, Family};
 pub use region::InvalidPolygon;
 pub use report::{
-    Disagreement, Failure, FamilyReport, Report, judge_partitions, judge_partitions_of,
+    Disagreement, Failure, Polygons, Triangulated, Verdict, judge_partitions, judge_partitions_of,
     must_partition,
 };
 
@@ -176,7 +177,7 @@ pub trait Tessellate {
     fn triangles(&self, polygon: &Polygon) -> Result<Vec<Triangle>, Refused>;
 
     /// Whether the tessellator promises anything about a polygon. Valid polygons without a promise are counted as
-    /// [`FamilyReport::left_out`], and not judged.
+    /// [`Polygons::left_out`], and not judged.
     fn accepts(&self, polygon: &Polygon) -> bool {
         let _ = polygon;
         true
@@ -202,103 +203,68 @@ impl fmt::Display for Refused {
 impl Error for Refused {}
 
 /// What is judged, and what the tessellator declares.
-#[derive(Clone, Debug)]
+pub type Options = judge::Options<Family, Tessellation>;
+
+/// What a tessellator promises.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Options {
-    /// Decides every generated polygon.
-    pub seed: u64,
-    /// Polygons of each family.
-    pub cases: u64,
-    /// Only the polygon of this number.
-    pub only: Option<u64>,
-    /// The families; empty means all.
-    pub families: Vec<Family>,
+pub struct Tessellation {
     /// Which points are inside.
     pub fill_rule: FillRule,
     /// The orientation of the triangles.
     pub winding: Winding,
     /// Which numbers the tessellator takes.
     pub coordinates: Coordinates,
-    t_junctions: bool,
-    degenerate: bool,
+    /// Whether a corner may lie inside an edge of another triangle.
+    pub t_junctions: bool,
+    /// Whether a triangle may have no area.
+    pub degenerate: bool,
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            seed: 1,
-            cases: 2_000,
-            only: None,
-            families: Vec::new(),
-            fill_rule: FillRule::default(),
-            winding: Winding::default(),
-            coordinates: Coordinates::default(),
-            t_junctions: false,
-            degenerate: false,
-        }
-    }
+impl judge::Terms for Tessellation {
+    const CASES: u64 = 2_000;
 }
 
 impl Options {
-    /// The same with other polygons.
-    #[must_use]
-    pub fn seed(self, seed: u64) -> Self {
-        Self { seed, ..self }
-    }
-
-    /// The same with this many polygons of each family.
-    #[must_use]
-    pub fn cases(self, cases: u64) -> Self {
-        Self { cases, ..self }
-    }
-
-    /// The same with the polygon of this number alone.
-    #[must_use]
-    pub fn only(self, number: u64) -> Self {
-        Self { only: Some(number), ..self }
-    }
-
-    /// The same with one more family; without any, all are judged.
-    #[must_use]
-    pub fn family(mut self, family: Family) -> Self {
-        self.families.push(family);
-        self
-    }
-
     /// The same with another fill rule.
     #[must_use]
-    pub fn fill_rule(self, fill_rule: FillRule) -> Self {
-        Self { fill_rule, ..self }
+    pub fn fill_rule(mut self, fill_rule: FillRule) -> Self {
+        self.terms.fill_rule = fill_rule;
+        self
     }
 
     /// The same with another orientation of the triangles.
     #[must_use]
-    pub fn winding(self, winding: Winding) -> Self {
-        Self { winding, ..self }
+    pub fn winding(mut self, winding: Winding) -> Self {
+        self.terms.winding = winding;
+        self
     }
 
     /// The same with coordinates that the tessellator takes without rounding them.
     #[must_use]
-    pub fn coordinates(self, coordinates: Coordinates) -> Self {
-        Self { coordinates, ..self }
+    pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
+        self.terms.coordinates = coordinates;
+        self
     }
 
     /// The same, but a corner inside an edge of another triangle is no fault.
     #[must_use]
-    pub fn allow_t_junctions(self) -> Self {
-        Self { t_junctions: true, ..self }
+    pub fn allow_t_junctions(mut self) -> Self {
+        self.terms.t_junctions = true;
+        self
     }
 
     /// The same, but a triangle without area is no fault.
     #[must_use]
-    pub fn allow_degenerate_triangles(self) -> Self {
-        Self { degenerate: true, ..self }
+    pub fn allow_degenerate_triangles(mut self) -> Self {
+        self.terms.degenerate = true;
+        self
     }
 
     fn allows(&self, kind: FaultKind) -> bool {
         match kind {
-            FaultKind::TJunction => self.t_junctions,
-            FaultKind::Degenerate => self.degenerate,
+            FaultKind::TJunction => self.terms.t_junctions,
+            FaultKind::Degenerate => self.terms.degenerate,
             _ => false,
         }
     }
@@ -399,7 +365,7 @@ impl fmt::Display for Fault {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 #[must_use]
-pub struct Finding {
+pub struct Faults {
     /// What is wrong.
     pub faults: Vec<Fault>,
     /// What would be wrong if it were not allowed.
@@ -408,7 +374,7 @@ pub struct Finding {
     pub added_points: usize,
 }
 
-impl Finding {
+impl Faults {
     /// Nothing, or what a failing test has to print.
     ///
     /// # Errors
@@ -430,7 +396,7 @@ impl Finding {
 /// Faults that a message lists.
 const MOST_SHOWN: usize = 8;
 
-impl fmt::Display for Finding {
+impl fmt::Display for Faults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.faults.is_empty() {
             return f.write_str("the triangles cover the polygon exactly once");
@@ -444,7 +410,7 @@ impl fmt::Display for Finding {
     }
 }
 
-impl Error for Finding {}
+impl Error for Faults {}
 
 /// Decides whether triangles cover a polygon exactly once. Of `options`, it uses what the tessellator declares.
 ///
@@ -454,8 +420,8 @@ pub fn judge_partition(
     polygon: &Polygon,
     triangles: &[Triangle],
     options: &Options,
-) -> Result<Finding, InvalidPolygon> {
-    let region = region::region(polygon, options.fill_rule)?;
+) -> Result<Faults, InvalidPolygon> {
+    let region = region::region(polygon, options.terms.fill_rule)?;
     let mut finding = decide::decide(&region.boundary, triangles, options);
     let sorted = |points: &mut dyn Iterator<Item = &Point>| {
         let mut points: Vec<Point> = points.map(|&point| key(point)).collect();

@@ -7,22 +7,20 @@ use super::cause::{self, Made};
 use super::families::is_as_generated;
 use super::shrink::shrink;
 use super::{
-    Family, Fault, FaultKind, Finding, Options, Polygon, Refused, Tessellate, Triangle,
-    judge_partition,
+    Family, Fault, FaultKind, Faults, Options, Polygon, Refused, Tessellate, Tessellation,
+    Triangle, judge_partition,
 };
-use crate::comparison::{NothingJudged, Watch, caught};
+use crate::judge::{self, NothingJudged, Watch, caught};
 use crate::mistakes::Mistakes;
 use rasterproof_core::parallel;
 
-/// Polygons that a thread judges in one go.
-const BLOCK: u64 = 64;
 /// Triangles that a message lists.
 const MOST_TRIANGLES: usize = 12;
 
 /// How the polygons of a family went.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct FamilyReport {
+pub struct Polygons {
     /// The family.
     pub family: Family,
     /// Polygons judged.
@@ -41,7 +39,7 @@ pub struct FamilyReport {
     pub added_points: u64,
 }
 
-impl FamilyReport {
+impl Polygons {
     fn new(family: Family) -> Self {
         let none = [0; FaultKind::ALL.len()];
         let (faults, allowed) = (none, none);
@@ -57,7 +55,7 @@ impl FamilyReport {
         }
     }
 
-    fn count(&mut self, finding: &Finding, triangles: usize) {
+    fn count(&mut self, finding: &Faults, triangles: usize) {
         self.polygons += 1;
         self.triangles += triangles as u64;
         self.wrong += u64::from(!finding.faults.is_empty());
@@ -85,39 +83,25 @@ impl FamilyReport {
 }
 
 /// A failing polygon, shrunk.
+pub type Failure = judge::Failure<Polygon, Triangulated>;
+
+/// What a tessellator makes of a failing polygon.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct Failure {
+pub struct Triangulated {
     /// The kind of fault that was kept while the polygon was made smaller.
     pub kind: FaultKind,
-    /// The family of the polygon that it was found in.
-    pub family: Family,
-    /// The number of that polygon.
-    pub index: u64,
-    /// The smallest polygon found.
-    pub polygon: Polygon,
     /// Its triangles; none where the tessellator panics or refuses.
     pub triangles: Vec<Triangle>,
     /// What is wrong with them.
-    pub finding: Finding,
+    pub faults: Faults,
 }
 
-/// The outcome of a run.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-#[must_use]
-pub struct Report {
-    /// The options of the run.
-    pub options: Options,
-    /// One for each family that was judged.
-    pub families: Vec<FamilyReport>,
-    /// The smallest failing polygon of each kind of fault, grave ones first.
-    pub failures: Vec<Failure>,
-    /// What explains the wrong polygons, or what is known of them.
-    pub cause: Option<Mistakes>,
-}
+/// The outcome of a run. Its failures are the smallest polygon of each kind of fault, grave ones first; its cause explains the wrong
+/// polygons, or says what is known of them.
+pub type Verdict = judge::Verdict<Options, Polygons, Failure, Mistakes>;
 
-impl Report {
+impl Verdict {
     /// Nothing, or what a failing test has to print.
     ///
     /// # Errors
@@ -128,9 +112,9 @@ impl Report {
 
     /// All families as one, under the name of the first.
     #[must_use]
-    pub fn sum(&self) -> FamilyReport {
+    pub fn sum(&self) -> Polygons {
         let first = self.families.first().map_or(Family::Collinear, |report| report.family);
-        let mut sum = FamilyReport::new(first);
+        let mut sum = Polygons::new(first);
         self.families.iter().for_each(|report| sum.add(report));
         sum
     }
@@ -138,11 +122,11 @@ impl Report {
 
 /// What was wrong with a tessellator. Its text is the whole message: print it.
 #[derive(Clone, Debug)]
-pub struct Disagreement(Report);
+pub struct Disagreement(Verdict);
 
 impl Disagreement {
-    /// The report that it is about.
-    pub fn report(&self) -> &Report {
+    /// The verdict that it is about.
+    pub fn verdict(&self) -> &Verdict {
         &self.0
     }
 }
@@ -152,8 +136,8 @@ impl Error for Disagreement {}
 impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let options = &self.0.options;
-        let repeat = |family: Family, index: u64| {
-            let (seed, family, declared) = (options.seed, family.name(), declared(options));
+        let repeat = |family: &str, index: u64| {
+            let (seed, declared) = (options.seed, declared(options));
             format!(
                 "Options::default().seed({seed}).family(Family::{family}).only({index}){declared}"
             )
@@ -162,14 +146,14 @@ impl fmt::Display for Disagreement {
     }
 }
 
-impl Report {
+impl Verdict {
     /// Writes what is wrong, with polygons and what repeats one in the words of some language.
     #[doc(hidden)]
     pub fn write(
         &self,
         f: &mut dyn fmt::Write,
         show: &dyn Fn(&Polygon) -> String,
-        repeat: &dyn Fn(Family, u64) -> String,
+        repeat: &dyn Fn(&str, u64) -> String,
     ) -> fmt::Result {
         let Self { options, families, failures, cause } = self;
         let sum = self.sum();
@@ -193,20 +177,21 @@ impl Report {
             writeln!(
                 f,
                 "\n{}: the smallest polygon that was found\n  {}",
-                failure.kind.name(),
-                show(&failure.polygon)
+                failure.evidence.kind.name(),
+                show(&failure.case)
             )?;
-            for (number, triangle) in failure.triangles.iter().take(MOST_TRIANGLES).enumerate() {
+            let Triangulated { triangles, .. } = &failure.evidence;
+            for (number, triangle) in triangles.iter().take(MOST_TRIANGLES).enumerate() {
                 writeln!(f, "  triangle {number}: {triangle:?}")?;
             }
-            if failure.triangles.len() > MOST_TRIANGLES {
-                writeln!(f, "  and {} more triangles", failure.triangles.len() - MOST_TRIANGLES)?;
+            if triangles.len() > MOST_TRIANGLES {
+                writeln!(f, "  and {} more triangles", triangles.len() - MOST_TRIANGLES)?;
             }
-            for line in failure.finding.to_string().lines() {
+            for line in failure.what.lines() {
                 writeln!(f, "  {line}")?;
             }
-            let rule = options.fill_rule;
-            if let Some(picture) = cause::picture(&failure.polygon, &failure.triangles, rule) {
+            let rule = options.terms.fill_rule;
+            if let Some(picture) = cause::picture(&failure.case, triangles, rule) {
                 f.write_str(&picture)?;
             }
             writeln!(f, "  found in: {}", repeat(failure.family, failure.index))?;
@@ -218,15 +203,15 @@ impl Report {
 /// What has to be declared to repeat a polygon.
 fn declared(options: &Options) -> String {
     let mut text = String::new();
-    let defaults = Options::default();
-    if options.coordinates != defaults.coordinates {
-        text += &format!(".coordinates(Coordinates::{:?})", options.coordinates);
+    let (terms, defaults) = (options.terms, Tessellation::default());
+    if terms.coordinates != defaults.coordinates {
+        text += &format!(".coordinates(Coordinates::{:?})", terms.coordinates);
     }
-    if options.fill_rule != defaults.fill_rule {
-        text += &format!(".fill_rule(FillRule::{:?})", options.fill_rule);
+    if terms.fill_rule != defaults.fill_rule {
+        text += &format!(".fill_rule(FillRule::{:?})", terms.fill_rule);
     }
-    if options.winding != defaults.winding {
-        text += &format!(".winding(Winding::{:?})", options.winding);
+    if terms.winding != defaults.winding {
+        text += &format!(".winding(Winding::{:?})", terms.winding);
     }
     text
 }
@@ -244,7 +229,7 @@ fn by_kind(counts: &[u64]) -> String {
 pub fn judge_partitions<T: Tessellate + Sync>(
     tessellator: &T,
     options: &Options,
-) -> Result<Report, NothingJudged> {
+) -> Result<Verdict, NothingJudged> {
     let watch = Watch::begin();
     judge(
         &|polygon| {
@@ -268,7 +253,7 @@ pub fn judge_partitions<T: Tessellate + Sync>(
 pub fn judge_partitions_of(
     answer: &Answered<'_>,
     options: &Options,
-) -> Result<Report, NothingJudged> {
+) -> Result<Verdict, NothingJudged> {
     let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
     judge(&|polygon| answer(polygon).map(|answer| answer.map_err(refused)), options)
 }
@@ -281,7 +266,7 @@ fn ask(
     tessellator: &Asked,
     polygon: &Polygon,
     options: &Options,
-) -> Option<(Vec<Triangle>, Finding)> {
+) -> Option<(Vec<Triangle>, Faults)> {
     match tessellator(polygon)? {
         Ok(triangles) => {
             let finding = judge_partition(polygon, &triangles, options).ok()?;
@@ -290,58 +275,37 @@ fn ask(
         Err(fault) => {
             // Only a valid polygon has to be taken.
             let _ = judge_partition(polygon, &[], options).ok()?;
-            Some((Vec::new(), Finding { faults: vec![fault], ..Finding::default() }))
+            Some((Vec::new(), Faults { faults: vec![fault], ..Faults::default() }))
         }
     }
 }
 
-fn judge(tessellator: &Asked, options: &Options) -> Result<Report, NothingJudged> {
-    let numbers = match options.only {
-        Some(number) => number..number.saturating_add(1),
-        None => 0..options.cases,
+fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudged> {
+    options.check()?;
+    let wanted = wanted(options);
+    let block =
+        |family: usize, numbers: &[u64]| judge_block(tessellator, options, wanted[family], numbers);
+    let parts = judge::in_blocks(wanted.len(), options, &|_| (), &block, Part::merge);
+    let sum = |kind: usize| {
+        let of_kind = |part: &Part| Some((part.smallest[kind]?, part.polygons.family));
+        parts.iter().filter_map(of_kind).min_by_key(|((vertices, _), _)| *vertices)
     };
-    if numbers.is_empty() {
-        return Err(NothingJudged::NoCases);
-    }
-    let families = wanted(options);
-    let blocks = (numbers.end - numbers.start).div_ceil(BLOCK);
-    let mut report = Report {
-        options: options.clone(),
-        families: Vec::new(),
-        failures: Vec::new(),
-        cause: None,
-    };
-    let mut failing: [Option<(usize, Family, u64)>; FaultKind::ALL.len()] = Default::default();
-    for family in families {
-        let parts = parallel::map(blocks as usize, |block| {
-            let first = numbers.start + block as u64 * BLOCK;
-            judge_block(tessellator, options, family, first..numbers.end.min(first + BLOCK))
-        });
-        let mut sum = FamilyReport::new(family);
-        for (part, smallest) in parts {
-            sum.add(&part);
-            for (best, found) in failing.iter_mut().zip(smallest) {
-                let is_better = |(size, _): &(usize, u64)| best.is_none_or(|best| *size < best.0);
-                if let Some((size, index)) = found.filter(is_better) {
-                    *best = Some((size, family, index));
-                }
-            }
-        }
-        report.families.push(sum);
-    }
-    if report.sum().polygons == 0 {
+    let failing: Vec<_> = (0..FaultKind::ALL.len())
+        .filter_map(|kind| sum(kind).map(|found| (FaultKind::ALL[kind], found)))
+        .collect();
+    let families: Vec<Polygons> = parts.into_iter().map(|part| part.polygons).collect();
+    if families.iter().all(|family| family.polygons == 0) {
         return Err(NothingJudged::NoneAccepted);
     }
-    let failing = FaultKind::ALL.into_iter().zip(failing);
-    let failing: Vec<_> = failing.filter_map(|(kind, found)| Some((kind, found?))).collect();
-    report.failures = parallel::map(failing.len(), |number| {
-        let (kind, (_, family, index)) = failing[number];
+    let failures = parallel::map(failing.len(), |number| {
+        let (kind, ((_, index), family)) = failing[number];
         smallest(tessellator, options, kind, family, index)
     });
-    if !report.failures.is_empty() {
-        report.cause = cause::cause(&some(tessellator, options), options);
-    }
-    Ok(report)
+    let cause = match failures.is_empty() {
+        true => None,
+        false => cause::cause(&some(tessellator, options), options),
+    };
+    Ok(Verdict { options: options.clone(), families, failures, cause })
 }
 
 fn wanted(options: &Options) -> Vec<Family> {
@@ -354,7 +318,7 @@ fn some(tessellator: &Asked, options: &Options) -> Vec<Made> {
     let mut made = Vec::new();
     for family in wanted(options) {
         for index in 0..OF_A_FAMILY {
-            let polygon = family.polygon(options.seed, index, options.coordinates);
+            let polygon = family.polygon(options.seed, index, options.terms.coordinates);
             if let Some((triangles, finding)) = ask(tessellator, &polygon, options) {
                 made.push(Made { polygon, triangles, finding });
             }
@@ -366,33 +330,41 @@ fn some(tessellator: &Asked, options: &Options) -> Vec<Made> {
 /// Polygons of each family by which a cause is looked for.
 const OF_A_FAMILY: u64 = 40;
 
-/// Of each kind of fault the polygon with the fewest vertices, and its number.
-type Smallest = [Option<(usize, u64)>; FaultKind::ALL.len()];
+/// What some polygons of a family came to.
+struct Part {
+    polygons: Polygons,
+    /// Of each kind of fault the polygon with the fewest vertices: how many, and its number.
+    smallest: [Option<(usize, u64)>; FaultKind::ALL.len()],
+}
 
-fn judge_block(
-    tessellator: &Asked,
-    options: &Options,
-    family: Family,
-    numbers: std::ops::Range<u64>,
-) -> (FamilyReport, Smallest) {
-    let mut report = FamilyReport::new(family);
-    let mut smallest = Smallest::default();
-    for index in numbers {
-        let polygon = family.polygon(options.seed, index, options.coordinates);
+impl Part {
+    fn merge(mut self, other: Self) -> Self {
+        self.polygons.add(&other.polygons);
+        for (best, found) in self.smallest.iter_mut().zip(other.smallest) {
+            *best = best.take().into_iter().chain(found).min_by_key(|(vertices, _)| *vertices);
+        }
+        self
+    }
+}
+
+fn judge_block(tessellator: &Asked, options: &Options, family: Family, numbers: &[u64]) -> Part {
+    let mut part = Part { polygons: Polygons::new(family), smallest: Default::default() };
+    for &index in numbers {
+        let polygon = family.polygon(options.seed, index, options.terms.coordinates);
         // Families draw until a polygon is valid.
-        let Some((triangles, finding)) = ask(tessellator, &polygon, options) else {
-            report.left_out += 1;
+        let Some((triangles, faults)) = ask(tessellator, &polygon, options) else {
+            part.polygons.left_out += 1;
             continue;
         };
-        report.count(&finding, triangles.len());
-        let size = polygon.contours.iter().map(Vec::len).sum();
-        for (best, kind) in smallest.iter_mut().zip(FaultKind::ALL) {
-            if finding.has(kind) && best.is_none_or(|best| size < best.0) {
-                *best = Some((size, index));
+        part.polygons.count(&faults, triangles.len());
+        let vertices = polygon.contours.iter().map(Vec::len).sum();
+        for (best, kind) in part.smallest.iter_mut().zip(FaultKind::ALL) {
+            if faults.has(kind) && best.is_none_or(|best| vertices < best.0) {
+                *best = Some((vertices, index));
             }
         }
     }
-    (report, smallest)
+    part
 }
 
 fn smallest(
@@ -402,14 +374,15 @@ fn smallest(
     family: Family,
     index: u64,
 ) -> Failure {
-    let polygon = family.polygon(options.seed, index, options.coordinates);
+    let (seed, coordinates) = (options.seed, options.terms.coordinates);
     let fails = |polygon: &Polygon| {
         is_as_generated(polygon, family)
-            && ask(tessellator, polygon, options).is_some_and(|(_, finding)| finding.has(kind))
+            && ask(tessellator, polygon, options).is_some_and(|(_, faults)| faults.has(kind))
     };
-    let polygon = shrink(polygon, options.coordinates, &fails);
-    let (triangles, finding) = ask(tessellator, &polygon, options).unwrap_or_default();
-    Failure { kind, family, index, polygon, triangles, finding }
+    let case = shrink(family.polygon(seed, index, coordinates), coordinates, &fails);
+    let (triangles, faults) = ask(tessellator, &case, options).unwrap_or_default();
+    let (family, what) = (family.name(), faults.to_string());
+    Failure { family, index, seed, what, case, evidence: Triangulated { kind, triangles, faults } }
 }
 
 /// Ends a test with the whole message unless every polygon was covered exactly once.

@@ -398,8 +398,8 @@ fn a_tessellator_is_judged() {
     }
     // A fan first fails at four vertices.
     let outside =
-        report.failures.iter().find(|failure| failure.kind == FaultKind::Outside).unwrap();
-    assert_eq!(outside.polygon.contours[0].len(), 4, "{message}");
+        report.failures.iter().find(|failure| failure.evidence.kind == FaultKind::Outside).unwrap();
+    assert_eq!(outside.case.contours[0].len(), 4, "{message}");
     println!("{message}");
 }
 
@@ -414,7 +414,7 @@ impl Tessellate for Refusing {
 #[test]
 fn refusals_and_panics_are_faults() {
     let report = judge_partitions(&Refusing, &Options::default().cases(10)).unwrap();
-    let kinds: Vec<_> = report.failures.iter().map(|failure| failure.kind).collect();
+    let kinds: Vec<_> = report.failures.iter().map(|failure| failure.evidence.kind).collect();
     assert_eq!(kinds, [FaultKind::Panicked, FaultKind::Refused]);
     let message = report.check().unwrap_err().to_string();
     assert!(message.contains("no polygons today") && message.contains("more than one contour"));

@@ -9,12 +9,12 @@ use super::requirements;
 use super::rules::{self, Class, Finding, Rule};
 use super::specified::Specified;
 use crate::device::find::About;
-use rasterproof_judge::ask::{Answer, Ask, Question};
+use rasterproof_judge::ask::{Answer, Question, Subject};
 use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, mistakes, recognise};
 use rasterproof_judge::run::{Failing, Found, Row, run};
-use rasterproof_judge::verdict::{Outcome, Verdict, sentence};
+use rasterproof_judge::verdict::{Judgement, Outcome, sentence};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
 use rasterproof_verify::comparison::Rule as Tie;
@@ -28,7 +28,7 @@ const MOST_OF_A_STAGE: u64 = 2048;
 pub struct DeviceReport {
     pub about: About,
     pub plant: Option<&'static str>,
-    pub verdict: Verdict,
+    pub verdict: Judgement,
     pub findings: Vec<Finding>,
     /// Known faults of this driver that were seen, or not any more.
     pub known: Vec<String>,
@@ -48,7 +48,7 @@ fn lock(gpu: &Mutex<Gpu>) -> MutexGuard<'_, Gpu> {
     gpu.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Ask for Shared {
+impl Subject for Shared {
     fn declared(&self) -> &Declared {
         &self.1
     }
@@ -93,12 +93,13 @@ pub fn judge_with(
     let declared = gpu.declared().clone();
     let gpu = Arc::new(Mutex::new(gpu));
     let mut shared = Shared(Arc::clone(&gpu), declared.clone());
-    let options =
-        Options { families: families(&options.families), remember: true, ..options.clone() };
+    let mut options = options.clone();
+    options.families = families(&options.families);
+    options.terms.remember = true;
     let mut truth = Truth::of(&declared);
     truth.expect = Box::new(Specified::new(&declared));
     // The specification asks for less than the oracle: either of two triangles has a shared sample.
-    let open = declared.convention().rule(Tie::Unspecified);
+    let open = declared.convention.rule(Tie::Unspecified);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
     let mut found = run(&mut [&mut shared], &options, &truth, progress);
@@ -110,13 +111,14 @@ pub fn judge_with(
     let scope = Scope { triangles: true, lines: false, always: false };
     let recognised = if found.failing.is_empty() { None } else { recognise(first, scope) };
     let start = Instant::now();
-    let goes_on = || start.elapsed() < options.patience;
+    let goes_on = || start.elapsed() < options.terms.patience;
     let checks = if found.failing.is_empty() { Vec::new() } else { found.unexplained() };
     let causes = mistakes(first, &checks, &truth, recognised.as_ref(), &goes_on);
     let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
-    let mut verdict = Verdict::new(declared, &options, windings, said, found, failures, complaints);
+    let mut verdict =
+        Judgement::new(declared, &options, windings, said, found, failures, complaints);
     verdict.causes = causes;
     let mut findings = of_rows(&mut verdict, &old, &stale);
     drop(shared);
@@ -167,7 +169,7 @@ fn rule(property: &str) -> Rule {
 }
 
 /// Every row with its rule; the verdict's properties come out alike.
-fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Finding> {
+fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Finding> {
     let mut findings = Vec::new();
     for row in &verdict.found.rows {
         let is_of = |f: &&Failing| f.property == row.name;

@@ -6,7 +6,7 @@ use super::rules::{Class, Errors, Outcome};
 use crate::device::Error;
 use crate::device::draw::{Draw, Pictures, Vertex};
 use crate::device::kind::{CELL_PX, Kind, PAGE_PX};
-use rasterproof_judge::ask::Ask as _;
+use rasterproof_judge::ask::Subject as _;
 use rasterproof_verify::cases::{Rng, Triangle};
 use rasterproof_verify::comparison::single_precision::depth_bounds;
 use rasterproof_verify::oracle::clipped::{self, Linear, UNIT, Whole, borders, corner};

@@ -19,8 +19,9 @@ use crate::device::open::Opened;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_judge::ask::runs_of;
-use rasterproof_judge::ask::{Answer, Ask, Asked, Breach, Question};
+use rasterproof_judge::ask::{Answer, Asked, Breach, Question, Subject};
 use rasterproof_judge::declared::{Declared, MOST_IN_FLIGHT};
+use rasterproof_verify::comparison::Convention;
 
 /// The beginning of an engine's name that means a device.
 pub const PREFIX: &str = "vulkan:";
@@ -125,7 +126,7 @@ impl Gpu {
     }
 
     pub fn step_px(&self) -> f32 {
-        1.0 / self.declared.grid as f32
+        1.0 / self.declared.grid() as f32
     }
 
     /// The side of the viewport in whose middle a window's corner lies.
@@ -189,7 +190,7 @@ fn declared(name: &str, about: &About) -> Declared {
         coverage: true,
         attributes: true,
         samples4: about.four_samples && about.standard_samples,
-        grid: 1 << about.subpixel_bits,
+        convention: Convention::default().subpixel_bits(about.subpixel_bits),
         // Within the viewport nothing is clipped.
         range: Some(viewport_px(about) as i32 / 2),
         window: Some([CELL_PX; 2]),
@@ -235,7 +236,7 @@ fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> 
     }
 }
 
-impl Ask for Gpu {
+impl Subject for Gpu {
     fn declared(&self) -> &Declared {
         &self.declared
     }

@@ -16,7 +16,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::adapt_case;
-use rasterproof_judge::ask::Ask as _;
+use rasterproof_judge::ask::Subject as _;
 use rasterproof_verify::cases::{self, Rng, Shape};
 use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::single_precision::linear_bounds;
@@ -294,7 +294,7 @@ fn from_edges_px(corners: &Corners, x: i32, y: i32) -> f64 {
 /// The same list drawn twice, and once more on a device opened anew, of which the specification does
 /// not speak.
 fn twice(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
-    let declared = rasterproof_judge::ask::Ask::declared(gpu).clone();
+    let declared = rasterproof_judge::ask::Subject::declared(gpu).clone();
     let half = gpu.viewport_px() / 2.0;
     let mut triangles = Vec::new();
     for family in

@@ -17,7 +17,7 @@ pub struct Specified {
 
 impl Specified {
     pub fn new(declared: &Declared) -> Self {
-        Self { declaration: declared.convention() }
+        Self { declaration: declared.convention }
     }
 }
 

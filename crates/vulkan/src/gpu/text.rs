@@ -72,11 +72,11 @@ fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> serde_jso
         .failures
         .iter()
         .map(|f| {
-            let exchanges = f.exchanges.iter().map(|e| {
+            let exchanges = f.evidence.exchanges.iter().map(|e| {
             serde_json::json!({ "request": e.request, "answer": e.answer, "expected": e.expected })
         });
             serde_json::json!({
-                "property": f.property, "family": f.family, "case": f.index, "what": f.what,
+                "property": f.evidence.property, "family": f.family, "case": f.index, "what": f.what,
                 "exchanges": exchanges.collect::<Vec<_>>(), "repeat": repeat(f.family, f.index),
             })
         })
@@ -112,7 +112,11 @@ pub fn report(
             format!("{}: {}", f.rule.section, f.rule.says),
         ],
         mark: if f.class.is_good() { Mark::Plain } else { Mark::Wrong },
-        search: verdict.failures.iter().any(|x| x.property == f.name).then(|| f.name.clone()),
+        search: verdict
+            .failures
+            .iter()
+            .any(|x| x.evidence.property == f.name)
+            .then(|| f.name.clone()),
         ..Row::default()
     };
     let mut notes = Vec::new();

@@ -19,7 +19,7 @@ use serde_json::Value;
 
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
-enum Question {
+enum Request {
     /// Names of everything there is to choose from.
     List,
     Named {
@@ -71,27 +71,27 @@ pub(crate) fn answer_value(question: Value) -> Result<Value, String> {
     serde_json::from_value(question).map_err(|error| error.to_string()).and_then(ask)
 }
 
-fn ask(question: Question) -> Result<Value, String> {
+fn ask(question: Request) -> Result<Value, String> {
     match question {
-        Question::List => Ok(search::list()),
-        Question::Named { name } => search::named(&name),
-        Question::Generated { family, seed, index } => search::generated(&family, seed, index),
-        Question::Draw(draw) => draw.answer(),
-        Question::Look(look) => look.answer(),
-        Question::Lines(lines) => lines.answer(),
-        Question::Values(values) => values.answer(),
-        Question::Depth(front) => front.answer(),
-        Question::Along(along) => along.answer(),
-        Question::Near(near) => near.answer(),
-        Question::Samples(samples) => samples.answer(),
-        Question::Cull(culling) => culling.answer(),
-        Question::Search(search) => search.answer(),
-        Question::Shrink(shrink) => shrink.answer(),
-        Question::Digest { seed, cases } => Ok(digest::digest(seed, cases)),
-        Question::GpuPlan(plan) => Ok(plan.answer()),
-        Question::GpuBatch(batch) => batch.answer(),
-        Question::GpuJudge(judge) => judge.answer(),
-        Question::GpuCause(cause) => cause.answer(),
+        Request::List => Ok(search::list()),
+        Request::Named { name } => search::named(&name),
+        Request::Generated { family, seed, index } => search::generated(&family, seed, index),
+        Request::Draw(draw) => draw.answer(),
+        Request::Look(look) => look.answer(),
+        Request::Lines(lines) => lines.answer(),
+        Request::Values(values) => values.answer(),
+        Request::Depth(front) => front.answer(),
+        Request::Along(along) => along.answer(),
+        Request::Near(near) => near.answer(),
+        Request::Samples(samples) => samples.answer(),
+        Request::Cull(culling) => culling.answer(),
+        Request::Search(search) => search.answer(),
+        Request::Shrink(shrink) => shrink.answer(),
+        Request::Digest { seed, cases } => Ok(digest::digest(seed, cases)),
+        Request::GpuPlan(plan) => Ok(plan.answer()),
+        Request::GpuBatch(batch) => batch.answer(),
+        Request::GpuJudge(judge) => judge.answer(),
+        Request::GpuCause(cause) => cause.answer(),
     }
 }
 

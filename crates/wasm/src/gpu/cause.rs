@@ -7,11 +7,11 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::subjects::triangle;
-use super::{Check, Device, Layout};
+use super::{Device, Layout, Topic};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_verify::comparison::{Cause as Found, Convention};
-use rasterproof_verify::convention::{Ask, Known, Question};
+use rasterproof_verify::convention::{Ask, Known, TriangleQuestion};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -30,9 +30,9 @@ const REACH: i32 = 3;
 
 #[derive(Default)]
 struct Asked {
-    answered: HashMap<Question, Coverage>,
+    answered: HashMap<TriangleQuestion, Coverage>,
     /// Questions of the last picture, one for each cell.
-    waiting: Vec<Question>,
+    waiting: Vec<TriangleQuestion>,
 }
 
 thread_local! {
@@ -62,7 +62,7 @@ impl Asked {
 }
 
 impl Ask for Asked {
-    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+    fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         if self.is_abandoned() {
             return Vec::new();
         }
@@ -98,7 +98,7 @@ impl Cause {
                 return Ok(json!({ "cause": found.headline(), "asked": asked.answered.len() }));
             }
             let drawn = asked.waiting.iter().map(|question| triangle(question.corners));
-            Ok(self.device.picture(Check::Coverage, LAYOUT, drawn))
+            Ok(self.device.picture(Topic::Coverage, LAYOUT, drawn))
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::place::{Place, RULES, area2, centre, cover, on_shared_edge, place};
 use super::subjects::{area, is_front, whole};
-use super::{Check, Device, Interface, Subject, Vertex};
+use super::{Device, Drawing, Interface, Topic, Vertex};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Triangle;
@@ -25,32 +25,32 @@ pub(super) const SAMPLES: [[i32; 2]; 4] = [[96, 32], [224, 96], [32, 160], [160,
 /// Pixels whose centres, or samples, are judged: hits in planes of a cell, one for each sample that is read.
 pub(super) type Planes = Vec<Vec<u8>>;
 
-pub(super) fn planes(check: Check, device: Device) -> usize {
+pub(super) fn planes(check: Topic, device: Device) -> usize {
     match check {
-        Check::Samples if device.samples_apart => 4,
+        Topic::Samples if device.samples_apart => 4,
         // The first drawing and the second.
-        Check::Twice => 2,
+        Topic::Twice => 2,
         _ => 1,
     }
 }
 
 /// What is expected of a subject, by the top-left rule where a rule decides.
-pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i32) -> Planes {
+pub(super) fn expected(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Planes {
     let mut hits = vec![vec![0; (cell * cell) as usize]; planes(check, device)];
     match check {
-        Check::Lines => {
+        Topic::Lines => {
             for (x, y) in subject.ends().iter().flat_map(|ends| segments::diamonds(ends, cell)) {
                 hits[0][(y * cell + x) as usize] = 1;
             }
         }
-        Check::NearPlane => {
+        Topic::NearPlane => {
             let borders = whole(subject).and_then(|corners| borders(&corners));
             each(cell, |x, y, at| {
                 let inside = |b: &clipped::Linear| b.at((x as u32, y as u32)) >= 0;
                 hits[0][at] = u8::from(borders.is_some_and(|b| b.iter().all(inside)));
             });
         }
-        Check::Depth => {
+        Topic::Depth => {
             let covered = subject.triangles().into_iter().map(|t| {
                 let mut hits = vec![0; (cell * cell) as usize];
                 cover(&t.corners(), RULES[0], [0, 0], cell, &mut hits);
@@ -64,7 +64,7 @@ pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i3
                 hits[0][at] = nearest.map_or(0, number);
             });
         }
-        Check::Samples => {
+        Topic::Samples => {
             for (sample, [x, y]) in SAMPLES.into_iter().enumerate() {
                 let moved = [HALF_PIXEL - x, HALF_PIXEL - y];
                 let plane = sample % hits.len();
@@ -73,18 +73,18 @@ pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i3
                 }
             }
         }
-        Check::Facing => {
+        Topic::Facing => {
             for corners in subject.corners().iter().filter(|c| is_front(device, c)) {
                 cover(corners, RULES[0], [0, 0], cell, &mut hits[0]);
             }
         }
-        Check::Tiling if fills(subject, cell) => hits[0].fill(1),
+        Topic::Tiling if fills(subject, cell) => hits[0].fill(1),
         _ => {
             hits[0] = covered(subject, cell);
-            if check == Check::Twice {
+            if check == Topic::Twice {
                 hits[1] = hits[0].clone();
             }
-            if check == Check::Order {
+            if check == Topic::Order {
                 hits[0].iter_mut().for_each(|hits| *hits *= 6);
             }
         }
@@ -92,7 +92,7 @@ pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i3
     hits
 }
 
-pub(super) fn covered(subject: &Subject, cell: i32) -> Vec<u8> {
+pub(super) fn covered(subject: &Drawing, cell: i32) -> Vec<u8> {
     let mut hits = vec![0; (cell * cell) as usize];
     for corners in subject.corners() {
         cover(&corners, RULES[0], [0, 0], cell, &mut hits);
@@ -101,7 +101,7 @@ pub(super) fn covered(subject: &Subject, cell: i32) -> Vec<u8> {
 }
 
 /// Whether triangles that do not overlap fill a cell: their area says so, up to its rounding.
-fn fills(Subject(shapes): &Subject, cell: i32) -> bool {
+fn fills(Drawing(shapes): &Drawing, cell: i32) -> bool {
     let twice: f64 = shapes.iter().map(|t| area(t).abs()).sum();
     (twice - f64::from(2 * cell * cell)).abs() < 1e-6
 }
@@ -126,7 +126,7 @@ fn number(triangle: &Triangle) -> u8 {
     triangle.vertices[0].varying.x as u8
 }
 
-impl Subject {
+impl Drawing {
     pub(super) fn ends(&self) -> Vec<Ends> {
         let ends = |shape: &Vec<Vertex>| {
             Some([super::subjects::at(shape.first()?), super::subjects::at(shape.get(1)?)])
@@ -142,15 +142,15 @@ pub(super) fn edges(t: &[Vertex]) -> [[[f64; 2]; 2]; 3] {
 
 /// How a pixel that was not hit as expected stands to the specification.
 pub(super) struct Forgiving<'a> {
-    pub check: Check,
+    pub check: Topic,
     pub device: Device,
-    pub subject: &'a Subject,
+    pub subject: &'a Drawing,
     corners: Vec<Corners>,
     borders: Option<[clipped::Linear; 5]>,
 }
 
 impl<'a> Forgiving<'a> {
-    pub fn new(check: Check, device: Device, subject: &'a Subject) -> Self {
+    pub fn new(check: Topic, device: Device, subject: &'a Drawing) -> Self {
         let borders = whole(subject).and_then(|corners| borders(&corners));
         Self { check, device, subject, corners: subject.corners(), borders }
     }
@@ -158,22 +158,22 @@ impl<'a> Forgiving<'a> {
     /// A pixel of a plane with so many hits, that are not the expected ones.
     pub fn word(&self, plane: usize, x: i32, y: i32, hits: u8) -> Word {
         let free = match self.check {
-            Check::Lattice => hits <= 1 && self.is_near_edge(x, y),
-            Check::Tiling => self.tiling_is_open(x, y, hits),
-            Check::NearPlane => {
+            Topic::Lattice => hits <= 1 && self.is_near_edge(x, y),
+            Topic::Tiling => self.tiling_is_open(x, y, hits),
+            Topic::NearPlane => {
                 let near = |b: clipped::Linear| b.distance_px((x as u32, y as u32));
                 hits <= 1
                     && self
                         .borders
                         .is_none_or(|b| b.into_iter().any(|b| near(b) <= self.bound_px()))
             }
-            Check::Depth => self.depth_is_open(x, y, hits),
-            Check::Twice => self.device.interface == Interface::Webgpu,
+            Topic::Depth => self.depth_is_open(x, y, hits),
+            Topic::Twice => self.device.interface == Interface::Webgpu,
             // Where samples lie is open in WebGL and said in WebGPU.
-            Check::Samples if self.device.interface == Interface::Webgl2 => {
+            Topic::Samples if self.device.interface == Interface::Webgl2 => {
                 self.sample_is_open(x, y, hits, if self.device.samples_apart { 1 } else { 4 })
             }
-            Check::Samples => {
+            Topic::Samples => {
                 let [dx, dy] = SAMPLES[plane];
                 self.is_between(SubpixelPoint::new(x * SUBPIXELS + dx, y * SUBPIXELS + dy), hits)
             }
@@ -184,8 +184,8 @@ impl<'a> Forgiving<'a> {
 
     /// Whether so many hits are possible by some rule for samples on edges.
     fn is_between(&self, sample: SubpixelPoint, hits: u8) -> bool {
-        let times = if self.check == Check::Order { 6 } else { 1 };
-        let is_drawn = |c: &&Corners| self.check != Check::Facing || is_front(self.device, c);
+        let times = if self.check == Topic::Order { 6 } else { 1 };
+        let is_drawn = |c: &&Corners| self.check != Topic::Facing || is_front(self.device, c);
         let places: Vec<_> =
             self.corners.iter().filter(is_drawn).map(|c| place(c, sample)).collect();
         let inside = places.iter().filter(|p| **p == Place::Inside).count();

@@ -3,7 +3,7 @@
 use super::expected::{Forgiving, Planes, Word, expected, line_fits, planes};
 use super::place::{Place, RULES, centre, cover, place};
 use super::shrink::is_tiling;
-use super::{Batch, Check, Device, Interface, Layout, Subject};
+use super::{Batch, Device, Drawing, Interface, Layout, Topic};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec2;
@@ -82,14 +82,14 @@ impl Judge {
     pub fn answer(&self) -> Result<Value, String> {
         let Batch { check, device, .. } = self.batch;
         let (layout, list) = self.batch.subjects()?;
-        let is_overlapping = |s: &Subject| !is_tiling(s, layout.cell);
-        if check == Check::Tiling && self.batch.only.as_ref().is_some_and(is_overlapping) {
+        let is_overlapping = |s: &Drawing| !is_tiling(s, layout.cell);
+        if check == Topic::Tiling && self.batch.only.as_ref().is_some_and(is_overlapping) {
             return Err(
                 "the triangles overlap, share no edge, turn differently, or are thin".to_owned()
             );
         }
         let count = planes(check, device);
-        let values = check == Check::Values;
+        let values = check == Topic::Values;
         let bytes = match values {
             true => STANDARD.decode(&self.pixels).map_err(|e| e.to_string())?,
             false => self.pixels.bytes().map(|b| b.wrapping_sub(b'0')).collect(),
@@ -100,7 +100,7 @@ impl Judge {
             return Err(format!("{} bytes of pixels for {side} x {side} px", bytes.len()));
         }
         let mut tally = self.tally.clone();
-        let mut examples: [Option<&Subject>; 2] = [None, None];
+        let mut examples: [Option<&Drawing>; 2] = [None, None];
         let (mut coarse, mut view) = (None, Value::Null);
         for (index, subject) in list.iter().enumerate() {
             let cell = Cell { layout, origin: layout.origin(index), bytes: &bytes, size };
@@ -112,7 +112,7 @@ impl Judge {
                     example.get_or_insert(subject);
                 }
             }
-            if check == Check::Lattice && is_coarse(&judged.explained) {
+            if check == Topic::Lattice && is_coarse(&judged.explained) {
                 coarse.get_or_insert(subject);
             }
             // Of smaller subjects the first that fails is all that is asked for.
@@ -126,7 +126,7 @@ impl Judge {
         let [mut broken, free] = examples;
         let mut word = word(check, device, &tally);
         // One case alone breaks no promise about the lattice: all together do, and this one is why.
-        if check == Check::Lattice {
+        if check == Topic::Lattice {
             let is_asked = self.batch.smaller.is_some() || word == Word::Broken;
             broken = coarse.filter(|_| is_asked && device.interface == Interface::Webgl2);
             if self.batch.only.is_some() {
@@ -185,13 +185,13 @@ struct Judged {
     worst: f64,
 }
 
-fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judged {
+fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Judged {
     let side = cell.layout.cell;
-    if check == Check::Values {
+    if check == Topic::Values {
         return values(device, subject, cell);
     }
     let (mut ours, mut theirs) = (expected(check, device, subject, side), cell.planes());
-    if check == Check::Twice {
+    if check == Topic::Twice {
         ours = vec![theirs.remove(0)];
     }
     let mut marks = Vec::new();
@@ -210,8 +210,8 @@ fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judge
     let pixels = (side * side) as u64 * ours.len() as u64;
     let mut judged = Judged { ours, theirs, marks, pixels, ..Judged::default() };
     match check {
-        Check::Lattice => judged.explained = explaining(subject, &judged.theirs[0], side),
-        Check::Coverage | Check::Reach if judged.word() == Word::Free => {
+        Topic::Lattice => judged.explained = explaining(subject, &judged.theirs[0], side),
+        Topic::Coverage | Topic::Reach if judged.word() == Word::Free => {
             judged.explained = RULES[1..]
                 .iter()
                 .map(|rule| {
@@ -221,14 +221,14 @@ fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judge
                 })
                 .collect();
         }
-        Check::Lines => lines(device, subject, side, &mut judged),
+        Topic::Lines => lines(device, subject, side, &mut judged),
         _ => {}
     }
     judged
 }
 
 /// Which hypotheses about positions explain the pixels of a subject, whatever the rule for samples on edges.
-fn explaining(subject: &Subject, hits: &[u8], side: i32) -> Vec<bool> {
+fn explaining(subject: &Drawing, hits: &[u8], side: i32) -> Vec<bool> {
     let corners = subject.corners();
     let total: u32 = hits.iter().map(|hits| u32::from(*hits)).sum();
     let explains = |(bits, _, round): (u32, &str, Rounding)| {
@@ -265,7 +265,7 @@ fn is_coarse(explained: &[bool]) -> bool {
 }
 
 /// What the specification asks of lines: WebGL the diamond-exit rule, give or take a pixel; WebGPU nothing.
-fn lines(device: Device, subject: &Subject, side: i32, judged: &mut Judged) {
+fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut Judged) {
     let hits = &judged.theirs[0];
     let lit = (0..).zip(hits).filter(|(_, hits)| **hits > 0);
     let lit = lit.map(|(at, _)| (at % side, at / side)).collect();
@@ -279,7 +279,7 @@ fn lines(device: Device, subject: &Subject, side: i32, judged: &mut Judged) {
 }
 
 /// Depth and attributes in perspective against exact ones.
-fn values(device: Device, subject: &Subject, cell: &Cell) -> Judged {
+fn values(device: Device, subject: &Drawing, cell: &Cell) -> Judged {
     let side = cell.layout.cell;
     let empty = vec![vec![0; (side * side) as usize]];
     let mut judged = Judged { ours: empty.clone(), theirs: empty, ..Judged::default() };
@@ -353,7 +353,7 @@ impl Judged {
         self.marks.iter().map(|mark| mark.word).max().unwrap_or(Word::Promised)
     }
 
-    fn add_to(&self, tally: &mut Tally, Subject(shapes): &Subject) {
+    fn add_to(&self, tally: &mut Tally, Drawing(shapes): &Drawing) {
         tally.subjects += 1;
         tally.shapes += shapes.len() as u64;
         tally.pixels += self.pixels;
@@ -367,7 +367,7 @@ impl Judged {
     }
 
     /// The subject for the page to draw large.
-    fn view(&self, check: Check, device: Device, subject: &Subject, cell: &Cell) -> Value {
+    fn view(&self, check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Value {
         let digits = |planes: &Planes| -> Vec<String> {
             let digit = |hits: &u8| char::from(b'0' + (*hits).min(9));
             planes.iter().map(|plane| plane.iter().map(digit).collect()).collect()
@@ -378,7 +378,7 @@ impl Judged {
         };
         let outlines: Vec<_> = subject.0.iter().filter_map(outline).collect();
         let samples = match check {
-            Check::Samples if device.samples_apart => super::expected::SAMPLES.to_vec(),
+            Topic::Samples if device.samples_apart => super::expected::SAMPLES.to_vec(),
             _ => Vec::new(),
         };
         json!({
@@ -395,11 +395,11 @@ fn best_hypothesis(tally: &Tally) -> Option<(u64, u32, &'static str)> {
     all.reduce(|best, next| if next.0 > best.0 { next } else { best })
 }
 
-fn word(check: Check, device: Device, tally: &Tally) -> Word {
+fn word(check: Topic, device: Device, tally: &Tally) -> Word {
     if tally.broken > 0 {
         return Word::Broken;
     }
-    if check == Check::Lattice {
+    if check == Topic::Lattice {
         let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
         let is_known = explained == tally.subjects && rounding != "down";
         // WebGPU says nothing of positions: what is finer than every question is as they are given.
@@ -417,15 +417,15 @@ fn word(check: Check, device: Device, tally: &Tally) -> Word {
 }
 
 /// What the page says beside the counts.
-fn facts(check: Check, tally: &Tally) -> Value {
+fn facts(check: Topic, tally: &Tally) -> Value {
     match check {
-        Check::Lattice => {
+        Topic::Lattice => {
             let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
             let finest = hypotheses().zip(&tally.explained).filter(|(_, n)| **n == tally.subjects);
             let finest = finest.map(|((bits, ..), _)| bits).max();
             json!({ "bits": bits, "rounding": rounding, "explained": explained, "finest": finest })
         }
-        Check::Coverage | Check::Reach => {
+        Topic::Coverage | Topic::Reach => {
             let names = ["top-right", "bottom-left", "bottom-right"];
             let rule = names.iter().zip(&tally.explained).find(|(_, n)| **n == tally.free);
             json!({ "rule": rule.map(|(name, _)| name) })
@@ -462,7 +462,7 @@ mod tests {
         check: &str,
         interface: &str,
         more: Value,
-        spoil: &dyn Fn(&Subject, &mut Planes),
+        spoil: &dyn Fn(&Drawing, &mut Planes),
     ) -> Value {
         let batch = batch(check, interface, more);
         let (layout, list) = batch.subjects().unwrap();
@@ -502,11 +502,11 @@ mod tests {
         for check in &checks() {
             // The first drawing is what the second is held to.
             let first = usize::from(check == "twice");
-            let twice = |_: &Subject, planes: &mut Planes| {
+            let twice = |_: &Drawing, planes: &mut Planes| {
                 let hits = planes[first..].iter_mut().flatten().filter(|hits| **hits > 0);
                 hits.for_each(|hits| *hits += 7);
             };
-            let none = |_: &Subject, planes: &mut Planes| {
+            let none = |_: &Drawing, planes: &mut Planes| {
                 planes[first..].iter_mut().for_each(|p| p.fill(0));
             };
             assert_eq!(answer(check, "webgl2", json!({}), &twice)["word"], "broken", "{check}");
@@ -523,7 +523,7 @@ mod tests {
         let [a, b, c, d] = [vertex(0.5, 0.5), vertex(5.5, 0.5), vertex(5.5, 5.5), vertex(0.5, 5.5)];
         let only = json!({ "only": [[a, b, c], [a, c, d]] });
         let word = |interface: &str, x: usize, y: usize| {
-            let spoil = |_: &Subject, planes: &mut Planes| planes[0][y * 8 + x] ^= 1;
+            let spoil = |_: &Drawing, planes: &mut Planes| planes[0][y * 8 + x] ^= 1;
             answer("coverage", interface, only.clone(), &spoil)["word"].clone()
         };
         assert_eq!([word("webgl2", 2, 2), word("webgpu", 2, 2)], ["broken", "free"]);
@@ -534,7 +534,7 @@ mod tests {
     /// Another of the four rules is found by its name.
     #[test]
     fn a_rule_is_recognised() {
-        let bottom_left = |subject: &Subject, planes: &mut Planes| {
+        let bottom_left = |subject: &Drawing, planes: &mut Planes| {
             let side = (planes[0].len() as f64).sqrt() as i32;
             planes[0].fill(0);
             subject.corners().iter().for_each(|c| cover(c, RULES[2], [0, 0], side, &mut planes[0]));
@@ -547,8 +547,8 @@ mod tests {
     }
 
     /// What a device draws that rounds positions to a step, in one of the [`ROUNDINGS`].
-    fn rounding(step: i32, round: usize) -> impl Fn(&Subject, &mut Planes) {
-        move |subject: &Subject, planes: &mut Planes| {
+    fn rounding(step: i32, round: usize) -> impl Fn(&Drawing, &mut Planes) {
+        move |subject: &Drawing, planes: &mut Planes| {
             planes[0].fill(0);
             for c in subject.corners() {
                 let round = |v| ROUNDINGS[round].1(v, step);
@@ -600,7 +600,7 @@ mod tests {
             let (layout, list) = asked(json!({ "smaller": subject }));
             // Fails while it covers anything.
             let fails =
-                |s: &Subject| expected(Check::Coverage, device, s, layout.cell)[0].contains(&1);
+                |s: &Drawing| expected(Topic::Coverage, device, s, layout.cell)[0].contains(&1);
             let Some(next) = list.into_iter().find(fails) else { break };
             let on_lattice = |v: i32| v % 16 == 0 && (0..=layout.cell * SUBPIXELS).contains(&v);
             assert!(next.corners().iter().flatten().all(|p| on_lattice(p.x) && on_lattice(p.y)));
@@ -621,11 +621,11 @@ mod tests {
             }
             subject = next;
         }
-        from_value::<Subject>(subject).unwrap().0
+        from_value::<Drawing>(subject).unwrap().0
     }
 
     /// The smallest case of the first that a device draws wrongly.
-    fn smallest(check: &str, draws: &dyn Fn(&Subject, &mut Planes)) -> Vec<Vec<Vertex>> {
+    fn smallest(check: &str, draws: &dyn Fn(&Drawing, &mut Planes)) -> Vec<Vec<Vertex>> {
         let found = |more: Value| answer(check, "webgl2", more, draws)["broken"].clone();
         let all = batch(check, "webgl2", json!({})).subjects().unwrap().1;
         let mut wrong =
@@ -636,7 +636,7 @@ mod tests {
     /// The planted faults of each kind of subject lead to cases of so many shapes, in so many px.
     #[test]
     fn each_kind_becomes_small() {
-        let hole = |subject: &Subject, planes: &mut Planes| {
+        let hole = |subject: &Drawing, planes: &mut Planes| {
             // The first pixel that two triangles share by an edge is hit by neither.
             let near = |at: usize| {
                 let s = [(at % 16) as f64 + 0.5, (at / 16) as f64 + 0.5];
@@ -653,10 +653,10 @@ mod tests {
                 planes[0][at] = 0;
             }
         };
-        let twice = |_: &Subject, planes: &mut Planes| {
+        let twice = |_: &Drawing, planes: &mut Planes| {
             planes.iter_mut().flatten().filter(|hits| **hits > 0).for_each(|hits| *hits *= 2);
         };
-        let farther = |subject: &Subject, planes: &mut Planes| {
+        let farther = |subject: &Drawing, planes: &mut Planes| {
             if subject.0.len() == 2 {
                 let both = expected_of_each(subject);
                 for (at, hits) in planes[0].iter_mut().enumerate() {
@@ -667,20 +667,20 @@ mod tests {
             }
         };
         // What has more than two pixels fills the cell.
-        let long = |_: &Subject, planes: &mut Planes| {
+        let long = |_: &Drawing, planes: &mut Planes| {
             let lit = planes[0].iter().filter(|hits| **hits > 0).count();
             if lit > 2 {
                 planes[0].fill(1);
             }
         };
-        let last = |_: &Subject, planes: &mut Planes| {
+        let last = |_: &Drawing, planes: &mut Planes| {
             if let [first, second] = &mut planes[..]
                 && let Some(at) = first.iter().rposition(|hits| *hits > 0)
             {
                 second[at] = 0;
             }
         };
-        type Draws<'a> = &'a dyn Fn(&Subject, &mut Planes);
+        type Draws<'a> = &'a dyn Fn(&Drawing, &mut Planes);
         // So many shapes, in a box of so many px in x and y together.
         let plants: [(&str, Draws, (usize, u32)); 5] = [
             ("tiling", &hole, (2, 2)),
@@ -697,10 +697,10 @@ mod tests {
     }
 
     /// The pixels of each triangle of a subject of the depth test.
-    fn expected_of_each(subject: &Subject) -> Vec<Vec<u8>> {
+    fn expected_of_each(subject: &Drawing) -> Vec<Vec<u8>> {
         let device = batch("depth", "webgl2", json!({})).device;
-        let alone = |t: &Vec<Vertex>| Subject(vec![t.clone()]);
-        subject.0.iter().map(|t| expected(Check::Depth, device, &alone(t), 32).remove(0)).collect()
+        let alone = |t: &Vec<Vertex>| Drawing(vec![t.clone()]);
+        subject.0.iter().map(|t| expected(Topic::Depth, device, &alone(t), 32).remove(0)).collect()
     }
 
     /// What comes of values that are exact but for their rounding to f32, in perspective or without.

@@ -26,7 +26,7 @@ use rasterproof_core::grid::{SUBPIXEL_BITS, SUBPIXELS};
 /// lattice that is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Check {
+pub(crate) enum Topic {
     Lattice,
     /// Which pixels triangles and meshes cover.
     Coverage,
@@ -81,21 +81,21 @@ type Vertex = [f64; 6];
 /// What is drawn in one cell: triangles, or lines of two vertices.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(crate) struct Subject(pub Vec<Vec<Vertex>>);
+pub(crate) struct Drawing(pub Vec<Vec<Vertex>>);
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Batch {
-    check: Check,
+    check: Topic,
     device: Device,
     seed: u64,
     /// Which batch of the check.
     #[serde(default)]
     number: u64,
     /// This subject alone, in place of those of a number.
-    only: Option<Subject>,
+    only: Option<Drawing>,
     /// The subjects that are a step smaller than this one; `number` says which of their pictures.
-    smaller: Option<Subject>,
+    smaller: Option<Drawing>,
 }
 
 /// How cells lie in a picture.
@@ -126,7 +126,7 @@ impl Layout {
     }
 }
 
-impl Check {
+impl Topic {
     /// What a picture holds, as the page's drawing code is told.
     fn kind(self) -> &'static str {
         match self {
@@ -154,7 +154,7 @@ impl Plan {
 }
 
 impl Batch {
-    fn subjects(&self) -> Result<(Layout, Vec<Subject>), String> {
+    fn subjects(&self) -> Result<(Layout, Vec<Drawing>), String> {
         let (mut layout, mut list) = subjects::of(self.check, self.device, self.seed, self.number);
         if let Some(subject) = self.only.as_ref().or(self.smaller.as_ref()) {
             layout = subjects::layout_for(self.check, subject)?;
@@ -193,7 +193,7 @@ impl Device {
     /// What the page draws: the vertices of each subject in its cell.
     fn picture(
         self,
-        check: Check,
+        check: Topic,
         layout: Layout,
         subjects: impl Iterator<Item = Vec<Vertex>>,
     ) -> Value {

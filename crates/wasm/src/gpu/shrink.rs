@@ -3,7 +3,7 @@
 
 use super::expected::{covered, edges};
 use super::subjects::{area, from_whole, triangle, whole};
-use super::{Check, Device, Subject, Vertex};
+use super::{Device, Drawing, Topic, Vertex};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::named::plain_triangle;
@@ -11,10 +11,10 @@ use rasterproof_verify::cases::shrink::smaller_cases;
 use rasterproof_verify::cases::{Case, Shape};
 
 /// The smaller subjects of a check, those that are much smaller first.
-pub(super) fn smaller(check: Check, device: Device, subject: &Subject, cell: i32) -> Vec<Subject> {
+pub(super) fn smaller(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
     match check {
-        Check::NearPlane => smaller_whole(subject),
-        Check::Tiling | Check::Lines | Check::Depth | Check::Values => {
+        Topic::NearPlane => smaller_whole(subject),
+        Topic::Tiling | Topic::Lines | Topic::Depth | Topic::Values => {
             smaller_numbers(check, device, subject, cell)
         }
         _ => smaller_corners(check, device, subject, cell),
@@ -22,8 +22,8 @@ pub(super) fn smaller(check: Check, device: Device, subject: &Subject, cell: i32
 }
 
 /// Of subjects that are no more than corners: those whose corners lie on the device's lattice and in the cell.
-fn smaller_corners(check: Check, device: Device, subject: &Subject, cell: i32) -> Vec<Subject> {
-    let step = if check == Check::Lattice { 1 } else { device.step() };
+fn smaller_corners(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
+    let step = if check == Topic::Lattice { 1 } else { device.step() };
     let list = subject.corners().into_iter().map(plain_triangle).collect();
     let window = PixelRect::window(cell as u32, cell as u32);
     let case = Case { window, shape: Shape::Triangles { list, disjoint: false } };
@@ -32,7 +32,7 @@ fn smaller_corners(check: Check, device: Device, subject: &Subject, cell: i32) -
         _ => Vec::new(),
     };
     let fits = |v: i32| {
-        let range = if check == Check::Reach { -7 * cell..=8 * cell } else { 0..=cell };
+        let range = if check == Topic::Reach { -7 * cell..=8 * cell } else { 0..=cell };
         v % step == 0 && (range.start() * SUBPIXELS..=range.end() * SUBPIXELS).contains(&v)
     };
     let fits = |all: &Vec<Corners>| all.iter().flatten().all(|p| fits(p.x) && fits(p.y));
@@ -41,13 +41,13 @@ fn smaller_corners(check: Check, device: Device, subject: &Subject, cell: i32) -
         .filter(|smaller| smaller.window == window)
         .map(corners)
         .filter(fits)
-        .map(|all| Subject(all.into_iter().map(triangle).collect()))
+        .map(|all| Drawing(all.into_iter().map(triangle).collect()))
         .collect()
 }
 
 /// Of a triangle in clip space: a coordinate nearer to 0, of which few bits are kept. No corner comes to lie in
 /// the near plane, or nearer than w = 1 before the eye: those are dangers of their own.
-fn smaller_whole(subject: &Subject) -> Vec<Subject> {
+fn smaller_whole(subject: &Drawing) -> Vec<Drawing> {
     let Some(corners) = whole(subject) else { return Vec::new() };
     let coordinates = (0..3).flat_map(|corner| (0..4).map(move |axis| (corner, axis)));
     coordinates
@@ -61,7 +61,7 @@ fn smaller_whole(subject: &Subject) -> Vec<Subject> {
             })
         })
         .filter(|corners| corners.iter().all(|[.., z, w]| *z != 0 && (*w <= 0 || *w >= 64)))
-        .map(|corners| Subject(vec![corners.map(from_whole).to_vec()]))
+        .map(|corners| Drawing(vec![corners.map(from_whole).to_vec()]))
         .collect()
 }
 
@@ -74,7 +74,7 @@ fn scaled([x, y, z, w, a, b]: Vertex, by: f64) -> Vertex {
 }
 
 /// Of subjects with values: fewer shapes, nearer to each other and to the cell's corner, with simpler numbers.
-fn smaller_numbers(check: Check, device: Device, subject: &Subject, cell: i32) -> Vec<Subject> {
+fn smaller_numbers(check: Topic, device: Device, subject: &Drawing, cell: i32) -> Vec<Drawing> {
     let shapes: Shapes =
         subject.0.iter().map(|t| t.iter().map(|v| scaled(*v, 1.0 / v[3])).collect()).collect();
     let mut found = fewer(&shapes);
@@ -138,22 +138,22 @@ fn smaller_numbers(check: Check, device: Device, subject: &Subject, cell: i32) -
     found.sort_by(|a, b| size(a).partial_cmp(&size(b)).unwrap_or(std::cmp::Ordering::Equal));
     let current = size(&shapes);
     let multiplied = |all: Shapes| {
-        Subject(all.iter().map(|t| t.iter().map(|v| scaled(*v, v[3])).collect()).collect())
+        Drawing(all.iter().map(|t| t.iter().map(|v| scaled(*v, v[3])).collect()).collect())
     };
     found
         .into_iter()
         .filter(|all| size(all) < current && is_valid(check, device, &shapes, all, cell))
         .map(multiplied)
-        .filter(|subject| check != Check::Tiling || is_tiling(subject, cell))
+        .filter(|subject| check != Topic::Tiling || is_tiling(subject, cell))
         .collect()
 }
 
 /// The shapes with their values, as halves of a square at the origin: of a tiling one beside the other, else one
 /// over the other.
-fn canonical(check: Check, shapes: &Shapes, px: f64) -> Shapes {
+fn canonical(check: Topic, shapes: &Shapes, px: f64) -> Shapes {
     let mut all = shapes.clone();
     for (index, shape) in all.iter_mut().enumerate() {
-        let is_second = check == Check::Tiling && index % 2 == 1;
+        let is_second = check == Topic::Tiling && index % 2 == 1;
         let corners = [[px, 0.0], if is_second { [px, px] } else { [0.0, 0.0] }, [0.0, px]];
         shape.iter_mut().zip(corners).for_each(|(v, corner)| v[..2].copy_from_slice(&corner));
     }
@@ -199,9 +199,9 @@ pub(super) fn size(shapes: &Shapes) -> (usize, u32, u32, f64) {
 }
 
 /// Whether a check could ask for these shapes, which were made of others.
-fn is_valid(check: Check, device: Device, before: &Shapes, shapes: &Shapes, cell: i32) -> bool {
+fn is_valid(check: Topic, device: Device, before: &Shapes, shapes: &Shapes, cell: i32) -> bool {
     // Corners of a tiling lie anywhere; new ones on the finest lattice.
-    let is_tiling = check == Check::Tiling;
+    let is_tiling = check == Topic::Tiling;
     let step = if is_tiling { 1.0 } else { f64::from(device.step()) } / f64::from(SUBPIXELS);
     let is_old = |v: f64| is_tiling && before.iter().flatten().any(|old| old[..2].contains(&v));
     let lies =
@@ -211,20 +211,20 @@ fn is_valid(check: Check, device: Device, before: &Shapes, shapes: &Shapes, cell
         // Within the planes, even when rounded.
         let is_deep = (1.0 / 64.0..=63.0 / 64.0).contains(&depth);
         let has_values = match check {
-            Check::Values => w > 0.0,
+            Topic::Values => w > 0.0,
             // Their first attributes say which triangles they are.
-            Check::Depth => w == 1.0 && before.iter().any(|t| t[0][4] == a),
+            Topic::Depth => w == 1.0 && before.iter().any(|t| t[0][4] == a),
             _ => depth == 0.5 && w == 1.0 && a == 1.0,
         };
         lies(x) && lies(y) && is_deep && has_values
     };
     let has_extent = |shape: &Vec<Vertex>| {
         let at = |i: usize| [shape[i][0], shape[i][1]];
-        if check == Check::Lines { at(0) != at(1) } else { area(shape) != 0.0 }
+        if check == Topic::Lines { at(0) != at(1) } else { area(shape) != 0.0 }
     };
-    let is_one = |t: &Vec<Vertex>| check != Check::Depth || t.iter().all(|v| v[4] == t[0][4]);
+    let is_one = |t: &Vec<Vertex>| check != Topic::Depth || t.iter().all(|v| v[4] == t[0][4]);
     let all_differ =
-        check != Check::Depth || shapes.len() < 2 || shapes[0][0][4] != shapes[1][0][4];
+        check != Topic::Depth || shapes.len() < 2 || shapes[0][0][4] != shapes[1][0][4];
     shapes.iter().flatten().all(is_right)
         && shapes.iter().all(has_extent)
         && shapes.iter().all(is_one)
@@ -233,7 +233,7 @@ fn is_valid(check: Check, device: Device, before: &Shapes, shapes: &Shapes, cell
 
 /// Whether triangles turn the same way, are at least half a pixel thick, so that none turns over on the
 /// device's lattice, and do not overlap; two share an edge.
-pub(super) fn is_tiling(subject: &Subject, cell: i32) -> bool {
+pub(super) fn is_tiling(subject: &Drawing, cell: i32) -> bool {
     let turns = |t: &Vec<Vertex>| area(t).signum() == area(&subject.0[0]).signum();
     let is_thick = |t: &Vec<Vertex>| {
         let longest = [(0, 1), (1, 2), (2, 0)]

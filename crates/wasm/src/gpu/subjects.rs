@@ -1,25 +1,25 @@
 //! The subjects of each check: the hard cases of the comparison on the device's lattice, and some of this page.
 
-use super::{Check, Device, Interface, Layout, Subject, Vertex};
+use super::{Device, Drawing, Interface, Layout, Topic, Vertex};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 use rasterproof_verify::cases::{Family, Rng, Shape, Triangle, triangles};
 use rasterproof_verify::oracle::clipped;
 
 /// The checks with the numbers of their batches.
-pub(super) const PLAN: [(Check, u64); 12] = [
-    (Check::Lattice, 1),
-    (Check::Coverage, FAMILIES.len() as u64 * PAGES),
-    (Check::Reach, 10),
-    (Check::Tiling, 2),
-    (Check::Order, 1),
-    (Check::Facing, 1),
-    (Check::Lines, 2),
-    (Check::Depth, 1),
-    (Check::Values, 3),
-    (Check::NearPlane, 4),
-    (Check::Samples, 2),
-    (Check::Twice, 1),
+pub(super) const PLAN: [(Topic, u64); 12] = [
+    (Topic::Lattice, 1),
+    (Topic::Coverage, FAMILIES.len() as u64 * PAGES),
+    (Topic::Reach, 10),
+    (Topic::Tiling, 2),
+    (Topic::Order, 1),
+    (Topic::Facing, 1),
+    (Topic::Lines, 2),
+    (Topic::Depth, 1),
+    (Topic::Values, 3),
+    (Topic::NearPlane, 4),
+    (Topic::Samples, 2),
+    (Topic::Twice, 1),
 ];
 
 const PAGES: u64 = 3;
@@ -48,38 +48,38 @@ const VALUES_SIDE: i32 = 512;
 /// Subjects of one picture at most.
 const MOST: usize = 4096;
 
-fn layout(check: Check, cell: i32) -> Layout {
+fn layout(check: Topic, cell: i32) -> Layout {
     let plain = Layout { side: SIDE, cell, margin: 0, scissor: false };
     match check {
         // Corners reach 7 cells beyond their own.
-        Check::Reach => Layout { margin: REACH, scissor: true, ..plain },
-        Check::NearPlane => Layout { scissor: true, ..plain },
-        Check::Values => Layout { side: VALUES_SIDE, ..plain },
+        Topic::Reach => Layout { margin: REACH, scissor: true, ..plain },
+        Topic::NearPlane => Layout { scissor: true, ..plain },
+        Topic::Values => Layout { side: VALUES_SIDE, ..plain },
         _ => plain,
     }
 }
 
-/// Cells that corners of [`Check::Reach`] may be away.
+/// Cells that corners of [`Topic::Reach`] may be away.
 const REACH: i32 = 7;
 
-fn cell_of(check: Check, number: u64) -> i32 {
+fn cell_of(check: Topic, number: u64) -> i32 {
     match check {
-        Check::Coverage | Check::Twice => FAMILIES[(number % FAMILIES.len() as u64) as usize].1,
-        Check::Reach | Check::Values => 48,
-        Check::Lines | Check::Depth => 32,
-        Check::NearPlane => clipped::CELL_PX as i32,
+        Topic::Coverage | Topic::Twice => FAMILIES[(number % FAMILIES.len() as u64) as usize].1,
+        Topic::Reach | Topic::Values => 48,
+        Topic::Lines | Topic::Depth => 32,
+        Topic::NearPlane => clipped::CELL_PX as i32,
         _ => 16,
     }
 }
 
-pub(super) fn layout_for(check: Check, Subject(shapes): &Subject) -> Result<Layout, String> {
+pub(super) fn layout_for(check: Topic, Drawing(shapes): &Drawing) -> Result<Layout, String> {
     let wanted = match check {
-        Check::Lines => 2,
+        Topic::Lines => 2,
         _ => 3,
     };
     let most = f64::from(SIDE);
     let is_near = |[x, y, .., w, _, _]: &Vertex| {
-        check == Check::NearPlane || (*w > 0.0 && (x / w).abs() <= most && (y / w).abs() <= most)
+        check == Topic::NearPlane || (*w > 0.0 && (x / w).abs() <= most && (y / w).abs() <= most)
     };
     let vertices = || shapes.iter().flatten();
     if shapes.is_empty()
@@ -95,7 +95,7 @@ pub(super) fn layout_for(check: Check, Subject(shapes): &Subject) -> Result<Layo
     // As large as the largest window of the check that has to be: corners decide.
     let reach = vertices().fold(0, |most: i32, v| most.max(at(v).x).max(at(v).y));
     let least = match check {
-        Check::Coverage | Check::Twice | Check::Values => {
+        Topic::Coverage | Topic::Twice | Topic::Values => {
             *[8, 16, 32, 48].iter().find(|c| reach <= **c * SUBPIXELS).unwrap_or(&48)
         }
         _ => cell_of(check, 0),
@@ -119,7 +119,7 @@ pub(super) fn at([x, y, _, w, ..]: &Vertex) -> SubpixelPoint {
     SubpixelPoint::new(sub(*x), sub(*y))
 }
 
-impl Subject {
+impl Drawing {
     /// The corners of its triangles on the finest lattice.
     pub(super) fn corners(&self) -> Vec<Corners> {
         self.0.iter().filter_map(|t| Some([at(t.first()?), at(t.get(1)?), at(t.get(2)?)])).collect()
@@ -142,9 +142,9 @@ impl Subject {
 }
 
 /// The vertices that are drawn of a subject. To see whether the order of corners matters, all six are drawn.
-pub(super) fn drawn(check: Check, Subject(shapes): &Subject) -> Vec<Vertex> {
+pub(super) fn drawn(check: Topic, Drawing(shapes): &Drawing) -> Vec<Vertex> {
     let orders: &[[usize; 3]] = match check {
-        Check::Order => &[[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]],
+        Topic::Order => &[[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]],
         _ => return shapes.concat(),
     };
     let in_order =
@@ -168,13 +168,13 @@ fn snapped(family: &Family, seed: u64, index: u64, step: i32, cell: i32) -> Opti
 }
 
 /// The subjects of a batch, and how they lie.
-pub(super) fn of(check: Check, device: Device, seed: u64, number: u64) -> (Layout, Vec<Subject>) {
+pub(super) fn of(check: Topic, device: Device, seed: u64, number: u64) -> (Layout, Vec<Drawing>) {
     let cell = cell_of(check, number);
     let layout = layout(check, cell);
     let room = layout.room().min(MOST);
     let step = device.step();
     let name = format!("your-gpu-{check:?}");
-    let one = |index: usize| -> Option<Subject> {
+    let one = |index: usize| -> Option<Drawing> {
         let index = number * MOST as u64 + index as u64;
         let mut rng = Rng::new(&name, seed, index);
         let mut on_lattice = |low_px: i32, high_px: i32| {
@@ -182,22 +182,22 @@ pub(super) fn of(check: Check, device: Device, seed: u64, number: u64) -> (Layou
             let mut v = || rng.int(i64::from(low_px) * per_px, i64::from(high_px) * per_px) as i32;
             SubpixelPoint::new(v() * step, v() * step)
         };
-        Some(Subject(match check {
-            Check::Lattice => vec![triangle(near_centres(&mut rng))],
-            Check::Coverage | Check::Twice => {
+        Some(Drawing(match check {
+            Topic::Lattice => vec![triangle(near_centres(&mut rng))],
+            Topic::Coverage | Topic::Twice => {
                 let (name, _) = FAMILIES[(number % FAMILIES.len() as u64) as usize];
                 let all = snapped(family(name)?, seed, index, step, cell)?;
                 all.into_iter().map(triangle).collect()
             }
-            Check::Reach => {
+            Topic::Reach => {
                 let far = |p: &mut dyn FnMut(i32, i32) -> SubpixelPoint| p(-REACH * cell, 8 * cell);
                 vec![triangle([on_lattice(0, cell), far(&mut on_lattice), far(&mut on_lattice)])]
             }
-            Check::Tiling => tiling(&mut rng, cell),
-            Check::Order | Check::Samples => {
+            Topic::Tiling => tiling(&mut rng, cell),
+            Topic::Order | Topic::Samples => {
                 // Every other one with corners on centres, where rules decide.
                 let family =
-                    family(["half-integer", "tiny"][usize::from(check == Check::Samples)])?;
+                    family(["half-integer", "tiny"][usize::from(check == Topic::Samples)])?;
                 match index % 2 {
                     0 => vec![triangle([(); 3].map(|()| on_lattice(0, cell)))],
                     _ => snapped(family, seed, index, step, cell)?
@@ -206,23 +206,23 @@ pub(super) fn of(check: Check, device: Device, seed: u64, number: u64) -> (Layou
                         .collect(),
                 }
             }
-            Check::Facing => vec![triangle([(); 3].map(|()| on_lattice(0, cell)))],
-            Check::Lines => vec![line(&mut rng, step, cell, index)?],
-            Check::Depth => crossing(&mut rng, step, cell),
-            Check::Values => {
+            Topic::Facing => vec![triangle([(); 3].map(|()| on_lattice(0, cell)))],
+            Topic::Lines => vec![line(&mut rng, step, cell, index)?],
+            Topic::Depth => crossing(&mut rng, step, cell),
+            Topic::Values => {
                 let family = family(IN_PERSPECTIVE[(index % 3) as usize])?;
                 let Shape::Triangles { list, .. } = family.case(seed, index).shape else {
                     return None;
                 };
                 vec![valued(list.first()?, step)]
             }
-            Check::NearPlane => vec![clip_space(&mut rng, index)],
+            Topic::NearPlane => vec![clip_space(&mut rng, index)],
         }))
     };
-    let mut list: Vec<Subject> = (0..2 * room).filter_map(one).take(room).collect();
+    let mut list: Vec<Drawing> = (0..2 * room).filter_map(one).take(room).collect();
     // What faces the other way is drawn too, and is culled.
-    if check == Check::Facing {
-        list.iter_mut().step_by(2).for_each(|Subject(shapes)| shapes[0].swap(1, 2));
+    if check == Topic::Facing {
+        list.iter_mut().step_by(2).for_each(|Drawing(shapes)| shapes[0].swap(1, 2));
     }
     (layout, list)
 }
@@ -325,7 +325,7 @@ pub(super) fn from_whole(corner: clipped::Whole) -> Vertex {
 }
 
 /// The whole numbers in clip space of such a triangle.
-pub(super) fn whole(Subject(shapes): &Subject) -> Option<[clipped::Whole; 3]> {
+pub(super) fn whole(Drawing(shapes): &Drawing) -> Option<[clipped::Whole; 3]> {
     let half = f64::from(clipped::CELL_PX) / 2.0;
     let unit = f64::from(clipped::UNIT);
     let corner = |v: &Vertex| {

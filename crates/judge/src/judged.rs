@@ -1,18 +1,21 @@
 //! What was found about a case, and what finding it needs: hits by pixel, and a mark that changes with
 //! what is wrong.
 
+use glam::DVec2;
+
 use super::ask::Misbehaviour;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::Span;
-use rasterproof_verify::comparison::Tally;
+use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_verify::comparison::{Finding, Tally};
 
+/// What was found about a case, and how far it was answered.
 #[derive(Clone, Debug, Default)]
-pub struct Finding {
+pub struct Judged {
+    /// Wrong pixels, of a mesh its holes and doubles; and errors of values as fractions of the tolerance.
+    pub finding: Finding,
     pub shapes: u64,
     pub pixels: u64,
-    /// Wrong pixels; of a mesh its holes and doubles.
-    pub tally: Tally,
     /// Wrong pixels by what was recognised.
     pub other: Tally,
     /// Pixels expected by what was recognised.
@@ -24,9 +27,7 @@ pub struct Finding {
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
     pub reason: String,
-    pub values: u64,
-    /// Largest error of a value as a fraction of the tolerance.
-    pub worst: f64,
+    /// Where the value is whose error is the largest.
     pub worst_at: Option<(i32, i32)>,
     pub answered: u64,
     /// What happened instead of answers, with the number of the question.
@@ -37,16 +38,16 @@ pub struct Finding {
     pub(super) mark: u64,
 }
 
-impl Finding {
+impl Judged {
     #[must_use]
     pub fn is_wrong(&self) -> bool {
-        self.tally.total() > 0 || self.refused > 0 || !self.died.is_empty() || self.worst > 1.0
+        self.finding.is_wrong() || self.refused > 0 || !self.died.is_empty()
     }
 
     /// A number that changes when what is wrong changes; not with the last bits of values.
     pub fn fingerprint(&self) -> u64 {
-        let Tally { missing, extra, twice, order } = self.tally;
-        let off = u64::from(self.worst > 1.0);
+        let Tally { missing, extra, twice, order } = self.finding.tally;
+        let off = u64::from(self.finding.worst() > 1.0);
         let mut mark = self.mark;
         [missing, extra, twice, order, off, self.refused].iter().for_each(|n| mix(&mut mark, *n));
         for (_, misbehaviour) in &self.died {
@@ -60,6 +61,19 @@ impl Finding {
             self.reason = reason.to_owned();
         }
         self.refused += 1;
+    }
+
+    /// Adds the errors of depth and both attributes at a pixel, each as a fraction of its tolerance.
+    pub(super) fn off(&mut self, fragment: &Fragment<DVec2>, errors: [f64; 3]) {
+        let before = self.finding.worst();
+        let [depth, a, b] = errors;
+        for (attribute, depth) in [(a, depth), (b, 0.0)] {
+            self.finding.compare(attribute, depth);
+        }
+        self.finding.values += 1;
+        if self.finding.worst() > before {
+            self.worst_at = Some((fragment.x_px, fragment.y_px));
+        }
     }
 }
 

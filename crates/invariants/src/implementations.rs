@@ -129,7 +129,7 @@ pub type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec
 /// Draws a scene with some effects into a target of a kind, and says what it cost.
 pub type RenderStage = fn(&Scene, &Effects, &mut Target) -> Counters;
 
-pub struct Subject {
+pub struct Implementations {
     /// Rasterizers: scanline, edge function and tiles, or a faulty one.
     pub engines: Vec<Engine>,
     /// Rasterizers of lists: the tile engine in every instruction set here, or a faulty one.
@@ -151,7 +151,7 @@ pub struct Subject {
     pub coverage_agrees: fn(&Coverage, &Coverage) -> bool,
 }
 
-/// A component of a [`Subject`]: what a check looks at, and where a fault sits.
+/// A component of a [`Implementations`]: what a check looks at, and where a fault sits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
     Engine,
@@ -170,7 +170,7 @@ pub enum Component {
     Matrix,
 }
 
-impl Subject {
+impl Implementations {
     pub fn real() -> Self {
         Self {
             engines: engines::Engine::CHOICES

@@ -1,0 +1,254 @@
+//! What every judge has in common, whoever is judged: which cases, the loop over them, a failing case, and what came of all.
+//!
+//! A judge says what it takes and finds by the parameters of these types: [`comparison`](crate::comparison) of rasterizers and line
+//! drawers, [`partition`](crate::partition) of tessellators, and the crate `judge` of programs.
+
+mod nothing;
+mod panics;
+
+use std::time::{Duration, Instant};
+
+pub use nothing::{NoSuchShard, NothingJudged};
+pub use panics::{EnginePanic, Watch, caught, is_judging};
+use rasterproof_core::parallel;
+
+/// A part of all cases: case i belongs to part i mod n of n.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    part: u64,
+    parts: u64,
+}
+
+impl Shard {
+    /// All cases.
+    pub const WHOLE: Self = Self { part: 0, parts: 1 };
+
+    /// Part number `part`, from 0, of so many.
+    ///
+    /// # Errors
+    /// There is no such part: `part` is not below `parts`.
+    ///
+    /// ```
+    /// use rasterproof_verify::comparison::Shard;
+    /// assert!(Shard::new(3, 4).is_ok());
+    /// assert!(Shard::new(4, 4).is_err() && Shard::new(0, 0).is_err());
+    /// ```
+    pub fn new(part: u64, parts: u64) -> Result<Self, NoSuchShard> {
+        if part < parts { Ok(Self { part, parts }) } else { Err(NoSuchShard { part, parts }) }
+    }
+
+    /// Which part it is, from 0.
+    #[must_use]
+    pub fn part(self) -> u64 {
+        self.part
+    }
+
+    /// Of how many parts.
+    #[must_use]
+    pub fn parts(self) -> u64 {
+        self.parts
+    }
+}
+
+/// What one kind of judge takes beside the cases: the terms by which it judges.
+pub trait Terms: Default {
+    /// Cases of each family unless others are asked for.
+    const CASES: u64;
+}
+
+/// What is judged: which cases, and by which terms.
+///
+/// ```
+/// use std::time::Duration;
+/// use rasterproof_verify::cases::FamilyName;
+/// use rasterproof_verify::comparison::{NoSuchShard, Options, Shard};
+/// let options = Options::default()
+///     .cases(5_000)
+///     .seed(7)
+///     .family(FamilyName::Sliver)
+///     .family(FamilyName::NearTie)
+///     .time_limit(Duration::from_secs(10))
+///     .shard(Shard::new(0, 4)?);
+/// # Ok::<(), NoSuchShard>(())
+/// ```
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Options<F, T> {
+    /// Decides every generated case.
+    pub seed: u64,
+    /// Cases of each family.
+    pub cases: u64,
+    /// Stop starting new cases after this long; the number of cases done is then what varies.
+    pub time_limit: Option<Duration>,
+    /// Families; empty means all.
+    pub families: Vec<F>,
+    /// The part of the cases.
+    pub shard: Shard,
+    /// Only the case of this number.
+    pub only: Option<u64>,
+    /// What is declared of who is judged, and what else this judge takes.
+    pub terms: T,
+}
+
+impl<F, T: Terms> Default for Options<F, T> {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            cases: T::CASES,
+            time_limit: None,
+            families: Vec::new(),
+            shard: Shard::WHOLE,
+            only: None,
+            terms: T::default(),
+        }
+    }
+}
+
+impl<F, T> Options<F, T> {
+    /// The same with this many cases of each family.
+    #[must_use]
+    pub fn cases(self, cases: u64) -> Self {
+        Self { cases, ..self }
+    }
+
+    /// The same with other generated cases.
+    #[must_use]
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// The same, but new cases are no longer started after this long.
+    #[must_use]
+    pub fn time_limit(self, limit: Duration) -> Self {
+        Self { time_limit: Some(limit), ..self }
+    }
+
+    /// The same with one more family; without any, all are judged.
+    #[must_use]
+    pub fn family(mut self, family: F) -> Self {
+        self.families.push(family);
+        self
+    }
+
+    /// The same with a part of the cases.
+    #[must_use]
+    pub fn shard(self, shard: Shard) -> Self {
+        Self { shard, ..self }
+    }
+
+    /// The same with the case of this number alone.
+    #[must_use]
+    pub fn only(self, number: u64) -> Self {
+        Self { only: Some(number), ..self }
+    }
+
+    /// The same by other terms.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn terms(self, terms: T) -> Self {
+        Self { terms, ..self }
+    }
+
+    /// Whether there is a case to judge in any family.
+    pub(crate) fn check(&self) -> Result<(), NothingJudged> {
+        let Shard { part, parts } = self.shard;
+        match self.only {
+            Some(index) if index % parts != part => Err(NothingJudged::EmptyShard(self.shard)),
+            Some(_) => Ok(()),
+            None if self.cases == 0 => Err(NothingJudged::NoCases),
+            None if part >= self.cases => Err(NothingJudged::EmptyShard(self.shard)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A failing case, shrunk.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Failure<C, E> {
+    /// The family of the case it was found in.
+    pub family: &'static str,
+    /// The number of that case.
+    pub index: u64,
+    /// The seed of the run.
+    pub seed: u64,
+    /// What is wrong with the smallest case.
+    pub what: String,
+    /// The smallest case found that still fails.
+    pub case: C,
+    /// What was drawn or answered in it, and what was expected.
+    pub evidence: E,
+}
+
+impl<C, E> Failure<C, E> {
+    /// The smallest case reached from case `index` of a family.
+    #[doc(hidden)]
+    pub fn new(
+        family: &'static str,
+        index: u64,
+        seed: u64,
+        what: String,
+        case: C,
+        evidence: E,
+    ) -> Self {
+        Self { family, index, seed, what, case, evidence }
+    }
+}
+
+/// What came of all cases.
+#[derive(Clone, Debug)]
+#[must_use = "a verdict may be that something is wrong: call `check`"]
+pub struct Verdict<O, R, F, W> {
+    /// The options it was run with.
+    pub options: O,
+    /// One for each family, in the order of the catalogue.
+    pub families: Vec<R>,
+    /// The smallest failing cases that were found, those to look at first in front.
+    pub failures: Vec<F>,
+    /// Why it is wrong, where it was looked for.
+    pub cause: Option<W>,
+}
+
+/// Cases that a thread judges in one go.
+const BLOCK: u64 = 64;
+/// Cases of a family judged before the next family's turn: bounds the list of blocks.
+const MOST_PER_ROUND: u64 = 1 << 20;
+
+/// Judges the cases of so many families, by number, within the limits and the shard of `options`; in blocks, on all threads. `block`
+/// judges some numbers of a family, and `merge` makes one of what two blocks found, the lower numbers first. `progress` hears how many
+/// were judged.
+pub(crate) fn in_blocks<P: Send, F: Sync, T: Sync>(
+    families: usize,
+    options: &Options<F, T>,
+    progress: &(dyn Fn(u64) + Sync),
+    block: &(dyn Fn(usize, &[u64]) -> P + Sync),
+    merge: fn(P, P) -> P,
+) -> Vec<P> {
+    let start = Instant::now();
+    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
+    let mut found: Vec<Option<P>> = (0..families).map(|_| None).collect();
+    // With a time limit, families advance together, a few blocks at a time.
+    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
+    let all = match options.only {
+        Some(index) => index..index.saturating_add(1),
+        None => 0..options.cases,
+    };
+    let Shard { part, parts } = options.shard;
+    let mut done = all.start;
+    while done < all.end && !(done > all.start && expired()) {
+        let end = all.end.min(done.saturating_add(round));
+        for (family, slot) in found.iter_mut().enumerate() {
+            let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
+                let first = done + number as u64 * BLOCK;
+                let numbers = first..end.min(first.saturating_add(BLOCK));
+                let numbers: Vec<u64> = numbers.filter(|index| index % parts == part).collect();
+                let judged = block(family, &numbers);
+                progress(numbers.len() as u64);
+                judged
+            });
+            *slot = slot.take().into_iter().chain(blocks).reduce(merge);
+        }
+        done = end;
+    }
+    found.into_iter().flatten().collect()
+}
