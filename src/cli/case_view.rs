@@ -123,7 +123,11 @@ pub fn facts(case: &Case) -> Vec<String> {
         let area = bx * cy - by * cx;
         let extent =
             |v: [i32; 3]| v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0));
-        let word = WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y)));
+        let word = match WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y))) {
+            WordWidth::I32 => "32 bits",
+            WordWidth::I64 => "64 bits",
+            WordWidth::I128 => "128 bits",
+        };
         let points = corners.map(|p| {
             let (x, y) = p.to_px();
             format!("({x}, {y})")
@@ -135,7 +139,7 @@ pub fn facts(case: &Case) -> Vec<String> {
         };
         let ties = samples_on_boundary(&corners, case.window) as u64;
         format!(
-            "triangle {}: {winding}, area {} px, edge functions in {word:?}, {} on its boundary",
+            "triangle {}: {winding}, area {} px, edge functions in {word}, {} on its boundary",
             points.join(" "),
             area as f64 / 131_072.0,
             count(ties, "sample", "samples")

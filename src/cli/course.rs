@@ -71,10 +71,10 @@ struct CheckArguments {
     hint: bool,
     /// Cases of each family
     #[arg(long, value_name = "N", default_value_t = 100,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     cases: u64,
     /// Decides every case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     #[command(flatten)]
     build: BuildLimits,

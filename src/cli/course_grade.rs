@@ -52,22 +52,22 @@ pub struct GradeArguments {
     format: Format,
     /// Cases of each family
     #[arg(long, value_name = "N", default_value_t = 100,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     cases: u64,
     /// Decides every case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Seconds for a submission in all; what is not asked by then is not passed
     #[arg(long, value_name = "S", default_value_t = 120,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     seconds: u64,
     /// Seconds for each answer
     #[arg(long, value_name = "S", default_value_t = 2,
-        value_parser = clap::value_parser!(u64).range(1..=1000))]
+        value_parser = super::whole::<u64>(1..=1000))]
     timeout: u64,
     /// MiB of addresses that a process may map; 0 sets no bound
     #[arg(long, value_name = "MIB", default_value_t = 2048,
-        value_parser = clap::value_parser!(u64).range(0..=1 << 30))]
+        value_parser = super::whole::<u64>(0..=1 << 30))]
     memory: u64,
     #[command(flatten)]
     build: BuildLimits,
@@ -89,11 +89,11 @@ pub struct GradeArguments {
 pub struct BuildLimits {
     /// Seconds for a build
     #[arg(long, value_name = "S", default_value_t = limits::BUILD_SECONDS,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     build_seconds: u64,
     /// MiB that a build may write to standard error
     #[arg(long, value_name = "MIB", default_value_t = limits::BUILD_OUTPUT_MIB,
-        value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+        value_parser = super::whole::<u64>(1..=1 << 20))]
     build_output: u64,
 }
 
@@ -429,7 +429,11 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
                 let report = verdict::report(step, &outcome, "the program");
                 let (step, passed) = (step.name.clone(), outcome.passes());
                 grade.points += usize::from(passed);
-                grade.steps.push(Judged { step, passed, output: text::text(&report, true, false) });
+                grade.steps.push(Judged {
+                    step,
+                    passed,
+                    output: text::text(&report, true, false, text::WIDTH),
+                });
             }
         }
     }

@@ -11,10 +11,10 @@ use rasterproof_report::table::Table;
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
     /// Decides every generated case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Cases of each family, and random scenes
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::whole::<u64>(1..=1_000_000))]
     cases: u64,
     /// One engine only
     #[arg(long, value_name = "NAME", value_parser = clap::builder::PossibleValuesParser::new(digest::engines()))]

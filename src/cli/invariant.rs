@@ -7,7 +7,7 @@ use rasterproof_faults::planted::{self, Mutant};
 use rasterproof_invariants::implementations::Implementations;
 use rasterproof_invariants::matrix::{self, Matrix};
 use rasterproof_invariants::{CATALOGUE, Invariant, MOST_LOOKED_THROUGH, Predicate, Ruling};
-use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::words::thousands;
 
@@ -182,10 +182,10 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     if !arguments.table {
         notes.push("which invariant kills which: add --table".to_owned());
     }
-    if arguments.table || !problems.is_empty() {
-        write!(streams.output, "{}", matrix.text())?;
-    }
+    let is_whole = arguments.table || !problems.is_empty();
+    let grid = if is_whole { matrix.text() } else { String::new() };
     let report = Report {
+        excerpts: is_whole.then(|| Excerpt { grid, ..Excerpt::default() }).into_iter().collect(),
         about: "planted faults, and the invariants that they break".to_owned(),
         outcome: Some(Outcome::of(problems.is_empty(), answer)),
         tables: vec![faults],

@@ -27,7 +27,7 @@ pub struct QuizArguments {
     list: bool,
     /// Print this many questions as a paper instead of asking; --seed chooses them
     #[arg(long, value_name = "N", conflicts_with_all = ["list", "answers"],
-        value_parser = clap::value_parser!(u16).range(1..=1000))]
+        value_parser = super::whole::<u16>(1..=1000))]
     paper: Option<u16>,
     /// Print the key of the paper: the answers and why
     #[arg(long, requires = "paper")]
@@ -190,7 +190,7 @@ impl Quiz<'_> {
         let question = exercise.question_with_form(self.language, &solution);
         let grid = choices(exercise, self.language).join("\n");
         let asked = Excerpt { title: format!("{head}\n{question}"), grid, ..Excerpt::default() };
-        self.output.write_all(text::excerpt(&asked).as_bytes())?;
+        self.output.write_all(text::excerpt(&asked, text::WIDTH).as_bytes())?;
         let given = loop {
             if self.is_watched {
                 write!(self.output, "> ")?;
@@ -233,7 +233,7 @@ impl Quiz<'_> {
         let (grid, notes) = (grids(&solution), legend(&solution, self.language));
         let notes = notes.map(str::to_owned).into_iter().collect();
         let answered = Excerpt { title, grid, notes, ..Excerpt::default() };
-        self.output.write_all(text::excerpt(&answered).as_bytes())?;
+        self.output.write_all(text::excerpt(&answered, text::WIDTH).as_bytes())?;
         Ok(Some(is_right))
     }
 }

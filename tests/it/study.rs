@@ -246,8 +246,8 @@ fn a_folder_without_a_page_is_refused() {
 /// A floor and, a ten-millionth above it, another one: coarse depths show the wrong one, and values that ignore w are wrong.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
-fn rungs_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
-    let folder = Folder::new("study-wrong-rungs");
+fn choices_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
+    let folder = Folder::new("study-wrong-choices");
     let floor = |y: &str| format!("v -10 {y} -10\nv 10 {y} -10\nv 10 {y} 10\nv -10 {y} 10\n");
     let uv = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
     let faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/1 6/2 7/3\nf 5/1 7/3 8/4\n";

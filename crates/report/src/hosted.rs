@@ -145,7 +145,7 @@ impl Job {
         if host.declared.partition {
             let report = polygons::judge(&mut host, &self.options)?;
             let said = judge_text::of_polygons(&host.declared, &report, &all, &one);
-            let text = text::text(&said, false, false);
+            let text = text::text(&said, false, false, text::WIDTH);
             return Ok((report.sum().wrong == 0, text));
         }
         let scope = Scope::of(&self.options);
@@ -154,7 +154,8 @@ impl Job {
         if let Some(why) = verdict.judged_nothing(&self.options) {
             return Err(why);
         }
-        let text = text::text(&judge_text::report(&verdict, &all, &one, false), false, false);
+        let text =
+            text::text(&judge_text::report(&verdict, &all, &one, false), false, false, text::WIDTH);
         Ok((verdict.agrees(), text.replace("--declare '", &format!("declare{}'", self.is()))))
     }
 }

@@ -362,6 +362,12 @@ fn about(report: &Report) -> String {
     format!("{ABOUT}{}\">\n", escape(&said))
 }
 
+/// Whether a page is an index that [`index`] made.
+#[must_use]
+pub fn is_index(page: &str) -> bool {
+    page.contains("<title>Pages of rasterproof</title>")
+}
+
 /// The index of the pages in a folder, each given by its file name and its text; nothing is said of
 /// what is no page of this program.
 pub fn index(pages: &[(String, String)]) -> String {

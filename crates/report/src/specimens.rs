@@ -40,7 +40,7 @@ fn of_specimens(reports: &[&SpecimenReport]) -> Table {
         Row { search: Some(r.name.to_owned()), ..cells.into() }
     };
     let mut columns = counted("specimen 16");
-    columns.extend(table::columns("worst family 12 | from, and its fault | :cure | :shown by"));
+    columns.extend(table::columns(":worst family | from, and its fault | :cure | :shown by"));
     Table {
         caption: "Published algorithms and how often each is wrong, worst first".to_owned(),
         columns,

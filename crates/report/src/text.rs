@@ -10,12 +10,14 @@ use super::words::mark;
 /// Columns of a terminal that a first screen has.
 const SCREEN: usize = 80;
 
-/// Columns of everything else.
+/// Columns of everything else, where a terminal has so many.
 pub const WIDTH: usize = 100;
 
-/// What it is about, the answers, below them the first screen or all of it, how to repeat it, and the verdict in a word.
+/// What it is about, the answers, below them the first screen or all of it, how to repeat it, and the verdict in a word, in
+/// lines of at most so many columns.
 #[must_use]
-pub fn text(report: &Report, all: bool, colour: bool) -> String {
+pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String {
+    let (screen, columns) = (columns.min(SCREEN), columns.min(WIDTH));
     let verdict = report.outcome.as_ref().filter(|outcome| outcome.is_verdict());
     let mut out = match verdict {
         Some(outcome) => format!("{} ", mark(outcome.good, colour)),
@@ -25,26 +27,26 @@ pub fn text(report: &Report, all: bool, colour: bool) -> String {
     for (number, part) in report.about.lines().enumerate() {
         match answer {
             answer if number == 0 && !answer.is_empty() => {
-                lines(&mut out, &format!("{part}: {answer}"), WIDTH, ["", "  "]);
+                lines(&mut out, &format!("{part}: {answer}"), columns, ["", "  "]);
             }
-            _ => lines(&mut out, part, WIDTH, ["", "  "]),
+            _ => lines(&mut out, part, columns, ["", "  "]),
         }
     }
     if !report.answers.is_empty() {
-        out += &format!("\n{}", answers(&report.answers));
+        out += &format!("\n{}", answers(&report.answers, screen));
     }
     if !out.is_empty() {
         out.push('\n');
     }
-    out.extend(report.excerpts.iter().map(excerpt));
+    out.extend(report.excerpts.iter().map(|one| excerpt(one, columns)));
     let all = all || report.first_screen.is_empty();
     out += &match all {
-        true => tables(report.plan.iter().chain(&report.tables), WIDTH, colour),
-        false => tables(&report.first_screen, SCREEN, colour),
+        true => tables(report.plan.iter().chain(&report.tables), columns, colour),
+        false => tables(&report.first_screen, screen, colour),
     };
     if all {
         for words in &report.notes {
-            note(&mut out, words, WIDTH, ["", "  "]);
+            note(&mut out, words, columns, ["", "  "]);
         }
     }
     let repeat = if report.repeat.is_empty() { &report.command } else { &report.repeat };
@@ -52,17 +54,17 @@ pub fn text(report: &Report, all: bool, colour: bool) -> String {
         let _ = writeln!(out, "repeat with: {repeat}");
     }
     if let Some(Outcome { word, sentence, .. }) = &report.outcome {
-        lines(&mut out, &format!("{word}: {sentence}"), WIDTH, ["", "  "]);
+        lines(&mut out, &format!("{word}: {sentence}"), columns, ["", "  "]);
     }
     out.truncate(out.trim_end().len());
     out + "\n"
 }
 
 /// Answers, and below each the command that says more.
-fn answers(answers: &[Answer]) -> String {
+fn answers(answers: &[Answer], columns: usize) -> String {
     let mut out = String::new();
     for Answer { about, sentence, command } in answers {
-        lines(&mut out, sentence, SCREEN, [&format!("{about:<12}"), &" ".repeat(12)]);
+        lines(&mut out, sentence, columns, [&format!("{about:<12}"), &" ".repeat(12)]);
         if !command.is_empty() {
             let _ = writeln!(out, "{:<12}$ {command}", "");
         }
@@ -72,9 +74,9 @@ fn answers(answers: &[Answer]) -> String {
 
 /// A case with its pixels, what is said of it, and where to go on.
 #[must_use]
-pub fn excerpt(of: &Excerpt) -> String {
+pub fn excerpt(of: &Excerpt, columns: usize) -> String {
     let out = &mut String::new();
-    of.title.lines().for_each(|line| lines(out, line, WIDTH, ["", "  "]));
+    of.title.lines().for_each(|line| lines(out, line, columns, ["", "  "]));
     labelled(out, &of.exchanges);
     if !of.grid.is_empty() {
         let gap = if out.is_empty() || !of.exchanges.is_empty() { "" } else { "\n" };
@@ -82,7 +84,7 @@ pub fn excerpt(of: &Excerpt) -> String {
     }
     for words in &of.notes {
         out.push('\n');
-        note(out, words, WIDTH, ["", "  "]);
+        note(out, words, columns, ["", "  "]);
     }
     labelled(out, &of.places);
     std::mem::take(out) + "\n"
