@@ -5,6 +5,7 @@ use std::process::ExitCode;
 #[cfg(unix)]
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use rasterproof::cli::wrap::USUAL;
 use rasterproof::cli::{self, Delivery, Streams};
 use rasterproof_judge::process_group::end_strays;
 use terminal_size::{Height, Width, terminal_size_of};
@@ -62,8 +63,9 @@ fn main() -> ExitCode {
         progress: io::stderr().is_terminal(),
         // See no-color.org.
         colour: io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
-        columns: columns(terminal_size_of(io::stdout())).unwrap_or(cli::wrap::USUAL),
-        error_columns: columns(terminal_size_of(io::stderr())),
+        columns: columns(terminal_size_of(io::stdout())).unwrap_or(USUAL).min(USUAL),
+        error_columns: columns(terminal_size_of(io::stderr()))
+            .map_or(usize::MAX, |all| all.min(USUAL)),
         delivery: Delivery::default(),
     };
     let status = cli::run(std::env::args_os(), &mut streams);

@@ -9,8 +9,9 @@ use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_core::triangle::PixelPoint;
 use rasterproof_registry::comparison::{Hits, Judged};
 use rasterproof_registry::engines::Entry;
+use rasterproof_report::words::count;
 use rasterproof_report::{ascii, drawn, panels};
-use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::{Tally, oracle_hits, shrink};
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 
@@ -109,62 +110,59 @@ impl Shown {
     }
 }
 
-pub fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
+/// What is known of a case, a line each.
+pub fn facts(case: &Case) -> Vec<String> {
+    const MOST: usize = 8;
+    let of_triangle = |triangle: &Triangle| {
+        let corners = triangle.corners();
+        let [a, b, c] = corners;
+        let d = |p: SubpixelPoint| {
+            (i128::from(p.x) - i128::from(a.x), i128::from(p.y) - i128::from(a.y))
+        };
+        let ((bx, by), (cx, cy)) = (d(b), d(c));
+        let area = bx * cy - by * cx;
+        let extent =
+            |v: [i32; 3]| v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0));
+        let word = match WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y))) {
+            WordWidth::I32 => "32 bits",
+            WordWidth::I64 => "64 bits",
+            WordWidth::I128 => "128 bits",
+        };
+        let points = corners.map(|p| {
+            let (x, y) = p.to_px();
+            format!("({x}, {y})")
+        });
+        let winding = match area.signum() {
+            1 => "clockwise",
+            -1 => "counter-clockwise",
+            _ => "degenerate",
+        };
+        let ties = samples_on_boundary(&corners, case.window) as u64;
+        format!(
+            "triangle {}: {winding}, area {} px, edge functions in {word}, {} on its boundary",
+            points.join(" "),
+            area as f64 / 131_072.0,
+            count(ties, "sample", "samples")
+        )
+    };
     match &case.shape {
         Shape::Triangles { list, .. } => {
-            for triangle in list.iter().take(8) {
-                let corners = triangle.corners();
-                let [a, b, c] = corners;
-                let d = |p: SubpixelPoint| {
-                    (i128::from(p.x) - i128::from(a.x), i128::from(p.y) - i128::from(a.y))
-                };
-                let ((bx, by), (cx, cy)) = (d(b), d(c));
-                let area = bx * cy - by * cx;
-                let extent = |v: [i32; 3]| {
-                    v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0))
-                };
-                let word =
-                    WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y)));
-                let points = corners
-                    .map(|p| {
-                        let (x, y) = p.to_px();
-                        format!("({x}, {y})")
-                    })
-                    .join(" ");
-                let winding = match area.signum() {
-                    1 => "clockwise",
-                    -1 => "counter-clockwise",
-                    _ => "degenerate",
-                };
-                let ties = samples_on_boundary(&corners, case.window);
-                writeln!(
-                    out,
-                    "triangle {points}\n  {winding}, area {} px, edge functions in {word:?}, {ties} sample{} on its boundary",
-                    area as f64 / 131_072.0,
-                    if ties == 1 { "" } else { "s" }
-                )?;
-            }
-            if list.len() > 8 {
-                writeln!(out, "and {} more triangles", list.len() - 8)?;
-            }
+            let more = list.len().saturating_sub(MOST);
+            let more = (more > 0).then(|| format!("and {more} more triangles"));
+            list.iter().take(MOST).map(of_triangle).chain(more).collect()
         }
         Shape::Lines(lines) => {
-            for line in lines {
+            let of_line = |line: &Line| {
                 let [a, b] = line.ends.map(|end| end.pixel);
                 let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
-                writeln!(
-                    out,
-                    "line ({}, {}) to ({}, {}): {} steps along {}",
-                    a.x,
-                    a.y,
-                    b.x,
-                    b.y,
-                    dx.max(dy),
-                    if dx >= dy { "x" } else { "y" }
-                )?;
-            }
+                let (steps, along) = (dx.max(dy), if dx >= dy { "x" } else { "y" });
+                format!(
+                    "line ({}, {}) to ({}, {}): {steps} steps along {along}",
+                    a.x, a.y, b.x, b.y
+                )
+            };
+            lines.iter().map(of_line).collect()
         }
-        Shape::Unsnapped { .. } => writeln!(out, "triangles {}", shrink::describe(case))?,
+        Shape::Unsnapped { .. } => vec![format!("triangles {}", shrink::describe(case))],
     }
-    Ok(())
 }

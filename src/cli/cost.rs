@@ -63,7 +63,7 @@ pub struct CostArguments {
     #[command(flatten)]
     once: study::OnceArgument,
     /// Decides every scene
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Put this Vulkan device beside the edge functions; may be repeated: vulkan:0
     #[cfg(feature = "vulkan")]
@@ -79,19 +79,12 @@ pub struct CostArguments {
     view: ViewArguments,
     #[command(flatten)]
     page: PageArguments,
-    /// Where the plots go, as SVG and PNG [default: the folder of --out]
-    #[arg(short, long, value_name = "FOLDER")]
-    output: Option<PathBuf>,
 }
 
 impl CostArguments {
-    fn folder(&self) -> &Path {
-        self.output.as_deref().unwrap_or(&self.page.place.out)
-    }
-
+    /// Plots go into the folder of pages, as SVG and PNG.
     fn plot_files(&self, name: &str) -> [Output; 2] {
-        let named = |ending| format!("{name}.{ending}");
-        ["svg", "png"].map(|ending| self.page.place.output_in(self.folder(), named(ending)))
+        ["svg", "png"].map(|ending| self.page.place.output(format!("{name}.{ending}")))
     }
 
     /// Refuses names of plots and pages that are the file of --from or each other's.
@@ -100,7 +93,7 @@ impl CostArguments {
         let names = ladders.iter().map(|&ladder| plot_name(ladder)).chain([PRICE.to_owned()]);
         let plots: Vec<_> = names.flat_map(|name| self.plot_files(&name)).collect();
         let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
-        let plots = plots.iter().map(|output| written("a plot in --output", output));
+        let plots = plots.iter().map(|output| written("a plot in --out", output));
         files::check(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
     }
 
@@ -122,8 +115,7 @@ impl CostArguments {
 pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let ladders = match &arguments.what {
         Some(Scenes::Model(path)) => {
-            if let Some(option) =
-                typed.given(&["from", "seed", "engine", "output", "report", "out", "force"])
+            if let Some(option) = typed.given(&["from", "seed", "engine", "report", "out", "force"])
             {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
             }
@@ -150,7 +142,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
     report.command = typed.line();
     let written = write_plots(&plots, arguments, streams).join(", ");
     if !written.is_empty() {
-        let folder = printable_path(arguments.folder());
+        let folder = printable_path(&arguments.page.place.out);
         report.notes.push(format!("drawn in {folder}, as SVG and PNG: {written}"));
     }
     let page = arguments.page.page("cost.html");

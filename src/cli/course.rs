@@ -7,7 +7,7 @@ use image::RgbImage;
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
-use super::page::{Place, Shown, save_page, show};
+use super::page::{Place, Shown, show};
 use super::progress::Progress as Bar;
 use super::render::NOTHING_DRAWN;
 use super::view::{Purpose, ViewArguments};
@@ -26,7 +26,7 @@ use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group;
 use rasterproof_teaching::course::examine::{self, Amount};
 use rasterproof_teaching::course::progress::{self, Progress};
-use rasterproof_teaching::course::verdict::{self, indented};
+use rasterproof_teaching::course::verdict;
 use rasterproof_teaching::course::{self, STEPS, Step, sandbox, show};
 
 #[derive(clap::Args, Debug)]
@@ -71,10 +71,10 @@ struct CheckArguments {
     hint: bool,
     /// Cases of each family
     #[arg(long, value_name = "N", default_value_t = 100,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     cases: u64,
     /// Decides every case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     #[command(flatten)]
     build: BuildLimits,
@@ -137,11 +137,11 @@ fn list(streams: &mut Streams<'_>) -> Status {
             step.name.clone(),
             format!("{} ({})", step.title, step.page),
             step.judged.clone(),
-            format!("families: {}", families.join(", ")),
+            families.join(", "),
         ]
         .into()
     };
-    let columns = "~state 1 | >~number 2 | ~step 14 | ~page 1 | what is judged | families";
+    let columns = "~state 1 | >~number 2 | ~step 14 | ~page 1 | what is judged | :families";
     let (next, marks) = match &progress {
         Some(_) => ("check", " (+ passed, > current)"),
         None => ("start --language python mine", ""),
@@ -165,20 +165,23 @@ fn start(language: Language, solution: bool, folder: &Path, streams: &mut Stream
     let files = starters::files(language, solution);
     let files = files.iter().map(|file| (file.name, file.text.clone()));
     let others = [("steps.md", starters::steps_page()), (progress::FILE, progress.text())];
+    let mut notes = Vec::new();
     for (name, text) in files.chain(others) {
         let path = folder.join(name);
-        if path.symlink_metadata().is_ok() {
-            writeln!(streams.output, "kept:    {}", printable_path(&path))?;
-        } else {
+        let is_there = path.symlink_metadata().is_ok();
+        if !is_there {
             write_file(&Output::typed(&path), text.as_bytes())?;
-            writeln!(streams.output, "written: {}", printable_path(&path))?;
         }
+        let what = if is_there { "kept" } else { "written" };
+        notes.push(format!("{what}: {}", printable_path(&path)));
     }
     let step = &STEPS[0];
-    writeln!(streams.output, "step 1, {}: {}", step.title, step.judged)?;
     let dir =
         if folder == Path::new(".") { String::new() } else { format!(" --dir {}", quote(folder)) };
-    writeln!(streams.output, "read steps.md, write it, then: rasterproof course check{dir}")?;
+    notes.push(format!("step 1, {}: {}", step.title, step.judged));
+    notes.push("read steps.md, write the step in the starter, then have it judged by".to_owned());
+    notes.push(format!("rasterproof course check{dir}"));
+    show(Report { notes, ..Report::default() }, Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -285,7 +288,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         };
         let about = format!("{} of {of} pixels differ{refused}", picture.differing);
         let name = format!("{label}: {}", picture.title);
-        writeln!(streams.output, "{name}: {about}")?;
+        report.notes.push(format!("{name}: {about}"));
         let layers = vec![
             PictureLayer::new("yours", &picture.yours),
             PictureLayer::new("right", &picture.right),
@@ -303,20 +306,17 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         true => Outcome::not_compared(NOTHING_DRAWN),
         false => Outcome::of(differing == 0, sentence),
     });
-    if is_blank && differing == 0 {
-        writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
-    }
-    if let Some(last) = examine::complaint(&program) {
-        writeln!(streams.output, "its standard error ends: {last}")?;
-    }
+    report.notes.extend(complaint(&program));
     let sheets: Vec<_> = pictures.iter().map(|(_, picture)| picture.sheet()).collect();
     if streams.save(&sheet, &picture::png(&picture::stack(&sheets))) {
-        writeln!(streams.output, "picture: {}", printable_path(&sheet.path))?;
+        report.notes.push(format!("drawn in {}", printable_path(&sheet.path)));
     }
-    if save_page(&page, report, streams) {
-        writeln!(streams.output, "page:    {}", printable_path(&page.path))?;
-    }
+    show(report, Shown::All, Some(page), streams)?;
     Ok(if differing == 0 { exit::AGREES } else { exit::DISAGREES })
+}
+
+fn complaint(program: &Program) -> Option<String> {
+    examine::complaint(program).map(|last| format!("its standard error ends: {last}"))
 }
 
 /// Whether a picture has one colour everywhere.
@@ -344,31 +344,28 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     drop(shown);
     let before = progress.failures.min(3) * usize::from(progress.step == step.name);
     progress.note(step, outcome.passes());
-    let command = shell::line(&progress.run);
-    let text = verdict::text(step, &outcome, &command);
-    streams.output.write_all(text.as_bytes())?;
+    let mut report = verdict::report(step, &outcome, &shell::line(&progress.run));
     // It was read, and is written anew.
     let noted = Output { path: progress::path(&arguments.dir), over: Over::Updated };
     streams.save(&noted, progress.text().as_bytes());
     if outcome.passes() {
         let next = match STEPS.iter().all(|step| progress.has_passed(step)) {
-            true => "all twelve steps are passed; next: rasterproof judge -- CMD\n".to_owned(),
+            true => "all twelve steps are passed; next: rasterproof judge -- CMD".to_owned(),
             false => {
                 let next = progress.current();
                 let (number, title) = (course::number(next), &next.title);
                 format!("next: step {number}, {title} ({}): {}", next.page, next.judged)
             }
         };
-        streams.output.write_all(indented(&next, 0).as_bytes())?;
-        return Ok(exit::AGREES);
+        report.notes.push(next);
+    } else {
+        report.notes.extend(complaint(&program));
+        let hints = (before + 1 + usize::from(arguments.hint)).min(3);
+        let hints = step.hints.iter().take(hints).zip(1..);
+        report.notes.extend(hints.map(|(hint, number)| format!("hint {number}: {hint}")));
+        let number = course::number(step);
+        report.notes.push(format!("page: steps.md, step {number} ({})", step.page));
     }
-    if let Some(last) = examine::complaint(&program) {
-        writeln!(streams.output, "its standard error ends: {last}")?;
-    }
-    let hints = (before + 1 + usize::from(arguments.hint)).min(3);
-    for (hint, number) in step.hints.iter().take(hints).zip(1..) {
-        streams.output.write_all(indented(&format!("hint {number}: {hint}"), 0).as_bytes())?;
-    }
-    writeln!(streams.output, "page: steps.md, step {} ({})", course::number(step), step.page)?;
-    Ok(exit::DISAGREES)
+    show(report, Shown::All, None, streams)?;
+    Ok(if outcome.passes() { exit::AGREES } else { exit::DISAGREES })
 }

@@ -12,7 +12,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use rasterproof_host::limits;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::progress::Progress as Shown;
 use super::{Failure, Status, Streams, exit, usage};
@@ -21,10 +22,12 @@ use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group::{self, Group};
 use rasterproof_judge::text::printable;
 use rasterproof_report::json::pretty;
+use rasterproof_report::table::Table;
+use rasterproof_report::{formats, text};
 use rasterproof_teaching::course::examine::{self, Amount};
 use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::sandbox::{self, Bounds};
-use rasterproof_teaching::course::{self, STEPS, verdict};
+use rasterproof_teaching::course::{STEPS, verdict};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
@@ -49,22 +52,22 @@ pub struct GradeArguments {
     format: Format,
     /// Cases of each family
     #[arg(long, value_name = "N", default_value_t = 100,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     cases: u64,
     /// Decides every case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Seconds for a submission in all; what is not asked by then is not passed
     #[arg(long, value_name = "S", default_value_t = 120,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     seconds: u64,
     /// Seconds for each answer
     #[arg(long, value_name = "S", default_value_t = 2,
-        value_parser = clap::value_parser!(u64).range(1..=1000))]
+        value_parser = super::whole::<u64>(1..=1000))]
     timeout: u64,
     /// MiB of addresses that a process may map; 0 sets no bound
     #[arg(long, value_name = "MIB", default_value_t = 2048,
-        value_parser = clap::value_parser!(u64).range(0..=1 << 30))]
+        value_parser = super::whole::<u64>(0..=1 << 30))]
     memory: u64,
     #[command(flatten)]
     build: BuildLimits,
@@ -86,11 +89,11 @@ pub struct GradeArguments {
 pub struct BuildLimits {
     /// Seconds for a build
     #[arg(long, value_name = "S", default_value_t = limits::BUILD_SECONDS,
-        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+        value_parser = super::whole::<u64>(1..=100_000))]
     build_seconds: u64,
     /// MiB that a build may write to standard error
     #[arg(long, value_name = "MIB", default_value_t = limits::BUILD_OUTPUT_MIB,
-        value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+        value_parser = super::whole::<u64>(1..=1 << 20))]
     build_output: u64,
 }
 
@@ -114,22 +117,49 @@ struct Submission {
     run: Vec<OsString>,
 }
 
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 struct Grade {
     name: String,
-    /// For each step whether it is passed, and what came of it as text.
-    steps: Vec<(bool, String)>,
+    points: usize,
+    /// As many as there are.
+    of: usize,
     error: Option<String>,
     seconds: f64,
+    steps: Vec<Judged>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Judged {
+    step: String,
+    passed: bool,
+    /// What came of it, as text.
+    output: String,
 }
 
 impl Grade {
-    fn points(&self) -> usize {
-        self.steps.iter().filter(|(passed, _)| *passed).count()
+    fn failed(name: String, error: String) -> Self {
+        Self { name, of: STEPS.len(), error: Some(error), ..Self::default() }
     }
 
     fn has_passed(&self, at: usize) -> bool {
-        self.steps.get(at).is_some_and(|(passed, _)| *passed)
+        self.steps.get(at).is_some_and(|step| step.passed)
+    }
+}
+
+/// Everything that was found.
+#[derive(Serialize, Deserialize)]
+struct Grades {
+    version: String,
+    seed: u64,
+    cases: u64,
+    submissions: Vec<Grade>,
+}
+
+impl Grades {
+    fn new(submissions: Vec<Grade>, arguments: &GradeArguments) -> Self {
+        let GradeArguments { seed, cases, .. } = *arguments;
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        Self { version, seed, cases, submissions }
     }
 }
 
@@ -153,26 +183,24 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         return judge_row(row, submissions, arguments, streams);
     }
     process_group::end_groups_on_ctrl_c();
-    let names = submissions.iter().map(|found| match found {
-        Ok(Submission { name, .. }) | Err((name, _)) => name,
-    });
-    let wide = names.map(|name| name.chars().count()).max().unwrap_or(0).clamp(10, 40);
     let is_table = arguments.format == Format::Text && arguments.folder.is_some();
     if is_table {
-        let numbers: String = (1..=STEPS.len()).map(|n| format!("{n:>4}")).collect();
-        writeln!(streams.output, "{:<wide$}{numbers}  points", "submission")?;
+        let heads = row("submission", |at| (at + 1).to_string(), "points");
+        streams.output.write_all(heads.as_bytes())?;
     }
     let mut grades = Vec::new();
     let shown = Shown::new(streams.progress, "submissions", Some(submissions.len() as u64));
     for submission in submissions {
         let grade = match submission {
             Ok(submission) => graded_apart(&submission, arguments),
-            Err((name, error)) => Grade { name, error: Some(error), ..Grade::default() },
+            Err((name, error)) => Grade::failed(name, error),
         };
         if is_table {
             // Rows that were judged stay, whatever happens to the rest.
+            let mark = |at| if grade.has_passed(at) { "+" } else { "-" }.to_owned();
+            let text = row(&grade.name, mark, &grade.points.to_string());
             shown.without_bar(|| {
-                streams.output.write_all(row(&grade, wide).as_bytes())?;
+                streams.output.write_all(text.as_bytes())?;
                 streams.output.flush()
             })?;
         }
@@ -180,17 +208,19 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         shown.done(1);
     }
     drop(shown);
+    let unjudged = grades.iter().all(|grade| grade.error.is_some());
+    let all = grades.iter().all(|grade| grade.points == STEPS.len());
     let text = match arguments.format {
-        Format::Text => text(&grades, arguments.folder.is_some().then_some(wide)),
-        Format::Json => pretty(&everything(&grades, arguments)),
+        Format::Text => text(&grades, is_table),
         Format::Gradescope => pretty(&gradescope(&grades[0])),
+        Format::Json => pretty(&Grades::new(grades, arguments)),
     };
     streams.output.write_all(text.as_bytes())?;
-    if grades.iter().all(|grade| grade.error.is_some()) {
-        return Ok(exit::USAGE);
-    }
-    let all = grades.iter().all(|grade| grade.points() == STEPS.len());
-    Ok(if all { exit::AGREES } else { exit::DISAGREES })
+    Ok(match (unjudged, all) {
+        (true, _) => exit::USAGE,
+        (_, true) => exit::AGREES,
+        (_, false) => exit::DISAGREES,
+    })
 }
 
 type Found = Result<Submission, (String, String)>;
@@ -249,12 +279,8 @@ fn graded_apart(submission: &Submission, arguments: &GradeArguments) -> Grade {
         // Where the judge was killed, its program lives on.
         process_group::end_marked(&format!("{MARK}={mark}"));
     }
-    found.unwrap_or_else(|error| Grade {
-        name: submission.name.clone(),
-        error: Some(error),
-        seconds: start.elapsed().as_secs_f64(),
-        ..Grade::default()
-    })
+    let seconds = start.elapsed().as_secs_f64();
+    found.unwrap_or_else(|error| Grade { seconds, ..Grade::failed(submission.name.clone(), error) })
 }
 
 /// The variable by which the processes of a submission are found.
@@ -298,20 +324,11 @@ fn apart(submission: &Submission, arguments: &GradeArguments, mark: &str) -> Res
         ErrorKind::Other => error.to_string(),
         _ => refused(error),
     })?;
-    let found: Option<Grade> = serde_json::from_slice(&text).ok().and_then(|all: Value| {
-        let grade = all["submissions"].get(0)?;
-        let steps = grade["steps"]
-            .as_array()?
-            .iter()
-            .map(|step| Some((step["passed"].as_bool()?, step["output"].as_str()?.to_owned())));
-        Some(Grade {
-            name: submission.name.clone(),
-            steps: steps.collect::<Option<_>>()?,
-            error: grade["error"].as_str().map(str::to_owned),
-            seconds: grade["seconds"].as_f64()?,
-        })
-    });
-    found.ok_or_else(|| "its judge says nothing".to_owned())
+    let grade = serde_json::from_slice(&text).ok();
+    let grade = grade.and_then(|Grades { mut submissions, .. }| submissions.pop());
+    grade
+        .map(|grade| Grade { name: submission.name.clone(), ..grade })
+        .ok_or_else(|| "its judge says nothing".to_owned())
 }
 
 /// What a judge writes to standard output until it ends, at the latest then.
@@ -381,8 +398,8 @@ fn judge_row(
     let submission = submissions.into_iter().flatten().find(|one| one.id == row);
     let submission = submission.ok_or_else(|| usage("the submission is gone"))?;
     let grade = grade(&submission, arguments);
-    let agrees = grade.points() == STEPS.len();
-    streams.output.write_all(pretty(&everything(&[grade], arguments)).as_bytes())?;
+    let agrees = grade.points == STEPS.len();
+    streams.output.write_all(pretty(&Grades::new(vec![grade], arguments)).as_bytes())?;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -396,7 +413,8 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
         build: bounds.build.min(seconds),
         ..bounds
     };
-    let mut grade = Grade { name: submission.name.clone(), ..Grade::default() };
+    let name = submission.name.clone();
+    let mut grade = Grade { name, of: STEPS.len(), ..Grade::default() };
     match started(submission, &bounds, arguments) {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
@@ -408,7 +426,14 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
                     patience: Duration::from_secs(1).min(seconds / 24),
                 };
                 let outcome = examine::examine(&mut program, step, &amount);
-                grade.steps.push((outcome.passes(), verdict::text(step, &outcome, "the program")));
+                let report = verdict::report(step, &outcome, "the program");
+                let (step, passed) = (step.name.clone(), outcome.passes());
+                grade.points += usize::from(passed);
+                grade.steps.push(Judged {
+                    step,
+                    passed,
+                    output: text::text(&report, true, false, text::WIDTH),
+                });
             }
         }
     }
@@ -433,71 +458,39 @@ fn started(
     sandbox::start(folder, run, bounds, limits)
 }
 
-/// A row of the table of submissions by steps.
-fn row(grade: &Grade, wide: usize) -> String {
-    let mark = |at| if grade.has_passed(at) { "   +" } else { "   -" };
-    let marks: String = (0..STEPS.len()).map(mark).collect();
-    format!("{:<wide$}{marks}  {:>6}\n", grade.name, grade.points())
+/// A row of the table of submissions by steps, as it is printed when it is known.
+fn row(name: &str, of_step: impl Fn(usize) -> String, points: &str) -> String {
+    let columns = format!("~name 40{} | >~points 7", " | >~step 3".repeat(STEPS.len()));
+    let steps = (0..STEPS.len()).map(of_step);
+    let cells = [name.to_owned()].into_iter().chain(steps).chain([points.to_owned()]);
+    Table::new("", &columns, vec![cells.collect::<Vec<_>>().into()]).text([0, 0], false)
 }
 
-/// What follows the rows of a table of this width, or what came of each step of one program.
-fn text(grades: &[Grade], table: Option<usize>) -> String {
+/// What follows the rows of a table, or what came of each step of one program.
+fn text(grades: &[Grade], is_table: bool) -> String {
     let mut out = String::new();
-    let is_folder = table.is_some();
-    if let Some(wide) = table {
-        let passed = |at| grades.iter().filter(|grade: &&Grade| grade.has_passed(at)).count();
-        let counts: String = (0..STEPS.len()).map(|at| format!("{:>4}", passed(at))).collect();
-        let _ = writeln!(out, "{:<wide$}{counts}", "passed by");
+    if is_table {
+        let passed = |at| grades.iter().filter(|grade| grade.has_passed(at)).count().to_string();
+        out += &row("passed by", passed, "");
     }
     for grade in grades {
         if let Some(error) = &grade.error {
             let _ = writeln!(out, "{}: cannot be judged: {error}", grade.name);
         }
-        for (_, text) in grade.steps.iter().filter(|_| !is_folder) {
-            out += text;
-        }
-        if !is_folder {
-            let _ = writeln!(out, "{} of {} points", grade.points(), STEPS.len());
+        if !is_table {
+            out.extend(grade.steps.iter().map(|step| &*step.output));
+            let _ = writeln!(out, "{} of {} points", grade.points, grade.of);
         }
     }
     out
 }
 
-fn everything(grades: &[Grade], arguments: &GradeArguments) -> Value {
-    let one = |grade: &Grade| {
-        let steps = STEPS.iter().zip(&grade.steps).map(
-            |(step, (passed, text))| json!({"step": step.name, "passed": passed, "output": text}),
-        );
-        json!({
-            "name": grade.name, "points": grade.points(), "of": STEPS.len(), "error": grade.error,
-            "seconds": grade.seconds, "steps": steps.collect::<Vec<_>>(),
-        })
-    };
-    json!({
-        "version": env!("CARGO_PKG_VERSION"), "seed": arguments.seed, "cases": arguments.cases,
-        "submissions": grades.iter().map(one).collect::<Vec<_>>(),
-    })
-}
-
 fn gradescope(grade: &Grade) -> Value {
-    let tests = STEPS.iter().enumerate().map(|(at, step)| {
-        let passed = grade.has_passed(at);
-        let output = match (grade.steps.get(at), &grade.error) {
-            (Some((_, text)), _) => text.clone(),
-            (None, Some(error)) => error.clone(),
-            (None, None) => String::new(),
-        };
-        json!({
-            "name": step.title, "number": course::number(step).to_string(),
-            "score": i32::from(passed), "max_score": 1,
-            "status": if passed { "passed" } else { "failed" }, "output": output,
-            "output_format": "text", "visibility": "visible",
-        })
-    });
-    json!({
-        "score": grade.points(), "visibility": "visible", "stdout_visibility": "visible",
-        "execution_time": grade.seconds.ceil() as u64,
-        "output": format!("{} of {} steps are passed", grade.points(), STEPS.len()),
-        "tests": tests.collect::<Vec<_>>(),
-    })
+    let output = |at: usize| match (grade.steps.get(at), &grade.error) {
+        (Some(step), _) => step.output.clone(),
+        (None, error) => error.clone().unwrap_or_default(),
+    };
+    let tests = STEPS.iter().enumerate();
+    let tests = tests.map(|(at, step)| (&*step.title, grade.has_passed(at), output(at)));
+    formats::gradescope(&tests.collect::<Vec<_>>(), "steps are passed", grade.seconds)
 }

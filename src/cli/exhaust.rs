@@ -21,6 +21,8 @@ use rasterproof_exhaustive::identity::Shard;
 use rasterproof_exhaustive::lines::Lines;
 use rasterproof_exhaustive::run;
 use rasterproof_exhaustive::triangles::Triangles;
+use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::{json, text};
 
 const SAVE_EVERY: Duration = Duration::from_secs(3);
 
@@ -101,10 +103,10 @@ pub struct MergeArguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Judge N chunks again, and compare what is found with what the certificates say
-    #[arg(long, value_name = "N", value_parser = super::parse_count)]
+    #[arg(long, value_name = "N", value_parser = super::whole::<u64>(1..=u64::MAX))]
     check: Option<u64>,
     /// Decides which chunks --check judges [default: another number in each run]
-    #[arg(long, value_name = "S", value_parser = super::parse_number, requires = "check")]
+    #[arg(long, value_name = "S", value_parser = super::whole::<u64>(0..=u64::MAX), requires = "check")]
     seed: Option<u64>,
 }
 
@@ -181,15 +183,13 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let progress = Progress::new(streams.progress, "cases", Some(cases));
     progress.resume_at(start.tally.cases);
     let save = |progressed: &run::Progress| {
-        let text = serde_json::to_string(progressed).unwrap_or_default();
         // A full disk must not end a proof; the next save may succeed.
-        if let Err(failure) = write_file(&state, text.as_bytes()) {
+        if let Err(failure) = write_file(&state, json::line(progressed).as_bytes()) {
             progress.warn(&format!("warning: {failure}"));
         }
     };
     // Find out at once, not after hours, whether it can be written.
-    let text = serde_json::to_string(&start).unwrap_or_default();
-    write_file(&state, text.as_bytes())?;
+    write_file(&state, json::line(&start).as_bytes())?;
     let finished = run::run(start, SAVE_EVERY, &save, &|cases| progress.done(cases));
     // Until the certificate is written, the checkpoint is all there is.
     save(&finished);
@@ -252,16 +252,12 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
         streams.output.write_all(certificate.to_json().as_bytes())?;
     }
     let done = &certificate.done;
-    for example in &done.examples {
-        writeln!(streams.errors, "wrong: {}", printable(&example.what))?;
-    }
+    let wrong = done.examples.iter().map(|example| format!("wrong: {}", printable(&example.what)));
     let Shard { part, parts } = certificate.shard;
     let whole = parts == 1;
     let agrees = certificate.agrees() && (!whole || certificate.is_complete());
-    writeln!(
-        streams.errors,
-        "{}: {} of {} cases{}, {} comparisons, {} wrong, {:.1} s on {} threads",
-        if agrees { "AGREES" } else { "DISAGREES" },
+    let sentence = format!(
+        "{} of {} cases{}, {} comparisons, {} wrong, {:.1} s on {} threads",
         done.cases,
         certificate.expected.cases,
         if whole { String::new() } else { format!(" (shard {part} of {parts})") },
@@ -269,7 +265,15 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
         done.mismatches,
         certificate.timing.seconds,
         certificate.timing.threads,
-    )?;
+    );
+    let report = Report {
+        about: certificate.identity.plan.enumeration().words(),
+        notes: wrong.collect(),
+        outcome: Some(Outcome::of(agrees, sentence)),
+        ..Report::default()
+    };
+    // Standard output may have the certificate.
+    streams.errors.write_all(text::text(&report, true, false, text::WIDTH).as_bytes())?;
     if let Some(file) = file {
         streams.save(file, certificate.to_json().as_bytes());
     }
@@ -285,8 +289,10 @@ pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     for path in &arguments.files {
         let name = printable_path(path);
         let text = input::read_text(path, limits::CERTIFICATE_BYTES).map_err(usage)?;
-        let certificate = Certificate::from_json(&text)
-            .map_err(|what| usage(format!("{name} {}", printable(&what.to_string()))))?;
+        let certificate = Certificate::from_json(&text).map_err(|what| {
+            let what = printable(&what.to_string()).into_owned();
+            usage(format!("{name} {what}; name files that exhaust --output has written"))
+        })?;
         shards.push((name, certificate));
     }
     let merged = certificate::merge(&shards).map_err(usage)?;

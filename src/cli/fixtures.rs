@@ -7,7 +7,7 @@ use rasterproof_registry::fixtures::{QUOTAS, generate};
 #[derive(clap::Args, Debug)]
 pub struct FixturesArguments {
     /// Decides every case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
 }
 

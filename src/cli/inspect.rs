@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use rasterproof_host::text::printable_path;
 
 use super::case_view;
 use super::files::{self, Output, written};
 use super::inspect_case::{
     CaseArguments, Found, all_around, face_of_file, find, off_lattice, parse_pixel, recorded, words,
 };
-use super::page::{PageArguments, as_file, save_page};
+use super::page::{PageArguments, Shown, as_file, show};
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{
@@ -24,10 +23,11 @@ use rasterproof_faults::published::catalogue::{RECORDED_SIDE_PX, RecordedCase};
 use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Entry, SPECIMENS, Specimen};
 use rasterproof_registry::published_check::specimen_coverage;
-use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::{ascii, page_cases, picture, words};
+use rasterproof_report::html::{Excerpt, Outcome, Report};
+use rasterproof_report::table::{Mark, Row, Table};
+use rasterproof_report::{ascii, page_cases, picture, words as in_words};
 use rasterproof_verify::cases::{Case, Shape};
-use rasterproof_verify::comparison::{Tally, oracle_pixels_each};
+use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("inspect"))]
@@ -121,15 +121,24 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     files::check(&named)?;
     let face = face_of_file(&arguments.case.what);
     let is_face = face.is_some();
+    let mut about = Vec::new();
+    let mut report = Report { command: command.line(), ..Report::default() };
     let found = match face {
         Some(face) => {
             let exact = arguments.case.exact;
-            let found = study::face(face, &arguments.view, (command, exact), streams)?;
+            let (said, found) = study::face(face, &arguments.view, (command, exact), streams)?;
             files::check(&named)?;
+            about.extend(said);
             match found {
                 Some(found) if exact => off_lattice(found)?,
                 Some(found) => found,
-                None => return Ok(exit::USAGE),
+                None => {
+                    report.about = about.join("\n");
+                    let why = "Nothing of this face is drawn: it lies outside of the window, or is culled.";
+                    report.outcome = Some(Outcome::not_compared(why));
+                    show(report, Shown::All, None, streams)?;
+                    return Ok(exit::USAGE);
+                }
             }
         }
         None => {
@@ -139,9 +148,12 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     };
     let (title, mut case, expected, typed) = match found {
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
-        Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
+        Found::Refused { title, corners } => {
+            let (is_right, report) = refused(title, &corners);
+            show(report, Shown::All, None, streams)?;
+            return Ok(if is_right { exit::AGREES } else { exit::DISAGREES });
+        }
     };
-    let out = &mut *streams.output;
     if let Some(window) = arguments.window {
         case.window = window;
     }
@@ -149,81 +161,102 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     if let Some(at) = arguments.pixel {
         in_window(w, at)?;
     }
-    writeln!(out, "{title}")?;
-    writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
-    write!(out, "{}", cropped(&case, arguments, is_face))?;
-    case_view::facts(&case, out)?;
-    if let Some(at) = arguments.pixel {
-        write!(out, "\n{}", explain::pixel(&case, at))?;
-    }
-
-    // Judge and show.
+    about.push(title.clone());
+    about.push(format!("window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1));
+    about.extend(cropped(&case, arguments, is_face));
+    about.extend(case_view::facts(&case));
+    report.about = about.join("\n");
     let judged = case_view::judged(arguments.plant.as_deref());
     let mut shown = case_view::draw(&case, &judged);
     if shown.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
     }
-    writeln!(out)?;
-    add_specimen(arguments, &case, &mut shown, out)?;
+    let specimen = add_specimen(arguments, &case, &mut shown)?;
     #[cfg(feature = "vulkan")]
     let on_device = device(arguments, &case, &mut shown)?;
-    if let Some(at) = arguments.pixel {
-        writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
-    }
     // A shape that is shown whole and has no pixel is compared by that, and so is a case whose window is a part of it. Of a
     // part of a shape without pixels nobody knows, and who names a face of a model wants to see pixels of it.
     let has_own_window = arguments.window.is_none() && words(&arguments.case).len() == 1;
     let has_answer = !is_face && (has_own_window || is_whole(&case));
     let mut is_compared = has_answer || !shown.is_blank();
-    let mut agrees = say(&case, &judged, &shown, is_compared, (out, streams.columns))?;
+    report.excerpts.push(drawn("", specimen, &shown, streams.columns));
+    report.excerpts.extend(explained(arguments, &case, Some(&shown)));
+    let mut rows = if is_compared { findings(&case, &judged) } else { Vec::new() };
     #[cfg(feature = "vulkan")]
-    if let Some((said, is_right)) = on_device {
-        writeln!(out, "{said}")?;
-        agrees &= is_right;
-    }
+    rows.extend(on_device);
     if let Some(expected) = expected.filter(|_| arguments.window.is_none()) {
         let hits = oracle_pixels_each(&case);
         let as_expected = expected.is_empty() || hits == expected;
-        agrees &= as_expected;
         if !expected.is_empty() {
-            writeln!(
-                out,
-                "expected pixels {expected:?}, the oracle has {hits:?}{}",
-                if as_expected { "" } else { ": DIFFERS" }
-            )?;
+            let what = format!("expected pixels {expected:?}, the oracle has {hits:?}");
+            rows.push(finding(as_expected, what));
         }
     }
     // Corners that were typed in are shown as they were typed, too.
     if !typed.is_empty() && !judged.unsnapped.is_empty() {
-        writeln!(out, "\nnot snapped:")?;
         let is_snapped = is_snapped(&case, &typed);
         let typed = Case::unsnapped(case.window, typed);
-        if let Some(at) = arguments.pixel.filter(|_| is_snapped) {
-            writeln!(out, "{}", explain::pixel(&typed, at))?;
-        }
         let mut shown = case_view::draw(&typed, &judged);
-        add_specimen(arguments, &typed, &mut shown, out)?;
-        let is_seen = has_answer || !shown.is_blank();
-        is_compared |= is_seen;
-        agrees &= say(&typed, &judged, &shown, is_seen, (out, streams.columns))?;
+        let specimen = add_specimen(arguments, &typed, &mut shown)?;
+        report.excerpts.push(drawn("not snapped:", specimen, &shown, streams.columns));
+        if is_snapped {
+            report.excerpts.extend(explained(arguments, &typed, None));
+        }
+        if has_answer || !shown.is_blank() {
+            is_compared = true;
+            rows.extend(findings(&typed, &judged));
+        }
     }
-    if !is_compared {
-        writeln!(out, "{NOT_COMPARED}; choose other pixels with --window")?;
-    }
+    let agrees = rows.iter().all(|row| row.mark != Mark::Wrong);
+    report.tables = vec![Table::new("", "~found 1", rows).judged()];
+    report.outcome = Some(match (is_compared, agrees) {
+        (false, _) => {
+            let why = "No pixel of this window is drawn; choose other pixels with --window.";
+            Outcome::not_compared(why)
+        }
+        (_, true) => Outcome::of(true, "every engine draws what the oracle draws"),
+        (_, false) => Outcome::of(false, "not every engine draws what the oracle draws"),
+    });
     let unasked = arguments.page.place.output("inspect.png");
-    let drawn = picture::png(&shown.picture(&title, &case));
-    if let Some(place) = write_picture(asked.as_ref(), &unasked, &drawn, streams)? {
-        writeln!(streams.output, "{place}")?;
+    let picture = picture::png(&shown.picture(&title, &case));
+    report.notes.extend(write_picture(asked.as_ref(), &unasked, &picture, streams)?);
+    if page.is_some() {
+        let kind = if agrees { page_cases::Kind::Named } else { page_cases::Kind::Failing };
+        let mut view = page_cases::of_case(name(arguments), title, kind, &case, &judged);
+        view.command = command.clone().without(&["report"]).line();
+        report.title = format!("One case: {}", view.name);
+        report.cases = vec![view];
     }
-    if let Some(page) = &page {
-        let view = page_cases::of_case(name(arguments), title, kind(agrees), &case, &judged);
-        write_report((command, page), view, is_compared.then_some(agrees), streams)?;
-    }
+    show(report, Shown::All, page, streams)?;
     Ok(match (is_compared, agrees) {
         (false, true) => exit::USAGE,
         (_, true) => exit::AGREES,
         (_, false) => exit::DISAGREES,
     })
+}
+
+/// What is said of the pixel that is asked for, with its hits.
+fn explained(
+    arguments: &InspectArguments,
+    case: &Case,
+    shown: Option<&case_view::Shown>,
+) -> Option<Excerpt> {
+    let at = arguments.pixel?;
+    let hits = shown.map(|shown| format!("hits of ({}, {}): {}", at.x, at.y, shown.hits(at)));
+    let notes = hits.into_iter().collect();
+    Some(Excerpt { grid: explain::pixel(case, at), notes, ..Excerpt::default() })
+}
+
+/// What everybody draws, as characters.
+fn drawn(title: &str, notes: Option<String>, shown: &case_view::Shown, columns: usize) -> Excerpt {
+    let grid = ascii::side_by_side(&shown.blocks(), columns);
+    let (title, notes) = (title.to_owned(), notes.into_iter().collect());
+    Excerpt { title, grid, notes, ..Excerpt::default() }
+}
+
+fn finding(is_right: bool, what: String) -> Row {
+    let mark = if is_right { Mark::Plain } else { Mark::Wrong };
+    Row { cells: vec![what], mark, ..Row::default() }
 }
 
 /// Draws the case on the Vulkan device that is named: how it stands to the oracle.
@@ -232,7 +265,7 @@ fn device(
     arguments: &InspectArguments,
     case: &Case,
     shown: &mut case_view::Shown,
-) -> Result<Option<(String, bool)>, Failure> {
+) -> Result<Option<Row>, Failure> {
     let Some(engine) = &arguments.engine else { return Ok(None) };
     let Shape::Triangles { list, .. } = &case.shape else {
         return Err(usage("a Vulkan device is shown on triangles: leave out --engine"));
@@ -244,41 +277,25 @@ fn device(
         0 => "agrees".to_owned(),
         _ => format!("{} missing, {} extra, {} twice", tally.missing, tally.extra, tally.twice),
     };
-    Ok(Some((format!("{engine} against oracle: {said}"), tally.total() == 0)))
+    Ok(Some(finding(tally.total() == 0, format!("{engine} against oracle: {said}"))))
 }
 
-/// What is said of a window in which nothing is drawn.
-const NOT_COMPARED: &str =
-    "NOT COMPARED: no pixel of this window is drawn, so nothing was compared";
-
-/// The pixels of each engine, then a line for each pair that is compared; says whether all agree.
-fn say(
-    case: &Case,
-    judged: &Judged,
-    shown: &case_view::Shown,
-    is_compared: bool,
-    (out, columns): (&mut dyn std::io::Write, usize),
-) -> Result<bool, Failure> {
-    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), columns))?;
-    let mut agrees = true;
-    let findings = if is_compared { judged.judge_case(case) } else { Vec::new() };
-    for ([actual, target], finding) in findings {
-        agrees &= !finding.is_wrong();
-        let values = match finding.values {
+/// A row for each pair that is compared.
+fn findings(case: &Case, judged: &Judged) -> Vec<Row> {
+    let row = |([actual, target], of): ([String; 2], Finding)| {
+        let values = match of.values {
             0 => String::new(),
-            n => {
-                let worst = finding.attribute.max(finding.depth);
-                format!("; {n} values, {}", words::of_bound(worst))
-            }
+            n => format!("; {n} values, {}", in_words::of_bound(of.attribute.max(of.depth))),
         };
-        let Decisions { by_filter, by_fallback } = finding.decisions;
+        let Decisions { by_filter, by_fallback } = of.decisions;
         let decisions = match by_filter + by_fallback {
             0 => String::new(),
             all => format!("; {by_fallback} of {all} decisions took exact arithmetic"),
         };
-        writeln!(out, "{actual} against {target}: {}{values}{decisions}", finding.describe())?;
-    }
-    Ok(agrees)
+        let what = format!("{actual} against {target}: {}{values}{decisions}", of.describe());
+        finding(!of.is_wrong(), what)
+    };
+    judged.judge_case(case).into_iter().map(row).collect()
 }
 
 fn name(arguments: &InspectArguments) -> String {
@@ -290,57 +307,27 @@ fn name(arguments: &InspectArguments) -> String {
     }
 }
 
-fn kind(agrees: bool) -> page_cases::Kind {
-    if agrees { page_cases::Kind::Named } else { page_cases::Kind::Failing }
-}
-
-fn write_report(
-    (command, page): (&Typed, &Output),
-    mut view: page_cases::CaseView,
-    agrees: Option<bool>,
-    streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
-    view.command = command.clone().without(&["report"]).line();
-    let outcome = match agrees {
-        Some(true) => Outcome::of(true, "Every engine draws what the oracle draws."),
-        Some(false) => Outcome::of(false, "Not every engine draws what the oracle draws."),
-        None => Outcome::not_compared("No pixel of this window is drawn."),
-    };
-    let report = Report {
-        title: format!("One case: {}", view.name),
-        outcome: Some(outcome),
-        command: command.line(),
-        cases: vec![view],
-        ..Report::default()
-    };
-    if save_page(page, report, streams) {
-        writeln!(streams.output, "report: {}", printable_path(&page.path))?;
-    }
-    Ok(())
-}
-
 /// What is not shown, if anything, and how to see it.
-fn cropped(case: &Case, arguments: &InspectArguments, is_face: bool) -> String {
+fn cropped(case: &Case, arguments: &InspectArguments, is_face: bool) -> Vec<String> {
     let w = case.window;
-    let mut out = String::new();
-    if arguments.window.is_none() && (is_face || words(&arguments.case).len() > 1) {
+    let mut out = Vec::new();
+    let is_around = arguments.window.is_none() && (is_face || words(&arguments.case).len() > 1);
+    if is_around && !is_whole(case) {
         let all = box_of(case);
-        let (width, height) =
-            (all.x1.saturating_sub(all.x0) - 3, all.y1.saturating_sub(all.y0) - 3);
-        if !is_whole(case) {
-            out += &format!(
-                "cropped: the shape is {width} x {height} px, the window {} x {}; see more with --window\n",
-                w.width(),
-                w.height()
-            );
-        }
+        let [width, height] =
+            [(all.x0, all.x1), (all.y0, all.y1)].map(|(from, to)| to.saturating_sub(from) - 3);
+        out.push(format!(
+            "cropped: the shape is {width} x {height} px, the window {} x {}; see more with --window",
+            w.width(),
+            w.height()
+        ));
     }
     if w.width() > ascii::MOST_COLUMNS || w.height() > ascii::MOST_ROWS {
-        out += &format!(
-            "cropped: the grids show {} x {} pixels from the first that differs or is drawn\n",
+        out.push(format!(
+            "cropped: the grids show {} x {} pixels from the first that differs or is drawn",
             w.width().min(ascii::MOST_COLUMNS),
             w.height().min(ascii::MOST_ROWS)
-        );
+        ));
     }
     out
 }
@@ -379,50 +366,48 @@ fn specimen(
     SPECIMENS.iter().find(|entry| entry.name == name)
 }
 
-/// Shows the specimen that was asked for beside the engines. One of corners that are not snapped draws on a screen of its own.
+/// Shows the specimen that was asked for beside the engines, and says how one of corners that are not snapped differs, which
+/// draws on a screen of its own.
 fn add_specimen(
     arguments: &InspectArguments,
     case: &Case,
     shown: &mut case_view::Shown,
-    out: &mut dyn std::io::Write,
-) -> Result<(), Failure> {
+) -> Result<Option<String>, Failure> {
     let recorded = recorded(&arguments.case.what);
-    let Some(entry) = specimen(arguments, recorded) else { return Ok(()) };
+    let Some(entry) = specimen(arguments, recorded) else { return Ok(None) };
     let (Shape::Unsnapped { list, .. }, Some(Specimen::Triangle(specimen))) =
         (&case.shape, entry.specimen)
     else {
-        return shown.add(entry, case);
+        return shown.add(entry, case).map(|()| None);
     };
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
     let triangles: Vec<_> = list.iter().map(|t| bare(t.px())).collect();
     let name = entry.name;
-    match specimen_coverage(specimen, &triangles, screen.unwrap_or(case.window)) {
+    let said = match specimen_coverage(specimen, &triangles, screen.unwrap_or(case.window)) {
         Ok(hits) => {
             let Tally { missing, extra, twice, .. } =
                 shown.add_drawn(name, case_view::crop(&hits, case.window));
-            writeln!(out, "{name}, published: {missing} missing, {extra} extra, {twice} twice\n")?;
+            format!("{missing} missing, {extra} extra, {twice} twice")
         }
-        Err(reason) => writeln!(out, "{name}, published: {reason}\n")?,
-    }
-    Ok(())
+        Err(reason) => reason,
+    };
+    Ok(Some(format!("{name}, published: {said}")))
 }
 
-fn refused(title: &str, corners: &[[[f64; 2]; 3]], out: &mut dyn std::io::Write) -> Status {
-    writeln!(out, "{title}")?;
-    let mut all = true;
-    for triangle in corners {
-        let refusals: Vec<String> = triangle
-            .iter()
-            .filter_map(|&[x, y]| {
-                Some(format!("({x:?}, {y:?}) {}", SubpixelPoint::from_px(x, y).err()?))
-            })
-            .collect();
-        all &= !refusals.is_empty();
-        writeln!(
-            out,
-            "refused: {}",
-            if refusals.is_empty() { "NO".to_owned() } else { refusals.join("; ") }
-        )?;
-    }
-    Ok(if all { exit::AGREES } else { exit::DISAGREES })
+/// Whether each triangle is refused, and why.
+fn refused(title: String, corners: &[[[f64; 2]; 3]]) -> (bool, Report) {
+    let row = |triangle: &[[f64; 2]; 3]| {
+        let why = triangle.iter().filter_map(|&[x, y]| {
+            Some(format!("({x:?}, {y:?}) {}", SubpixelPoint::from_px(x, y).err()?))
+        });
+        let why: Vec<_> = why.collect();
+        let said = if why.is_empty() { "NO".to_owned() } else { why.join("; ") };
+        finding(!why.is_empty(), format!("refused: {said}"))
+    };
+    let rows: Vec<Row> = corners.iter().map(row).collect();
+    let is_right = rows.iter().all(|row| row.mark != Mark::Wrong);
+    let sentence = if is_right { "each is refused" } else { "not each is refused" };
+    let tables = vec![Table::new("", "~refused 1", rows).judged()];
+    let outcome = Some(Outcome::of(is_right, sentence));
+    (is_right, Report { about: title, tables, outcome, ..Report::default() })
 }

@@ -1,5 +1,7 @@
 //! The words of `inspect` as a case: its name, its number in a family, or its corners.
 
+use std::path::Path;
+
 use glam::DVec2;
 
 use super::{Failure, did_you_mean, program, usage};
@@ -30,7 +32,7 @@ pub(super) struct CaseArguments {
     #[arg(long)]
     pub exact: bool,
     /// Seed of FAMILY#NUMBER
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     pub seed: u64,
 }
 
@@ -209,6 +211,9 @@ fn called(word: &str, arguments: &CaseArguments) -> Result<Found, Failure> {
     if cases::all_families().any(|f| f.name == word) {
         return Err(usage(format!("{word} is a family: add the number of a case, {word}#0")));
     }
+    if Path::new(word).is_file() {
+        return Err(usage(format!("{word} is a file: add the number of a face, {word}#1")));
+    }
     let names = named::named().into_iter().map(|case| case.name);
     let names: Vec<_> = names.chain(RECORDED.iter().map(|case| case.name)).collect();
     let named = named::find(word).ok_or_else(|| unknown("case", word, names.into_iter()))?;
@@ -289,11 +294,11 @@ pub(super) fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
 }
 
 /// The file and the number of `FILE#NUMBER`, where there is such a file and no family of that name.
-pub(super) fn face_of_file(words: &[String]) -> Option<(&std::path::Path, &str)> {
+pub(super) fn face_of_file(words: &[String]) -> Option<(&Path, &str)> {
     let [word] = words else { return None };
     let (file, number) = word.rsplit_once('#')?;
     let is_family = cases::all_families().any(|f| f.name == file);
-    let path = std::path::Path::new(file);
+    let path = Path::new(file);
     let looks_like_file = path.extension().is_some() || path.is_file();
     (!is_family && looks_like_file).then_some((path, number))
 }

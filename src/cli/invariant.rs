@@ -7,7 +7,7 @@ use rasterproof_faults::planted::{self, Mutant};
 use rasterproof_invariants::implementations::Implementations;
 use rasterproof_invariants::matrix::{self, Matrix};
 use rasterproof_invariants::{CATALOGUE, Invariant, MOST_LOOKED_THROUGH, Predicate, Ruling};
-use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::words::thousands;
 
@@ -49,7 +49,7 @@ pub fn run(
     }
     drop(progress);
     let columns = "invariant 28 | >cases 8 | >left out 8 since they do not fit it | >comparisons 8 | ~outcome 1 | \
-                   what it says | tolerance | what was found";
+                   what it says | :tolerance | what was found";
     let report = Report {
         about: format!("Invariants, seed {seed}"),
         tables: vec![Table::new("", columns, rows).judged()],
@@ -90,7 +90,7 @@ impl Outcomes {
             sentence += &format!(" (--cases {cases_needed} judges them)");
         }
         match self.status() {
-            exit::USAGE => Outcome { good: false, word: "NOT JUDGED".to_owned(), sentence },
+            exit::USAGE => Outcome::new(false, "NOT JUDGED", sentence),
             status => Outcome::of(status == exit::AGREES, sentence),
         }
     }
@@ -144,7 +144,7 @@ fn judge(
     cells.extend([
         word.to_owned(),
         invariant.statement.to_owned(),
-        format!("tolerance: {}", invariant.tolerance),
+        invariant.tolerance.to_owned(),
         found,
     ]);
     let mark = if report.ruling() == Ruling::Holds { Mark::Plain } else { Mark::Wrong };
@@ -182,10 +182,10 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     if !arguments.table {
         notes.push("which invariant kills which: add --table".to_owned());
     }
-    if arguments.table || !problems.is_empty() {
-        write!(streams.output, "{}", matrix.text())?;
-    }
+    let is_whole = arguments.table || !problems.is_empty();
+    let grid = if is_whole { matrix.text() } else { String::new() };
     let report = Report {
+        excerpts: is_whole.then(|| Excerpt { grid, ..Excerpt::default() }).into_iter().collect(),
         about: "planted faults, and the invariants that they break".to_owned(),
         outcome: Some(Outcome::of(problems.is_empty(), answer)),
         tables: vec![faults],

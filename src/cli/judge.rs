@@ -25,7 +25,7 @@ use rasterproof_report::judge_text;
 pub struct JudgeArguments {
     /// Cases of each family
     #[arg(long, visible_alias = "limit", value_name = "N", default_value_t = 1000,
-        value_parser = super::parse_count, allow_negative_numbers = true)]
+        value_parser = super::whole::<u64>(1..=u64::MAX), allow_negative_numbers = true)]
     cases: u64,
     /// Seconds for all that is asked after the start; a last answer is waited for one second more
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
@@ -34,10 +34,10 @@ pub struct JudgeArguments {
     #[arg(long, value_name = "NAME", value_parser = family_names(), hide_possible_values = true)]
     family: Vec<String>,
     /// Decides every generated case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Only the case of this number, to repeat a failure
-    #[arg(long, value_name = "NUMBER", value_parser = super::parse_case, allow_negative_numbers = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = super::whole::<u64>(super::NUMBERS), allow_negative_numbers = true)]
     case: Option<u64>,
     /// Seconds allowed for each answer
     #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, allow_negative_numbers = true)]
@@ -47,7 +47,7 @@ pub struct JudgeArguments {
     start_timeout: Duration,
     /// Copies of the program that are run at once
     #[arg(long, value_name = "N", default_value_t = 1,
-        value_parser = clap::value_parser!(u64).range(1..=64))]
+        value_parser = super::whole::<u64>(1..=64))]
     jobs: u64,
     /// Words that the program does not say of itself, such as rule=strict; may be repeated
     #[arg(long, value_name = "WORDS")]

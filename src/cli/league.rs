@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::page::Place;
+use super::page::{Place, Shown, show};
 use super::progress::Progress;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
@@ -14,8 +14,10 @@ use rasterproof_judge::league::{Adapter, League, Ranked, date};
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::{Options, Step, process_group};
+use rasterproof_report::html::Report;
 use rasterproof_report::json::pretty;
-use rasterproof_report::league::tables;
+use rasterproof_report::league;
+use rasterproof_report::table::Table;
 
 const ADAPTERS: &str = "adapters/league.json";
 /// Where it is written, as data and as a page.
@@ -39,12 +41,12 @@ pub fn run(
         )));
     }
     process_group::end_all_on_ctrl_c();
-    let mut rows = Vec::new();
+    let (mut rows, mut shown) = (Vec::new(), Vec::new());
     for adapter in adapters.iter().filter(|a| names.is_empty() || names.contains(&a.name)) {
         let program = match Program::start(&adapter.command, &[], limits) {
             Ok(program) => program,
             Err(why) => {
-                writeln!(streams.output, "{:<22} skipped: {why}", adapter.name)?;
+                shown.push(vec![adapter.name.clone(), format!("skipped: {why}")].into());
                 continue;
             }
         };
@@ -60,28 +62,32 @@ pub fn run(
         });
         drop(progress);
         let standing = Ranked::new(adapter, today(), &verdict);
-        write!(streams.output, "{:<22}", adapter.name)?;
-        for (kind, what) in [(&standing.triangles, "triangles"), (&standing.lines, "lines")] {
-            let Some(kind) = kind else { continue };
-            let found = kind.by_convention.map(|score| score.wrong.to_string());
-            let found = found.unwrap_or_else(|| "unexplained".to_owned());
-            write!(streams.output, " {what} {} wrong, by theirs {found};", kind.as_declared.wrong)?;
-        }
-        writeln!(streams.output)?;
-        streams.output.flush()?;
+        let found = [&standing.triangles, &standing.lines].map(|kind| match kind {
+            None => ["-".to_owned(), "-".to_owned()],
+            Some(kind) => {
+                let found = kind.by_convention.map(|score| score.wrong.to_string());
+                let found = found.unwrap_or_else(|| "unexplained".to_owned());
+                [kind.as_declared.wrong.to_string(), found]
+            }
+        });
+        shown.push([vec![adapter.name.clone()], found.concat()].concat().into());
         rows.push(standing);
     }
     if rows.is_empty() {
         return Err(usage("no adapter is installed\n  adapters/install prepares them"));
     }
-    let league = League {
+    let columns = "library 22 | >triangles 10 wrong pixels as declared | >by its rule 11 by its own convention | >lines 10 wrong \
+                   pixels as declared | >by its rule 11 by its own convention";
+    let tables = vec![Table::new("Wrong pixels of each library", columns, shown)];
+    show(Report { tables, ..Report::default() }, Shown::All, None, streams)?;
+    let all = League {
         rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
         seed: options.seed,
         cases: options.cases,
         rows,
     };
-    let json = pretty(&league);
-    let pages = PAGES.map(|(path, chinese)| (path, tables(&league, chinese)));
+    let json = pretty(&all);
+    let pages = PAGES.map(|(path, chinese)| (path, league::tables(&all, chinese)));
     for (name, text) in [(JSON, json)].into_iter().chain(pages) {
         let output = place.output(name);
         if streams.save(&output, text.as_bytes()) {

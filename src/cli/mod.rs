@@ -41,10 +41,12 @@ pub mod wrap;
 
 use std::ffi::OsString;
 use std::fmt;
-use std::io::{self, BufRead, ErrorKind, Write};
+use std::io::{self, BufRead, Write};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
@@ -53,6 +55,7 @@ use guard::{Escape, Guarded};
 use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_path};
 use rasterproof_host::{output, read_files, shell};
 use typed::Typed;
+use wrap::Folded;
 
 use rasterproof_registry::engines;
 use rasterproof_report::html::Report;
@@ -208,8 +211,8 @@ pub struct Streams<'a> {
     pub colour: bool,
     /// Columns of the terminal; text is broken to fit.
     pub columns: usize,
-    /// Columns of the terminal of standard error, or none where messages are not broken.
-    pub error_columns: Option<usize>,
+    /// Columns of the terminal of standard error; without one, messages are not broken.
+    pub error_columns: usize,
     /// Whether the streams and files took what was written to them.
     pub delivery: Delivery,
 }
@@ -271,7 +274,7 @@ fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
     let is_error = error.use_stderr();
     let not_text = words.iter().filter(|word| word.to_str().is_none());
     let not_text: Vec<_> = not_text.map(shown).collect();
-    let is_not_text = error.kind() == clap::error::ErrorKind::InvalidUtf8;
+    let is_not_text = error.kind() == ErrorKind::InvalidUtf8;
     let has_hidden = |word: &OsString| word.to_string_lossy().chars().any(is_hidden);
     let error = if words.iter().any(has_hidden) && !is_not_text {
         parse(words.iter().map(|word| shown(word).into()).collect()).err().unwrap_or(error)
@@ -282,7 +285,7 @@ fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
     if is_not_text {
         text += &format!("not UTF-8: {}\n", not_text.join(", "));
     }
-    if error.kind() == clap::error::ErrorKind::MissingRequiredArgument {
+    if matches!(error.kind(), ErrorKind::MissingRequiredArgument | ErrorKind::UnknownArgument) {
         text += &examples(words);
     }
     Refusal { words: text, is_error }
@@ -317,16 +320,11 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
             let (stream, columns): (&mut Delivered<'_>, _) = match text.is_error {
                 true => (errors, error_columns),
                 // Help is laid out for the usual width.
-                false => (output, Some(columns).filter(|columns| *columns < wrap::USUAL)),
+                false if columns < wrap::USUAL => (output, columns),
+                false => (output, usize::MAX),
             };
-            let _ = match columns {
-                Some(columns) => {
-                    let mut folded =
-                        wrap::Folded::new(stream, columns, wrap::NO_COMMAND.to_owned());
-                    folded.write_all(text.words.as_bytes()).and_then(|()| folded.flush())
-                }
-                None => stream.write_all(text.words.as_bytes()).and_then(|()| stream.flush()),
-            };
+            let mut folded = Folded::new(stream, columns, wrap::NO_COMMAND.to_owned());
+            let _ = folded.write_all(text.words.as_bytes()).and_then(|()| folded.flush());
             report_loss(output, errors);
             return delivery.status(if text.is_error { exit::USAGE } else { exit::AGREES });
         }
@@ -341,14 +339,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     };
     let errors = &mut Delivered::new(streams.errors, &delivery);
     let mut guarded_errors = Guarded::new(errors, Escape::Words);
-    let mut folded_errors;
-    let errors: &mut dyn Write = match error_columns {
-        Some(columns) => {
-            folded_errors = wrap::Folded::new(&mut guarded_errors, columns, program());
-            &mut folded_errors
-        }
-        None => &mut guarded_errors,
-    };
+    let errors = &mut Folded::new(&mut guarded_errors, error_columns, program());
     if uses_pool(&command) {
         threads::prepare(errors);
     }
@@ -378,14 +369,8 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let mut delivered = Delivered::of_output(streams.output, &delivery);
     let result = {
         let mut guarded = Guarded::new(&mut delivered, escape);
-        let mut folded;
-        let output: &mut dyn Write = if for_machines {
-            &mut guarded
-        } else {
-            folded = wrap::Folded::new(&mut guarded, columns, program());
-            &mut folded
-        };
-        run(output, errors, delivery.clone())
+        let columns = if for_machines { usize::MAX } else { columns };
+        run(&mut Folded::new(&mut guarded, columns, program()), errors, delivery.clone())
     };
     let status = status_of(result, errors);
     report_loss(&delivered, errors);
@@ -426,7 +411,7 @@ fn status_of(result: Result<u8, Failure>, errors: &mut dyn Write) -> u8 {
 /// Says why standard output did not take everything.
 fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
     if let Some(error) = output.lost() {
-        let remedy = if error.kind() == ErrorKind::StorageFull { "make room, or " } else { "" };
+        let remedy = if error.kind() == io::ErrorKind::StorageFull { "make room, or " } else { "" };
         let _ = writeln!(
             errors,
             "error: standard output cannot be written: {error}; {remedy}name another place"
@@ -515,25 +500,25 @@ fn write_file(output: &Output, bytes: &[u8]) -> Result<(), Failure> {
     output::write(&output.path, bytes, output.over).map_err(usage)
 }
 
-fn parse_number(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| "expected a whole number from 0, for example 7".to_owned())
+/// A parser of whole numbers in a range.
+fn whole<T: TryFrom<u64> + Clone + Send + Sync + 'static>(
+    range: RangeInclusive<u64>,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {
+    move |text: &str| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        number.and_then(|number| T::try_from(number).ok()).ok_or_else(|| match *range.end() {
+            u64::MAX => format!("expected a whole number from {}, for example 7", range.start()),
+            most => format!("expected a whole number from {} to {most}", range.start()),
+        })
+    }
 }
 
-/// The number of a case; there is one for each number but the largest, behind which a range could not end.
-fn parse_case(text: &str) -> Result<u64, String> {
-    let number = text.parse().ok().filter(|number| *number < u64::MAX);
-    number.ok_or_else(|| format!("expected a whole number from 0 to {}", u64::MAX - 1))
-}
+/// The numbers of cases: all but the largest, behind which a range could not end.
+const NUMBERS: RangeInclusive<u64> = 0..=u64::MAX - 1;
 
 /// A number of seconds; whether there can be so many is for the command to say.
 fn parse_seconds(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "expected a number of seconds, for example 60".to_owned())
-}
-
-/// A count of at least one.
-fn parse_count(text: &str) -> Result<u64, String> {
-    let count = text.parse().ok().filter(|count| *count > 0);
-    count.ok_or_else(|| "expected a whole number from 1, for example 1000000".to_owned())
 }
 
 /// The nearest of some names as a question, where one is near, then a full stop.

@@ -101,7 +101,9 @@ pub(super) fn show(
 ) -> Result<(), Failure> {
     let text = match shown {
         Shown::Json => json::text(&report.data),
-        Shown::Screen | Shown::All => text::text(&report, shown == Shown::All, streams.colour),
+        Shown::Screen | Shown::All => {
+            text::text(&report, shown == Shown::All, streams.colour, streams.columns)
+        }
     };
     streams.output.write_all(text.as_bytes())?;
     // What was asked for may fail, but not before the verdict is said.
@@ -134,8 +136,7 @@ pub(super) fn save_page(page: &Output, report: Report, streams: &mut Streams<'_>
 /// The index of a folder, unless another file of that name is there.
 fn write_index(folder: &Path, streams: &mut Streams<'_>) -> std::io::Result<()> {
     let index = folder.join("index.html");
-    let is_ours = |text: String| text.contains("<title>Pages of rasterproof</title>");
-    if index.exists() && !read_head(&index).is_some_and(is_ours) {
+    if index.exists() && !read_head(&index).is_some_and(|text| html::is_index(&text)) {
         return Ok(());
     }
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };

@@ -15,11 +15,12 @@ use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::{Canvas, Plan, SceneDigest};
 use rasterproof_render::effects::render::{Rendered, survey_again};
 use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::Counters;
 use rasterproof_render::scene::Scene;
-use rasterproof_report::frame_comparison;
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::table::Table;
 use rasterproof_report::words::thousands;
+use rasterproof_report::{frame_comparison, json};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("plan"))]
@@ -30,7 +31,7 @@ pub struct PlanArguments {
     #[arg(long, default_value = "scanline", value_parser = super::one_of(Drawer::ALL.map(|drawer| (drawer.name(), drawer))))]
     engine: Drawer,
     /// Rounds of measuring, each with every mixture of effects in turn [default: 9, fewer for a large model]
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_parser = super::whole::<u32>(1..=1000))]
     rounds: Option<u32>,
     /// Measure everything, usual and planned alone, and no single effect
     #[arg(long)]
@@ -102,6 +103,19 @@ struct Savings {
     planned: Measured,
     effects: Vec<Saving>,
     mixtures: Vec<Measured>,
+}
+
+/// What was found, for machines.
+#[derive(serde::Serialize)]
+struct Data<'a> {
+    scene: &'a str,
+    plan: Plan,
+    everything: &'a Counters,
+    planned: &'a Counters,
+    measured: &'a Savings,
+    survey_us: Option<f64>,
+    /// Nothing where nothing was drawn.
+    same: Option<bool>,
 }
 
 /// How many rounds are measured without `--rounds`, and how long they may take all together.
@@ -214,14 +228,14 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     if arguments.json {
         // With its scene it can be drawn by.
         let plan = Plan { scene: Some(SceneDigest::of(&scene)), ..planned.plan.clone() };
-        report.data = serde_json::json!({
-            "scene": scene.name,
-            "plan": plan,
-            "everything": everything.counters,
-            "planned": planned.counters,
-            "measured": measured,
-            "survey_us": survey_us,
-            "same": is_compared.then_some(same),
+        report.data = json::value(&Data {
+            scene: &scene.name,
+            plan,
+            everything: &everything.counters,
+            planned: &planned.counters,
+            measured: &measured,
+            survey_us,
+            same: is_compared.then_some(same),
         });
     }
     show(report, Shown::all_or_json(arguments.json), page, streams)?;
@@ -261,29 +275,26 @@ fn draw_without(
     let wrong = frame_comparison::differing(&planned.picture, &other.picture);
     let name = effect.name();
     let stem = format!("{}-without-{name}", arguments.what.name());
-    let mut files = String::new();
-    for (ending, picture) in [("png", &other.picture), ("difference.png", &difference)] {
-        let output = arguments.page.place.output(format!("{stem}.{ending}"));
-        if streams.save(&output, &frame_comparison::png(picture)?) {
-            files += &format!("wrote {}\n", printable_path(&output.path));
-        }
-    }
     let pixels =
         u64::from(planned.picture.bounds().width()) * u64::from(planned.picture.bounds().height());
     let share = 100.0 * wrong as f64 / pixels.max(1) as f64;
-    writeln!(
-        streams.output,
+    let about = format!(
         "{}: {wrong} of {pixels} pixels ({share:.1}%) are wrong without {name}",
         scene.name
-    )?;
-    for line in grouped(&planned.plan.decisions).iter().filter(|line| line.effect == effect) {
-        let item = match line.items().as_str() {
-            "frame" => "of the frame".to_owned(),
-            items => format!("of item {items}"),
-        };
-        writeln!(streams.output, "  {item}: {}", line.reason)?;
+    );
+    let lines = grouped(&planned.plan.decisions).into_iter().filter(|line| line.effect == effect);
+    let reason = |line: plan_table::Line<'_>| match line.items().as_str() {
+        "frame" => format!("of the frame: {}", line.reason),
+        items => format!("of item {items}: {}", line.reason),
+    };
+    let mut notes: Vec<String> = lines.map(reason).collect();
+    for (ending, picture) in [("png", &other.picture), ("difference.png", &difference)] {
+        let output = arguments.page.place.output(format!("{stem}.{ending}"));
+        if streams.save(&output, &frame_comparison::png(picture)?) {
+            notes.push(format!("drawn in {}", printable_path(&output.path)));
+        }
     }
-    streams.output.write_all(files.as_bytes())?;
+    show(Report { about, notes, ..Report::default() }, Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 

@@ -6,8 +6,12 @@ use std::path::PathBuf;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits, read_files};
 
+use super::page::{Shown, show};
 use super::{Failure, Status, Streams, exit, usage};
-use rasterproof_teaching::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
+use rasterproof_report::html::{Excerpt, Report};
+use rasterproof_report::table::Table;
+use rasterproof_report::text;
+use rasterproof_teaching::quiz::page::{choices, grids, legend};
 use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
 
 #[derive(clap::Args, Debug)]
@@ -23,7 +27,7 @@ pub struct QuizArguments {
     list: bool,
     /// Print this many questions as a paper instead of asking; --seed chooses them
     #[arg(long, value_name = "N", conflicts_with_all = ["list", "answers"],
-        value_parser = clap::value_parser!(u16).range(1..=1000))]
+        value_parser = super::whole::<u16>(1..=1000))]
     paper: Option<u16>,
     /// Print the key of the paper: the answers and why
     #[arg(long, requires = "paper")]
@@ -38,13 +42,6 @@ pub struct QuizArguments {
 
 const LANGUAGES: [(&str, Language, &str); 2] =
     [("en", Language::English, "English"), ("zh", Language::Chinese, "Chinese")];
-
-/// How many exercises were asked, answered, and answered rightly.
-#[derive(Default)]
-struct Score {
-    answered: usize,
-    right: usize,
-}
 
 pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
     let language = arguments.language;
@@ -97,16 +94,16 @@ fn unknown(word: &str) -> Failure {
 }
 
 fn list(chapters: &[&Chapter], language: Language, streams: &mut Streams<'_>) -> Status {
-    for chapter in chapters {
-        let head = format!("{:>9}  {}", chapter.word(), language.of(&chapter.title));
-        writeln!(streams.output, "{head} ({})", chapter.exercises.len())?;
-        for (number, exercise) in (1..).zip(&chapter.exercises) {
-            for (i, line) in wrap(language.of(&exercise.question), 84).into_iter().enumerate() {
-                let number = if i == 0 { format!("{number}.") } else { String::new() };
-                writeln!(streams.output, "           {number:<3}{line}")?;
-            }
-        }
-    }
+    let table = |chapter: &&Chapter| {
+        let (word, exercises) = (chapter.word(), &chapter.exercises);
+        let title = format!("{word} {} ({})", language.of(&chapter.title), exercises.len());
+        let questions = (1..).zip(exercises);
+        let said =
+            |(number, one): (usize, &Exercise)| format!("{number}. {}", language.of(&one.question));
+        Table::of_notes(&title, questions.map(said).collect())
+    };
+    let tables = chapters.iter().map(table).collect();
+    show(Report { tables, ..Report::default() }, Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -131,23 +128,19 @@ fn paper(
         (Language::Chinese, false) => format!("试卷{seed}：共 {count} 题"),
         (Language::Chinese, true) => format!("试卷{seed} 的答案"),
     };
-    writeln!(streams.output, "{head}\n")?;
-    for (number, (chapter, exercise)) in (1..).zip(&asked[..count]) {
+    let question = |(number, (chapter, exercise)): (usize, &(&Chapter, &Exercise))| {
         let solution = exercise.solution();
-        let text = if arguments.key {
+        if arguments.key {
             let why = exercise.explanation(language, &solution);
-            format!("{number}. {} [{}] {why}", solution.answer.text(), chapter.page)
-        } else {
-            format!("{number}. {}", exercise.question_with_form(language, &solution))
-        };
-        for line in wrap(&text, TERMINAL_COLUMNS) {
-            writeln!(streams.output, "{line}")?;
+            let title = format!("{number}. {} [{}] {why}", solution.answer.text(), chapter.page);
+            return Excerpt { title, ..Excerpt::default() };
         }
-        for choice in choices(exercise, language).iter().filter(|_| !arguments.key) {
-            writeln!(streams.output, "   {choice}")?;
-        }
-        writeln!(streams.output)?;
-    }
+        let title = format!("{number}. {}", exercise.question_with_form(language, &solution));
+        let grid = choices(exercise, language).into_iter().map(|choice| format!("   {choice}\n"));
+        Excerpt { title, grid: grid.collect(), ..Excerpt::default() }
+    };
+    let excerpts = (1..).zip(&asked[..count]).map(question).collect();
+    show(Report { about: head, excerpts, ..Report::default() }, Shown::All, None, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -161,32 +154,23 @@ struct Quiz<'a> {
     language: Language,
 }
 
-struct Phrases {
-    right: &'static str,
-    wrong: &'static str,
-    passed: &'static str,
-}
-
-const PHRASES: [Phrases; 2] = [
-    Phrases { right: "Right", wrong: "No", passed: "Passed" },
-    Phrases { right: "对", wrong: "不对", passed: "跳过" },
-];
+/// What is said of a right answer, of a wrong one, and of none.
+const PHRASES: [[&str; 3]; 2] = [["Right", "No", "Passed"], ["对", "不对", "跳过"]];
 
 impl Quiz<'_> {
     fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Status {
-        let mut score = Score::default();
+        let (mut answered, mut right, all) = (0, 0, asked.len());
         for (i, &(chapter, exercise)) in asked.iter().enumerate() {
-            let name = chapter.name(self.language);
-            writeln!(self.output, "{} / {}  {name}", i + 1, asked.len())?;
-            match self.ask(exercise)? {
+            let head = format!("{} / {all}  {}", i + 1, chapter.name(self.language));
+            match self.ask(&head, exercise)? {
                 None => break,
                 Some(is_right) => {
-                    score.answered += 1;
-                    score.right += usize::from(is_right);
+                    answered += 1;
+                    right += usize::from(is_right);
                 }
             }
         }
-        let (right, all, left) = (score.right, asked.len(), asked.len() - score.answered);
+        let left = all - answered;
         match self.language {
             Language::English => {
                 let rest = if left > 0 { format!(", {left} not answered") } else { String::new() };
@@ -201,15 +185,12 @@ impl Quiz<'_> {
     }
 
     /// Asks one exercise; whether it was answered rightly, or nothing at the end of input.
-    fn ask(&mut self, exercise: &Exercise) -> Result<Option<bool>, Failure> {
+    fn ask(&mut self, head: &str, exercise: &Exercise) -> Result<Option<bool>, Failure> {
         let solution = exercise.solution();
         let question = exercise.question_with_form(self.language, &solution);
-        for line in wrap(&question, TERMINAL_COLUMNS) {
-            writeln!(self.output, "{line}")?;
-        }
-        for choice in choices(exercise, self.language) {
-            writeln!(self.output, "  {choice}")?;
-        }
+        let grid = choices(exercise, self.language).join("\n");
+        let asked = Excerpt { title: format!("{head}\n{question}"), grid, ..Excerpt::default() };
+        self.output.write_all(text::excerpt(&asked, text::WIDTH).as_bytes())?;
         let given = loop {
             if self.is_watched {
                 write!(self.output, "> ")?;
@@ -236,27 +217,23 @@ impl Quiz<'_> {
                 }
             }
         };
-        let phrases = &PHRASES[self.language as usize];
+        let [is_said_right, wrong, passed] = PHRASES[self.language as usize];
         let is_right = given.is_some_and(|given| solution.answer.accepts(given));
         let verdict = match given {
-            None => phrases.passed,
-            Some(_) if is_right => phrases.right,
-            Some(_) => phrases.wrong,
+            None => passed,
+            Some(_) if is_right => is_said_right,
+            Some(_) => wrong,
         };
         let why = exercise.explanation(self.language, &solution);
         let answer = solution.answer.text();
-        let text = match self.language {
+        let title = match self.language {
             Language::English => format!("{verdict}: {answer}. {why}"),
             Language::Chinese => format!("{verdict}：{answer}。{why}"),
         };
-        for line in wrap(&text, TERMINAL_COLUMNS) {
-            writeln!(self.output, "{line}")?;
-        }
-        write!(self.output, "{}", grids(&solution))?;
-        if let Some(legend) = legend(&solution, self.language) {
-            writeln!(self.output, "{legend}")?;
-        }
-        writeln!(self.output)?;
+        let (grid, notes) = (grids(&solution), legend(&solution, self.language));
+        let notes = notes.map(str::to_owned).into_iter().collect();
+        let answered = Excerpt { title, grid, notes, ..Excerpt::default() };
+        self.output.write_all(text::excerpt(&answered, text::WIDTH).as_bytes())?;
         Ok(Some(is_right))
     }
 }

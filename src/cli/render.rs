@@ -29,9 +29,9 @@ use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::picture;
 use rasterproof_report::table::Table;
 use rasterproof_report::words::thousands;
+use rasterproof_report::{json, picture};
 use rasterproof_study::ties::classify;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
@@ -57,7 +57,7 @@ pub struct RenderArguments {
     #[arg(long, conflicts_with_all = ["wireframe", "spin", "report"])]
     map: bool,
     /// A full turn in this many frames, as an animated GIF
-    #[arg(long, value_name = "FRAMES", conflicts_with = "report", value_parser = clap::value_parser!(u32).range(2..=1000))]
+    #[arg(long, value_name = "FRAMES", conflicts_with = "report", value_parser = super::whole::<u32>(2..=1000))]
     spin: Option<u32>,
     /// The picture [default: NAME.png or .gif in the folder of --out]
     #[arg(short, long, value_name = "FILE")]
@@ -90,13 +90,25 @@ struct Drawing {
     is_complete: bool,
 }
 
+/// What was drawn, for machines.
+#[derive(serde::Serialize)]
+struct Data<'a> {
+    scene: &'a str,
+    engines: Vec<&'static str>,
+    times: &'a Times,
+    counters: &'a Counters,
+    plan: &'a Plan,
+    comparison: &'a Option<Comparison>,
+    by_rounding: &'a Option<ByRounding>,
+}
+
 pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
     let default = || arguments.page.place.output(format!("{}.{extension}", what.name()));
     let output = arguments.output.as_deref().map_or_else(default, Output::typed);
     let ending = output.path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
-    if !ending.eq_ignore_ascii_case(extension) {
+    if arguments.output.is_some() && !ending.eq_ignore_ascii_case(extension) {
         return Err(usage(format!(
             "{}: {} is written as {}: end its name with .{extension}",
             printable_path(&output.path),
@@ -163,7 +175,15 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         // With its scene the plan can be drawn by.
         drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
         let (name, names, first) = (&scene.name, names(&drawings), &drawings[0].rendered);
-        data = frame_comparison::json(name, &names, first, &comparison, &by_rounding, &times);
+        data = json::value(&Data {
+            scene: name,
+            engines: names,
+            times: &times,
+            counters: &first.counters,
+            plan: &first.plan,
+            comparison: &comparison,
+            by_rounding: &by_rounding,
+        });
     }
     let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
     if is_empty(&drawings[0].rendered) {
@@ -615,25 +635,21 @@ fn spin(
         }
     }
     let drawn_in = saved(output, &bytes, streams);
-    writeln!(streams.output, "{frames} frames{drawn_in}")?;
-    if undecided > 0 {
-        writeln!(streams.output, "UNDECIDED: {undecided} pixels, where surfaces tie")?;
-    }
-    if far > 0 {
-        writeln!(streams.output, "UNDECIDED: {far} pixels, by large texture coordinates")?;
-    }
-    match (arguments.engine, wrong) {
-        (DrawnBy::Both, _) if !is_compared => {
-            writeln!(streams.output, "NOT COMPARED: {NOTHING_DRAWN} Nothing was compared.")?;
+    let mut notes = Vec::new();
+    for (pixels, what) in [(undecided, "where surfaces tie"), (far, "by large texture coordinates")]
+    {
+        if pixels > 0 {
+            notes.push(format!("UNDECIDED: {pixels} pixels, {what}"));
         }
-        (DrawnBy::Both, 0) => writeln!(streams.output, "AGREES: 0 pixels and depths differ")?,
-        (DrawnBy::Both, wrong) => {
-            writeln!(streams.output, "DISAGREES: {wrong} pixels and depths differ")?;
-            return Ok(exit::DISAGREES);
-        }
-        _ => {}
     }
-    Ok(exit::AGREES)
+    let agrees = arguments.engine != DrawnBy::Both || wrong == 0;
+    let outcome = (arguments.engine == DrawnBy::Both).then(|| match is_compared {
+        false => Outcome::not_compared(NOTHING_DRAWN),
+        true => Outcome::of(agrees, format!("{wrong} pixels and depths differ")),
+    });
+    let about = format!("{frames} frames{drawn_in}");
+    show(Report { about, notes, outcome, ..Report::default() }, Shown::All, None, streams)?;
+    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
 fn rgba(picture: &Frame<Colour>) -> image::RgbaImage {

@@ -20,11 +20,11 @@ use rasterproof_host::shell;
 use rasterproof_host::text::{printable, printable_path, printable_short};
 
 use super::files::{self, Output, Use, written};
-use super::page::{Place, save_page};
+use super::page::{self, Place};
 use super::{Status, Streams, exit, program, usage};
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report, TextDiff};
 use rasterproof_report::panels::{self, Sheet};
-use rasterproof_report::table::{Column, Row, Table};
+use rasterproof_report::table::{Row, Table};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Exit status: 0 nothing is pending, 1 something is, 2 usage or bad input.")]
@@ -99,20 +99,6 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     let olds = pending.iter().map(|one| ("a snapshot", one.path.as_path(), Use::Reads));
     let page = written("the page", &output);
     files::check(&read.chain(olds).chain([page]).collect::<Vec<_>>())?;
-    for one in &pending {
-        writeln!(streams.output, "\n{}: {}", printable_path(&one.path), one.what)?;
-        writeln!(streams.output, "  accept: {}", accept(one))?;
-        writeln!(streams.output, "  or, without cargo-insta: {}", update(one))?;
-    }
-    if left_out > 0 {
-        writeln!(streams.output, "\n{}", not_listed(left_out))?;
-    }
-    if accepted > 0 {
-        writeln!(
-            streams.output,
-            "{accepted} accepted already; the next cargo test removes what is left over"
-        )?;
-    }
     for warning in unread.iter().take(MOST_UNREAD) {
         writeln!(streams.errors, "warning: not looked into: {warning}")?;
     }
@@ -120,26 +106,25 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
         let more = unread.len() - MOST_UNREAD;
         writeln!(streams.errors, "warning: {more} more folders could not be looked into")?;
     }
-    let report = report(&pending, left_out, &folders);
-    let sentence = report.outcome.clone().map(|outcome| outcome.sentence).unwrap_or_default();
-    writeln!(streams.output, "{}{sentence}", if pending.is_empty() { "" } else { "\n" })?;
-    // What was found is printed before the page is written, which may fail.
-    if save_page(&output, report, streams) {
-        writeln!(streams.output, "report: {}", printable_path(&output.path))?;
+    let mut notes = Vec::new();
+    if left_out > 0 {
+        notes.push(format!(
+            "{left_out} more are not looked into: accept or reject the {MOST_LISTED} listed ones first, \
+             or name a folder with fewer"
+        ));
     }
+    if accepted > 0 {
+        let left_over = "the next cargo test removes what is left over";
+        notes.push(format!("{accepted} accepted already; {left_over}"));
+    }
+    let report = Report { notes, ..report(&pending, left_out, &folders) };
+    page::show(report, page::Shown::All, Some(output), streams)?;
     Ok(match (pending.is_empty(), unread.is_empty()) {
         (false, _) => exit::DISAGREES,
         (true, true) => exit::AGREES,
         // Something may wait where nobody could look.
         (true, false) => exit::USAGE,
     })
-}
-
-fn not_listed(left_out: usize) -> String {
-    format!(
-        "{left_out} more are not looked into: accept or reject the {MOST_LISTED} listed ones first, \
-         or name a folder with fewer"
-    )
 }
 
 fn cannot_read(folder: &Path, error: &std::io::Error) -> String {
@@ -371,15 +356,14 @@ fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
     let word = if pending.is_empty() { "NOTHING PENDING" } else { "PENDING" };
     let mut report = Report {
         title: "Review of snapshots".to_owned(),
-        outcome: Some(Outcome { good: pending.is_empty(), word: word.to_owned(), sentence }),
+        outcome: Some(Outcome::new(pending.is_empty(), word, sentence)),
         command: format!("{} review {}", program(), shell::line(folders)),
-        notes: if left_out > 0 { vec![not_listed(left_out)] } else { Vec::new() },
         ..Report::default()
     };
     let mut rows = Vec::new();
     for one in pending {
         let name = printable_path(&one.path);
-        let cells = vec![name.clone(), one.what.clone(), accept(one), update(one)];
+        let cells = vec![format!("{name}: {}", one.what), accept(one), update(one)];
         let search = matches!(one.shown, Shown::Picture(_)).then(|| name.clone());
         rows.push(Row { cells, search, ..Row::default() });
         let (about, command) = (one.what.clone(), accept(one));
@@ -402,9 +386,8 @@ fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
         }
     }
     if !rows.is_empty() {
-        let columns = ["snapshot", "what", "accept", "without cargo-insta"].map(Column::words);
-        let caption = "Snapshots that wait".to_owned();
-        report.tables.push(Table { caption, columns: columns.to_vec(), rows, ..Table::default() });
+        let columns = "~snapshot 1 | :accept | :without cargo-insta";
+        report.tables.push(Table::new("Snapshots that wait", columns, rows));
     }
     report
 }

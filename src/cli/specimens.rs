@@ -15,10 +15,10 @@ use rasterproof_report::{json, page_cases, picture, specimen_sheet, specimens};
 #[derive(clap::Args, Debug)]
 pub struct SpecimensArguments {
     /// Cases of each family
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = super::parse_count, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = super::whole::<u64>(1..=u64::MAX), allow_hyphen_values = true)]
     cases: u64,
     /// Decides every generated case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Only this one, with every family; its strip instead of the contact sheet
     #[arg(long, value_name = "NAME", value_parser = clap::builder::PossibleValuesParser::new(CARDS.iter().map(|card| card.name)))]
@@ -101,7 +101,7 @@ fn report(
     frames.retain(|view| is_asked(&view.name));
     Report {
         title: "Published algorithms and their faults".to_owned(),
-        outcome: Some(Outcome { good, word: word.to_owned(), sentence }),
+        outcome: Some(Outcome::new(good, word, sentence)),
         command: {
             let typed = typed.clone().first("cases", arguments.cases);
             typed.first("seed", arguments.seed).line()

@@ -15,18 +15,16 @@ use rasterproof_models::Origin;
 use rasterproof_registry::comparison::Judged;
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::study::{
-    self as report, Subject, costs, costs_json, hard_cases, hard_cases_json,
-};
+use rasterproof_report::json;
+use rasterproof_report::study::{self as report, Subject, costs, hard_cases};
 use rasterproof_report::table::{Mark, Row, Table};
-use rasterproof_report::words::{number, thousands};
+use rasterproof_report::words::{self, number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::hard::{self, HardCases, Kind};
 use rasterproof_study::view::{Piece, Sampled};
 use rasterproof_study::{face_of, faces, triangle_of};
 use rasterproof_verify::cases::{Case, Shape};
-use serde_json::Value;
 
 use super::files;
 use super::inspect_case::{self, Found};
@@ -51,7 +49,7 @@ pub struct StudyArguments {
     #[command(flatten)]
     once: OnceArgument,
     /// Look at the model from so many sides, a line for each
-    #[arg(long, value_name = "N", conflicts_with = "report", value_parser = clap::value_parser!(u32).range(1..=360))]
+    #[arg(long, value_name = "N", conflicts_with = "report", value_parser = super::whole::<u32>(1..=360))]
     views: Option<u32>,
     /// For machines
     #[arg(long)]
@@ -132,7 +130,7 @@ pub(super) fn cost(
     let report = Report {
         about: head(&studied),
         tables: costs(&subject, &groups),
-        data: costs_json(&subject, &groups),
+        data: json::costs(&subject, &groups),
         ..Report::default()
     };
     show(report, Shown::all_or_json(is_json), None, streams)?;
@@ -179,25 +177,42 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         Err(path) => ["cost", "verify", "plan"]
             .map(|name| typed.as_command(name, path, &VIEW_OPTIONS).line()),
     };
-    let found = report::Found { hard: &studied.hard, needs: &needs, costs: &groups, not_drawn };
+    let found = report::Found {
+        hard: &studied.hard,
+        needs: &needs,
+        costs: &groups,
+        not_drawn,
+        pieces: pieces.len(),
+        loading_s: maker.loading_s(),
+    };
     let mut report = report::report(&subject, &found, head(&studied), commands, typed.line());
+    report.data = json::study(&subject, &found, &report.answers);
     if let Some(loading_s) = maker.loading_s() {
         let read =
             format!("read in {:.1} ms, which is no part of the times above", loading_s * 1e3);
         report.notes.push(read);
     }
-    let about_it = serde_json::json!({
-        "scene": studied.scene.name,
-        "triangles": studied.scene.triangles(),
-        "pieces": pieces.len(),
-        "loading_s": maker.loading_s(),
-    });
-    if let (Some(data), Value::Object(about_it)) = (report.data.as_object_mut(), about_it) {
-        data.extend(about_it);
-    }
     let shown = if arguments.all { Shown::All } else { Shown::Screen };
     show(report, if arguments.json { Shown::Json } else { shown }, page, streams)?;
     Ok(exit::AGREES)
+}
+
+/// A model from one of some sides: the turn in degrees, and what is seen there.
+#[derive(serde::Serialize)]
+struct Turned {
+    turn: f64,
+    kinds: u64,
+    slivers: u64,
+    order: u64,
+    by_rounding: u64,
+    equal: u64,
+}
+
+#[derive(serde::Serialize)]
+struct Around<'a> {
+    views: Vec<Turned>,
+    /// The job, the choice, and in how many views it is the cheapest exact one.
+    cheapest_exact: Vec<(&'static str, &'a String, &'a u32)>,
 }
 
 /// A line for each of some views around the model.
@@ -217,14 +232,14 @@ fn all_around(
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
         let classes = &studied.hard.classes;
         let pixels = |kind: Kind| studied.hard.of(kind).map_or(0, |case| case.pixels);
-        lines.push(serde_json::json!({
-            "turn": 360.0 * turn,
-            "kinds": studied.hard.in_view().count(),
-            "slivers": pixels(Kind::Sliver),
-            "order": pixels(Kind::Order),
-            "by_rounding": classes.by_rounding,
-            "equal": classes.equal,
-        }));
+        lines.push(Turned {
+            turn: 360.0 * turn,
+            kinds: studied.hard.in_view().count() as u64,
+            slivers: pixels(Kind::Sliver),
+            order: pixels(Kind::Order),
+            by_rounding: classes.by_rounding,
+            equal: classes.equal,
+        });
         for (place, group) in groups.iter().enumerate() {
             if place == titles.len() {
                 titles.push(group.title);
@@ -236,9 +251,9 @@ fn all_around(
         progress.done(1);
     }
     drop(progress);
-    let cells = |line: &Value| {
-        let keys = ["turn", "kinds", "slivers", "order", "by_rounding", "equal"];
-        keys.map(|key| number(line[key].as_f64().unwrap_or(0.0), 9)).to_vec().into()
+    let cells = |of: &Turned| {
+        let counts = [of.kinds, of.slivers, of.order, of.by_rounding, of.equal].map(thousands);
+        [vec![number(of.turn, 9)], counts.to_vec()].concat().into()
     };
     let columns =
         ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11";
@@ -254,9 +269,10 @@ fn all_around(
     let columns = "job 28 | choice 24 | >views 6 in how many of the views";
     let cheapest = Table::new("Cheapest exact choice", columns, best.iter().map(row).collect());
     let best = best.iter().map(|((place, name), count)| (titles[*place], name, count));
+    let all = Around { cheapest_exact: best.collect(), views: lines };
     let report = Report {
         about: format!("{}: seen from {views} sides", maker.scene.name),
-        data: serde_json::json!({ "views": lines, "cheapest_exact": best.collect::<Vec<_>>() }),
+        data: json::value(&all),
         tables: vec![hard, cheapest],
         ..Report::default()
     };
@@ -340,11 +356,11 @@ pub(super) fn verify(
         }
     };
     let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
-    let engine = |(name, fault): &(&str, Option<Fault>)| {
+    let engine = |(name, fault): &(&'static str, Option<Fault>)| {
         let face = fault.as_ref().and_then(|fault| fault.triangle);
         let face = face.map(|one| face_of(&studied.scene, studied.origins, one));
-        let what = fault.as_ref().map(|fault| &fault.what);
-        serde_json::json!({ "engine": name, "fault": what, "face": face })
+        let what = fault.as_ref().map(|fault| fault.what.clone());
+        json::Engine { engine: name, fault: what, face }
     };
     let row = |(name, fault): &(&str, Option<Fault>)| {
         let what = fault.as_ref().map_or("agrees", |fault| &fault.what).to_owned();
@@ -370,22 +386,22 @@ pub(super) fn verify(
         tables: vec![hard_cases(&subject, &studied.hard, &[]), engines],
         outcome: Some(match agrees {
             Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
-            None => Outcome {
-                good: false,
-                word: "NOT JUDGED".to_owned(),
-                sentence: format!(
+            None => Outcome::new(
+                false,
+                "NOT JUDGED",
+                format!(
                     "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
                      look at it from another side (--yaw, --pitch, --zoom)"
                 ),
-            },
+            ),
         }),
-        data: serde_json::json!({
-            "scene": studied.scene.name,
-            "hard_cases": hard_cases_json(&subject, &studied.hard),
-            "engines": faults.iter().map(engine).collect::<Vec<_>>(),
-            "pieces": count,
-            "not_judged": left,
-            "agrees": agrees,
+        data: json::value(&json::OnModel {
+            scene: &studied.scene.name,
+            hard_cases: json::hard_cases(&subject, &studied.hard),
+            engines: faults.iter().map(engine).collect(),
+            pieces: count,
+            not_judged: left,
+            agrees,
         }),
         ..Report::default()
     };
@@ -426,14 +442,14 @@ fn judge(
     })
 }
 
-/// The face of a model that the words of `inspect` name: FILE#NUMBER. Prints what is known of it, and returns its pieces
-/// as a case; nothing where it is not in the window.
+/// The face of a model that the words of `inspect` name: FILE#NUMBER. What is known of it, a line each, and its pieces as a
+/// case; nothing where it is not in the window.
 pub(super) fn face(
     (path, word): (&Path, &str),
     view: &ViewArguments,
     (typed, is_exact): (&Typed, bool),
     streams: &mut Streams<'_>,
-) -> Result<Option<Found>, Failure> {
+) -> Result<(Vec<String>, Option<Found>), Failure> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
@@ -450,8 +466,7 @@ pub(super) fn face(
     };
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
-    let out = &mut *streams.output;
-    writeln!(out, "{shown}: {}", subject.place(first))?;
+    let mut about = vec![format!("{shown}: {}", subject.place(first))];
     for (item, number) in triangles.iter().filter_map(|&one| triangle_of(scene, one)) {
         let mesh = &scene.items[item].mesh;
         let corners = mesh.triangles.positions()[number].map(|position| {
@@ -459,33 +474,32 @@ pub(super) fn face(
             let [x, y, z] = mesh.positions[position as usize].to_array();
             format!("({x:?}, {y:?}, {:?})", -z)
         });
-        writeln!(out, "  triangle, y up: {}", corners.join(" "))?;
+        about.push(format!("triangle, y up: {}", corners.join(" ")));
     }
     let has_part = |kind: &Kind| triangles.iter().any(|&one| studied.hard.is(one, *kind));
     let kinds: Vec<_> = Kind::ALL.into_iter().filter(has_part).map(Kind::name).collect();
     let kinds = if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
-    writeln!(out, "  hard cases that it has a part in: {kinds}")?;
+    about.push(format!("hard cases that it has a part in: {kinds}"));
     let of_face = |piece: &&Piece| triangles.binary_search(&piece.face).is_ok();
     let pieces: Vec<&Piece> = studied.sampled.at_centres().iter().filter(of_face).collect();
     if pieces.is_empty() {
-        writeln!(out, "  not in the window: outside of it, or seen from a side that is culled")?;
-        writeln!(out, "NOT COMPARED: nothing of this face is drawn, so nothing was compared")?;
-        return Ok(None);
+        return Ok((about, None));
     }
-    writeln!(out, "  in the window: {} piece(s)\n", pieces.len())?;
-    let mut words = Vec::new();
+    about.push(format!("in the window: {}", words::count(pieces.len() as u64, "piece", "pieces")));
+    let mut corners = Vec::new();
     for piece in pieces {
         for (i, [x, y]) in piece.px.into_iter().enumerate() {
             let (w, vertex) = (piece.w[i], &piece.triangle.vertices[i]);
-            words.push(match is_exact {
+            corners.push(match is_exact {
                 true => format!("{x:?},{y:?}"),
                 false => format!("{x:?},{y:?},{w:?},{:?}", vertex.depth),
             });
         }
     }
     let title = format!("{shown}#{}", printable(word));
-    Ok(Some(match inspect_case::triangles(&words, is_exact, Some(studied.sampled.size))? {
+    let found = match inspect_case::triangles(&corners, is_exact, Some(studied.sampled.size))? {
         Found::Case { case, expected, typed, .. } => Found::Case { title, case, expected, typed },
         found => found,
-    }))
+    };
+    Ok((about, Some(found)))
 }

@@ -7,6 +7,7 @@ use rasterproof_invariants::acceptance::rules::{RULES, Rule};
 use rasterproof_invariants::acceptance::{Acceptance, Row, report};
 use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
 use rasterproof_report::html::Report as Page;
+use rasterproof_report::json;
 use rasterproof_report::table::Table;
 
 use super::files::Output;
@@ -17,7 +18,7 @@ use super::{Status, Streams, exit, usage};
 #[derive(clap::Args, Debug)]
 pub struct TolerancesArguments {
     /// Decides the random scenes and the hard cases
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Print JSON instead of tables
     #[arg(long)]
@@ -40,10 +41,10 @@ pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status
     if let Some(path) = &arguments.plot {
         super::write_file(&Output::typed(path), canvas::svg(&plot(&report)).as_bytes())?;
     }
-    show(page(arguments.seed, &report), Shown::all_or_json(arguments.json), None, streams)?;
-    if let (Some(path), false) = (&arguments.plot, arguments.json) {
-        writeln!(streams.output, "drawn in {}", printable_path(path))?;
-    }
+    let mut page = page(arguments.seed, &report);
+    let plot = arguments.plot.as_deref().map(|path| format!("drawn in {}", printable_path(path)));
+    page.notes.extend(plot);
+    show(page, Shown::all_or_json(arguments.json), None, streams)?;
     Ok(exit::AGREES)
 }
 
@@ -87,19 +88,13 @@ fn page(seed: u64, report: &Acceptance) -> Page {
             let share = 100.0 * worst.wrong_pixels as f64 / worst.pixels as f64;
             let picture = row.worst_picture.as_ref().map_or(String::new(), |one| {
                 let what = of(one.name, one.wrong_pixels, one.pixels);
-                format!("one picture: {what}: {}", one.scene)
+                format!("{what}: {}", one.scene)
             });
             let smallest = of(smallest.name, smallest.wrong_pixels, smallest.pixels);
             let worst = of(worst.name, worst.wrong_pixels, worst.pixels);
-            vec![
-                rule.name.to_owned(),
-                format!("smallest: {smallest}"),
-                format!("most harmful: {worst} ({share:.2}%)"),
-                picture,
-            ]
-            .into()
+            vec![rule.name.to_owned(), smallest, format!("{worst} ({share:.2}%)"), picture].into()
         };
-        let columns = "rule 15 | smallest | most harmful | one picture";
+        let columns = "~rule 15 | :smallest | :most harmful | :one picture";
         let rows = RULES.iter().zip(rows).map(row).collect();
         Table::new(&format!("What passes, on {title}"), columns, rows)
     });
@@ -110,55 +105,18 @@ fn page(seed: u64, report: &Acceptance) -> Page {
             "{faults} faults and {right} right rasterizers with another permitted convention, seed {seed}"
         ),
         tables: caught.into_iter().chain(passes).chain([rules]).collect(),
-        data: json(seed, report),
+        data: json::value(&Data { seed, rules: &RULES, found: report }),
         ..Page::default()
     }
 }
 
-fn json(seed: u64, report: &Acceptance) -> serde_json::Value {
-    let fault = |fault: &rasterproof_invariants::acceptance::Passed| {
-        serde_json::json!({
-            "fault": fault.name, "wrong_pixels": fault.wrong_pixels, "pixels": fault.pixels,
-        })
-    };
-    let of_sets = sets(report).map(|(title, rows, scenes, visible)| {
-        let rows: Vec<serde_json::Value> = RULES
-            .iter()
-            .zip(rows)
-            .map(|(rule, row)| {
-                let picture = row.worst_picture.as_ref().map(|picture| {
-                    serde_json::json!({
-                        "fault": picture.name, "scene": picture.scene,
-                        "wrong_pixels": picture.wrong_pixels, "pixels": picture.pixels,
-                    })
-                });
-                serde_json::json!({
-                    "rule": rule.name,
-                    "caught": row.caught,
-                    "passed": row.passed.iter().map(fault).collect::<Vec<_>>(),
-                    "wrong_pictures": row.wrong_pictures,
-                    "refused_pictures": row.refused_pictures,
-                    "smallest_that_passes": row.smallest().map(fault),
-                    "most_harmful_that_passes": row.most_harmful().map(fault),
-                    "worst_accepted_picture": picture,
-                    "unusable_pictures": row.unusable_pictures,
-                    "refused_right": row.refused_right,
-                    "right_pictures": row.right_pictures,
-                    "refused_right_pictures": row.refused_right_pictures,
-                })
-            })
-            .collect();
-        serde_json::json!({
-            "scenes": title, "pictures": scenes, "visible_faults": visible, "rules": rows,
-        })
-    });
-    let rules: Vec<serde_json::Value> = RULES
-        .iter()
-        .map(|rule| serde_json::json!({"rule": rule.name, "accepts": rule.about, "source": rule.source}))
-        .collect();
-    serde_json::json!({
-        "seed": seed, "faults": report.faults, "right": report.right, "rules": rules, "sets": of_sets,
-    })
+/// Everything that was found, for machines.
+#[derive(serde::Serialize)]
+struct Data<'a> {
+    seed: u64,
+    rules: &'a [Rule],
+    #[serde(flatten)]
+    found: &'a Acceptance,
 }
 
 const CAUGHT: Ink = [31, 84, 170];

@@ -49,7 +49,7 @@ pub fn run_command(command: &VerifyCommand, typed: &Typed, streams: &mut Streams
 #[derive(clap::Args, Debug)]
 pub struct VerifyArguments {
     /// Cases of each family [default: 20000]
-    #[arg(long, value_name = "N", value_parser = super::parse_count, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = super::whole::<u64>(1..=u64::MAX), allow_hyphen_values = true)]
     cases: Option<u64>,
     /// Stop after about this many seconds, however many cases that is
     #[arg(long, value_name = "S", value_parser = super::parse_seconds, allow_negative_numbers = true)]
@@ -65,13 +65,13 @@ pub struct VerifyArguments {
         conflicts_with_all = ["family", "engine", "shard", "case", "json", "table", "seconds", "report"])]
     invariant: Vec<String>,
     /// Decides every generated case
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::whole::<u64>(0..=u64::MAX), allow_negative_numbers = true)]
     seed: u64,
     /// Only part I of N, I from 0: case number modulo N
     #[arg(long, value_name = "I/N", value_parser = parse_shard, default_value = "0/1")]
     shard: (u64, u64),
     /// Only the case of this number, to repeat a failure
-    #[arg(long, value_name = "NUMBER", value_parser = super::parse_case, allow_negative_numbers = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = super::whole::<u64>(super::NUMBERS), allow_negative_numbers = true)]
     case: Option<u64>,
     /// The table of all families, too; it is always there where something is wrong
     #[arg(long, conflicts_with = "json")]
@@ -282,7 +282,6 @@ impl Run<'_> {
         let agrees = verdict.agrees();
         let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
         let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
-        let answer = if agrees { "every engine is right" } else { "not every engine is right" };
         let (version, seed) = (env!("CARGO_PKG_VERSION"), arguments.seed);
         let families = differential::tables(verdict);
         let mut first_screen = vec![summary::table(verdict)];
@@ -296,7 +295,7 @@ impl Run<'_> {
         let cases = is_page.then(|| page_cases::of_verdict(verdict, judged, repeat));
         Report {
             title: "Verdict of rasterproof".to_owned(),
-            about: format!("rasterproof {version}, seed {seed}{shard}: {answer}"),
+            about: format!("rasterproof {version}, seed {seed}{shard}"),
             outcome: Some(differential::outcome(verdict)),
             excerpts: verdict
                 .failures

@@ -88,7 +88,7 @@ pub struct ViewArguments {
     mip_maps: bool,
     /// Read all textures of a model up to so many times along the longer axis of a pixel's footprint, from 2 to 16, at levels of
     /// detail
-    #[arg(long, value_name = "TAPS", value_parser = clap::value_parser!(u8).range(2..=16))]
+    #[arg(long, value_name = "TAPS", value_parser = super::whole::<u8>(2..=16))]
     anisotropy: Option<u8>,
     /// Let the surfaces of a model keep the light from others, by a shadow map of SIZE x SIZE texels [default SIZE: 1024]
     #[arg(long, value_name = "SIZE", num_args = 0..=1, default_missing_value = "1024", value_parser = parse_shadows)]
@@ -117,7 +117,7 @@ pub struct ViewArguments {
     #[arg(long, value_name = "SECONDS")]
     time: Option<f64>,
     /// The number of that animation, from 1 [default: 1]
-    #[arg(long, value_name = "NUMBER", requires = "time", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "NUMBER", requires = "time", value_parser = super::whole::<u32>(1..=u32::MAX.into()))]
     animation: Option<u32>,
     /// Turn the model by this many degrees, to the right [default: 30]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]

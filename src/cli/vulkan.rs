@@ -2,10 +2,10 @@
 
 use rasterproof_vulkan::device::find;
 use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
+use rasterproof_vulkan::gpu::choice::OnLadder;
 use rasterproof_vulkan::gpu::engine::{Gpu, PREFIX};
 use rasterproof_vulkan::gpu::look;
 use rasterproof_vulkan::gpu::plant::Plant;
-use rasterproof_vulkan::gpu::rung::OnLadder;
 use rasterproof_vulkan::gpu::text;
 
 use super::page::{PageArguments, Shown, show};

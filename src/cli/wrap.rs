@@ -24,7 +24,7 @@ pub struct Folded<'a> {
 impl<'a> Folded<'a> {
     /// Lines of at most so many columns, but for those that hold `command` or a command of cargo.
     pub fn new(inner: &'a mut dyn Write, columns: usize, command: String) -> Self {
-        Self { inner, columns: columns.clamp(LEAST, USUAL), command, begun: Vec::new() }
+        Self { inner, columns: columns.max(LEAST), command, begun: Vec::new() }
     }
 
     fn end_line(&mut self) -> io::Result<()> {

@@ -31,16 +31,16 @@ fn shown(board: &Board, colour: bool) -> String {
     text::tables(&board::tables(board), text::WIDTH, colour)
 }
 
-fn rung(board: &Board, name: &str) -> usize {
-    board.rungs.iter().position(|rung| rung.name == name).unwrap_or_else(|| panic!("{name}"))
+fn choice(board: &Board, name: &str) -> usize {
+    board.choices.iter().position(|choice| choice.name == name).unwrap_or_else(|| panic!("{name}"))
 }
 
 fn column(board: &Board, name: &str) -> usize {
     board.columns.iter().position(|c| c.name == name).unwrap_or_else(|| panic!("{name}"))
 }
 
-fn error(board: &Board, rung_name: &str, column_name: &str, measure: usize) -> f64 {
-    board.error(rung(board, rung_name), column(board, column_name), measure).unwrap()
+fn error(board: &Board, choice_name: &str, column_name: &str, measure: usize) -> f64 {
+    board.error(choice(board, choice_name), column(board, column_name), measure).unwrap()
 }
 
 /// The error columns and the counted work of seed 1. The same in every build: the snapshot holds
@@ -54,13 +54,13 @@ fn cost_errors_of_a_seed() {
     check_words("cost-errors", &text);
 }
 
-/// A rung that promises an error of none has none, in every class that it ran.
+/// A choice that promises an error of none has none, in every class that it ran.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn cost_promises_are_kept() {
     let mut kept = 0;
     for board in Ladder::ALL.iter().flat_map(|&l| [2, 3].map(|seed| untimed(l, seed))) {
-        for (number, info) in board.rungs.iter().enumerate() {
+        for (number, info) in board.choices.iter().enumerate() {
             for &measure in &info.promises {
                 for c in board.columns_run() {
                     let Some(error) = board.error(number, c, measure) else { continue };
@@ -120,7 +120,7 @@ fn cost_from_the_command_line() {
     let folder = Folder::new("cost");
     let right = |words: &str| folder.check(words, 0).without_errors();
     let repeat = "repeat with: rasterproof cost lines --quick --seed 3";
-    let run = right("cost lines --quick --seed 3 -o plots")
+    let run = right("cost lines --quick --seed 3 --out plots")
         .prints(repeat)
         .prints("ns for each covered pixel, median of 7 rounds");
     assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{run}");
@@ -132,10 +132,10 @@ fn cost_from_the_command_line() {
     let run = right("cost lines --quick --seed 3 --json");
     let json = run.json();
     let untimed = untimed(Ladder::Lines, 3);
-    for (rung, row) in json["boards"][0]["cells"].as_array().unwrap().iter().enumerate() {
+    for (choice, row) in json["boards"][0]["cells"].as_array().unwrap().iter().enumerate() {
         for (column, cell) in row.as_array().unwrap().iter().enumerate() {
             let error = cell["run"]["errors"][0].as_f64();
-            assert_eq!(error, untimed.error(rung, column, 0), "errors do not depend on the run");
+            assert_eq!(error, untimed.error(choice, column, 0), "errors do not depend on the run");
             let median = cell["run"]["time"]["pixel_ns"]["median"].as_f64();
             assert!(error.is_none() || median > Some(0.0));
         }
@@ -145,9 +145,9 @@ fn cost_from_the_command_line() {
     // What was printed is drawn again, to the byte.
     let measured = folder.text("target/rasterproof/cost-lines.svg");
     folder.put("cost.json", &run.out);
-    assert_eq!(right("cost --from cost.json --json -o again").out, run.out);
+    assert_eq!(right("cost --from cost.json --json --out again").out, run.out);
     assert_eq!(folder.text("again/cost-lines.svg"), measured);
-    right("cost lines --from cost.json -o again").prints("cost, seed 3, quick\n").prints(repeat);
+    right("cost lines --from cost.json --out again").prints("cost, seed 3, quick\n").prints(repeat);
     for words in
         ["nothing", "depth --from cost.json", "--from nowhere.json", "--from cost.json --quick"]
     {
@@ -155,18 +155,18 @@ fn cost_from_the_command_line() {
     }
 }
 
-/// Every rung that ran has its label in the plot, and no label leaves the drawing.
+/// Every choice that ran has its label in the plot, and no label leaves the drawing.
 #[test]
-fn cost_plots_name_every_rung() {
+fn cost_plots_name_every_choice() {
     let board = timed(1);
     let drawings = [cost_plots::pareto(&board, 2), cost_plots::pareto(&board, 1)];
     assert!(drawings[1].size[0] <= 400.0, "{:?}", drawings[1].size);
     for drawing in drawings {
         let svg = canvas::svg(&drawing);
-        for (number, rung) in board.rungs.iter().enumerate() {
+        for (number, choice) in board.choices.iter().enumerate() {
             let ran = board.columns_run().filter(|&c| board.run(number, c).is_some()).count();
-            let labels = svg.matches(&format!(">{}</text>", rung.name)).count();
-            assert_eq!(labels, ran, "{}", rung.name);
+            let labels = svg.matches(&format!(">{}</text>", choice.name)).count();
+            assert_eq!(labels, ran, "{}", choice.name);
         }
         for (shape, _) in &drawing.shapes {
             if let canvas::Shape::Text(at, text) = shape {
@@ -214,8 +214,8 @@ fn cost_broken_files_are_refused() {
     type Spoil = fn(&mut Board);
     let misfits: [(Spoil, &str); 6] = [
         (|b| drop(b.cells.pop()), "rows of cells for"),
-        (|b| drop(b.cells[1].pop()), "cells of rung"),
-        (|b| b.rungs[0].promises.push(7), "promises measure 7 of 1"),
+        (|b| drop(b.cells[1].pop()), "cells of choice"),
+        (|b| b.choices[0].promises.push(7), "promises measure 7 of 1"),
         (|b| b.measures.clear(), "0 measures, and at least 1"),
         (|b| first(b).errors.clear(), "has 0 errors for 1 measures"),
         (|b| first(b).errors[0] = Some(-1.0), "has an error of -1"),

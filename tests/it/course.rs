@@ -27,7 +27,8 @@ fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
     let shown = if run.out.starts_with('{') { "" } else { &run.out };
     let shown = shown.replace(PROGRAM, "rasterproof");
     // A command is one line, so that it can be pasted.
-    let is_text = |line: &&str| !line.contains("cannot be judged") && !line.contains("again: ");
+    let is_text =
+        |line: &&str| !line.contains("cannot be judged") && !line.contains("repeat with: ");
     let mut lines = shown.lines().filter(is_text);
     assert!(lines.all(|line| line.chars().count() <= 100), "{run}");
     run
@@ -69,7 +70,7 @@ fn course_judges_every_step() {
         let known = ["it looks as if ", "no known mistake explains its answers\n"];
         assert_eq!(known.iter().filter(|said| wrong.out.contains(**said)).count(), 1);
         let line = |begin: &str| wrong.out.lines().find_map(|line| line.trim().strip_prefix(begin));
-        if let Some(again) = line("again:    ") {
+        if let Some(again) = line("repeat with: ") {
             let again = Run::of(Command::new("sh").args(["-c", again])).has(0);
             let answer = line("answer:   ").unwrap();
             assert!(
@@ -184,7 +185,7 @@ fn course_starters_start() {
         }
         fs::write(folder.join("mine").join(source), "my work").unwrap();
         course(&folder, ["start", "--language", language, "mine"], 0)
-            .prints("kept:    mine/course.toml");
+            .prints("kept: mine/course.toml");
         assert_eq!(fs::read_to_string(folder.join("mine").join(source)).unwrap(), "my work");
     }
 }

@@ -137,7 +137,7 @@ fn results_are_printed_before_files_are_written() {
     run.has(USAGE).prints("AGREES").says("file/judge.html: cannot be written");
     let run = folder.run("--cases 10 --plant inclusive-edges --report --out file");
     run.has(DISAGREES).prints("DISAGREES").says("file/verify.html: cannot be written");
-    let run = folder.run("cost coverage --quick -o file");
+    let run = folder.run("cost coverage --quick --out file");
     run.has(USAGE).prints("repeat with").says("cannot be written");
     fs::create_dir(folder.join("snapshots")).unwrap();
     fs::write(folder.join("snapshots/a.snap.new"), "---\nsource: a.rs\n---\nnew\n").unwrap();
@@ -187,7 +187,7 @@ fn two_options_do_not_name_one_file() {
     fs::write(folder.join("m.wasm"), "wasm").unwrap();
     is_refused("playground --module m.wasm -o ./m.wasm");
     fs::write(folder.join("cost-price.svg"), "{}").unwrap();
-    is_refused("cost --from cost-price.svg -o .");
+    is_refused("cost --from cost-price.svg --out .");
     is_refused("judge --baseline judge.html --report --out . -- true");
     fs::create_dir(folder.join("snapshots")).unwrap();
     fs::write(folder.join("snapshots/a.snap.new"), "---\nsource: a.rs\n---\nnew\n").unwrap();

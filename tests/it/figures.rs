@@ -197,7 +197,7 @@ pub const ALL: &[(&str, Values)] = &[
     }),
     ("engine-over-tiles", || range(8, |i| edges("engine", i) / edges(TILES, i))),
     ("planes-errors", || {
-        let errors = |i| [PLANES, "plane"].map(|rung| cell("Interpolation", "worst", rung, i));
+        let errors = |i| [PLANES, "plane"].map(|choice| cell("Interpolation", "worst", choice, i));
         let larger = |i: &usize| errors(*i)[0] > errors(*i)[1];
         assert_eq!((0..12).filter(larger).collect::<Vec<_>>(), [FAR]);
         let worst = [0, 1].map(|which| range(12, |i| errors(i)[which])[1]);
@@ -410,18 +410,18 @@ fn board(heading: &str, title: &str) -> (Vec<String>, BTreeMap<String, Vec<f64>>
     ((0..columns).filter_map(name).map(|name| name.trim().to_owned()).collect(), rows)
 }
 
-fn cell(heading: &str, title: &str, rung: &str, column: usize) -> f64 {
+fn cell(heading: &str, title: &str, choice: &str, column: usize) -> f64 {
     let (_, rows) = board(heading, title);
-    rows.get(rung).unwrap_or_else(|| panic!("{heading}, {title}: no row {rung}"))[column]
+    rows.get(choice).unwrap_or_else(|| panic!("{heading}, {title}: no row {choice}"))[column]
 }
 
 /// The cell that a page names, such as `Lines, ns, Bresenham, large`.
 pub fn cost_cell(reference: &str) -> f64 {
     let parts: Vec<_> = reference.split(", ").collect();
-    let [heading, title, rung, column] = parts[..] else { panic!("{reference}: not four parts") };
+    let [heading, title, choice, column] = parts[..] else { panic!("{reference}: not four parts") };
     let (names, _) = board(heading, title);
     let column = names.iter().position(|name| name == column);
-    cell(heading, title, rung, column.unwrap_or_else(|| panic!("{reference}: one of {names:?}")))
+    cell(heading, title, choice, column.unwrap_or_else(|| panic!("{reference}: one of {names:?}")))
 }
 
 /// The prices that the picture at the top states, by class: of the cheapest float, and of what is exact as given.
@@ -435,20 +435,20 @@ fn drawn_prices() -> [[f64; 2]; 8] {
     pairs.try_into().expect("eight classes")
 }
 
-fn edges(rung: &str, column: usize) -> f64 {
-    cell("Coverage by edge function", "ns", rung, column)
+fn edges(choice: &str, column: usize) -> f64 {
+    cell("Coverage by edge function", "ns", choice, column)
 }
 
-fn scanline(rung: &str, column: usize) -> f64 {
-    cell("Coverage by scanline", "ns", rung, column)
+fn scanline(choice: &str, column: usize) -> f64 {
+    cell("Coverage by scanline", "ns", choice, column)
 }
 
-fn antialiasing(rung: &str, column: usize) -> f64 {
-    cell("Antialiasing", "ns", rung, column)
+fn antialiasing(choice: &str, column: usize) -> f64 {
+    cell("Antialiasing", "ns", choice, column)
 }
 
-fn cheapest(heading: &str, rungs: &[&str], column: usize) -> f64 {
-    rungs.iter().map(|rung| cell(heading, "ns", rung, column)).fold(f64::INFINITY, f64::min)
+fn cheapest(heading: &str, choices: &[&str], column: usize) -> f64 {
+    choices.iter().map(|choice| cell(heading, "ns", choice, column)).fold(f64::INFINITY, f64::min)
 }
 
 fn sorted_ends(mut values: Vec<f64>) -> Vec<f64> {

@@ -7,8 +7,8 @@ use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_registry::fixtures::{Drawer, FORMAT, Fault, Fixtures, POLYGONS, QUOTAS, generate};
 use serde_json::Value;
 
+use crate::json_schema::violation;
 use crate::pages::read;
-use crate::schema::violation;
 
 pub(crate) fn fixtures() -> Fixtures {
     serde_json::from_str(&read("crates/verify/fixtures/fixtures.json")).unwrap()

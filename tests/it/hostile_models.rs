@@ -676,7 +676,7 @@ fn work(numbers: Range<u64>) {
                 progress: false,
                 colour: false,
                 columns: 100,
-                error_columns: None,
+                error_columns: usize::MAX,
                 delivery: Delivery::default(),
             };
             let status = cli::run(["rasterproof"].into_iter().chain(words), streams);
@@ -841,7 +841,7 @@ fn models_of_all_sizes_go_through_all_commands() {
 
 /// Coordinates of a texture that single precision does not hold are counted, and nothing is said of them.
 #[test]
-fn values_that_no_rung_takes_are_counted() {
+fn values_that_no_choice_takes_are_counted() {
     let folder = Folder::new("hostile-models-values");
     let text = "vt 0 0\nvt 1e300 1\nvt 0 1\n";
     folder.put("m.obj", format!("{}{text}f 1/1 2/2 3/3\n", sized(1.0)));

@@ -72,7 +72,7 @@ const LINES: [Line; 32] = [
     line("merge 0.json 1.json -o {o}", &["0.json", "1.json"]),
     Line { typed: "typed.html", ..line("review snapshots -o {o}", SNAPSHOTS) },
     line("review snapshots --out out", SNAPSHOTS),
-    line("cost lines --from costs.json -o out --report --out out", &["costs.json"]),
+    line("cost lines --from costs.json --report --out out", &["costs.json"]),
     Line { typed: "typed.html", ..line("playground --module m.wasm -o {o}", &["m.wasm"]) },
     Line { typed: "typed.html", ..line("your-gpu --module m.wasm -o {o}", &["m.wasm"]) },
     line("quiz 2 --answers answers.txt", &["answers.txt"]),

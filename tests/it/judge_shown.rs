@@ -20,7 +20,7 @@ use rasterproof_judge::verdict::Outcome;
 use rasterproof_judge::{Step, adapt_case, judge};
 use rasterproof_registry::engines;
 use rasterproof_report::html::page;
-use rasterproof_report::text::text;
+use rasterproof_report::text::{WIDTH, text};
 use rasterproof_report::{ascii, judge_text as shown};
 use rasterproof_teaching::quiz::{self, Language, page as quiz_page};
 use rasterproof_verify::cases::near_plane::clip_corners;
@@ -90,7 +90,7 @@ fn judge_pictures_every_stage() {
     }
     let repeat = |family: &str, index: u64| format!("{family} {index}");
     let report = shown::whole(&verdict, "", &repeat, false);
-    let (text, page) = (text(&report, false, false), page(&report));
+    let (text, page) = (text(&report, false, false, WIDTH), page(&report));
     for part in ["depth-order#", "near-plane#", "The picture: the four samples", "ch07.md"] {
         assert!(page.contains(part), "{part}");
     }
@@ -151,7 +151,8 @@ fn judge_sees_the_first_request() {
     });
     let verdict = judged(Box::new(dies), &options(8, &["uniform"]));
     assert_eq!(property(&verdict, "protocol"), Outcome::Fail);
-    let text = text(&shown::report(&verdict, "", &|_, _| String::new(), false), false, false);
+    let text =
+        text(&shown::report(&verdict, "", &|_, _| String::new(), false), false, false, WIDTH);
     assert!(
         text.contains("before the families: it crashes: signal 11\n  request:  T 1 "),
         "{text}"

@@ -27,6 +27,7 @@ mod hostile_models;
 mod hostile_submissions;
 mod illustrations;
 mod inputs_as_outputs;
+mod json_schema;
 mod judge;
 mod judge_shown;
 mod languages;

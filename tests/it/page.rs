@@ -336,7 +336,7 @@ fn page_shows_a_verdict_and_its_cases() {
     let Some(mut browser) = Browser::start("page") else { return };
     browser.open(&page, "");
     let json: Value = serde_json::from_str(&printed).unwrap();
-    let verdict = browser.text("#verdict");
+    let verdict = ["#verdict", "#counts"].map(|id| browser.text(id)).join(" ");
     assert!(verdict.contains("AGREES") && verdict.contains(", 0 wrong pixels"), "{verdict}");
     assert!(verdict.contains(&format!("{} triangles and ", json["triangles"])), "{verdict}");
     counts_equal_the_json(&mut browser, &json);
@@ -575,7 +575,7 @@ fn page_shows_a_planted_fault_first() {
     let Some(mut browser) = Browser::start("planted") else { return };
     browser.open(&page, "");
     let json: Value = serde_json::from_str(&printed).unwrap();
-    let verdict = browser.text("#verdict");
+    let verdict = ["#verdict", "#counts"].map(|id| browser.text(id)).join(" ");
     let wrong = format!("{} wrong pixels in ", json["mismatches"]);
     assert!(verdict.contains("DISAGREES") && verdict.contains(&wrong), "{verdict}");
     counts_equal_the_json(&mut browser, &json);
@@ -708,7 +708,12 @@ pub fn every_section() -> Report {
     Report {
         title: hostile(),
         about: hostile(),
-        outcome: Some(Outcome { good: true, word: hostile(), sentence: hostile() }),
+        outcome: Some(Outcome {
+            good: true,
+            word: hostile(),
+            answer: hostile(),
+            sentence: hostile(),
+        }),
         answers: vec![Answer { about: HOSTILE, sentence: hostile(), command: hostile() }],
         command: hostile(),
         notes: vec![hostile()],

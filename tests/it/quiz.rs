@@ -132,7 +132,7 @@ fn quiz_speaks_chinese_and_lists() {
     let out = check("--list", "", 0).out;
     for chapter in CHAPTERS.iter() {
         assert!(
-            out.contains(&format!("  {} ({})", chapter.title[0], chapter.exercises.len())),
+            out.contains(&format!(" {} ({})", chapter.title[0], chapter.exercises.len())),
             "{out}"
         );
     }

@@ -170,7 +170,7 @@ fn answers(name: &str, requests: &[u8]) -> Vec<String> {
         progress: false,
         colour: false,
         columns: cli::wrap::USUAL,
-        error_columns: None,
+        error_columns: usize::MAX,
         delivery: cli::Delivery::default(),
     };
     let words = ["rasterproof", "engine", name].map(str::to_owned);

@@ -101,7 +101,12 @@ fn in_rust(capability: &str, engine: &str) -> String {
     let scope = Scope::of(&options);
     let verdict =
         rasterproof_judge::judge(&mut askers, &options, &|asked| recognise(asked, scope), &|_| ());
-    text::text(&judge_text::report(&verdict, "-", &|_, _| "-".to_owned(), false), false, false)
+    text::text(
+        &judge_text::report(&verdict, "-", &|_, _| "-".to_owned(), false),
+        false,
+        false,
+        text::WIDTH,
+    )
 }
 
 /// What is said of a fault in this language, or nothing where it is not installed.

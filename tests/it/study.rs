@@ -174,7 +174,7 @@ fn a_comparison_of_nothing_says_that_nothing_was_compared() {
     folder.put("m.obj", CORNERLESS);
     let front = format!("m.obj {FROM_THE_FRONT} --size 64x48");
     let face = front.replacen("m.obj", "m.obj#1", 1);
-    let nothing = "nothing was compared";
+    let nothing = "othing was compared";
     for words in [
         format!("inspect {face} --window 0,0,4x4"),
         format!("inspect {face} --cull cw"),
@@ -246,8 +246,8 @@ fn a_folder_without_a_page_is_refused() {
 /// A floor and, a ten-millionth above it, another one: coarse depths show the wrong one, and values that ignore w are wrong.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
-fn rungs_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
-    let folder = Folder::new("study-wrong-rungs");
+fn choices_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
+    let folder = Folder::new("study-wrong-choices");
     let floor = |y: &str| format!("v -10 {y} -10\nv 10 {y} -10\nv 10 {y} 10\nv -10 {y} 10\n");
     let uv = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
     let faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/1 6/2 7/3\nf 5/1 7/3 8/4\n";

@@ -53,5 +53,5 @@ fn messages_about_programs_and_steps_are_whole() {
     let words = ["course", "check", "top-left", "--cases", "24", "--"];
     let words = [&words[..], &[PROGRAM, "engine", "inclusive-edges"]].concat();
     let Run { out, .. } = folder.check(words, 1);
-    is_whole(&out, ["smallest found", "yours", "again: "]);
+    is_whole(&out, ["smallest found", "yours", "repeat with: "]);
 }

@@ -1,8 +1,8 @@
-//! The board of a ladder as tables, at most 100 columns wide: errors, times and counted work, rung by class
+//! The board of a group as tables, at most 100 columns wide: errors, times and counted work, choice by class
 //! of scenes.
 //!
-//! Marks say what colours repeat: `*` the cheapest rung whose error is as good as none, `+` another
-//! such rung, `<` the fastest of all.
+//! Marks say what colours repeat: `*` the cheapest choice whose error is as good as none, `+` another
+//! such choice, `<` the fastest of all.
 
 use super::html::{Figure, Report};
 use super::json;
@@ -14,7 +14,7 @@ use rasterproof_precision::cost::{
 };
 
 const WIDTH: usize = 100;
-/// The width of the names of rungs, which are indented.
+/// The width of the names of choices, which are indented.
 const NAME: usize = 18;
 const INDENT: usize = 2;
 
@@ -32,10 +32,10 @@ pub fn tables(board: &Board) -> Vec<Table> {
     let columns: Vec<usize> = board.columns_run().collect();
     for (number, measure) in board.measures.iter().enumerate() {
         let applies =
-            |&c: &usize| (0..board.rungs.len()).any(|r| board.error(r, c, number).is_some());
+            |&c: &usize| (0..board.choices.len()).any(|r| board.error(r, c, number).is_some());
         let shown: Vec<usize> = columns.iter().copied().filter(applies).collect();
-        tables.push(block(board, &shown, title(measure), &|rung, column| {
-            error_cell(board, rung, column, number)
+        tables.push(block(board, &shown, title(measure), &|choice, column| {
+            error_cell(board, choice, column, number)
         }));
     }
     if board.rounds > 0 {
@@ -64,10 +64,10 @@ fn title(measure: &Measure) -> String {
     }
 }
 
-fn error_cell(board: &Board, rung: usize, column: usize, measure: usize) -> Option<Mark> {
-    let error = board.error(rung, column, measure)?;
-    let good = board.meets(rung, column, measure) == Some(true);
-    let best = board.best(column, measure).and_then(|best| best.good) == Some(rung);
+fn error_cell(board: &Board, choice: usize, column: usize, measure: usize) -> Option<Mark> {
+    let error = board.error(choice, column, measure)?;
+    let good = board.meets(choice, column, measure) == Some(true);
+    let best = board.best(column, measure).and_then(|best| best.good) == Some(choice);
     let is_zero_goal = board.measures[measure].goal == Some(0.0);
     let mark = match (best, good) {
         (true, _) => '*',
@@ -78,9 +78,9 @@ fn error_cell(board: &Board, rung: usize, column: usize, measure: usize) -> Opti
 }
 
 fn times(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
-    let cell = |rung: usize, column: usize, value: fn(&Time) -> f64| {
-        let time = board.time(rung, column)?;
-        let fastest = (0..board.rungs.len())
+    let cell = |choice: usize, column: usize, value: fn(&Time) -> f64| {
+        let time = board.time(choice, column)?;
+        let fastest = (0..board.choices.len())
             .filter_map(|r| board.time(r, column))
             .all(|other| other.pixel_ns.median >= time.pixel_ns.median);
         let mark = if fastest { '<' } else { ' ' };
@@ -122,12 +122,12 @@ fn work(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
         let any =
             board.cells.iter().flatten().any(|c| c.run().and_then(count).is_some_and(|n| n > 0));
         if any {
-            tables.push(block(board, columns, title.to_owned(), &|rung, column| {
+            tables.push(block(board, columns, title.to_owned(), &|choice, column| {
                 let pixels = board.columns[column].pixels.max(1) as f64;
-                // Rungs that do none of it have no row.
+                // Choices that do none of it have no row.
                 let any =
-                    board.cells[rung].iter().any(|c| c.run().and_then(count).unwrap_or(0) > 0);
-                let each = any.then_some(count(board.run(rung, column)?)? as f64 / pixels)?;
+                    board.cells[choice].iter().any(|c| c.run().and_then(count).unwrap_or(0) > 0);
+                let each = any.then_some(count(board.run(choice, column)?)? as f64 / pixels)?;
                 Some(Mark { text: number(each, cell_width(board)), mark: ' ', good: false })
             }));
         }
@@ -139,28 +139,28 @@ fn cell_width(board: &Board) -> usize {
     ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10) - 1
 }
 
-/// A row for each rung that has a cell to show.
+/// A row for each choice that has a cell to show.
 fn block(
     board: &Board,
     columns: &[usize],
     caption: String,
     cell: &dyn Fn(usize, usize) -> Option<Mark>,
 ) -> Table {
-    let row = |rung: usize| {
-        let mut row = Row::from(vec![board.rungs[rung].name.to_string()]);
+    let row = |choice: usize| {
+        let mut row = Row::from(vec![board.choices[choice].name.to_string()]);
         for (place, &column) in (1..).zip(columns) {
-            row.cells.push(match cell(rung, column) {
+            row.cells.push(match cell(choice, column) {
                 Some(Mark { text, mark, good }) => {
                     row.good.extend(good.then_some(place));
                     format!("{text}{mark}")
                 }
-                None if board.run(rung, column).is_some() => "-".to_owned(),
+                None if board.run(choice, column).is_some() => "-".to_owned(),
                 None => "not run".to_owned(),
             });
         }
         row
     };
-    let has_cell = |&rung: &usize| columns.iter().any(|&column| cell(rung, column).is_some());
+    let has_cell = |&choice: &usize| columns.iter().any(|&column| cell(choice, column).is_some());
     // A mark stands behind each number.
     let head = |&column: &usize| {
         let name = &board.columns[column].name;
@@ -172,7 +172,7 @@ fn block(
     Table {
         caption,
         columns: [first].into_iter().chain(columns.iter().map(head)).collect(),
-        rows: (0..board.rungs.len()).filter(has_cell).map(row).collect(),
+        rows: (0..board.choices.len()).filter(has_cell).map(row).collect(),
         ..Table::default()
     }
 }
@@ -185,12 +185,12 @@ fn not_run(board: &Board) -> Vec<String> {
         None => reasons.push((why, vec![what])),
     };
     for (column, info) in board.columns.iter().enumerate() {
-        let ran = (0..board.rungs.len()).any(|rung| board.run(rung, column).is_some());
-        for (rung, row) in board.cells.iter().enumerate() {
+        let ran = (0..board.choices.len()).any(|choice| board.run(choice, column).is_some());
+        for (choice, row) in board.cells.iter().enumerate() {
             if let Cell::NotRun(why) = &row[column] {
                 if ran {
-                    add(why, format!("{} on {}", board.rungs[rung].name, info.name));
-                } else if rung == 0 {
+                    add(why, format!("{} on {}", board.choices[choice].name, info.name));
+                } else if choice == 0 {
                     add(why, info.name.to_string());
                 }
             }
@@ -204,8 +204,8 @@ fn not_run(board: &Board) -> Vec<String> {
 fn dominated(board: &Board) -> Vec<String> {
     let line = |measure: usize| {
         let list = board.dominated(measure).into_iter().map(|d| {
-            let by: Vec<_> = d.by.iter().map(|&r| &*board.rungs[r].name).collect();
-            format!("{} (by {})", board.rungs[d.rung].name, by.join(", "))
+            let by: Vec<_> = d.by.iter().map(|&r| &*board.choices[r].name).collect();
+            format!("{} (by {})", board.choices[d.choice].name, by.join(", "))
         });
         let list: Vec<_> = list.collect();
         let list = if list.is_empty() { "none".to_owned() } else { list.join("; ") };
@@ -214,7 +214,7 @@ fn dominated(board: &Board) -> Vec<String> {
     board.ranking().map(line).collect()
 }
 
-/// What exact coverage costs over the cheapest rung, for each class; nothing where that was not measured.
+/// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
 #[must_use]
 pub fn price(boards: &[Board]) -> Option<Table> {
     let prices = prices(boards);

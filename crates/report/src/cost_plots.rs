@@ -179,10 +179,10 @@ fn legend(board: &Board) -> &'static str {
 
 fn dots(board: &Board, column: usize) -> Vec<Dot> {
     let mut dots = Vec::new();
-    for (rung, info) in board.rungs.iter().enumerate() {
-        let Some(time) = board.time(rung, column) else { continue };
+    for (choice, info) in board.choices.iter().enumerate() {
+        let Some(time) = board.time(choice, column) else { continue };
         let (time, quartiles) = (time.pixel_ns.median, [time.pixel_ns.low, time.pixel_ns.high]);
-        let error = |measure: usize| board.error(rung, column, measure);
+        let error = |measure: usize| board.error(choice, column, measure);
         let Some(first) = error(0) else { continue };
         // Measures that rank nothing and count pixels of a mesh: cracks.
         let cracks: f64 = match board.ladder {
@@ -192,7 +192,7 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
         let cracked = cracks > 0.0;
         let label =
             if cracked { format!("{} ({cracks})", info.name) } else { info.name.to_string() };
-        let good = board.meets(rung, column, 0) == Some(true);
+        let good = board.meets(choice, column, 0) == Some(true);
         let snapped = info.promises.contains(&1) && !good;
         let above = (first > 0.0).then_some(first);
         // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
@@ -200,7 +200,7 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
         let label = if snapped { format!("{} (snapped)", info.name) } else { label };
         let error = above.filter(|_| !snapped);
         let (good, hollow) = (good || snapped, snapped);
-        let best = board.best(column, 0).and_then(|best| best.good) == Some(rung);
+        let best = board.best(column, 0).and_then(|best| best.good) == Some(choice);
         dots.push(Dot { label, time, quartiles, error, good, hollow, cracked, best });
     }
     dots
@@ -296,10 +296,10 @@ fn draw_panel(drawing: &mut Drawing, [left, top]: [f64; 2], shelf: f64, panel: &
     scattered(drawing, dots, [&time, &error], [[x0, y0], [x1, y1]], taken);
 }
 
-/// The error that snapping alone makes, which rungs exact on the lattice share.
+/// The error that snapping alone makes, which choices exact on the lattice share.
 fn snapping(board: &Board, column: usize) -> Option<f64> {
-    let rung = board.rungs.iter().position(|rung| rung.promises.contains(&1))?;
-    board.error(rung, column, 0).filter(|&error| error > 0.0)
+    let choice = board.choices.iter().position(|choice| choice.promises.contains(&1))?;
+    board.error(choice, column, 0).filter(|&error| error > 0.0)
 }
 
 fn ends(dot: &Dot, time: &Axis) -> [f64; 2] {
@@ -351,7 +351,7 @@ fn frontier(drawing: &mut Drawing, dots: &[Dot], [time, error]: [&Axis; 2], shel
     }
 }
 
-/// The rungs without error, one below the other, the fastest first.
+/// The choices without error, one below the other, the fastest first.
 fn shelved(drawing: &mut Drawing, dots: &[Dot], time: &Axis, [x0, x1]: [f64; 2], top: f64) {
     let mut shelved: Vec<&Dot> = dots.iter().filter(|d| d.error.is_none()).collect();
     shelved.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -378,7 +378,7 @@ fn overlap(a: &Area, b: &Area) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
-/// The rungs with errors. Each label takes the nearest free place beside its dot.
+/// The choices with errors. Each label takes the nearest free place beside its dot.
 fn scattered(
     drawing: &mut Drawing,
     dots: &[Dot],

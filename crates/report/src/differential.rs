@@ -194,7 +194,8 @@ pub fn outcome(verdict: &Verdict) -> Outcome {
         }
         (false, _) => format!("{wrong} wrong pixels in {judged}."),
     };
-    Outcome::of(good, sentence)
+    let answer = if good { "every engine is right" } else { "not every engine is right" };
+    Outcome { answer: answer.to_owned(), ..Outcome::of(good, sentence) }
 }
 
 /// Named inputs that must be refused, with the reason they are.

@@ -54,7 +54,12 @@ pub fn write(
         Format::Json => json_text::text(&everything(verdict, repeat_all, repeat)),
         Format::Junit => junit(verdict, repeat),
         Format::Tap => tap(verdict, repeat),
-        Format::Gradescope => pretty(&gradescope(verdict, repeat)),
+        Format::Gradescope => {
+            let tests = verdict.properties.iter();
+            let tests = tests.map(|p| (p.name, p.outcome.is_good(), message(verdict, p, repeat)));
+            let tests: Vec<_> = tests.collect();
+            pretty(&gradescope(&tests, "properties hold", verdict.found.seconds))
+        }
         Format::GithubClassroom => pretty(&classroom(verdict, repeat_all, repeat)),
     }
 }
@@ -215,22 +220,20 @@ fn tap(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
     out
 }
 
-fn gradescope(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> Value {
-    let tests = verdict.properties.iter().zip(1..).map(|(p, number)| {
-        let good = p.outcome.is_good();
+/// Gradescope's results.json: each test with its name, whether it passed, and its output; and what they come to.
+pub fn gradescope(tests: &[(&str, bool, String)], about: &str, seconds: f64) -> Value {
+    let test = |((name, passed, output), number): (&(&str, bool, String), usize)| {
         json!({
-            "name": p.name, "number": number.to_string(), "score": i32::from(good), "max_score": 1,
-            "status": if good { "passed" } else { "failed" },
-            "output": message(verdict, p, repeat), "output_format": "text",
-            "visibility": "visible",
+            "name": name, "number": number.to_string(), "score": i32::from(*passed), "max_score": 1,
+            "status": if *passed { "passed" } else { "failed" }, "output": output,
+            "output_format": "text", "visibility": "visible",
         })
-    });
-    let passed = verdict.properties.iter().filter(|p| p.outcome.is_good()).count();
+    };
+    let passed = tests.iter().filter(|(_, passed, _)| *passed).count();
     json!({
         "score": passed, "visibility": "visible", "stdout_visibility": "visible",
-        "execution_time": verdict.found.seconds.ceil() as u64,
-        "output": format!("{passed} of {} properties hold", verdict.properties.len()),
-        "tests": tests.collect::<Vec<_>>(),
+        "execution_time": seconds.ceil() as u64, "output": format!("{passed} of {} {about}", tests.len()),
+        "tests": tests.iter().zip(1..).map(test).collect::<Vec<_>>(),
     })
 }
 

@@ -10,8 +10,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_registry::undecided::Ties;
 use rasterproof_render::effects::Effect;
-use rasterproof_render::effects::depth_ties::ByRounding;
-use rasterproof_render::effects::render::{PaidMap, Rendered};
+use rasterproof_render::effects::render::PaidMap;
 use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
@@ -357,23 +356,4 @@ pub struct Times {
     pub loading_s: Option<f64>,
     /// To plan and draw one frame, by each rasterizer.
     pub drawing_s: Vec<f64>,
-}
-
-pub fn json(
-    scene: &str,
-    engines: &[&str],
-    rendered: &Rendered,
-    comparison: &Option<Comparison>,
-    by_rounding: &Option<ByRounding>,
-    times: &Times,
-) -> serde_json::Value {
-    serde_json::json!({
-        "scene": scene,
-        "engines": engines,
-        "times": times,
-        "counters": rendered.counters,
-        "plan": rendered.plan,
-        "comparison": comparison,
-        "by_rounding": by_rounding,
-    })
 }

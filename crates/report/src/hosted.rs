@@ -139,7 +139,7 @@ impl Job {
         if declared.partition {
             let report = polygons::judge(&mut Host(declared.clone()), &self.options)?;
             let said = judge_text::of_polygons(&declared, &report, &all, &one);
-            let text = text::text(&said, false, false);
+            let text = text::text(&said, false, false, text::WIDTH);
             return Ok((report.sum().wrong == 0, text));
         }
         let scope = Scope::of(&self.options);
@@ -151,7 +151,8 @@ impl Job {
         if let Some(why) = verdict.judged_nothing(&self.options) {
             return Err(why);
         }
-        let text = text::text(&judge_text::report(&verdict, &all, &one, false), false, false);
+        let text =
+            text::text(&judge_text::report(&verdict, &all, &one, false), false, false, text::WIDTH);
         Ok((verdict.agrees(), text.replace("--declare '", &format!("declare{}'", self.is()))))
     }
 }

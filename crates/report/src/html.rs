@@ -94,15 +94,23 @@ pub struct Outcome {
     /// Whether all is well; decides the colour.
     pub good: bool,
     pub word: String,
+    /// The verdict in a sentence, with the cause where one is known; nothing where `sentence` says it.
+    pub answer: String,
+    /// What was judged, in counts.
     pub sentence: String,
 }
 
 impl Outcome {
+    #[must_use]
+    pub fn new(good: bool, word: &str, sentence: impl Into<String>) -> Self {
+        let (word, answer) = (word.to_owned(), String::new());
+        Self { good, word, answer, sentence: sentence.into() }
+    }
+
     /// The outcome of a comparison: `AGREES` or `DISAGREES`.
     #[must_use]
     pub fn of(agrees: bool, sentence: impl Into<String>) -> Self {
-        let word = word(agrees).to_owned();
-        Self { good: agrees, word, sentence: sentence.into() }
+        Self::new(agrees, word(agrees), sentence)
     }
 
     /// Whether something was judged, and not only counted.
@@ -113,8 +121,12 @@ impl Outcome {
     /// The outcome where there was nothing to compare.
     #[must_use]
     pub fn not_compared(reason: &str) -> Self {
-        let sentence = format!("{reason} Nothing was compared.");
-        Self { good: false, word: "NOT COMPARED".to_owned(), sentence }
+        Self::new(false, "NOT COMPARED", format!("{reason} Nothing was compared."))
+    }
+
+    /// What is said first: the answer, where there is one.
+    fn first(&self) -> &str {
+        if self.answer.is_empty() { &self.sentence } else { &self.answer }
     }
 }
 
@@ -311,13 +323,16 @@ fn section(title: &str, inside: &str) -> String {
 
 fn head(report: &Report) -> String {
     let mut out = format!("<h1>{}</h1>\n", escape(&report.title));
-    if let Some(Outcome { good, word, sentence }) = &report.outcome {
-        let class = if *good { "good" } else { "bad" };
-        let (word, sentence) = (escape(word), escape(sentence));
+    if let Some(outcome) = &report.outcome {
+        let class = if outcome.good { "good" } else { "bad" };
+        let (word, first) = (escape(&outcome.word), escape(outcome.first()));
         let _ = writeln!(
             out,
-            "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{sentence}</span></p>"
+            "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{first}</span></p>"
         );
+        if !outcome.answer.is_empty() {
+            let _ = writeln!(out, "<p id=\"counts\">{}</p>", escape(&outcome.sentence));
+        }
     }
     for line in report.about.lines() {
         let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(line));
@@ -343,8 +358,14 @@ const ABOUT: &str = "<meta name=\"rasterproof\" content=\"";
 
 fn about(report: &Report) -> String {
     let outcome = report.outcome.as_ref();
-    let said = outcome.map_or(String::new(), |o| format!("{}: {}", o.word, o.sentence));
+    let said = outcome.map_or(String::new(), |o| format!("{}: {}", o.word, o.first()));
     format!("{ABOUT}{}\">\n", escape(&said))
+}
+
+/// Whether a page is an index that [`index`] made.
+#[must_use]
+pub fn is_index(page: &str) -> bool {
+    page.contains("<title>Pages of rasterproof</title>")
 }
 
 /// The index of the pages in a folder, each given by its file name and its text; nothing is said of

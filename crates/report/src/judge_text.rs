@@ -29,21 +29,7 @@ pub fn report(
 ) -> Report {
     let (d, agrees) = (&verdict.declared, verdict.agrees());
     let names = verdict.against.as_ref().map(|second| against::names([d, second]));
-    let speaks = |name: &str, declared: &Declared| {
-        let said = format!("{name} speaks version {}: {declared}", declared.version);
-        let unknown = match declared.unknown.as_slice() {
-            [] => String::new(),
-            words => format!("\nnot understood, left aside: {}", words.join(" ")),
-        };
-        said + &unknown
-    };
-    let answer = match (&names, agrees) {
-        (Some(names), _) => difference(verdict, names),
-        (None, true) => format!("{} is right", d.name),
-        (None, false) => format!("{} is not right{}", d.name, why_in_short(verdict)),
-    };
-    let mut about =
-        vec![format!("rasterproof {}, seed {}: {answer}", env!("CARGO_PKG_VERSION"), verdict.seed)];
+    let mut about = vec![by(verdict.seed)];
     if let (Some([first, second]), Some(other)) = (&names, &verdict.against) {
         about.extend([speaks(first, d), speaks(second, other)]);
         about.push("asked is what both can answer; each is judged by what it declares".to_owned());
@@ -113,13 +99,20 @@ pub fn whole(
     }
 }
 
+/// Who judged.
+fn by(seed: u64) -> String {
+    format!("rasterproof {}, seed {seed}", env!("CARGO_PKG_VERSION"))
+}
+
 fn outcome(verdict: &Judgement, names: Option<&[String; 2]>) -> Outcome {
-    let good = verdict.agrees();
+    let (good, name) = (verdict.agrees(), &verdict.declared.name);
+    let answer = match good {
+        true => format!("{name} is right"),
+        false => format!("{name} is not right{}", why_in_short(verdict)),
+    };
     match names {
-        Some(names) => {
-            Outcome { good, word: same(good).to_owned(), sentence: difference(verdict, names) }
-        }
-        None => Outcome::of(good, closing(verdict)),
+        Some(names) => Outcome::new(good, same(good), difference(verdict, names)),
+        None => Outcome { answer, ..Outcome::of(good, closing(verdict)) },
     }
 }
 
@@ -144,16 +137,8 @@ pub fn of_polygons(
 ) -> Report {
     let (sum, name) = (report.sum(), &declared.name);
     let agrees = sum.wrong == 0;
-    let answer = if agrees { "is right" } else { "is not right" };
-    let mut about = format!(
-        "rasterproof {}, seed {}: {name} {answer}\n{name} speaks version {}: {declared}",
-        env!("CARGO_PKG_VERSION"),
-        report.options.seed,
-        declared.version,
-    );
-    if !declared.unknown.is_empty() {
-        about += &format!("\nnot understood, left aside: {}", declared.unknown.join(" "));
-    }
+    let answer = format!("{name} is {}", if agrees { "right" } else { "not right" });
+    let about = [by(report.options.seed), speaks(name, declared)].join("\n");
     let mut grid = String::new();
     if !agrees {
         // As most languages write lists.
@@ -169,8 +154,17 @@ pub fn of_polygons(
         about,
         excerpts: if agrees { Vec::new() } else { vec![Excerpt { grid, ..Excerpt::default() }] },
         repeat: repeat_all.to_owned(),
-        outcome: Some(Outcome::of(agrees, sentence)),
+        outcome: Some(Outcome { answer, ..Outcome::of(agrees, sentence) }),
         ..Report::default()
+    }
+}
+
+/// What a program says of itself.
+fn speaks(name: &str, declared: &Declared) -> String {
+    let said = format!("{name} speaks version {}: {declared}", declared.version);
+    match declared.unknown.as_slice() {
+        [] => said,
+        words => format!("{said}\nnot understood, left aside: {}", words.join(" ")),
     }
 }
 
@@ -302,7 +296,7 @@ fn families(verdict: &Judgement) -> Table {
 }
 
 /// What broke the protocol: the first of each kind.
-pub fn incidents(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
+fn incidents(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
     let mut shown: Vec<&str> = Vec::new();
     let mut out = Vec::new();
     for incident in &verdict.found.incidents {
@@ -333,7 +327,8 @@ pub fn incidents(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> V
     out
 }
 
-/// A failing case: what was asked and answered, with its pixel grid. `drawn_by` names the one or the two programs.
+/// A failing case: what was asked and answered, with its pixel grid. `drawn_by` names the one or the two programs; `command`
+/// repeats it, or is empty.
 #[must_use]
 pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt {
     let (family, index) = (failure.family, failure.index);
@@ -364,12 +359,14 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
         exchanges: exchanges.collect(),
         grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
         notes,
-        places: vec![("repeat with", command)],
+        places: Some(("repeat with", command))
+            .into_iter()
+            .filter(|one| !one.1.is_empty())
+            .collect(),
     }
 }
 
 /// What was drawn beside what was expected, as characters.
-#[must_use]
 pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
     let Pictured { drawn, other, expected, .. } = picture;
     let drawn = drawn_by.iter().zip([drawn].into_iter().chain(other));

@@ -34,13 +34,13 @@ fn of_specimens(reports: &[&SpecimenReport]) -> Table {
         cells.extend([
             worst,
             format!("{}: {}", r.source, r.fault),
-            format!("cure: {}", r.cure),
-            format!("shown by: {}: {} pixels", r.case, r.case_wrong),
+            r.cure.to_owned(),
+            format!("{}: {} pixels", r.case, r.case_wrong),
         ]);
         Row { search: Some(r.name.to_owned()), ..cells.into() }
     };
     let mut columns = counted("specimen 16");
-    columns.extend(table::columns("worst family 12 | from, and its fault | cure | shown by"));
+    columns.extend(table::columns(":worst family | from, and its fault | :cure | :shown by"));
     Table {
         caption: "Published algorithms and how often each is wrong, worst first".to_owned(),
         columns,

@@ -8,11 +8,10 @@ use rasterproof_models::Origin;
 use rasterproof_precision::cost::EQUAL;
 use rasterproof_render::scene::Scene;
 use rasterproof_study::cost::{Choice, Group};
-use rasterproof_study::effects::{Fineness, Need, Needs, State};
+use rasterproof_study::effects::{Need, Needs, State};
 use rasterproof_study::hard::{HardCase, HardCases, Kind};
 use rasterproof_study::ties::{Class, Classes, TiedPair};
 use rasterproof_study::{face_of, triangle_of};
-use serde_json::{Value, json};
 
 use super::canvas::{self, Drawing};
 use super::chapter::Chapter;
@@ -42,7 +41,7 @@ impl Subject<'_> {
     }
 }
 
-/// By ladder the rungs that get triangles of a kind wrong, with how many samples.
+/// By group the choices that get triangles of a kind wrong, with how many samples.
 fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
     let of_group = |group: &Group| {
         let of_choice = |choice: &Choice| {
@@ -80,43 +79,14 @@ fn about_hard_cases(found: &HardCases, costs: &[Group]) -> Vec<String> {
         lines.push(format!("the model is so large that {what}"));
     }
     if let Some([near, far]) = found.w {
-        lines.push(format!("w in the window: {near:.3e} to {far:.3e}"));
+        let [near, far] = [near, far].map(|w| number(w, 9));
+        lines.push(format!("w, the distance from the eye, in the window: {near} to {far}"));
     }
     if found.f32_pixels > 0 {
         let pixels = thousands(found.f32_pixels);
         lines.push(format!("positions rounded to f32 change {pixels} px of the picture"));
     }
     lines
-}
-
-pub fn hard_cases_json(subject: &Subject<'_>, found: &HardCases) -> Value {
-    let face = |&triangle: &u32| {
-        let origin = triangle_of(subject.scene, triangle)
-            .and_then(|(item, number)| Some((subject.origins.get(item)?, number)));
-        json!({
-            "face": face_of(subject.scene, subject.origins, triangle),
-            "line": origin.and_then(|(origin, number)| origin.lines.get(number)),
-            "part": origin.map(|(origin, _)| &origin.part),
-            "material": origin.map(|(origin, _)| &origin.material),
-            "command": subject.command(triangle),
-        })
-    };
-    let cases = found.cases.iter().map(|case| {
-        json!({
-            "kind": case.kind.name(),
-            "count": case.count,
-            "in_view": case.in_view,
-            "pixels": case.pixels,
-            "note": case.note,
-            "faces": case.triangles.iter().map(face).collect::<Vec<_>>(),
-        })
-    });
-    json!({
-        "cases": cases.collect::<Vec<_>>(),
-        "w": found.w,
-        "f32_pixels": found.f32_pixels,
-        "is_cut_short": found.is_cut_short,
-    })
 }
 
 fn ms(ns: f64) -> String {
@@ -320,7 +290,8 @@ fn first_screen(subject: &Subject<'_>, found: &Found<'_>) -> Vec<Table> {
     };
     let columns = "what exactness costs 26 | cheapest exact 33 | >ms 7 | >times 7";
     let rows = found.costs.iter().map(row).collect();
-    let more = "times: against the cheapest of all. More: --all; with pictures: --report";
+    let more =
+        "times: against the cheapest of all. What each choice does: --all; with pictures: --report";
     let costs = Table::new("", columns, rows).noted(vec![more.to_owned()]);
     vec![seen, called, costs]
 }
@@ -403,55 +374,6 @@ fn compared(group: &Group, measure: usize) -> Vec<String> {
         lines.push(format!("undecided after {rounds} rounds, within 3% or not: {others}"));
     }
     lines
-}
-
-pub fn costs_json(subject: &Subject<'_>, groups: &[Group]) -> Value {
-    let group = |group: &Group| {
-        let choice = |choice: &Choice| {
-            let first = choice.first_wrong.map(|(of, [x, y])| {
-                let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
-                json!({ "pixel": [x, y], "face": face })
-            });
-            let time = choice.time.map(|time| [time.low, time.median, time.high]);
-            let measures = 0..group.measures.len();
-            let exact: Vec<_> = measures.filter(|one| group.is_exact(choice, *one)).collect();
-            json!({
-                "name": choice.name,
-                "about": choice.about,
-                "errors": choice.errors,
-                "exact": exact,
-                "first_wrong": first,
-                "margin": choice.margin.filter(|margin| margin.is_finite()),
-                "time_ns": time,
-                "bytes": choice.bytes,
-                "refused": choice.refused,
-            })
-        };
-        let measures: Vec<_> = group.measures.iter().map(|measure| measure.title).collect();
-        let name = |number: usize| group.choices[number].name.clone();
-        let best = (0..measures.len()).map(|number| group.cheapest_exact(number).map(name));
-        let names = |all: &[usize]| all.iter().map(|&number| name(number)).collect::<Vec<_>>();
-        let compared = group.best.iter().map(|best| {
-            best.as_ref().map(|best| {
-                json!({
-                    "choice": name(best.choice),
-                    "equally_fast": names(&best.equal),
-                    "undecided": names(&best.undecided),
-                    "rounds": best.rounds,
-                })
-            })
-        });
-        json!({
-            "title": group.title,
-            "measures": measures,
-            "not_judged": group.not_judged,
-            "timed": { "triangles": group.timed[0], "pixels": group.timed[1] },
-            "choices": group.choices.iter().map(choice).collect::<Vec<_>>(),
-            "cheapest_exact": best.collect::<Vec<_>>(),
-            "compared": compared.collect::<Vec<_>>(),
-        })
-    };
-    groups.iter().map(group).collect()
 }
 
 /// How it is decided which surface is seen, in a sentence or two.
@@ -540,49 +462,14 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     lines
 }
 
-pub fn needs_json(needs: &Needs, not_drawn: &str) -> Value {
-    let one = |need: &Need| {
-        json!({
-            "effect": need.effect.name(),
-            "called_for": need.state() == State::CalledFor,
-            "paid_for": need.is_paid_for,
-            "materials": need.materials,
-            "reasons": need.reasons,
-            "pixels": need.pixels,
-            "wrong_without": need.wrong,
-            "otherwise_ns": [need.otherwise.low, need.otherwise.median, need.otherwise.high],
-        })
-    };
-    let texture = |texture: &Fineness| {
-        json!({
-            "material": texture.material,
-            "pixels": texture.pixels,
-            "texels": texture.texels,
-            "far": texture.far,
-        })
-    };
-    json!({
-        "effects": needs.needs.iter().map(one).collect::<Vec<_>>(),
-        "planned_ns": [needs.planned.low, needs.planned.median, needs.planned.high],
-        "textures": needs.textures.iter().map(texture).collect::<Vec<_>>(),
-        "not_supported": not_drawn,
-    })
-}
-
-pub fn ties_json(classes: &Classes) -> Value {
-    json!({
-        "decided": classes.decided,
-        "by_rounding": classes.by_rounding,
-        "equal": classes.equal,
-        "by_order": classes.by_order,
-    })
-}
-
 pub struct Found<'a> {
     pub hard: &'a HardCases,
     pub needs: &'a Needs,
     pub costs: &'a [Group],
     pub not_drawn: &'a str,
+    pub pieces: usize,
+    /// How long the file was read, where there is one.
+    pub loading_s: Option<f64>,
 }
 
 /// Plots of a study: error against time, and effects.
@@ -678,13 +565,6 @@ pub fn report(
     }
     tables.extend(costs(subject, found.costs));
     let answers = answers(subject, found, commands);
-    let data = json!({
-        "answers": answers,
-        "hard_cases": hard_cases_json(subject, found.hard),
-        "decided": ties_json(classes),
-        "effects": needs_json(found.needs, found.not_drawn),
-        "costs": costs_json(subject, found.costs),
-    });
     let picture = super::frame_comparison::rgb(&found.hard.picture);
     let marked = marked(found.hard, &picture);
     let decided = RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
@@ -698,10 +578,9 @@ pub fn report(
     });
     Report {
         title: format!("A study of {}", subject.scene.name),
-        outcome: Some(Outcome {
-            good: in_view == 0,
-            word: if in_view == 0 { "CLEAN" } else { "HARD CASES" }.to_owned(),
-            sentence,
+        outcome: Some(match in_view {
+            0 => Outcome::new(true, "CLEAN", sentence),
+            _ => Outcome::new(false, "HARD CASES", sentence),
         }),
         about,
         answers,
@@ -709,7 +588,6 @@ pub fn report(
         command: command.clone(),
         tables,
         figures: figures(found),
-        data,
         frames: vec![PictureView {
             name: subject.scene.name.clone(),
             about:
@@ -729,7 +607,7 @@ pub fn report(
     }
 }
 
-/// The hard cases with what is said of them, and the rungs that are wrong on them where costs were measured.
+/// The hard cases with what is said of them, and the choices that are wrong on them where costs were measured.
 pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Table {
     let row = |case: &HardCase| {
         let (mut place, command) = match case.triangles.first() {

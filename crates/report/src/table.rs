@@ -26,17 +26,20 @@ pub struct Column {
     /// The head in more words, or nothing.
     pub about: String,
     pub is_number: bool,
+    /// Whether the label stands before each cell that stands below its row.
+    is_labelled: bool,
     /// How many characters it has at least in a terminal; 0 where its cells stand below the row there.
     least: usize,
 }
 
 /// Columns as a line, parted by ` | `. Each has a label, its least width in a terminal, and what it is about. Before the
 /// label stand `>` where the cells are numbers and `~` where a terminal has no head; without a width the cells stand below
-/// their row there.
+/// their row there, with `:` each behind the label.
 #[must_use]
 pub fn columns(all: &str) -> Vec<Column> {
     let column = |text: &str| {
         let (text, is_number) = text.strip_prefix('>').map_or((text, false), |text| (text, true));
+        let (text, is_labelled) = text.strip_prefix(':').map_or((text, false), |text| (text, true));
         let (text, has_head) = text.strip_prefix('~').map_or((text, true), |text| (text, false));
         let words: Vec<&str> = text.split(' ').collect();
         let width = words.iter().position(|word| word.parse::<usize>().is_ok());
@@ -46,6 +49,7 @@ pub fn columns(all: &str) -> Vec<Column> {
             label,
             about: width.map_or(String::new(), |at| words[at + 1..].join(" ")),
             is_number,
+            is_labelled,
             least: width.map_or(0, |at| words[at].parse().unwrap_or_default()),
         }
     };
@@ -165,10 +169,12 @@ impl Table {
             {
                 let gap = if i > 0 { " " } else { "" };
                 let takes_rest = i + 1 == cells.len() && !is_whole(&cells);
+                let label = if column.is_labelled { &*format!("{}: ", column.label) } else { "" };
                 let _ = match (width, column.is_number && !takes_rest) {
-                    (0, _) => {
-                        cell.lines().try_for_each(|part| writeln!(others, "{:below$}{part}", ""))
-                    }
+                    (0, _) => cell.lines().enumerate().try_for_each(|(number, part)| {
+                        let label = if number == 0 { label } else { "" };
+                        writeln!(others, "{:below$}{label}{part}", "")
+                    }),
                     (_, true) if is_green(i) => write!(line, "{gap}\x1b[32m{cell:>width$}\x1b[0m"),
                     (_, true) => write!(line, "{gap}{cell:>width$}"),
                     (_, false) => write!(line, "{gap}{cell:<width$}"),
@@ -198,10 +204,11 @@ mod tests {
             |cells: &[&str]| Row::from(cells.iter().map(ToString::to_string).collect::<Vec<_>>());
         let rows =
             vec![row(&["a", "12345", "one\ntwo"]), row(&["b", "not run"]), row(&["c", "7", ""])];
-        let mut table = Table::new("", "name 6 | >pixels 3 covered ones | why", rows);
+        let mut table = Table::new("", "name 6 | >pixels 3 covered ones | :why", rows);
         assert_eq!((table.columns[1].is_number, &*table.columns[1].about), (true, "covered ones"));
         table.columns[1].short = "px".to_owned();
-        let text = "name      px\n  a    12345\n    one\n    two\n  b    not run\n  c        7\n";
+        let text =
+            "name      px\n  a    12345\n    why: one\n    two\n  b    not run\n  c        7\n";
         assert_eq!(table.text([2, 4], false), text);
     }
 }

@@ -10,35 +10,43 @@ use super::words::mark;
 /// Columns of a terminal that a first screen has.
 const SCREEN: usize = 80;
 
-/// Columns of everything else.
+/// Columns of everything else, where a terminal has so many.
 pub const WIDTH: usize = 100;
 
-/// What it is about, the answers, below them the first screen or all of it, how to repeat it, and the verdict in a word.
+/// What it is about, the answers, below them the first screen or all of it, how to repeat it, and the verdict in a word, in
+/// lines of at most so many columns.
 #[must_use]
-pub fn text(report: &Report, all: bool, colour: bool) -> String {
+pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String {
+    let (screen, columns) = (columns.min(SCREEN), columns.min(WIDTH));
     let verdict = report.outcome.as_ref().filter(|outcome| outcome.is_verdict());
     let mut out = match verdict {
         Some(outcome) => format!("{} ", mark(outcome.good, colour)),
         None => String::new(),
     };
-    for part in report.about.lines() {
-        lines(&mut out, part, WIDTH, ["", "  "]);
+    let answer = verdict.map_or("", |outcome| &outcome.answer);
+    for (number, part) in report.about.lines().enumerate() {
+        match answer {
+            answer if number == 0 && !answer.is_empty() => {
+                lines(&mut out, &format!("{part}: {answer}"), columns, ["", "  "]);
+            }
+            _ => lines(&mut out, part, columns, ["", "  "]),
+        }
     }
     if !report.answers.is_empty() {
-        out += &format!("\n{}", answers(&report.answers));
+        out += &format!("\n{}", answers(&report.answers, screen));
     }
     if !out.is_empty() {
         out.push('\n');
     }
-    report.excerpts.iter().for_each(|one| excerpt(&mut out, one));
+    out.extend(report.excerpts.iter().map(|one| excerpt(one, columns)));
     let all = all || report.first_screen.is_empty();
     out += &match all {
-        true => tables(report.plan.iter().chain(&report.tables), WIDTH, colour),
-        false => tables(&report.first_screen, SCREEN, colour),
+        true => tables(report.plan.iter().chain(&report.tables), columns, colour),
+        false => tables(&report.first_screen, screen, colour),
     };
     if all {
         for words in &report.notes {
-            note(&mut out, words, WIDTH, ["", "  "]);
+            note(&mut out, words, columns, ["", "  "]);
         }
     }
     let repeat = if report.repeat.is_empty() { &report.command } else { &report.repeat };
@@ -46,17 +54,17 @@ pub fn text(report: &Report, all: bool, colour: bool) -> String {
         let _ = writeln!(out, "repeat with: {repeat}");
     }
     if let Some(Outcome { word, sentence, .. }) = &report.outcome {
-        lines(&mut out, &format!("{word}: {sentence}"), WIDTH, ["", "  "]);
+        lines(&mut out, &format!("{word}: {sentence}"), columns, ["", "  "]);
     }
     out.truncate(out.trim_end().len());
     out + "\n"
 }
 
 /// Answers, and below each the command that says more.
-fn answers(answers: &[Answer]) -> String {
+fn answers(answers: &[Answer], columns: usize) -> String {
     let mut out = String::new();
     for Answer { about, sentence, command } in answers {
-        lines(&mut out, sentence, SCREEN, [&format!("{about:<12}"), &" ".repeat(12)]);
+        lines(&mut out, sentence, columns, [&format!("{about:<12}"), &" ".repeat(12)]);
         if !command.is_empty() {
             let _ = writeln!(out, "{:<12}$ {command}", "");
         }
@@ -65,19 +73,21 @@ fn answers(answers: &[Answer]) -> String {
 }
 
 /// A case with its pixels, what is said of it, and where to go on.
-fn excerpt(out: &mut String, of: &Excerpt) {
-    of.title.lines().for_each(|line| lines(out, line, WIDTH, ["", "  "]));
+#[must_use]
+pub fn excerpt(of: &Excerpt, columns: usize) -> String {
+    let out = &mut String::new();
+    of.title.lines().for_each(|line| lines(out, line, columns, ["", "  "]));
     labelled(out, &of.exchanges);
     if !of.grid.is_empty() {
-        let gap = if of.exchanges.is_empty() { "\n" } else { "" };
+        let gap = if out.is_empty() || !of.exchanges.is_empty() { "" } else { "\n" };
         let _ = writeln!(out, "{gap}{}", of.grid.trim_end_matches('\n'));
     }
     for words in &of.notes {
         out.push('\n');
-        note(out, words, WIDTH, ["", "  "]);
+        note(out, words, columns, ["", "  "]);
     }
     labelled(out, &of.places);
-    out.push('\n');
+    std::mem::take(out) + "\n"
 }
 
 /// Lines that are not broken, each behind what it is.
@@ -127,24 +137,8 @@ fn note(out: &mut String, words: &str, width: usize, indents: [&str; 2]) {
 
 /// Words in lines of at most `width` columns: the first begins with one word, the others with another.
 fn lines(out: &mut String, words: &str, width: usize, [first, rest]: [&str; 2]) {
-    let room = width - first.chars().count().max(rest.chars().count());
-    let all = lettering::lines(words, room, |line| line.chars().count());
-    for (number, line) in all.iter().enumerate() {
+    let room = width - first.len().max(rest.len());
+    for (number, line) in lettering::lines(words, room, lettering::columns).iter().enumerate() {
         let _ = writeln!(out, "{}{line}", if number == 0 { first } else { rest });
     }
-}
-
-/// The words in lines of at most 80 columns: the first begins with `first`, the others with `rest`.
-pub fn hanging(words: &str, first: &str, rest: &str) -> String {
-    let mut lines = vec![first.to_owned()];
-    for (i, word) in words.split(' ').enumerate() {
-        let line = lines.last_mut().expect("there is a first line");
-        if i > 0 && line.chars().count() + 1 + word.chars().count() > 80 {
-            lines.push(format!("{rest}{word}"));
-        } else {
-            *line += if i == 0 { "" } else { " " };
-            *line += word;
-        }
-    }
-    lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
 }

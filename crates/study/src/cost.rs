@@ -1,4 +1,4 @@
-//! What a scene costs in a view: every rung of the ladders and every planner on its own triangles, against the exact
+//! What a scene costs in a view: every choice of each group and every planner on its own triangles, against the exact
 //! answer.
 
 use std::cell::RefCell;
@@ -193,7 +193,7 @@ impl Effort {
     }
 }
 
-/// Pixels that are timed on a ladder, quickly or not: which choice is the cheapest depends on the triangles.
+/// Pixels that are timed on a group, quickly or not: which choice is the cheapest depends on the triangles.
 const TIMED_PX: u64 = 200_000;
 
 /// The costs of a scene in a view. `progress` gets the share done and a word about it.
@@ -228,7 +228,7 @@ pub fn measure(
     Ok(groups)
 }
 
-/// Adds to the rungs of interpolation what each gets wrong of the triangles that are hard cases.
+/// Adds to the choices of interpolation what each gets wrong of the triangles that are hard cases.
 fn wrong_values_of((pieces, window): (&[Piece], PixelRect), hard: &HardCases, group: &mut Group) {
     let is_hard =
         |piece: &&Piece| hard.is_hard(piece.face) && piece.free().is_some() && has_values(piece);
@@ -282,7 +282,7 @@ impl Sample {
     }
 }
 
-/// Whether the rungs of interpolation, some of which are in single precision, take the values of a piece.
+/// Whether the choices of interpolation, some of which are in single precision, take the values of a piece.
 fn has_values(piece: &Piece) -> bool {
     let values = piece.triangle.vertices.iter().map(|vertex| vertex.varying.x);
     let is_held = |w: &f64| {
@@ -314,7 +314,7 @@ fn class<'a>(pieces: impl Iterator<Item = &'a Piece>, window: PixelRect) -> Clas
     }
 }
 
-/// What a rung of coverage gets wrong.
+/// What a choice of coverage gets wrong.
 #[derive(Clone, Default)]
 struct Wrong {
     /// Against the corners as they are, and snapped.
@@ -334,27 +334,29 @@ fn chunks(sampled: &Sampled) -> Vec<&[Piece]> {
 /// Coverage of all pieces against the oracle, as they are and snapped; times of a sample.
 fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
     let (window, pieces) = (sampled.window, &sampled.planes[0]);
-    let rungs = variants(ladder);
+    let variants = variants(ladder);
     let chunks = chunks(sampled);
     let of_chunks = parallel::map(chunks.len(), |number| {
-        let mut wrong = vec![Wrong::default(); rungs.len()];
+        let mut wrong = vec![Wrong::default(); variants.len()];
         for piece in chunks[number] {
-            compare(&rungs, piece, window, &mut wrong);
+            compare(&variants, piece, window, &mut wrong);
         }
         wrong
     });
-    let mut choices: Vec<Choice> =
-        rungs.iter().map(|rung| Choice::new(&rung.rung.name, &rung.rung.about)).collect();
+    let mut choices: Vec<Choice> = variants
+        .iter()
+        .map(|variant| Choice::new(&variant.choice.name, &variant.choice.about))
+        .collect();
     for (number, choice) in choices.iter_mut().enumerate() {
-        let of_rung = || of_chunks.iter().map(|chunk| &chunk[number]);
-        let sum = |i: usize| of_rung().map(|wrong| wrong.pixels[i]).sum::<u64>() as f64;
+        let of_choice = || of_chunks.iter().map(|chunk| &chunk[number]);
+        let sum = |i: usize| of_choice().map(|wrong| wrong.pixels[i]).sum::<u64>() as f64;
         choice.errors = vec![Some(sum(0)), Some(sum(1))];
-        let first = of_rung().find_map(|wrong| wrong.first);
+        let first = of_choice().find_map(|wrong| wrong.first);
         choice.first_wrong = first.map(|(face, sample)| (Some(face), sampled.pixel(sample)));
-        choice.wrong = of_rung().flat_map(|wrong| &wrong.triangles).copied().collect();
+        choice.wrong = of_choice().flat_map(|wrong| &wrong.triangles).copied().collect();
         merge(&mut choice.wrong);
-        choice.refused = of_rung().find_map(|wrong| wrong.refused.clone());
-        choice.promises = rungs[number].rung.promises.first().copied();
+        choice.refused = of_choice().find_map(|wrong| wrong.refused.clone());
+        choice.promises = variants[number].choice.promises.first().copied();
         choice.bytes = Some(memory::coverage(&choice.name, window, sample.pieces));
         let unit = match (ladder, &*choice.name) {
             (Ladder::EdgeFunction, "f32 direct") => f64::from(f32::EPSILON) / 2.0,
@@ -367,11 +369,11 @@ fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) 
     let frame = RefCell::new(Frame::new(window, 0));
     let mut passes = Vec::new();
     let mut timed = Vec::new();
-    for (number, rung) in rungs.iter().enumerate() {
+    for (number, variant) in variants.iter().enumerate() {
         if choices[number].refused.is_none() {
             let (frame, triangles) = (&frame, &class.triangles);
             let run = Box::new(move || {
-                rung.paint(std::hint::black_box(triangles), &mut frame.borrow_mut());
+                variant.paint(std::hint::black_box(triangles), &mut frame.borrow_mut());
             });
             passes.push(Pass { column: 0, run });
             timed.push(number);
@@ -394,8 +396,8 @@ fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) 
     group
 }
 
-/// Adds what each rung gets wrong of a piece.
-fn compare(rungs: &[Variant], piece: &Piece, window: PixelRect, wrong: &mut [Wrong]) {
+/// Adds what each choice gets wrong of a piece.
+fn compare(variants: &[Variant], piece: &Piece, window: PixelRect, wrong: &mut [Wrong]) {
     let Some(free) = piece.free() else { return };
     let (mut given, mut snapped) = (Vec::new(), Vec::new());
     Oracle.cover_exact(&free, window, |span| given.push(span));
@@ -403,20 +405,20 @@ fn compare(rungs: &[Variant], piece: &Piece, window: PixelRect, wrong: &mut [Wro
         Oracle.cover(corners, window, |span| snapped.push(span));
     }
     let mut spans = Vec::new();
-    for (rung, wrong) in rungs.iter().zip(wrong) {
+    for (variant, wrong) in variants.iter().zip(wrong) {
         if wrong.refused.is_some() {
             continue;
         }
         spans.clear();
-        match rung.spans(&free, window, &mut spans) {
+        match variant.spans(&free, window, &mut spans) {
             Err(why) => wrong.refused = Some(why),
             Ok(_) => {
                 let [by_given, by_snapped] =
                     [&given, &snapped].map_array(|truth| wrong_pixels(&spans, truth));
                 wrong.pixels[0] += by_given;
                 wrong.pixels[1] += by_snapped;
-                // A rung that snaps is judged by what it was given after that.
-                let (count, truth) = match rung.rung.promises.contains(&1) {
+                // A choice that snaps is judged by what it was given after that.
+                let (count, truth) = match variant.choice.promises.contains(&1) {
                     true => (by_snapped, &snapped),
                     false => (by_given, &given),
                 };
@@ -566,7 +568,7 @@ fn set_best(
     }
 }
 
-/// A ladder whose errors are measured on a sample.
+/// A group whose errors are measured on a sample.
 fn ladder(
     ladder: Ladder,
     (pieces, window): (&[Piece], PixelRect),
@@ -600,18 +602,18 @@ fn ladder(
     measure_on(ladder, &[class], &options, &mut |board: &Board, passes| {
         let Some(column) = board.columns.first() else { return };
         group.timed = [column.items, column.pixels];
-        let rungs = 0..board.rungs.len();
-        group.choices = rungs.clone().map(|rung| choice(board, rung, window)).collect();
-        let timed: Vec<usize> = rungs.filter(|&rung| board.run(rung, 0).is_some()).collect();
+        let numbers = 0..board.choices.len();
+        group.choices = numbers.clone().map(|one| choice(board, one, window)).collect();
+        let timed: Vec<usize> = numbers.filter(|&one| board.run(one, 0).is_some()).collect();
         set_best(&mut group, &timed, passes, effort, effort.race());
     })?;
     Some(group)
 }
 
-fn choice(board: &Board, rung: usize, window: PixelRect) -> Choice {
-    let (info, items) = (&board.rungs[rung], board.columns[0].items);
+fn choice(board: &Board, number: usize, window: PixelRect) -> Choice {
+    let (info, items) = (&board.choices[number], board.columns[0].items);
     let mut choice = Choice::new(&info.name, &info.about);
-    let run = board.run(rung, 0);
+    let run = board.run(number, 0);
     choice.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
     choice.time = run.and_then(|run| run.time).map(|time| time.item_ns.times(items as f64));
     choice.bytes = match board.ladder {
@@ -821,19 +823,19 @@ mod tests {
 
     const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 32, y1: 32 };
 
-    /// What rungs of a ladder get wrong of one triangle, by name.
+    /// What choices of a group get wrong of one triangle, by name.
     fn wrong(ladder: Ladder, px: [[f64; 2]; 3]) -> Vec<(String, [u64; 2])> {
-        let rungs = variants(ladder);
-        let mut wrong = vec![Wrong::default(); rungs.len()];
-        compare(&rungs, &piece(0, px, [0.5; 3]), WINDOW, &mut wrong);
-        let named = rungs.iter().zip(wrong);
-        named.map(|(rung, wrong)| (rung.rung.name.to_string(), wrong.pixels)).collect()
+        let variants = variants(ladder);
+        let mut wrong = vec![Wrong::default(); variants.len()];
+        compare(&variants, &piece(0, px, [0.5; 3]), WINDOW, &mut wrong);
+        let named = variants.iter().zip(wrong);
+        named.map(|(variant, wrong)| (variant.choice.name.to_string(), wrong.pixels)).collect()
     }
 
     /// An edge that passes the samples on a diagonal by less than f32 can tell: f32 gets them wrong, and whoever promises
     /// to be right is.
     #[test]
-    fn wrong_pixels_of_rungs_are_counted() {
+    fn wrong_pixels_of_choices_are_counted() {
         let off = -1e-9;
         let px = [[0.25, 0.25 + off], [20.25, 20.25 + off], [3.625, 28.25]];
         let found = wrong(Ladder::EdgeFunction, px);

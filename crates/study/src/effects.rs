@@ -57,7 +57,7 @@ impl Need {
 }
 
 /// A textured material, and how fine its texture is in the picture.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Fineness {
     pub material: String,
     pub pixels: u64,

@@ -15,18 +15,18 @@ fn pixels(window: PixelRect) -> u64 {
     u64::from(window.width()) * u64::from(window.height())
 }
 
-/// A rung of coverage: a colour of 32 bits for each sample; one that takes a list holds the snapped corners too.
+/// A choice of coverage: a colour of 32 bits for each sample; one that takes a list holds the snapped corners too.
 pub fn coverage(name: &str, window: PixelRect, triangles: u64) -> u64 {
     let list = if name.starts_with("tiles") { size_of::<Corners>() as u64 * triangles } else { 0 };
     size_of::<u32>() as u64 * pixels(window) + list
 }
 
-/// A rung of interpolation: a value of 32 bits for each pixel.
+/// A choice of interpolation: a value of 32 bits for each pixel.
 pub fn interpolation(window: PixelRect) -> u64 {
     size_of::<f32>() as u64 * pixels(window)
 }
 
-/// A rung of antialiasing: the share of each pixel in 64 bits, and a byte for each sample; exact areas have no samples.
+/// A choice of antialiasing: the share of each pixel in 64 bits, and a byte for each sample; exact areas have no samples.
 pub fn antialiasing(name: &str, window: PixelRect) -> Option<u64> {
     let samples = match name {
         "1x" => 1,

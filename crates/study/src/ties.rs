@@ -35,8 +35,9 @@ pub enum Class {
 }
 
 /// How many pixels are of each class, which is the least decided one of their samples.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Classes {
+    #[serde(skip)]
     pub map: Frame<Class>,
     pub decided: u64,
     pub by_order: u64,
@@ -44,6 +45,7 @@ pub struct Classes {
     pub by_rounding: u64,
     pub equal: u64,
     /// The first pixel that rounding decides.
+    #[serde(skip)]
     pub first: Option<TiedPair>,
 }
 
@@ -71,7 +73,7 @@ const U: f64 = f64::EPSILON / 2.0;
 impl DepthPlane {
     /// None for a piece that has no area before it is snapped.
     ///
-    /// In units of u, as for the rungs of interpolation: with k the cancellation of the area, a slope is off by
+    /// In units of u, as for the choices of interpolation: with k the cancellation of the area, a slope is off by
     /// (7 + 3 k) times its terms, and the sum by twice the depth of the corner. What the vertex stage is off moves the
     /// depth by that of a corner, and by the slope times that of a position.
     fn of(piece: &Piece) -> Option<Self> {

@@ -6,6 +6,9 @@
     reason = "tests and benches read and write files of their own"
 )]
 
+#[path = "../../../tests/it/json_schema.rs"]
+mod json_schema;
+
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -25,9 +28,9 @@ use rasterproof_vulkan::device::find::{self, About};
 use rasterproof_vulkan::device::kind::{CELL_PX, Kind};
 use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
 use rasterproof_vulkan::gpu::cells::{draw_of, plain, twice_area_px2};
+use rasterproof_vulkan::gpu::choice::OnLadder;
 use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind};
 use rasterproof_vulkan::gpu::known;
-use rasterproof_vulkan::gpu::rung::OnLadder;
 use rasterproof_vulkan::gpu::text;
 
 /// The names of all devices; says where there are none.
@@ -59,7 +62,14 @@ fn report(stand: &DeviceReport) -> Report {
 }
 
 fn said(stand: &DeviceReport) -> String {
-    terminal::text(&report(stand), false, false)
+    terminal::text(&report(stand), false, false, terminal::WIDTH)
+}
+
+/// The JSON of a device is that of a program, with what is known of the device.
+fn is_as_its_schema_says(stand: &DeviceReport) {
+    let data = report(stand).data;
+    assert!(data["device"]["findings"].is_array());
+    assert_eq!(json_schema::wrong("judge", &data), None);
 }
 
 fn class(stand: &DeviceReport, name: &str) -> Standing {
@@ -86,6 +96,7 @@ fn every_device_is_judged() {
             assert_eq!(class(&stand, "the same twice"), Standing::Equal, "{text}");
         }
         assert_eq!(report(&stand).data["agrees"], true);
+        is_as_its_schema_says(&stand);
     }
 }
 
@@ -105,6 +116,7 @@ fn planted_faults_are_caught() {
             let text = said(&stand);
             assert_eq!(class(&stand, property), expected, "{plant}: {text}");
             assert!(!stand.agrees());
+            is_as_its_schema_says(&stand);
             let failure = &stand.verdict.failures.iter().find(|f| f.evidence.property == property);
             let failure = failure.unwrap_or_else(|| panic!("{plant}: {text}"));
             if property == family {
@@ -149,9 +161,9 @@ fn faults_of_stages_are_caught() {
     }
 }
 
-/// A device as a rung draws each triangle of a list as the oracle does, and wrongly with a fault.
+/// A device as a choice draws each triangle of a list as the oracle does, and wrongly with a fault.
 #[test]
-fn a_device_is_a_rung() {
+fn a_device_is_a_choice() {
     let bounds = PixelRect::window(200, 200);
     // Of 4 bits below the pixel, as every device has.
     let corner = |i: i32| [f64::from(i * 37 % 3200) / 16.0, f64::from(i * 1013 % 3200) / 16.0];
@@ -168,9 +180,9 @@ fn a_device_is_a_rung() {
         .collect();
     for engine in devices() {
         let drawn = |plant: &str| {
-            let mut rung = OnLadder::new(&format!("{engine}{plant}")).unwrap();
-            rung.pass(&triangles, bounds).unwrap()();
-            let spans = rung.spans(&triangles, bounds).unwrap();
+            let mut choice = OnLadder::new(&format!("{engine}{plant}")).unwrap();
+            choice.pass(&triangles, bounds).unwrap()();
+            let spans = choice.spans(&triangles, bounds).unwrap();
             let pixels = |list: &Vec<Span>| -> u64 {
                 list.iter().map(|s| u64::from(s.x0_px.abs_diff(s.x1_px))).sum()
             };
@@ -182,9 +194,9 @@ fn a_device_is_a_rung() {
         }
         assert!(wrong(&drawn("+draws-twice")) > 100);
         assert!(wrong(&drawn("+shifted-samples")) > 20);
-        let mut rung = OnLadder::new(&engine).unwrap();
+        let mut choice = OnLadder::new(&engine).unwrap();
         let far = FreeCorners::new([[0.0, 0.0], [1e6, 0.0], [0.0, 1.0]]).unwrap();
-        let refused = rung.spans(&[far], bounds).unwrap_err();
+        let refused = choice.spans(&[far], bounds).unwrap_err();
         assert!(refused.contains("further than"), "{refused}");
     }
 }

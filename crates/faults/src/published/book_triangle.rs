@@ -154,7 +154,7 @@ fn cover(
 }
 
 impl BookChapter2 {
-    /// As [`Published::cover`], compiled for its caller: `cost` times it beside rungs that are.
+    /// As [`Published::cover`], compiled for its caller: `cost` times it beside choices that are.
     pub fn cover_inlined(
         &self,
         triangle: &RealTriangle,

@@ -15,9 +15,11 @@ use rasterproof_core::parallel;
 use drawing::{Drawn, Rasterizer, draw};
 use rules::{RULES, View};
 use scenes::{Scene, scenes};
+use serde::Serialize;
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Row {
+    pub rule: &'static str,
     /// Faults that the rule refuses in at least one picture.
     pub caught: Vec<&'static str>,
     /// Faults that it accepts in every picture that it looks at.
@@ -33,8 +35,9 @@ pub struct Row {
     pub refused_right_pictures: u64,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Passed {
+    #[serde(rename = "fault")]
     pub name: &'static str,
     /// Pixels of all pictures of the set in which it differs from the right picture.
     pub wrong_pixels: u64,
@@ -42,8 +45,9 @@ pub struct Passed {
 }
 
 /// An accepted picture that differs from the right one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WrongPicture {
+    #[serde(rename = "fault")]
     pub name: &'static str,
     pub scene: String,
     pub wrong_pixels: u64,
@@ -61,7 +65,7 @@ impl Row {
     }
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Acceptance {
     pub faults: Vec<&'static str>,
     pub right: Vec<&'static str>,
@@ -104,7 +108,8 @@ pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Acceptance {
         let rows = (0..RULES.len()).map(|rule| {
             let refused = |&&i: &&usize| judged[i].1[rule] == Some(false);
             let unusable_pictures = scenes.iter().filter(refused).count() as u64;
-            Row { unusable_pictures, ..row(rule, &subjects, &of_set) }
+            let row = row(rule, &subjects, &of_set);
+            Row { rule: RULES[rule].name, unusable_pictures, ..row }
         });
         let rows = rows.collect();
         *(if of_suites { &mut report.suites } else { &mut report.hard }) = rows;

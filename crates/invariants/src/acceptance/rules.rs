@@ -38,13 +38,17 @@ impl Seen {
 }
 
 /// A model of a rule by which a test suite accepts or refuses a picture.
+#[derive(serde::Serialize)]
 pub struct Rule {
+    #[serde(rename = "rule")]
     pub name: &'static str,
     /// What it accepts, in one sentence for the tables.
+    #[serde(rename = "accepts")]
     pub about: &'static str,
     /// The file that applies it, and the place in the file.
     pub source: &'static str,
     /// Whether it accepts a picture; `None` for scenes that it is not about.
+    #[serde(skip)]
     decide: fn(&View<'_>) -> Option<bool>,
 }
 

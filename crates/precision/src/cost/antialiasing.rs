@@ -1,4 +1,4 @@
-//! The ladder of antialiasing: how far sampled shares are from exact areas, and what they take.
+//! The group of antialiasing: how far sampled shares are from exact areas, and what they take.
 //!
 //! The error is the root of the mean square over the pixels that some edge passes through; pixels
 //! wholly inside or outside are right with any number of samples.
@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared, Told};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
@@ -19,13 +19,13 @@ fn measures() -> Vec<Measure> {
 }
 
 struct Variant {
-    rung: Rung,
+    choice: Choice,
     make: fn() -> Box<dyn Antialias>,
 }
 
 fn variants() -> Vec<Variant> {
     let new = |name, about, exact: bool, make| Variant {
-        rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
+        choice: Choice::new(name, about, if exact { &[0] } else { &[] }),
         make,
     };
     vec![
@@ -98,8 +98,8 @@ pub(super) fn measure_on(
         scenes.iter().map(|scene| scene.triangles.iter().filter_map(snap).collect()).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0.0))).collect();
-    let rungs = variants.iter().map(|variant| variant.rung.clone());
-    let mut draft = Draft::new(Ladder::Antialiasing, rungs);
+    let choices = variants.iter().map(|variant| variant.choice.clone());
+    let mut draft = Draft::new(Ladder::Antialiasing, choices);
     for ((scene, triangles), target) in scenes.iter().zip(&triangles).zip(&targets) {
         draft.tell(progress, scenes.len());
         let column = |pixels| Column::new(scene.name, scene.about, triangles.len() as u64, pixels);
@@ -109,11 +109,11 @@ pub(super) fn measure_on(
         }
         let truth = truth(triangles, scene);
         let cells = variants.iter().map(|variant| {
-            let mut rung = (variant.make)();
-            rung.draw(triangles, &mut target.borrow_mut());
+            let mut choice = (variant.make)();
+            choice.draw(triangles, &mut target.borrow_mut());
             let error = root_mean_square(&target.borrow(), &truth);
             Prepared::ready(vec![Some(error)], move || {
-                rung.draw(std::hint::black_box(triangles), &mut target.borrow_mut());
+                choice.draw(std::hint::black_box(triangles), &mut target.borrow_mut());
             })
         });
         draft.add(column(truth.pixels), cells);

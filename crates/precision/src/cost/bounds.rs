@@ -1,4 +1,4 @@
-//! Derived bounds of the rungs of interpolation: how far a value may be off at a pixel.
+//! Derived bounds of the choices of interpolation: how far a value may be off at a pixel.
 
 use super::tiles::{box_of, packed};
 use crate::ladder::interpolation::Valued;
@@ -7,7 +7,7 @@ use rasterproof_core::triangle::Span;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::planes::Bounded;
 
-/// Which derived bound a rung keeps; see [`crate::ladder::interpolation`] and [`Bound::at`].
+/// Which derived bound a choice keeps; see [`crate::ladder::interpolation`] and [`Bound::at`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// The model's error, and rounding.

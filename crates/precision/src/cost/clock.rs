@@ -1,7 +1,7 @@
 //! Interleaved timing: each round runs every pass for a slice of time, and the figure of a pass is
 //! the median over the rounds with its quartiles.
 //!
-//! All rungs of one scene run one after the other within a round, so a change of the clock rate or a
+//! All choices of one scene run one after the other within a round, so a change of the clock rate or a
 //! busy neighbour meets them alike; the order turns by one from round to round. Figures of different
 //! runs are not comparable, their ratios nearly are.
 
@@ -62,7 +62,7 @@ impl Spread {
     }
 }
 
-/// The time of a rung on a scene, in nanoseconds, for each pixel and for each item drawn: the same
+/// The time of a choice on a scene, in nanoseconds, for each pixel and for each item drawn: the same
 /// rounds, divided by other counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Time {
@@ -107,7 +107,7 @@ pub fn time(
     Timing { rounds, slice }: Timing,
     progress: &dyn Fn(f64),
 ) -> Vec<Spread> {
-    // By column, so that the rungs of one scene follow each other.
+    // By column, so that the choices of one scene follow each other.
     let mut order: Vec<usize> = (0..passes.len()).collect();
     order.sort_by_key(|&i| passes[i].column);
     let mut repeat = vec![1; passes.len()];

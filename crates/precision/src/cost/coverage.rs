@@ -1,14 +1,14 @@
-//! The two ladders of coverage: how many pixels a rung gets wrong, and what it takes.
+//! The two groups of coverage: how many pixels a choice gets wrong, and what it takes.
 //!
 //! Wrong pixels are counted against two truths, both by the oracle: the triangle as it was given,
-//! and the triangle with its corners snapped to 1/256 px. Rungs on the lattice are exact against the
+//! and the triangle with its corners snapped to 1/256 px. Choices on the lattice are exact against the
 //! latter; what they show against the former is the price of snapping, an error of the input.
 
 use std::cell::RefCell;
 
 use super::external::ExternalVariant;
 use super::tiles::Lists;
-use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared, Rung};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
@@ -64,7 +64,7 @@ impl Cover for AsPublished {
     }
 }
 
-trait AnyRung: Sync {
+trait AnyChoice: Sync {
     fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String>;
     fn spans(
         &self,
@@ -75,7 +75,7 @@ trait AnyRung: Sync {
     fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>);
 }
 
-impl<R: Cover + Sync> AnyRung for R {
+impl<R: Cover + Sync> AnyChoice for R {
     fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
         Cover::accepts(self, corners, bounds)
     }
@@ -94,11 +94,11 @@ impl<R: Cover + Sync> AnyRung for R {
     }
 }
 
-/// A rung of coverage, ready to run: it lists the pixels of a triangle, to be judged, or paints them,
+/// A choice of coverage, ready to run: it lists the pixels of a triangle, to be judged, or paints them,
 /// to be timed.
 pub struct Variant {
-    pub rung: Rung,
-    body: Box<dyn AnyRung>,
+    pub choice: Choice,
+    body: Box<dyn AnyChoice>,
 }
 
 fn variant(
@@ -107,14 +107,14 @@ fn variant(
     promises: &[usize],
     body: impl Cover + Sync + 'static,
 ) -> Variant {
-    Variant { rung: Rung::new(name, about, promises), body: Box::new(body) }
+    Variant { choice: Choice::new(name, about, promises), body: Box::new(body) }
 }
 
 impl Variant {
-    /// Adds the pixels of a triangle, as the rung sees it, to `spans`; returns its counted work.
+    /// Adds the pixels of a triangle, as the choice sees it, to `spans`; returns its counted work.
     ///
     /// # Errors
-    /// The reason why the rung takes no such triangle.
+    /// The reason why the choice takes no such triangle.
     pub fn spans(
         &self,
         corners: &FreeCorners,
@@ -339,7 +339,7 @@ fn prepare_external<'a>(
     ready().unwrap_or_else(Prepared::NotRun)
 }
 
-/// Measures one of the two ladders, with external variants on it.
+/// Measures one of the two groups, with external variants on it.
 pub(super) fn measure(
     ladder: Ladder,
     options: &CostOptions,
@@ -351,9 +351,9 @@ pub(super) fn measure(
     let variants = variants(ladder);
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0))).collect();
-    let own = variants.iter().map(|variant| variant.rung.clone());
-    let rungs = own.chain(external.iter().map(|variant| variant.rung()));
-    let mut draft = Draft::new(ladder, rungs);
+    let own = variants.iter().map(|variant| variant.choice.clone());
+    let choices = own.chain(external.iter().map(|variant| variant.choice()));
+    let mut draft = Draft::new(ladder, choices);
     for (scene, target) in scenes.iter().zip(&targets) {
         draft.tell(progress, scenes.len());
         let items = scene.triangles.len() as u64;
@@ -468,15 +468,15 @@ mod tests {
     fn words_have_a_range() {
         let corners = |side: f64| FreeCorners::new([[0.0; 2], [side, 0.0], [0.0, side]]).unwrap();
         let accepts =
-            |rung: &dyn AnyRung, side| rung.accepts(&corners(side), PixelRect::window(8, 8));
+            |choice: &dyn AnyChoice, side| choice.accepts(&corners(side), PixelRect::window(8, 8));
         let (i32s, i64s) = (Integer::<i64, i32>::default(), Integer::<i64, i64>::default());
         assert!(accepts(&i32s, 2895.0).is_ok() && accepts(&i32s, 2896.0).is_err());
         assert!(accepts(&i64s, 8_000_000.0).is_ok());
         let widest = [[-8_388_608.0; 2], [8_388_607.0, -8_388_608.0], [0.0, 8_388_607.0]];
         let widest = FreeCorners::new(widest).unwrap();
         let window = PixelRect::window(8, 8);
-        assert!(AnyRung::accepts(&i64s, &widest, window).is_err());
-        assert!(AnyRung::accepts(&Integer::<i128, i128>::default(), &widest, window).is_ok());
+        assert!(AnyChoice::accepts(&i64s, &widest, window).is_err());
+        assert!(AnyChoice::accepts(&Integer::<i128, i128>::default(), &widest, window).is_ok());
         let reason = accepts(&i32s, 1e6).unwrap_err();
         assert!(reason.contains("32 bits"), "{reason}");
     }
@@ -493,10 +493,10 @@ mod tests {
             };
             let small = [(); 3].map(|()| [px(&mut rng, 15), px(&mut rng, 15)]);
             let large = [(); 3].map(|()| [px(&mut rng, 1 << 17), px(&mut rng, 1 << 17)]);
-            let check = |rung: &dyn AnyRung, corners: [[f64; 2]; 3]| {
+            let check = |choice: &dyn AnyChoice, corners: [[f64; 2]; 3]| {
                 let corners = FreeCorners::new(corners).unwrap();
                 let (mut ours, mut truth) = (Vec::new(), Vec::new());
-                rung.spans(&corners, window, &mut ours);
+                choice.spans(&corners, window, &mut ours);
                 Oracle.cover_exact(&corners, window, |span| truth.push(span));
                 assert_eq!(wrong_pixels(&ours, &truth), 0, "{corners:?}");
             };

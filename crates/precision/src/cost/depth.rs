@@ -1,9 +1,9 @@
-//! The ladder of depth: how far apart two surfaces must be to be told apart, and how many pixels show
+//! The group of depth: how far apart two surfaces must be to be told apart, and how many pixels show
 //! the wrong one of two nearly coplanar layers.
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -141,13 +141,13 @@ impl<F: Format + 'static> AnyFormat for F {
     }
 }
 
-fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
-    let rung = |name, about| Rung::new(name, about, &[]);
+fn variants() -> Vec<(Choice, Box<dyn AnyFormat>)> {
+    let choice = |name, about| Choice::new(name, about, &[]);
     vec![
-        (rung("24-bit", "whole numbers, 0 at the near plane"), Box::new(Fixed24)),
-        (rung("f32", "-1 at the near plane"), Box::new(Forward::<f32>::default())),
-        (rung("f32 reversed", "1 at the near plane"), Box::new(Reversed::<f32>::default())),
-        (rung("f64", "-1 at the near plane"), Box::new(Forward::<f64>::default())),
+        (choice("24-bit", "whole numbers, 0 at the near plane"), Box::new(Fixed24)),
+        (choice("f32", "-1 at the near plane"), Box::new(Forward::<f32>::default())),
+        (choice("f32 reversed", "1 at the near plane"), Box::new(Reversed::<f32>::default())),
+        (choice("f64", "-1 at the near plane"), Box::new(Forward::<f64>::default())),
     ]
 }
 
@@ -156,7 +156,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };
     let made = DISTANCES.map(|(name, z)| layers(options.seed, name, z, tiles));
-    let mut draft = Draft::new(Ladder::Depth, variants.iter().map(|(rung, _)| rung.clone()));
+    let mut draft = Draft::new(Ladder::Depth, variants.iter().map(|(choice, _)| choice.clone()));
     for ((name, z), layers) in DISTANCES.into_iter().zip(&made) {
         draft.tell(progress, DISTANCES.len());
         let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");

@@ -37,7 +37,7 @@ pub(super) fn pixels<T>(drawn: &[Drawn<T>]) -> usize {
     drawn.iter().flat_map(|of_this| &of_this.spans).map(Span::pixels).sum()
 }
 
-/// What the measurements need of a rung, without its type.
+/// What the measurements need of a choice, without its type.
 pub(super) trait AnyValues<T> {
     fn each(&self, drawn: &Drawn<T>, emit: &mut dyn FnMut(i32, i32, f64));
     fn paint(&self, drawn: &[Drawn<T>], target: &mut Frame<f32>);

@@ -1,12 +1,12 @@
-//! An external rasterizer on a ladder of coverage that draws lists of triangles, such as a graphics card.
+//! An external rasterizer on a group of coverage that draws lists of triangles, such as a graphics card.
 
-use super::Rung;
+use super::Choice;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
-/// Somebody who fills triangles, and is judged and timed as the rungs are.
+/// Somebody who fills triangles, and is judged and timed as the choices are.
 pub trait ExternalVariant {
-    fn rung(&self) -> Rung;
+    fn choice(&self) -> Choice;
 
     fn spans(
         &mut self,

@@ -1,7 +1,7 @@
-//! The ladder of interpolation: how far values are from the exact ones, and what they take.
+//! The group of interpolation: how far values are from the exact ones, and what they take.
 //!
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels,
-//! against quotients of big integers; each rung with a derived bound is also held to that.
+//! against quotients of big integers; each choice with a derived bound is also held to that.
 
 use std::cell::RefCell;
 
@@ -9,7 +9,7 @@ use super::bounds::{Bound, Place, largest};
 use super::drawn::{AnyValues, Drawn, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
-use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared, Rung, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared, Told};
 use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -53,7 +53,7 @@ impl AnyValues<Valued> for Planes {
     }
 }
 
-/// The oracle as a rung: the exact quotient at every pixel, rounded once.
+/// The oracle as a choice: the exact quotient at every pixel, rounded once.
 #[derive(Clone, Copy, Debug)]
 struct Rational;
 
@@ -75,7 +75,7 @@ fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
 }
 
 struct Variant {
-    rung: Rung,
+    choice: Choice,
     bound: Bound,
     unit: f64,
     body: Box<dyn AnyValues<Valued>>,
@@ -90,7 +90,12 @@ fn variant<T: Real>(
     // 13 D + M is at most 27 M, far below the goal with either float.
     let promises =
         if matches!(bound, Bound::Offset | Bound::Rounded) { vec![0] } else { Vec::new() };
-    Variant { rung: Rung::new(name, about, &promises), bound, unit: T::UNIT, body: Box::new(body) }
+    Variant {
+        choice: Choice::new(name, about, &promises),
+        bound,
+        unit: T::UNIT,
+        body: Box::new(body),
+    }
 }
 
 fn variants() -> Vec<Variant> {
@@ -188,12 +193,12 @@ fn samples(drawn: &[Drawn<Valued>], count: usize) -> Vec<Sample> {
     samples
 }
 
-/// Takes a triangle, a sample of it, the pixel and the value that a rung has there.
+/// Takes a triangle, a sample of it, the pixel and the value that a choice has there.
 type See<'a, 'b> = dyn FnMut(&'a Drawn<Valued>, &Sample, [i32; 2], f64) + 'b;
 
 /// Calls `see` for each sample.
 fn at_samples<'a>(
-    rung: &dyn AnyValues<Valued>,
+    choice: &dyn AnyValues<Valued>,
     drawn: &'a [Drawn<Valued>],
     samples: &[Sample],
     see: &mut See<'a, '_>,
@@ -204,7 +209,7 @@ fn at_samples<'a>(
             continue;
         }
         let mut number = 0;
-        rung.each(of_this, &mut |x_px, y_px, value| {
+        choice.each(of_this, &mut |x_px, y_px, value| {
             if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
                 see(of_this, sample, [x_px, y_px], value);
             }
@@ -213,7 +218,7 @@ fn at_samples<'a>(
     }
 }
 
-/// Errors of a rung at the samples: over M, in u M, over the bound.
+/// Errors of a choice at the samples: over M, in u M, over the bound.
 fn errors(variant: &Variant, drawn: &[Drawn<Valued>], samples: &[Sample]) -> Vec<Option<f64>> {
     let (mut worst, mut worst_bound) = (0f64, None::<f64>);
     at_samples(&*variant.body, drawn, samples, &mut |of_this, sample, [x_px, y_px], value| {
@@ -237,17 +242,17 @@ fn row_of(spans: &[Span], y_px: i32) -> Span {
     *near.find(|span| span.y_px == y_px).expect("values come from the rows given")
 }
 
-/// What the rungs get wrong of some triangles.
+/// What the choices get wrong of some triangles.
 #[derive(Clone, Debug)]
 pub struct WrongValues {
-    /// By rung and by triangle: pixels whose value is off by more than half a step of 8 bits of the largest.
+    /// By choice and by triangle: pixels whose value is off by more than half a step of 8 bits of the largest.
     pub wrong: Vec<Vec<u64>>,
     /// Pixels that were looked at, evenly spread, and all.
     pub pixels: u64,
     pub of: u64,
 }
 
-/// The pixels of each triangle in which each rung is visibly wrong.
+/// The pixels of each triangle in which each choice is visibly wrong.
 pub fn wrong_values(scene: &Scene) -> WrongValues {
     let drawn = valued(scene);
     let samples = samples(&drawn, 4 * SAMPLES);
@@ -282,8 +287,8 @@ pub(super) fn measure_on(
     let drawn: Vec<_> = scenes.iter().map(valued).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
-    let rungs = variants.iter().map(|variant| variant.rung.clone());
-    let mut draft = Draft::new(Ladder::Interpolation, rungs);
+    let choices = variants.iter().map(|variant| variant.choice.clone());
+    let mut draft = Draft::new(Ladder::Interpolation, choices);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
         draft.tell(progress, scenes.len());
         let samples = samples(drawn, count);
@@ -302,7 +307,7 @@ pub(super) fn measure_on(
 mod tests {
     use super::*;
 
-    /// The worst share of its bound that a rung reaches on every class of scenes, all pixels asked.
+    /// The worst share of its bound that a choice reaches on every class of scenes, all pixels asked.
     fn worst(variant: &Variant, seed: u64) -> f64 {
         scenes(seed, Size { side_px: 64, pixels: 1500 })
             .iter()
@@ -327,19 +332,19 @@ mod tests {
         ]
     }
 
-    /// Every rung keeps its derived bound, in either float; and none of the bounds is idle.
+    /// Every choice keeps its derived bound, in either float; and none of the bounds is idle.
     #[test]
     fn bounds_are_kept() {
-        let rungs = in_both::<f32>().into_iter().chain(in_both::<f64>());
-        for variant in rungs.chain(variants()) {
+        let choices = in_both::<f32>().into_iter().chain(in_both::<f64>());
+        for variant in choices.chain(variants()) {
             let shares: Vec<f64> = (1..=3).map(|seed| worst(&variant, seed)).collect();
-            let name = (variant.rung.name, variant.unit);
+            let name = (variant.choice.name, variant.unit);
             assert!(shares.iter().all(|&share| share <= 1.0), "{name:?} {shares:?}");
             assert!(shares.iter().any(|&share| share > 0.05), "{name:?} {shares:?}");
         }
     }
 
-    /// Each bound is exceeded by the rung with a fault planted: values of the next pixel, off by less
+    /// Each bound is exceeded by the choice with a fault planted: values of the next pixel, off by less
     /// than anybody sees in most scenes.
     struct Late<R>(R);
 
@@ -355,8 +360,8 @@ mod tests {
         }
     }
 
-    fn late(bound: Bound, rung: impl Values + Sync + 'static) -> Variant {
-        variant::<f32>("late", "", bound, Late(rung))
+    fn late(bound: Bound, choice: impl Values + Sync + 'static) -> Variant {
+        variant::<f32>("late", "", bound, Late(choice))
     }
 
     #[test]
@@ -378,7 +383,7 @@ mod tests {
         ];
         for variant in late {
             let share = worst(&variant, 1);
-            assert!(share > 1.0, "{} {:?} {share}", variant.rung.name, variant.bound);
+            assert!(share > 1.0, "{} {:?} {share}", variant.choice.name, variant.bound);
         }
     }
 }

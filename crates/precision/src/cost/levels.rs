@@ -1,4 +1,4 @@
-//! The ladder of levels of detail: how far the level of a pixel is from the exact one, and what it takes.
+//! The group of levels of detail: how far the level of a pixel is from the exact one, and what it takes.
 //!
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels, against derivatives in
 //! quotients of big integers, of which the logarithm alone is rounded.
@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 use super::drawn::{AnyValues, Drawn, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
@@ -95,7 +95,7 @@ fn samples(drawn: &[Drawn<Textured>]) -> Vec<Sample> {
 
 type AnyLevel = dyn AnyValues<Textured>;
 
-fn errors(rung: &AnyLevel, drawn: &[Drawn<Textured>], samples: &[Sample]) -> Vec<Option<f64>> {
+fn errors(choice: &AnyLevel, drawn: &[Drawn<Textured>], samples: &[Sample]) -> Vec<Option<f64>> {
     let (mut worst, mut sum, mut number) = (0f64, 0.0, 0);
     let mut left = samples.iter().peekable();
     let mut see = |_, _, level: f64| {
@@ -108,21 +108,21 @@ fn errors(rung: &AnyLevel, drawn: &[Drawn<Textured>], samples: &[Sample]) -> Vec
         }
         number += 1;
     };
-    drawn.iter().for_each(|of_this| rung.each(of_this, &mut see));
+    drawn.iter().for_each(|of_this| choice.each(of_this, &mut see));
     vec![Some(worst), Some(sum / samples.len().max(1) as f64)]
 }
 
-fn variants() -> Vec<(Rung, Box<AnyLevel>)> {
-    let rung = |name, about| Rung::new(name, about, &[]);
+fn variants() -> Vec<(Choice, Box<AnyLevel>)> {
+    let choice = |name, about| Choice::new(name, about, &[]);
     vec![
-        (rung("one a triangle", "by the areas in texels and in pixels"), Box::new(OfTriangle)),
+        (choice("one a triangle", "by the areas in texels and in pixels"), Box::new(OfTriangle)),
         (
-            rung("differences f32", "of two pixels, for 2 x 2 at once, as hardware"),
+            choice("differences f32", "of two pixels, for 2 x 2 at once, as hardware"),
             Box::new(Differences::<f32>::default()),
         ),
-        (rung("differences f64", "the same"), Box::new(Differences::<f64>::default())),
-        (rung("derivatives f32", "at each pixel"), Box::new(Derivatives::<f32>::default())),
-        (rung("derivatives f64", "at each pixel"), Box::new(Derivatives::<f64>::default())),
+        (choice("differences f64", "the same"), Box::new(Differences::<f64>::default())),
+        (choice("derivatives f32", "at each pixel"), Box::new(Derivatives::<f32>::default())),
+        (choice("derivatives f64", "at each pixel"), Box::new(Derivatives::<f64>::default())),
     ]
 }
 
@@ -133,13 +133,13 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let drawn: Vec<_> = scenes.iter().map(textured).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
-    let mut draft = Draft::new(Ladder::Levels, variants.iter().map(|(rung, _)| rung.clone()));
+    let mut draft = Draft::new(Ladder::Levels, variants.iter().map(|(choice, _)| choice.clone()));
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
         draft.tell(progress, scenes.len());
         let samples = samples(drawn);
-        let cells = variants.iter().map(|(_, rung)| {
-            Prepared::ready(errors(&**rung, drawn, &samples), || {
-                rung.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
+        let cells = variants.iter().map(|(_, choice)| {
+            Prepared::ready(errors(&**choice, drawn, &samples), || {
+                choice.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
             })
         });
         let (items, pixels) = (drawn.len() as u64, pixels(drawn) as u64);
@@ -166,18 +166,18 @@ mod tests {
         assert_eq!(exact(&triangle, 3, 7), Some(2.0));
         let spans = [Span { y_px: 7, x0_px: 1, x1_px: 6 }];
         let drawn = Drawn { number: 0, triangle, spans: spans.to_vec() };
-        let check = |rung: &AnyLevel| {
+        let check = |choice: &AnyLevel| {
             let mut count = 0;
-            rung.each(&drawn, &mut |_, _, level| {
+            choice.each(&drawn, &mut |_, _, level| {
                 assert!((level - 2.0).abs() < 1e-5, "{level}");
                 count += 1;
             });
             assert_eq!(count, 5);
         };
-        variants().iter().for_each(|(_, rung)| check(&**rung));
+        variants().iter().for_each(|(_, choice)| check(&**choice));
     }
 
-    /// A rung that forgets the slope of 1/w is far off where w differs, and right where it does not.
+    /// A choice that forgets the slope of 1/w is far off where w differs, and right where it does not.
     #[test]
     fn a_level_without_perspective_is_seen() {
         struct Affine;
@@ -188,9 +188,9 @@ mod tests {
             }
         }
         let scenes = scenes(1, Size { side_px: 256, pixels: 4_000 });
-        let worst = |name: &str, rung: &AnyLevel| {
+        let worst = |name: &str, choice: &AnyLevel| {
             let drawn = textured(scenes.iter().find(|scene| scene.name == name).unwrap());
-            errors(rung, &drawn, &samples(&drawn))[0].unwrap()
+            errors(choice, &drawn, &samples(&drawn))[0].unwrap()
         };
         assert!(worst("w 1", &Affine) < 1e-9 && worst("w 4", &Affine) > 0.5);
         let derivatives = Derivatives::<f64>::default();

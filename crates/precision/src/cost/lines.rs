@@ -1,9 +1,9 @@
-//! The ladder of lines: pixels beside the nearest one, and what drawing takes.
+//! The group of lines: pixels beside the nearest one, and what drawing takes.
 
 use std::cell::RefCell;
 
 use super::scene::{Size, scenes};
-use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -42,7 +42,7 @@ impl<D: Draw> AnyDraw for D {
         let window = target.bounds();
         for (ends, colour) in lines.iter().zip(1..) {
             self.draw(*ends, window, |p| {
-                // Off by a row at the border, a drifting rung must not leave the frame.
+                // Off by a row at the border, a drifting choice must not leave the frame.
                 let y_px = p.y.clamp(window.y0, window.y1 - 1);
                 let x = (p.x.clamp(window.x0, window.x1 - 1) - window.x0) as usize;
                 target.row_mut(y_px)[x] = colour;
@@ -52,13 +52,13 @@ impl<D: Draw> AnyDraw for D {
 }
 
 struct Variant {
-    rung: Rung,
+    choice: Choice,
     body: Box<dyn AnyDraw>,
 }
 
 fn variants() -> Vec<Variant> {
     let new = |name, about, exact: bool, body| Variant {
-        rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
+        choice: Choice::new(name, about, if exact { &[0] } else { &[] }),
         body,
     };
     vec![
@@ -146,14 +146,14 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
 pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
     let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };
     let variants = variants();
-    // The classes of the other ladders, for their names and windows.
+    // The classes of the other groups, for their names and windows.
     let classes = scenes(options.seed, Size { side_px: size.side_px, pixels: 0 });
     let made: Vec<_> =
         classes.iter().map(|class| lines(class.name, options.seed, &size, class.bounds)).collect();
     let targets: Vec<_> =
         classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
-    let rungs = variants.iter().map(|variant| variant.rung.clone());
-    let mut draft = Draft::new(Ladder::Lines, rungs);
+    let choices = variants.iter().map(|variant| variant.choice.clone());
+    let mut draft = Draft::new(Ladder::Lines, choices);
     for ((class, made), target) in classes.iter().zip(&made).zip(&targets) {
         draft.tell(progress, classes.len());
         let (lines, about) = match made {

@@ -1,9 +1,9 @@
-//! What accuracy costs: every rung of a ladder on every class of scenes, verified, then timed.
+//! What accuracy costs: every choice of a group on every class of scenes, verified, then timed.
 //!
 //! A [`Board`] is a value: errors are decided by the seed alone, times are of this run. The result
-//! of a rung is compared with the oracle before the rung is timed, so no time is ever shown without
+//! of a choice is compared with the oracle before the choice is timed, so no time is ever shown without
 //! its error. Times are medians over interleaved rounds in one process, so that what disturbs the
-//! machine disturbs all rungs alike. It draws nothing and prints nothing.
+//! machine disturbs all choices alike. It draws nothing and prints nothing.
 
 mod antialiasing;
 mod bounds;
@@ -37,7 +37,7 @@ pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
 
 rasterproof_core::named! {
-    /// A ladder of rungs that do the same job. In the order of the boards; its name is also a name of files.
+    /// A group of choices that do the same job. In the order of the boards; its name is also a name of files.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Ladder {
@@ -114,14 +114,14 @@ impl Column {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rung {
+pub struct Choice {
     pub name: Name,
     pub about: Name,
     /// Of which measures, by number, it promises to meet the goal, whatever the scene.
     pub promises: Vec<usize>,
 }
 
-impl Rung {
+impl Choice {
     fn new(name: &'static str, about: impl Into<Name>, promises: &[usize]) -> Self {
         Self { name: name.into(), about: about.into(), promises: promises.to_vec() }
     }
@@ -148,35 +148,36 @@ impl Cell {
 pub struct Run {
     /// For each measure of the board its error, where the measure applies.
     pub errors: Vec<Option<f64>>,
-    /// Counted work, where the rung counts.
+    /// Counted work, where the choice counts.
     pub work: Option<Work>,
     pub time: Option<Time>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Board {
+    #[serde(rename = "group")]
     pub ladder: Ladder,
     pub seed: u64,
     /// Rounds that the medians are over, 0 without times.
     pub rounds: usize,
     pub measures: Vec<Measure>,
     pub columns: Vec<Column>,
-    pub rungs: Vec<Rung>,
-    /// A row for each rung, in it a cell for each column.
+    pub choices: Vec<Choice>,
+    /// A row for each choice, in it a cell for each column.
     pub cells: Vec<Vec<Cell>>,
 }
 
 impl Board {
-    pub fn run(&self, rung: usize, column: usize) -> Option<&Run> {
-        self.cells[rung][column].run()
+    pub fn run(&self, choice: usize, column: usize) -> Option<&Run> {
+        self.cells[choice][column].run()
     }
 
-    pub fn error(&self, rung: usize, column: usize, measure: usize) -> Option<f64> {
-        self.run(rung, column)?.errors[measure]
+    pub fn error(&self, choice: usize, column: usize, measure: usize) -> Option<f64> {
+        self.run(choice, column)?.errors[measure]
     }
 
-    pub fn time(&self, rung: usize, column: usize) -> Option<&Time> {
-        self.run(rung, column)?.time.as_ref()
+    pub fn time(&self, choice: usize, column: usize) -> Option<&Time> {
+        self.run(choice, column)?.time.as_ref()
     }
 }
 
@@ -185,7 +186,7 @@ pub fn measure(ladder: Ladder, options: &CostOptions, progress: &dyn Fn(f64, &st
     measure_with(ladder, options, &mut [], progress)
 }
 
-/// The same with external variants on the ladder of edge functions.
+/// The same with external variants on the group of edge functions.
 pub fn measure_with(
     ladder: Ladder,
     options: &CostOptions,
@@ -207,7 +208,7 @@ pub fn measure_with(
 /// What happens to a board and the passes that were timed for it, in the order of its cells.
 pub type Afterwards<'a> = &'a mut dyn FnMut(&Board, &mut [Pass<'_>]);
 
-/// Measures a ladder on scenes of the caller; nothing for a ladder that draws scenes of its own. Errors are taken at as
+/// Measures a group on scenes of the caller; nothing for a group that draws scenes of its own. Errors are taken at as
 /// many pixels whether the measurement is quick or not.
 pub fn measure_on(
     ladder: Ladder,
@@ -242,17 +243,17 @@ impl<'a> Prepared<'a> {
 
 struct Draft<'a> {
     ladder: Ladder,
-    rungs: Vec<Rung>,
+    choices: Vec<Choice>,
     columns: Vec<Column>,
-    /// By rung, then by column.
+    /// By choice, then by column.
     cells: Vec<Vec<Prepared<'a>>>,
 }
 
 impl<'a> Draft<'a> {
-    fn new(ladder: Ladder, rungs: impl Iterator<Item = Rung>) -> Self {
-        let rungs: Vec<Rung> = rungs.collect();
-        let cells = rungs.iter().map(|_| Vec::new()).collect();
-        Self { ladder, rungs, columns: Vec::new(), cells }
+    fn new(ladder: Ladder, choices: impl Iterator<Item = Choice>) -> Self {
+        let choices: Vec<Choice> = choices.collect();
+        let cells = choices.iter().map(|_| Vec::new()).collect();
+        Self { ladder, choices, columns: Vec::new(), cells }
     }
 
     /// Tells `progress` how many of the classes of scenes are prepared.
@@ -265,12 +266,12 @@ impl<'a> Draft<'a> {
         self.cells.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
     }
 
-    /// Adds a class of scenes on which no rung is measured, with the reason.
+    /// Adds a class of scenes on which no choice is measured, with the reason.
     fn leave_out(&mut self, column: Column, why: &str) {
         self.add(column, std::iter::repeat_with(|| Prepared::NotRun(why.to_owned())));
     }
 
-    /// Adds the usual classes of scenes, on which a ladder is not measured that has columns of its own.
+    /// Adds the usual classes of scenes, on which a group is not measured that has columns of its own.
     fn leave_out_classes(&mut self, options: &CostOptions, why: &str) {
         for class in scene::scenes(options.seed, scene::Size { side_px: 64, pixels: 0 }) {
             self.leave_out(Column::new(class.name, class.about, 0, 0), why);
@@ -284,18 +285,18 @@ impl<'a> Draft<'a> {
         options: &CostOptions,
         (progress, afterwards): Told<'_>,
     ) -> Board {
-        let Self { ladder, rungs, columns, cells: prepared } = self;
+        let Self { ladder, choices, columns, cells: prepared } = self;
         let mut passes: Vec<clock::Pass<'_>> = Vec::new();
         let mut cells: Vec<Vec<Cell>> = Vec::new();
         let mut places = Vec::new();
-        for (rung, row) in prepared.into_iter().enumerate() {
+        for (choice, row) in prepared.into_iter().enumerate() {
             let mut out = Vec::new();
             for (column, cell) in row.into_iter().enumerate() {
                 out.push(match cell {
                     Prepared::NotRun(why) => Cell::NotRun(why),
                     Prepared::Ready { errors, work, pass } => {
                         passes.push(clock::Pass { column, run: pass });
-                        places.push((rung, column));
+                        places.push((choice, column));
                         Cell::Run(Run { errors, work, time: None })
                     }
                 });
@@ -307,14 +308,14 @@ impl<'a> Draft<'a> {
             let spreads = clock::time(&mut passes, timing, &|share| {
                 progress(0.3 + 0.7 * share, ladder.title());
             });
-            for ((rung, column), spread) in places.into_iter().zip(spreads) {
-                if let Cell::Run(run) = &mut cells[rung][column] {
+            for ((choice, column), spread) in places.into_iter().zip(spreads) {
+                if let Cell::Run(run) = &mut cells[choice][column] {
                     let Column { items, pixels, .. } = columns[column];
                     run.time = Some(Time::new(spread, pixels, items));
                 }
             }
         }
-        let board = Board { ladder, seed: options.seed, rounds, measures, columns, rungs, cells };
+        let board = Board { ladder, seed: options.seed, rounds, measures, columns, choices, cells };
         afterwards(&board, &mut passes);
         board
     }

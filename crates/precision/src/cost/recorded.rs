@@ -11,13 +11,13 @@ pub struct Recorded {
     pub repeat: String,
     pub seed: u64,
     pub quick: bool,
-    /// The boards, each ladder once.
+    /// The boards, each group once.
     #[serde(deserialize_with = "checked")]
     pub boards: Vec<Board>,
 }
 
 impl Recorded {
-    /// Reads what `cost --json` printed. What follows from the boards, as which rung is the
+    /// Reads what `cost --json` printed. What follows from the boards, as which choice is the
     /// cheapest, is not read but found again.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ fn is_coverage(board: &Board) -> bool {
     matches!(board.ladder, Ladder::Scanline | Ladder::EdgeFunction)
 }
 
-/// Boards that fit each other: each ladder once, and both ladders of coverage on the same scenes.
+/// Boards that fit each other: each group once, and both groups of coverage on the same scenes.
 fn checked<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Board>, D::Error> {
     let boards: Vec<Board> =
         Vec::<Fitting>::deserialize(from)?.into_iter().map(|fitting| fitting.0).collect();
@@ -74,22 +74,23 @@ fn checked<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Board>, D::Error> {
 
 /// What does not fit in a board. Everything that shows boards relies on these.
 fn misfit(board: &Board) -> Option<String> {
-    let (rungs, columns, measures) = (board.rungs.len(), board.columns.len(), board.measures.len());
+    let (choices, columns, measures) =
+        (board.choices.len(), board.columns.len(), board.measures.len());
     // The first measure is the error of the plots; of coverage all four are asked for by number.
     let least = if is_coverage(board) { 4 } else { 1 };
     if measures < least {
         return Some(format!("{measures} measures, and at least {least} are needed"));
     }
-    if board.cells.len() != rungs {
-        return Some(format!("{} rows of cells for {rungs} rungs", board.cells.len()));
+    if board.cells.len() != choices {
+        return Some(format!("{} rows of cells for {choices} choices", board.cells.len()));
     }
-    for (rung, row) in board.rungs.iter().zip(&board.cells) {
-        let name = &rung.name;
+    for (choice, row) in board.choices.iter().zip(&board.cells) {
+        let name = &choice.name;
         if row.len() != columns {
-            return Some(format!("{} cells of rung {name} for {columns} columns", row.len()));
+            return Some(format!("{} cells of choice {name} for {columns} columns", row.len()));
         }
-        if let Some(promise) = rung.promises.iter().find(|&&measure| measure >= measures) {
-            return Some(format!("rung {name} promises measure {promise} of {measures}"));
+        if let Some(promise) = choice.promises.iter().find(|&&measure| measure >= measures) {
+            return Some(format!("choice {name} promises measure {promise} of {measures}"));
         }
         for (column, run) in board.columns.iter().zip(row.iter().map(Cell::run)) {
             let Some(run) = run else { continue };

@@ -2,8 +2,8 @@
 //!
 //! A scene is a pure function of (class, seed, size), on every machine: additions, multiplications
 //! and square roots only, all of which round alike everywhere. Corners are exactly f32, so that no
-//! rung in f32 starts with a rounding of its input; but for half of the corners of `tie` and `mesh`,
-//! which are any f64, since an f64 rung cannot fail on corners of 24 bits.
+//! choice in f32 starts with a rounding of its input; but for half of the corners of `tie` and `mesh`,
+//! which are any f64, since an f64 choice cannot fail on corners of 24 bits.
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;

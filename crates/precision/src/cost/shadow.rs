@@ -1,10 +1,10 @@
-//! The ladder of shadows: how near to a surface another one may lie and still keep the light from it, and how often a surface
+//! The group of shadows: how near to a surface another one may lie and still keep the light from it, and how often a surface
 //! keeps it from itself.
 //!
 //! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
-use super::{Board, Column, CostOptions, Draft, Ladder, Measure, Prepared, Rung};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_verify::cases::Rng;
 
@@ -134,15 +134,18 @@ impl<F: Format + 'static> AnyFormat for F {
     }
 }
 
-fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
-    let rung = |name, about| Rung::new(name, about, &[]);
+fn variants() -> Vec<(Choice, Box<dyn AnyFormat>)> {
+    let choice = |name, about| Choice::new(name, about, &[]);
     vec![
-        (rung("24-bit, no bias", "depths are compared as they are"), Box::new(Unbiased::default())),
-        (rung("16-bit", "whole numbers"), Box::new(Fixed16::default())),
-        (rung("24-bit", "whole numbers"), Box::new(Fixed24::default())),
-        (rung("32-bit", "whole numbers, as the renderer here"), Box::new(Fixed32::default())),
-        (rung("f32", "a float"), Box::new(Floats::<f32>::default())),
-        (rung("f64", "a double"), Box::new(Floats::<f64>::default())),
+        (
+            choice("24-bit, no bias", "depths are compared as they are"),
+            Box::new(Unbiased::default()),
+        ),
+        (choice("16-bit", "whole numbers"), Box::new(Fixed16::default())),
+        (choice("24-bit", "whole numbers"), Box::new(Fixed24::default())),
+        (choice("32-bit", "whole numbers, as the renderer here"), Box::new(Fixed32::default())),
+        (choice("f32", "a float"), Box::new(Floats::<f32>::default())),
+        (choice("f64", "a double"), Box::new(Floats::<f64>::default())),
     ]
 }
 
@@ -151,7 +154,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };
     let made = CLASSES.each_ref().map(|class| tiles(options.seed, class, count));
-    let mut draft = Draft::new(Ladder::Shadows, variants.iter().map(|(rung, _)| rung.clone()));
+    let mut draft = Draft::new(Ladder::Shadows, variants.iter().map(|(choice, _)| choice.clone()));
     for (class, tiles) in CLASSES.iter().zip(&made) {
         draft.tell(progress, CLASSES.len());
         let slope =

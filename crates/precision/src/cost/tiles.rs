@@ -1,4 +1,4 @@
-//! The tile engine and the planes of frames in tiles, for rungs in the best vectors of this machine.
+//! The tile engine and the planes of frames in tiles, for choices in the best vectors of this machine.
 
 use crate::ladder::interpolation::Valued;
 use crate::ladder::{Cover, Snapped, Work, snap};
@@ -13,7 +13,7 @@ use rasterproof_tiles::frames::planes::{self, ATTRIBUTES};
 pub(super) struct Lists(Tiles);
 
 impl Lists {
-    /// What the rung is in a few words.
+    /// What the choice is in a few words.
     pub fn about(self) -> String {
         format!("snaps; the engine tiles, a list at a time, {}", self.0.instructions())
     }
@@ -43,7 +43,7 @@ impl Cover for Lists {
 pub(super) struct Planes(Tiles);
 
 impl Planes {
-    /// What the rung is in a few words.
+    /// What the choice is in a few words.
     pub fn about(self) -> String {
         format!("set up in f64, as frames in tiles, {}", self.0.instructions())
     }

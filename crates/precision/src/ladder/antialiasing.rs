@@ -1,4 +1,4 @@
-//! Rungs of antialiasing: samples for each pixel, from one to the exact area.
+//! Choices of antialiasing: samples for each pixel, from one to the exact area.
 //!
 //! Multisampling rasterizes the triangle shifted by minus the offset of each sample; supersampling
 //! rasterizes a larger window. Both are exact on the lattice, as whole numbers of 1/256 px are moved

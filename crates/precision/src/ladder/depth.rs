@@ -1,4 +1,4 @@
-//! Rungs of depth: formats of a depth buffer for a perspective with the planes n and f.
+//! Choices of depth: formats of a depth buffer for a perspective with the planes n and f.
 //!
 //! With the usual mapping depth is f (z - n) / (z (f - n)), 0 at the near plane and 1 at the far one
 //! ([`Fixed24`]), or twice that less 1, as the book and OpenGL have it ([`Forward`]): nearly all of its

@@ -1,4 +1,4 @@
-//! Rungs of coverage by edge function: every sample of the bounding box against three half-planes,
+//! Choices of coverage by edge function: every sample of the bounding box against three half-planes,
 //! in floats, in integers of a fixed width, and with an exact predicate for each sample.
 //!
 //! All visit the same samples in the same order: row by row to the first one inside, on to the first
@@ -177,7 +177,7 @@ fn cover_by<T: Real>(
     let edges = edges(corners).map_array(|[a, b]| (a, b, is_top_left(&a, &b)));
     let inside = |x_px: i32, y_px: i32| {
         let p = [centre(x_px), centre(y_px)];
-        // Without a branch for each edge, as the stepped rungs.
+        // Without a branch for each edge, as the stepped choices.
         edges.iter().fold(true, |inside, (a, b, keeps)| {
             let e = side(a, b, &p);
             inside & ((e > T::zero()) | ((e == T::zero()) & *keeps))

@@ -1,9 +1,9 @@
-//! Rungs of interpolation: one attribute at the centres of covered pixels, by the ways that
+//! Choices of interpolation: one attribute at the centres of covered pixels, by the ways that
 //! renderers have used, each generic over the float it computes in.
 //!
 //! Coverage is given, as spans of the exact engine, so that only values differ. Inputs are positions
 //! on the lattice, 1/w and the attribute of each vertex. Every type states the bound of its error
-//! where one has been derived; `cost` compares with the oracle, and the tests hold each rung to its
+//! where one has been derived; `cost` compares with the oracle, and the tests hold each choice to its
 //! bound. u is the unit roundoff of the float, M the largest |v| at a vertex, R the ratio of w,
 //! A = w(p) / w_min, X the largest |x|, n_x and n_y the steps accumulated, V_x the slope of the value
 //! along the row.
@@ -28,7 +28,7 @@ pub trait Values<T = Valued> {
     fn values(&self, triangle: &T, spans: &[Span], emit: impl FnMut(i32, i32, f64));
 }
 
-macro_rules! rungs {
+macro_rules! choices {
     ($($(#[$about:meta])* $name:ident),* $(,)?) => {$(
         $(#[$about])*
         #[derive(Clone, Copy, Debug, Default)]
@@ -36,7 +36,7 @@ macro_rules! rungs {
     )*};
 }
 
-rungs! {
+choices! {
     /// The value as a plane over the screen, w ignored; added up along the row. Off by up to
     /// dv (sqrt R - 1) / (sqrt R + 1), dv being the difference of the values.
     Affine,

@@ -1,7 +1,7 @@
-//! Rungs of levels of detail: how many texels a pixel meets, as the logarithm to the base 2 of the longer of the derivatives
+//! Choices of levels of detail: how many texels a pixel meets, as the logarithm to the base 2 of the longer of the derivatives
 //! of the texture coordinates by columns and by rows of pixels.
 //!
-//! u/w, v/w and 1/w are linear in the window (`Planes`). A rung takes the quotient rule at the point itself, or the difference of
+//! u/w, v/w and 1/w are linear in the window (`Planes`). A choice takes the quotient rule at the point itself, or the difference of
 //! two neighbouring pixels, which usual hardware has for four pixels at once.
 
 use std::marker::PhantomData;
@@ -61,7 +61,7 @@ impl<T: Real> Planes<T> {
     }
 }
 
-/// The level where the derivatives are these, in texels. The logarithm is that of a double for all rungs.
+/// The level where the derivatives are these, in texels. The logarithm is that of a double for all choices.
 #[inline]
 fn level<T: Real>([x, y]: [[T; 2]; 2]) -> f64 {
     let square = |[u, v]: [T; 2]| u * u + v * v;

@@ -1,4 +1,4 @@
-//! Rungs of line drawing: the slope added once for each pixel, in 16.16 fixed point and in floats.
+//! Choices of line drawing: the slope added once for each pixel, in 16.16 fixed point and in floats.
 //!
 //! All three start from the end with the smaller major coordinate and round to the nearest pixel,
 //! half up, which is the promise of [`DrawLine`]; both ends are drawn.
@@ -13,7 +13,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 
 pub trait Draw {
-    /// Whether the rung may be given this line; otherwise why not.
+    /// Whether the choice may be given this line; otherwise why not.
     fn accepts(&self, _ends: [PixelPoint; 2]) -> Result<(), String> {
         Ok(())
     }
@@ -135,11 +135,11 @@ mod tests {
 
     type Pixel = (i32, i32);
 
-    fn pixels(rung: &impl Draw, a: Pixel, b: Pixel) -> Vec<Pixel> {
+    fn pixels(choice: &impl Draw, a: Pixel, b: Pixel) -> Vec<Pixel> {
         let mut pixels = Vec::new();
         let ends = [PixelPoint::new(a.0, a.1), PixelPoint::new(b.0, b.1)];
         let window = PixelRect { x0: -64, y0: -64, x1: 64, y1: 64 };
-        rung.draw(ends, window, |p| pixels.push((p.x, p.y)));
+        choice.draw(ends, window, |p| pixels.push((p.x, p.y)));
         pixels.sort_unstable();
         pixels
     }
@@ -149,17 +149,17 @@ mod tests {
     #[test]
     fn drifts_where_it_is_known_to() {
         let exact = Contracted(rasterproof_core::line::dda::Dda);
-        let differ = |rung: &dyn Fn(Pixel, Pixel) -> Vec<Pixel>, b| {
-            rung((0, 0), b) != pixels(&exact, (0, 0), b)
+        let differ = |choice: &dyn Fn(Pixel, Pixel) -> Vec<Pixel>, b| {
+            choice((0, 0), b) != pixels(&exact, (0, 0), b)
         };
         let f32s = |a, b| pixels(&Drifting::<f32>::default(), a, b);
         let f64s = |a, b| pixels(&Drifting::<f64>::default(), a, b);
         let fixed = |a, b| pixels(&FixedPoint, a, b);
         assert!(differ(&f32s, (12, 2)) && !differ(&f64s, (12, 2)));
         assert!(differ(&f64s, (12, 10)));
-        for rung in [&f32s as &dyn Fn(_, _) -> _, &f64s, &fixed] {
-            assert!(!differ(rung, (8, 3)) && !differ(rung, (8, 0)) && !differ(rung, (0, 0)));
-            assert!(!differ(rung, (4, -3)) && !differ(rung, (-3, 8)));
+        for choice in [&f32s as &dyn Fn(_, _) -> _, &f64s, &fixed] {
+            assert!(!differ(choice, (8, 3)) && !differ(choice, (8, 0)) && !differ(choice, (0, 0)));
+            assert!(!differ(choice, (4, -3)) && !differ(choice, (-3, 8)));
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Ladders of precision: the same job in several arithmetics, so that `cost` can measure what each
 //! step of accuracy costs and what it removes.
 //!
-//! A rung is a small type. Where only the number type differs, it is one algorithm generic over
-//! [`Real`]. Rungs take corners as they were given; one that works on the lattice snaps them itself,
-//! in the time that is measured. Rungs are here to be measured, faults included: to draw a triangle,
-//! take the engines of [`raster`](rasterproof_core::raster). Where a rung is such an engine, `cost` wraps it
+//! A choice is a small type. Where only the number type differs, it is one algorithm generic over
+//! [`Real`]. Choices take corners as they were given; one that works on the lattice snaps them itself,
+//! in the time that is measured. Choices are here to be measured, faults included: to draw a triangle,
+//! take the engines of [`raster`](rasterproof_core::raster). Where a choice is such an engine, `cost` wraps it
 //! ([`Snapped`], [`Unsnapped`]) and says so; nothing here is a copy of one.
 
 pub mod antialiasing;
@@ -53,7 +53,7 @@ impl Real for f64 {
     }
 }
 
-/// What a rung did, where that explains its time.
+/// What a choice did, where that explains its time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Work {
     pub divisions: u64,
@@ -71,16 +71,16 @@ impl AddAssign for Work {
     }
 }
 
-/// Decides which pixels a triangle covers, with whatever error the rung has.
+/// Decides which pixels a triangle covers, with whatever error the choice has.
 pub trait Cover {
-    /// Whether the rung may be given this triangle; otherwise why not.
+    /// Whether the choice may be given this triangle; otherwise why not.
     fn accepts(&self, _free: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
         Ok(())
     }
 
-    /// Emits the pixels of `bounds` that the rung takes for covered by the corners as given, in spans
+    /// Emits the pixels of `bounds` that the choice takes for covered by the corners as given, in spans
     /// that are not empty. The rule is that of [`Rasterize::cover`]; how well it is kept is what is
-    /// measured. Returns the work as far as the rung can count it, in all fields or in none.
+    /// measured. Returns the work as far as the choice can count it, in all fields or in none.
     fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work>;
 
     fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
@@ -106,12 +106,12 @@ pub fn snap(corners: &FreeCorners) -> Option<Corners> {
     Some([point(a)?, point(b)?, point(c)?])
 }
 
-/// The reason of a rung whose corners cannot be snapped.
+/// The reason of a choice whose corners cannot be snapped.
 fn snappable(corners: &FreeCorners) -> Result<Corners, String> {
     snap(corners).ok_or_else(|| "a corner rounds to a point outside the lattice".to_owned())
 }
 
-/// A rasterizer of the lattice as a rung: snaps, then draws.
+/// A rasterizer of the lattice as a choice: snaps, then draws.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapped<E>(pub E);
 
@@ -129,7 +129,7 @@ impl<E: Rasterize> Cover for Snapped<E> {
     }
 }
 
-/// An exact rasterizer of corners as given, as a rung.
+/// An exact rasterizer of corners as given, as a choice.
 #[derive(Clone, Copy, Debug)]
 pub struct Unsnapped<E>(pub E);
 

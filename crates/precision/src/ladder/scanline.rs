@@ -1,10 +1,10 @@
-//! Rungs of coverage by scanline: one walk down a triangle, four ways to know where an edge crosses
+//! Choices of coverage by scanline: one walk down a triangle, four ways to know where an edge crosses
 //! a row of centres in floats, and one in big integers.
 //!
 //! The walk is the repaired one: rows and columns are half-open and start at the first centre,
 //! ceil(x - 1/2), and the long edge is never split. What is left of the published faults is rounding
 //! alone. A float can therefore put a sample on the wrong side of an edge, but two triangles that
-//! share the edge compute the same wrong crossing: these rungs are inaccurate and do not crack.
+//! share the edge compute the same wrong crossing: these choices are inaccurate and do not crack.
 
 use std::marker::PhantomData;
 

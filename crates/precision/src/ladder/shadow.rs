@@ -1,4 +1,4 @@
-//! Rungs of shadows: the formats in which a shadow map holds depths, and the bias with which they are compared.
+//! Choices of shadows: the formats in which a shadow map holds depths, and the bias with which they are compared.
 //!
 //! A fragment reads the 3 x 3 texels around its place and counts those that are not nearer to the light. The bias is that of
 //! [`rasterproof_render::pipeline::shadow`], derived there: what a plane's depth may change by between the fragment and the

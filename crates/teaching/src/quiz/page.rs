@@ -2,11 +2,11 @@
 
 use super::answer::letter;
 use super::{Chapter, Exercise, Language, Solution};
-use rasterproof_report::ascii;
+use rasterproof_report::{ascii, lettering};
 
 /// Columns of a page's English text; Chinese is not broken, for a line's end would show as a blank.
 const PAGE_COLUMNS: usize = 130;
-pub const TERMINAL_COLUMNS: usize = 96;
+const TERMINAL_COLUMNS: usize = 96;
 
 pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再检验"];
 
@@ -53,7 +53,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
 
 fn wrapped(text: &str, language: Language) -> String {
     match language {
-        Language::English => wrap(text, PAGE_COLUMNS).join("\n"),
+        Language::English => lettering::lines(text, PAGE_COLUMNS, lettering::columns).join("\n"),
         Language::Chinese => text.to_owned(),
     }
 }
@@ -78,51 +78,4 @@ pub fn legend(solution: &Solution, language: Language) -> Option<&'static str> {
         }
         Language::Chinese => "# 一致，- 缺失，+ 多余，2 画了两次，* 本应多次，. 两者都没有",
     })
-}
-
-/// Lines of at most that many columns, a Chinese character taking two. Lines break at blanks, and
-/// between Chinese characters, but not before a mark such as a full stop.
-pub fn wrap(text: &str, columns: usize) -> Vec<String> {
-    let (mut lines, mut line, mut word) = (Vec::new(), String::new(), String::new());
-    let mut flush = |line: &mut String, word: &mut String| {
-        if width(line) + width(word.trim_end()) > columns && !line.is_empty() {
-            lines.push(line.trim_end().to_owned());
-            line.clear();
-        }
-        line.push_str(word);
-        word.clear();
-    };
-    for c in text.chars() {
-        if is_wide(c) && !"，。、；：？！）”".contains(c) {
-            flush(&mut line, &mut word);
-        }
-        word.push(c);
-        if c == ' ' {
-            flush(&mut line, &mut word);
-        }
-    }
-    flush(&mut line, &mut word);
-    lines.push(line.trim_end().to_owned());
-    lines
-}
-
-fn is_wide(c: char) -> bool {
-    ('\u{2e80}'..='\u{ffe6}').contains(&c)
-}
-
-fn width(text: &str) -> usize {
-    text.chars().map(|c| 1 + usize::from(is_wide(c))).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_break_where_they_may() {
-        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
-        assert_eq!(wrap("three", 3), ["three"]);
-        assert_eq!(wrap("像素在中心。答案是 12 个", 8), ["像素在中", "心。答案", "是 12 个"]);
-        assert_eq!(wrap("像素在中心，", 10), ["像素在中", "心，"]);
-    }
 }

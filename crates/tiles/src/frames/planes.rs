@@ -1,4 +1,4 @@
-//! Depth, 1/w and attributes as planes over the screen, in f32: the rung 'plane' of the ladder, with
+//! Depth, 1/w and attributes as planes over the screen, in f32: the choice 'plane' of the group, with
 //! its bound.
 //!
 //! Each of depth, 1/w and v/w is f(x, y) = f0 + gx x + gy y, with (x, y) the whole pixels from the

@@ -7,6 +7,7 @@
 
 pub mod campaign;
 pub mod cells;
+pub mod choice;
 mod depth;
 pub mod engine;
 pub mod known;
@@ -15,6 +16,5 @@ pub mod look;
 pub mod outcome;
 pub mod plant;
 mod requirements;
-pub mod rung;
 pub mod specified;
 pub mod text;

@@ -4,8 +4,8 @@ use super::campaign::DeviceReport;
 use super::outcome::Requirement;
 use crate::device::find::About;
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::judge_text;
 use rasterproof_report::table::{Mark, Row, Table};
+use rasterproof_report::{json, judge_text};
 use rasterproof_verify::specification::Standing;
 
 pub fn device(about: &About) -> String {
@@ -67,34 +67,12 @@ fn closing(stand: &DeviceReport) -> String {
     said
 }
 
-fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> serde_json::Value {
-    let failures: Vec<_> = stand
-        .verdict
-        .failures
-        .iter()
-        .map(|f| {
-            let exchanges = f.evidence.exchanges.iter().map(|e| {
-            serde_json::json!({ "request": e.request, "answer": e.answer, "expected": e.expected })
-        });
-            serde_json::json!({
-                "property": f.evidence.property, "family": f.family, "case": f.index, "what": f.what,
-                "exchanges": exchanges.collect::<Vec<_>>(), "repeat": repeat(f.family, f.index),
-            })
-        })
-        .collect();
-    serde_json::json!({
-        "rasterproof": env!("CARGO_PKG_VERSION"),
-        "engine": stand.verdict.declared.name,
-        "device": stand.about,
-        "planted": stand.plant,
-        "seed": stand.verdict.seed,
-        "cases": stand.verdict.cases,
-        "triangles": stand.verdict.shapes(false),
-        "agrees": stand.agrees(),
-        "findings": stand.findings,
-        "failures": failures,
-        "complaints": stand.verdict.complaints,
-    })
+/// What the JSON of a device has besides that of a program.
+#[derive(serde::Serialize)]
+struct Device<'a> {
+    about: &'a About,
+    planted: Option<&'static str>,
+    findings: &'a [Requirement],
 }
 
 /// The verdict: each finding with the rule by which it was judged, and the cases that fail.
@@ -148,6 +126,14 @@ pub fn report(
     if let Some(plant) = &stand.plant {
         about += &format!("\na fault is planted: {plant}");
     }
+    let whole = judge_text::whole(verdict, repeat_all, repeat, false);
+    let mut data = whole.data;
+    data["agrees"] = stand.agrees().into();
+    data["device"] = json::value(&Device {
+        about: &stand.about,
+        planted: stand.plant,
+        findings: &stand.findings,
+    });
     Report {
         title: format!("Verdict on {}", stand.about.device),
         about,
@@ -155,7 +141,7 @@ pub fn report(
         command: format!("{repeat_all} --report"),
         first_screen: vec![short, rules.clone()],
         tables: vec![findings, rules],
-        data: json(stand, repeat),
-        ..judge_text::whole(verdict, repeat_all, repeat, false)
+        data,
+        ..whole
     }
 }

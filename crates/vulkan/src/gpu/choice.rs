@@ -1,4 +1,4 @@
-//! A device on a ladder of coverage: its wrong pixels and its time beside those of the rungs.
+//! A device on a group of coverage: its wrong pixels and its time beside those of the choices.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::device::open::Opened;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_judge::ask::runs_of;
-use rasterproof_precision::cost::{ExternalVariant, Rung};
+use rasterproof_precision::cost::{Choice, ExternalVariant};
 
 /// Triangles that are drawn at once to be judged.
 const AT_ONCE: usize = 1024;
@@ -45,14 +45,14 @@ fn near(corners: &FreeCorners, bounds: PixelRect) -> PixelRect {
 }
 
 impl ExternalVariant for OnLadder {
-    fn rung(&self) -> Rung {
+    fn choice(&self) -> Choice {
         let about = self.gpu.about();
         let bits = about.subpixel_bits;
         let text = format!(
             "{} {}: snaps to {bits} bits; cleared, drawn, waited for",
             about.driver, about.version
         );
-        Rung { name: about.short().into(), about: text.into(), promises: Vec::new() }
+        Choice { name: about.short().into(), about: text.into(), promises: Vec::new() }
     }
 
     fn spans(
