@@ -2,7 +2,7 @@
 
 use image::RgbImage;
 
-use super::{Failure, usage};
+use super::{InputError, usage};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::WordWidth;
@@ -41,7 +41,7 @@ pub fn draw(case: &Case, judged: &Judged) -> Shown {
 }
 
 impl Shown {
-    pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
+    pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), InputError> {
         let hits = drawn::by_specimen(entry, case);
         let refused = || usage(format!("{} does not draw what this case holds", entry.name));
         self.engines.insert(0, (entry.name.to_owned(), hits.ok_or_else(refused)?));

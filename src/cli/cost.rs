@@ -11,7 +11,7 @@ use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{Failure, Status, Streams, exit, study, usage};
+use super::{InputError, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
     Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with,
 };
@@ -88,7 +88,7 @@ impl CostArguments {
     }
 
     /// Refuses names of plots and pages that are the file of --from or each other's.
-    fn check_files(&self, ladders: &[Ladder]) -> Result<(), Failure> {
+    fn check_files(&self, ladders: &[Ladder]) -> Result<(), InputError> {
         let page = self.page.page("cost.html");
         let names = ladders.iter().map(|&ladder| plot_name(ladder)).chain([PRICE.to_owned()]);
         let plots: Vec<_> = names.flat_map(|name| self.plot_files(&name)).collect();
@@ -99,14 +99,14 @@ impl CostArguments {
 
     /// The devices that are measured beside the choices.
     #[cfg(feature = "vulkan")]
-    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
+    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, InputError> {
         self.engine.iter().map(|name| super::vulkan::external_variant(name)).collect()
     }
 
     /// There are none.
     #[cfg(not(feature = "vulkan"))]
     #[allow(clippy::unnecessary_wraps, clippy::unused_self, reason = "with devices there are both")]
-    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
+    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, InputError> {
         Ok(Vec::new())
     }
 }
@@ -151,7 +151,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
 }
 
 /// What an earlier run printed, as far as it is asked for.
-fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, Failure> {
+fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, InputError> {
     let named = |what: String| usage(format!("{}: {}", printable_path(path), printable(&what)));
     let text = input::read_text(path, limits::DOCUMENT_BYTES).map_err(usage)?;
     let mut recorded = Recorded::read(&text).map_err(|why| {
@@ -222,7 +222,7 @@ fn measure_all(
     ladders: &[Ladder],
     arguments: &CostArguments,
     on_terminal: bool,
-) -> Result<Vec<Board>, Failure> {
+) -> Result<Vec<Board>, InputError> {
     let mut external = arguments.external()?;
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let CostArguments { seed, quick, .. } = *arguments;

@@ -11,7 +11,7 @@ use super::page::{Place, Shown, show};
 use super::progress::Progress as Bar;
 use super::render::NOTHING_DRAWN;
 use super::view::{Purpose, ViewArguments};
-use super::{Failure, Status, Streams, exit, usage, write_file};
+use super::{InputError, Status, Streams, exit, usage, write_file};
 use rasterproof_host::output::Over;
 use rasterproof_host::shell::{self, quote};
 use rasterproof_host::text::printable_path;
@@ -186,7 +186,7 @@ fn start(language: Language, solution: bool, folder: &Path, streams: &mut Stream
 }
 
 /// The progress of a folder, or that of the command that is named instead.
-fn read_progress(dir: &Path, command: &[String], verb: &str) -> Result<Progress, Failure> {
+fn read_progress(dir: &Path, command: &[String], verb: &str) -> Result<Progress, InputError> {
     let mut progress = match (Progress::read(dir).map_err(usage)?, command.is_empty()) {
         (Some(found), _) => found,
         (None, false) => Progress::new(Vec::new(), Vec::new()),
@@ -207,7 +207,7 @@ fn read_progress(dir: &Path, command: &[String], verb: &str) -> Result<Progress,
 }
 
 /// The step of a word; `others` are further words that were possible.
-fn find_step(word: &str, others: &str) -> Result<&'static Step, Failure> {
+fn find_step(word: &str, others: &str) -> Result<&'static Step, InputError> {
     course::find(word).ok_or_else(|| {
         let names: Vec<_> = STEPS.iter().map(|step| &*step.name).collect();
         usage(format!("no step is called '{word}'; there are {}{others}", names.join(", ")))
@@ -218,7 +218,7 @@ fn built_and_started(
     dir: &Path,
     progress: &Progress,
     build: BuildLimits,
-) -> Result<Program, Failure> {
+) -> Result<Program, InputError> {
     process_group::end_all_on_ctrl_c();
     let limits = build.bounds();
     sandbox::build(dir, &progress.build, &limits).map_err(usage)?;

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::progress::Progress as Shown;
-use super::{Failure, Status, Streams, exit, usage};
+use super::{InputError, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group::{self, Group};
@@ -226,7 +226,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
 type Found = Result<Submission, (String, String)>;
 
 /// The folders of a folder, by name; each with its commands, or why it has none.
-fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Failure> {
+fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, InputError> {
     let shown = printable_path(folder);
     let failed = |e: std::io::Error| usage(format!("cannot read {shown}: {e}"));
     let mut paths = Vec::new();

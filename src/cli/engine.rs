@@ -7,14 +7,14 @@ use rasterproof_host::output::{self, Over};
 use rasterproof_host::read_files;
 
 use super::files::STANDARD_OUTPUT;
-use super::{Failure, Status, Streams, exit};
+use super::{InputError, Status, Streams, exit};
 use rasterproof_faults::planted::Mutant;
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_judge::server;
 use rasterproof_registry::engines::{self, Entry};
 
 /// The engine of this name, planted faults among them.
-pub(super) fn find(name: &str) -> Result<Entry, Failure> {
+pub(super) fn find(name: &str) -> Result<Entry, InputError> {
     let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
     entry
         .ok_or_else(|| super::usage(format!("no engine is called '{name}'; see: rasterproof list")))

@@ -12,7 +12,7 @@ use rasterproof_host::{input, limits, output};
 
 use super::files::{self, Output, Use, written};
 use super::progress::Progress;
-use super::{Failure, Status, Streams, exit, usage, write_file};
+use super::{InputError, Status, Streams, exit, usage, write_file};
 use rasterproof_exhaustive::Plan;
 use rasterproof_exhaustive::certificate::{self, Certificate};
 use rasterproof_exhaustive::counts::Counts;
@@ -211,7 +211,7 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
 
 /// The state in a checkpoint; nothing where there is no file. What is no checkpoint is not replaced, whatever the options
 /// say: it is the file of somebody else.
-fn kept_state(path: &Path) -> Result<Option<run::Progress>, Failure> {
+fn kept_state(path: &Path) -> Result<Option<run::Progress>, InputError> {
     let name = printable_path(path);
     let text = match input::read_text(path, limits::DOCUMENT_BYTES) {
         Err(error) if error.missing => return Ok(None),
@@ -232,7 +232,7 @@ fn resume(
     path: &Path,
     plan: &Plan,
     shard: Shard,
-) -> Result<run::Progress, Failure> {
+) -> Result<run::Progress, InputError> {
     let name = printable_path(path);
     if !progress.belongs_to(plan, shard) {
         let what = "was made by other options or other code; --restart ignores it";
@@ -308,7 +308,7 @@ fn judge_again(
     count: u64,
     seed: Option<u64>,
     streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
+) -> Result<(), InputError> {
     // Whoever makes a file cannot know a number that is drawn afterwards.
     let seed = seed.unwrap_or_else(|| RandomState::new().build_hasher().finish());
     let progress = Progress::new(streams.progress, "cases", None);

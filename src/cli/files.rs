@@ -7,7 +7,7 @@ use rasterproof_host::identity::Identity;
 use rasterproof_host::output::{self, Over};
 use rasterproof_host::text::printable_path;
 
-use super::{Failure, usage};
+use super::{InputError, usage};
 
 /// What standard output is, as a file; a system without it has no file of this name.
 pub(super) const STANDARD_OUTPUT: &str = "/dev/stdout";
@@ -44,7 +44,7 @@ pub(super) fn written<'a>(option: &'a str, output: &'a Output) -> Named<'a> {
 /// Refuses a command that would write over a file which it also reads or writes by another option, by
 /// whatever names; or over one that it has read already, such as a texture of a model; or, where the
 /// program chose the name, over a file that it did not make.
-pub(super) fn check(files: &[Named<'_>]) -> Result<(), Failure> {
+pub(super) fn check(files: &[Named<'_>]) -> Result<(), InputError> {
     // Where standard output is a file, it is one more that is written.
     let standard_output = ("standard output", Path::new(STANDARD_OUTPUT), Use::Writes(Over::Any));
     let standard_output = cfg!(unix).then_some(standard_output);

@@ -13,7 +13,7 @@ use super::page::{PageArguments, Shown, as_file, show};
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{
-    Failure, Status, Streams, exit, explain, png_name, program, study, usage, write_picture,
+    InputError, Status, Streams, exit, explain, png_name, program, study, usage, write_picture,
 };
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -94,7 +94,7 @@ fn is_snapped(case: &Case, typed: &[FreeCorners]) -> bool {
 }
 
 /// A pixel that is to be explained lies in what is drawn.
-fn in_window(window: PixelRect, at: PixelPoint) -> Result<(), Failure> {
+fn in_window(window: PixelRect, at: PixelPoint) -> Result<(), InputError> {
     if window.contains(at.x, at.y) {
         return Ok(());
     }
@@ -105,7 +105,7 @@ fn in_window(window: PixelRect, at: PixelPoint) -> Result<(), Failure> {
 }
 
 /// A planted fault that has no part in a case cannot be shown by it.
-fn no_part(plant: Option<&String>) -> Failure {
+fn no_part(plant: Option<&String>) -> InputError {
     let name = plant.map_or("", String::as_str);
     usage(format!("{name} is in no engine that draws this case. See: {} list", program()))
 }
@@ -265,7 +265,7 @@ fn device(
     arguments: &InspectArguments,
     case: &Case,
     shown: &mut case_view::Shown,
-) -> Result<Option<Row>, Failure> {
+) -> Result<Option<Row>, InputError> {
     let Some(engine) = &arguments.engine else { return Ok(None) };
     let Shape::Triangles { list, .. } = &case.shape else {
         return Err(usage("a Vulkan device is shown on triangles: leave out --engine"));
@@ -372,7 +372,7 @@ fn add_specimen(
     arguments: &InspectArguments,
     case: &Case,
     shown: &mut case_view::Shown,
-) -> Result<Option<String>, Failure> {
+) -> Result<Option<String>, InputError> {
     let recorded = recorded(&arguments.case.what);
     let Some(entry) = specimen(arguments, recorded) else { return Ok(None) };
     let (Shape::Unsnapped { list, .. }, Some(Specimen::Triangle(specimen))) =

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use super::{Failure, did_you_mean, program, usage};
+use super::{InputError, did_you_mean, program, usage};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
 use rasterproof_core::raster::scanline::Scanline;
@@ -54,7 +54,7 @@ fn plain(title: String, case: Case) -> Found {
     Found::Case { title, case, expected: None, typed: Vec::new() }
 }
 
-pub(super) fn find(arguments: &CaseArguments) -> Result<Found, Failure> {
+pub(super) fn find(arguments: &CaseArguments) -> Result<Found, InputError> {
     let words = words(arguments);
     let found = match words.as_slice() {
         _ if arguments.line => lines(&words)?,
@@ -73,7 +73,7 @@ pub(super) fn find(arguments: &CaseArguments) -> Result<Found, Failure> {
 }
 
 /// The same corners, for those who do not snap.
-pub(super) fn off_lattice(found: Found) -> Result<Found, Failure> {
+pub(super) fn off_lattice(found: Found) -> Result<Found, InputError> {
     match found {
         Found::Case {
             title,
@@ -107,7 +107,7 @@ pub(super) fn words(arguments: &CaseArguments) -> Vec<String> {
     points.map(str::to_owned).collect()
 }
 
-fn lines(words: &[String]) -> Result<Found, Failure> {
+fn lines(words: &[String]) -> Result<Found, InputError> {
     let (pairs, rest) = words.as_chunks::<2>();
     if !rest.is_empty() {
         return Err(usage(
@@ -134,7 +134,7 @@ pub(super) fn triangles(
     words: &[String],
     exact: bool,
     screen: Option<PixelRect>,
-) -> Result<Found, Failure> {
+) -> Result<Found, InputError> {
     let (triples, rest) = words.as_chunks::<3>();
     if !rest.is_empty() {
         return Err(usage(
@@ -165,7 +165,7 @@ pub(super) fn triangles(
 }
 
 /// The corners on the lattice, with the values that were typed with them, or simple ones.
-fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, Failure> {
+fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, InputError> {
     let at = |i: usize| {
         let [x, y] = corners[i].px;
         let on_grid = |name, px| {
@@ -173,7 +173,7 @@ fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, Fail
                 usage(format!("'{}': {}", words[i], refused_number(name, refusal)))
             })
         };
-        Ok::<_, Failure>(SubpixelPoint::new(on_grid("x", x)?, on_grid("y", y)?))
+        Ok::<_, InputError>(SubpixelPoint::new(on_grid("x", x)?, on_grid("y", y)?))
     };
     let mut triangle = plain_triangle([at(0)?, at(1)?, at(2)?]);
     for (i, Corner { px: [x, y], values }) in corners.iter().enumerate() {
@@ -192,7 +192,7 @@ fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, Fail
 }
 
 /// A case of this name, a recorded input, or a case of a family by its number.
-fn called(word: &str, arguments: &CaseArguments) -> Result<Found, Failure> {
+fn called(word: &str, arguments: &CaseArguments) -> Result<Found, InputError> {
     if let Some((family, number)) = word.split_once('#') {
         let index = number.parse::<u64>().map_err(|_| {
             usage(format!(
@@ -251,7 +251,7 @@ fn recorded_case(case: &RecordedCase) -> Found {
 }
 
 /// An error for a name that is not there, with the nearest one that is.
-fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> Failure {
+fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> InputError {
     let hint = did_you_mean(word, names);
     usage(format!("no {kind} is called '{word}'{hint} See: {} list", program()))
 }
@@ -268,7 +268,7 @@ struct Corner {
     values: Option<[f64; 4]>,
 }
 
-fn parse_corner(text: &str) -> Result<Corner, Failure> {
+fn parse_corner(text: &str) -> Result<Corner, InputError> {
     let numbers: Option<Vec<f64>> =
         bare(text).split(',').map(|number| number.trim().parse().ok()).collect();
     match numbers.as_deref() {
@@ -284,7 +284,7 @@ fn parse_corner(text: &str) -> Result<Corner, Failure> {
     }
 }
 
-pub(super) fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
+pub(super) fn parse_pixel(text: &str) -> Result<PixelPoint, InputError> {
     let numbers = bare(text).split_once(',');
     let numbers = numbers.and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
     let (x, y) = numbers.ok_or_else(|| {

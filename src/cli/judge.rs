@@ -10,7 +10,7 @@ use super::files::{self, Output, Use};
 use super::page::{PageArguments, Shown, as_file, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Status, Streams, exit, league, usage};
+use super::{InputError, Status, Streams, exit, league, usage};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
@@ -188,7 +188,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let start = |who: &str, command: &[String]| {
         let program = Program::start(command, &arguments.words(), limits);
         let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
-        Ok::<_, Failure>(Box::new(program) as Box<dyn Subject>)
+        Ok::<_, InputError>(Box::new(program) as Box<dyn Subject>)
     };
     let mut askers = Vec::new();
     let mut others = Vec::new();

@@ -152,19 +152,19 @@ enum Command {
 
 /// Something wrong with the input: what, and what to do about it.
 #[derive(Debug)]
-pub enum Failure {
+pub enum InputError {
     /// A message for standard error; exit status 2.
     Usage(String),
     Io(io::Error),
 }
 
-impl From<io::Error> for Failure {
+impl From<io::Error> for InputError {
     fn from(error: io::Error) -> Self {
         Self::Io(error)
     }
 }
 
-impl fmt::Display for Failure {
+impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Usage(message) => f.write_str(message),
@@ -174,10 +174,10 @@ impl fmt::Display for Failure {
 }
 
 /// The exit status of a command, or why it has none.
-type Status = Result<u8, Failure>;
+type Status = Result<u8, InputError>;
 
-fn usage(message: impl ToString) -> Failure {
-    Failure::Usage(message.to_string())
+fn usage(message: impl ToString) -> InputError {
+    InputError::Usage(message.to_string())
 }
 
 /// A parser that takes one of these words for the value beside it.
@@ -362,7 +362,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     if matches!(command, Command::Engine { .. }) {
         let output = &mut Guarded::new(streams.output, escape);
         return match run(output, errors, delivery) {
-            Err(Failure::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
+            Err(InputError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
             result => status_of(result, errors),
         };
     }
@@ -400,7 +400,7 @@ fn is_for_machines(command: &Command, words: &[OsString]) -> bool {
 }
 
 /// The exit status of what a command returned; a failure is printed.
-fn status_of(result: Result<u8, Failure>, errors: &mut dyn Write) -> u8 {
+fn status_of(result: Result<u8, InputError>, errors: &mut dyn Write) -> u8 {
     result.unwrap_or_else(|failure| {
         // A message may quote a file that somebody else wrote.
         let _ = writeln!(errors, "error: {}", printable_lines(&failure.to_string()));
@@ -496,7 +496,7 @@ fn listed<'a>(title: &str, entries: impl Iterator<Item = (String, &'a str)>) -> 
     Table::new(title, "~name 1 | ~about 1", entries.map(row).collect())
 }
 
-fn write_file(output: &Output, bytes: &[u8]) -> Result<(), Failure> {
+fn write_file(output: &Output, bytes: &[u8]) -> Result<(), InputError> {
     output::write(&output.path, bytes, output.over).map_err(usage)
 }
 
@@ -534,7 +534,7 @@ fn did_you_mean(word: &str, names: impl Iterator<Item = &'static str>) -> String
 }
 
 /// Refuses a name that promises another format than the bytes have.
-fn png_name(path: &Path) -> Result<(), Failure> {
+fn png_name(path: &Path) -> Result<(), InputError> {
     match path.extension().and_then(|ending| ending.to_str()) {
         Some(ending) if ending.eq_ignore_ascii_case("png") => Ok(()),
         _ => {
@@ -551,7 +551,7 @@ fn write_picture(
     unasked: &Output,
     bytes: &[u8],
     streams: &mut Streams<'_>,
-) -> Result<Option<String>, Failure> {
+) -> Result<Option<String>, InputError> {
     let written = match asked {
         Some(output) => streams.save(output, bytes).then_some(output),
         None => match write_file(unasked, bytes) {

@@ -10,7 +10,7 @@ use rasterproof_host::text::printable_path;
 
 use super::files::{Named, Output, written};
 use super::typed::Typed;
-use super::{Failure, Streams, usage};
+use super::{InputError, Streams, usage};
 use rasterproof_report::html::{self, Report};
 use rasterproof_report::{json, text};
 
@@ -63,7 +63,7 @@ const HEAD_BYTES: u64 = 8192;
 
 impl PageArguments {
     /// Refuses a folder into which nothing would be written.
-    pub(super) fn refuse_idle_folder(&self, typed: &Typed) -> Result<(), Failure> {
+    pub(super) fn refuse_idle_folder(&self, typed: &Typed) -> Result<(), InputError> {
         match typed.given(&["out", "force"]) {
             Some(option) if !self.report => Err(usage(format!(
                 "--{option} is about the folder of a page, and none is written: add --report, or leave --{option} away",
@@ -98,7 +98,7 @@ pub(super) fn show(
     shown: Shown,
     page: Option<Output>,
     streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
+) -> Result<(), InputError> {
     let text = match shown {
         Shown::Json => json::text(&report.data),
         Shown::Screen | Shown::All => {

@@ -9,7 +9,7 @@ use super::progress::Progress;
 use super::render::NOTHING_DRAWN;
 use super::typed::Typed;
 use super::view::{Purpose, SceneArguments};
-use super::{Failure, Status, Streams, exit, usage};
+use super::{InputError, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::{Canvas, Plan, SceneDigest};
@@ -243,7 +243,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
 }
 
 /// Microseconds that a planned frame looks at triangles for the reason of depth, the median; none where it lists all.
-fn time_survey(arguments: &PlanArguments, scene: &Scene) -> Result<Option<f64>, Failure> {
+fn time_survey(arguments: &PlanArguments, scene: &Scene) -> Result<Option<f64>, InputError> {
     const ROUNDS: usize = 9;
     let canvas = Canvas::of(&arguments.what.view.target()?);
     let mut times = Vec::with_capacity(ROUNDS);
@@ -303,7 +303,7 @@ fn measure(
     arguments: &PlanArguments,
     scene: &Scene,
     on_terminal: bool,
-) -> Result<(Savings, Rendered, Rendered), Failure> {
+) -> Result<(Savings, Rendered, Rendered), InputError> {
     let mut mixtures = mixtures();
     if arguments.whole {
         mixtures.truncate(WHOLE.len());
@@ -314,7 +314,7 @@ fn measure(
         let start = Instant::now();
         let rendered = arguments.engine.render(scene, effects, &mut target).map_err(usage)?;
         progress.done(1);
-        Ok::<_, Failure>((start.elapsed(), rendered))
+        Ok::<_, InputError>((start.elapsed(), rendered))
     };
     // The first round warms up and compares the pictures. Only those are kept that are shown.
     let mut frames: Vec<Rendered> = Vec::new();

@@ -7,7 +7,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits, read_files};
 
 use super::page::{Shown, show};
-use super::{Failure, Status, Streams, exit, usage};
+use super::{InputError, Status, Streams, exit, usage};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::table::Table;
 use rasterproof_report::text;
@@ -88,7 +88,7 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
     quiz.ask_all(&asked)
 }
 
-fn unknown(word: &str) -> Failure {
+fn unknown(word: &str) -> InputError {
     let words: Vec<_> = CHAPTERS.iter().map(Chapter::word).collect();
     usage(format!("there is no chapter '{word}' with exercises; give one of {}", words.join(", ")))
 }
@@ -185,7 +185,7 @@ impl Quiz<'_> {
     }
 
     /// Asks one exercise; whether it was answered rightly, or nothing at the end of input.
-    fn ask(&mut self, head: &str, exercise: &Exercise) -> Result<Option<bool>, Failure> {
+    fn ask(&mut self, head: &str, exercise: &Exercise) -> Result<Option<bool>, InputError> {
         let solution = exercise.solution();
         let question = exercise.question_with_form(self.language, &solution);
         let grid = choices(exercise, self.language).join("\n");

@@ -14,7 +14,7 @@ use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, Purpose, SceneArguments};
-use super::{Failure, Status, Streams, exit, usage};
+use super::{InputError, Status, Streams, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn};
@@ -231,7 +231,7 @@ fn compare(
     scene: &Scene,
     drawings: &[Drawing],
     follows_plan: bool,
-) -> Result<Option<Comparison>, Failure> {
+) -> Result<Option<Comparison>, InputError> {
     let [a, b] = drawings else { return Ok(None) };
     if is_nothing_drawn(drawings) {
         return Ok(None);
@@ -254,7 +254,7 @@ fn compare(
 }
 
 /// Pixels in which rounding alone decides which surface is seen, as `study` counts them.
-fn by_rounding(scene: &Scene, target: &Target) -> Result<ByRounding, Failure> {
+fn by_rounding(scene: &Scene, target: &Target) -> Result<ByRounding, InputError> {
     if scene.hidden == Hidden::Painter {
         return Ok(ByRounding::default());
     }
@@ -331,7 +331,7 @@ fn add_to_page(
 }
 
 /// A plan from a file: the plan alone, or all that `plan --json` writes.
-fn read_plan(path: &Path) -> Result<Plan, Failure> {
+fn read_plan(path: &Path) -> Result<Plan, InputError> {
     let refused = |error: &dyn std::fmt::Display| {
         usage(format!("{}: {}", printable_path(path), printable(&error.to_string())))
     };
@@ -351,7 +351,7 @@ fn draw(
     arguments: &RenderArguments,
     scene: &Scene,
     progress: &Progress,
-) -> Result<Vec<Drawing>, Failure> {
+) -> Result<Vec<Drawing>, InputError> {
     let effects = arguments.effects.unwrap_or(Effects::PLANNED);
     let plan = arguments.plan.as_deref().map(read_plan).transpose()?;
     let is_free = arguments.effects.is_none() && plan.is_none();
@@ -506,7 +506,7 @@ fn draw_in_tiles(
     let exact = || {
         let mut target = arguments.what.view.target()?;
         let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
-        Ok::<_, Failure>(exact.map_err(usage)?.picture)
+        Ok::<_, InputError>(exact.map_err(usage)?.picture)
     };
     let division = Division::new(scene, size.width(), size.height()).map_err(usage)?;
     let handed_over = division.handed_over;

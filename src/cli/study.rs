@@ -16,7 +16,7 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::json;
-use rasterproof_report::study::{self as report, Subject, costs, hard_cases};
+use rasterproof_report::study::{self as report, Studied, costs, hard_cases};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::words::{self, number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
@@ -32,7 +32,7 @@ use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, Purpose, SceneArguments, VIEW_OPTIONS, ViewArguments};
-use super::{Failure, Status, Streams, exit, usage};
+use super::{InputError, Status, Streams, exit, usage};
 
 #[derive(clap::Args, Debug)]
 pub struct StudyArguments {
@@ -83,7 +83,7 @@ struct Studied<'a> {
 }
 
 impl<'a> Studied<'a> {
-    fn new(scene: Scene, origins: &'a [Origin], view: &ViewArguments) -> Result<Self, Failure> {
+    fn new(scene: Scene, origins: &'a [Origin], view: &ViewArguments) -> Result<Self, InputError> {
         if scene.hidden == Hidden::Painter {
             return Err(usage(
                 "this scene is drawn from back to front, without a depth buffer: study another one",
@@ -95,8 +95,8 @@ impl<'a> Studied<'a> {
         Ok(Self { scene, origins, sampled, hard })
     }
 
-    fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Subject<'s> {
-        Subject { scene: &self.scene, origins: self.origins, inspect }
+    fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Studied<'s> {
+        Studied { scene: &self.scene, origins: self.origins, inspect }
     }
 }
 
@@ -106,7 +106,7 @@ fn measure(
     view: &ViewArguments,
     effort: Effort,
     on_terminal: bool,
-) -> Result<Vec<Group>, Failure> {
+) -> Result<Vec<Group>, InputError> {
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let told = |share: f64, what: &str| progress.at((share * 100.0) as u64, what);
     let mut target = view.target()?;
@@ -300,7 +300,7 @@ fn head(studied: &Studied<'_>) -> String {
 }
 
 /// Refuses options of a view where no model is named.
-pub(super) fn refuse_view(typed: &Typed) -> Result<(), Failure> {
+pub(super) fn refuse_view(typed: &Typed) -> Result<(), InputError> {
     match typed.given(&VIEW_OPTIONS) {
         Some(option) => Err(usage(format!("--{option} is for models: name a file"))),
         None => Ok(()),
@@ -449,7 +449,7 @@ pub(super) fn face(
     view: &ViewArguments,
     (typed, is_exact): (&Typed, bool),
     streams: &mut Streams<'_>,
-) -> Result<(Vec<String>, Option<Found>), Failure> {
+) -> Result<(Vec<String>, Option<Found>), InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;

@@ -12,7 +12,7 @@ use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{Failure, Status, Streams, exit, invariant, program, study, usage, write_picture};
+use super::{InputError, Status, Streams, exit, invariant, program, study, usage, write_picture};
 use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::{Excerpt, Report};
@@ -142,7 +142,7 @@ pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
 }
 
 impl VerifyArguments {
-    fn options(&self) -> Result<Options, Failure> {
+    fn options(&self) -> Result<Options, InputError> {
         let limit = match self.seconds {
             None => None,
             Some(s) if s > 0.0 && s <= 1e6 => Some(Duration::from_secs_f64(s)),
@@ -396,7 +396,7 @@ impl Run<'_> {
 
     /// Draws the failures, or else the cases that came closest to a bound. Nobody asked for it: where that fails, the
     /// verdict stands.
-    fn write_sheet(&self, streams: &mut Streams<'_>) -> Result<Option<String>, Failure> {
+    fn write_sheet(&self, streams: &mut Streams<'_>) -> Result<Option<String>, InputError> {
         let drawn =
             |title: String, case: &Case| case_view::draw(case, &self.judged).picture(&title, case);
         let (name, pictures): (_, Vec<RgbImage>) = if self.verdict.agrees() {

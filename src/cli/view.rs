@@ -10,7 +10,7 @@ use glam::{DMat4, DVec3};
 
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, did_you_mean, program, usage};
+use super::{InputError, Streams, did_you_mean, program, usage};
 use super::{cameras, facing};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::grid::PixelRect;
@@ -310,7 +310,7 @@ impl SceneArguments {
         typed: &Typed,
         purpose: Purpose,
         streams: &mut Streams<'_>,
-    ) -> Result<Maker, Failure> {
+    ) -> Result<Maker, InputError> {
         let view = &self.view;
         match self.source() {
             Ok(name) => {
@@ -349,12 +349,12 @@ impl ViewArguments {
     }
 
     /// An empty target of the size and kind asked for.
-    pub(super) fn target(&self) -> Result<Target, Failure> {
+    pub(super) fn target(&self) -> Result<Target, InputError> {
         let (width, height) = self.size;
         Target::new(width, height, self.aa, self.depth).map_err(usage)
     }
 
-    fn aspect(&self) -> Result<f64, Failure> {
+    fn aspect(&self) -> Result<f64, InputError> {
         let (width, height) = self.size;
         check_size(width, height, self.aa).map_err(usage)?;
         Ok(f64::from(width) / f64::from(height))
@@ -365,7 +365,7 @@ impl ViewArguments {
         path: &Path,
         purpose: Purpose,
         streams: &mut Streams<'_>,
-    ) -> Result<Maker, Failure> {
+    ) -> Result<Maker, InputError> {
         let aspect = self.aspect()?;
         self.refuse_large_frames(purpose)?;
         let (mut scene, framed) = self.frame_model(path, aspect, streams)?;
@@ -386,7 +386,7 @@ impl ViewArguments {
     }
 
     /// Refuses sizes of which the frames, with what is computed beside them, take too much memory.
-    fn refuse_large_frames(&self, purpose: Purpose) -> Result<(), Failure> {
+    fn refuse_large_frames(&self, purpose: Purpose) -> Result<(), InputError> {
         let (width, height) = self.size;
         let samples = u64::from(width) * u64::from(height) * self.aa.samples();
         let map =
@@ -408,7 +408,12 @@ impl ViewArguments {
     }
 
     /// Refuses a scene that takes too long to draw, or whose pieces or layers take too much memory.
-    fn refuse_too_much(&self, name: &str, maker: &Maker, purpose: Purpose) -> Result<(), Failure> {
+    fn refuse_too_much(
+        &self,
+        name: &str,
+        maker: &Maker,
+        purpose: Purpose,
+    ) -> Result<(), InputError> {
         self.refuse_large_frames(purpose)?;
         let scene = &maker.scene;
         let (width, height) = self.size;
@@ -472,7 +477,7 @@ impl ViewArguments {
         path: &Path,
         aspect: f64,
         streams: &mut Streams<'_>,
-    ) -> Result<(Scene, Framed), Failure> {
+    ) -> Result<(Scene, Framed), InputError> {
         let shading = self.shading.unwrap_or(Shading::Phong);
         let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
         let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));

@@ -10,7 +10,7 @@ use rasterproof_vulkan::gpu::text;
 
 use super::page::{PageArguments, Shown, show};
 use super::progress::Progress;
-use super::{Failure, Status, Streams, exit, program, usage};
+use super::{InputError, Status, Streams, exit, program, usage};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
@@ -83,7 +83,7 @@ fn print(
     stand: &DeviceReport,
     cases: u64,
     streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
+) -> Result<(), InputError> {
     let (command, all) = (job.command(), job.all(cases));
     let repeat = |family: &str, index: u64| format!("{command} --family {family} --case {index}");
     let report = text::report(stand, &format!("{command}{all}"), &repeat);
@@ -92,13 +92,13 @@ fn print(
 }
 
 /// The hits of triangles in a window as a device draws them.
-pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Coverage, Failure> {
+pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Coverage, InputError> {
     let failed = |error: rasterproof_vulkan::device::Error| usage(error.to_string());
     let mut gpu = Gpu::named(engine).map_err(failed)?;
     look::coverage(&mut gpu, list, window).map_err(failed)
 }
 
-pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, Failure> {
+pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, InputError> {
     Ok(Box::new(OnLadder::new(engine).map_err(usage)?))
 }
 

@@ -39,7 +39,7 @@ pub struct Report {
     /// What was judged, drawn or measured, and by which version and seed.
     pub about: String,
     /// What the reader wants to know, shown below the verdict.
-    pub answers: Vec<Answer>,
+    pub answers: Vec<Statement>,
     /// The tables of the text in a terminal that is not asked for all of them.
     pub first_screen: Vec<Table>,
     /// The command that was typed, with the options that make the page.
@@ -68,7 +68,7 @@ pub struct Report {
 
 /// The answer to a question that a command is called for.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Answer {
+pub struct Statement {
     /// The question in a word or two.
     pub about: &'static str,
     pub sentence: String,
@@ -337,7 +337,7 @@ fn head(report: &Report) -> String {
     for line in report.about.lines() {
         let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(line));
     }
-    for Answer { about, sentence, command: more } in &report.answers {
+    for Statement { about, sentence, command: more } in &report.answers {
         let (about, sentence) = (escape(about), escape(sentence));
         let _ = writeln!(out, "<p class=\"answer\"><strong>{about}:</strong> {sentence}</p>");
         out += &command(more);

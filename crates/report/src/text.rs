@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::html::{Answer, Excerpt, Outcome, Report};
+use super::html::{Excerpt, Outcome, Report, Statement};
 use super::lettering;
 use super::table::Table;
 use super::words::mark;
@@ -61,9 +61,9 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
 }
 
 /// Answers, and below each the command that says more.
-fn answers(answers: &[Answer], columns: usize) -> String {
+fn answers(answers: &[Statement], columns: usize) -> String {
     let mut out = String::new();
-    for Answer { about, sentence, command } in answers {
+    for Statement { about, sentence, command } in answers {
         lines(&mut out, sentence, columns, [&format!("{about:<12}"), &" ".repeat(12)]);
         if !command.is_empty() {
             let _ = writeln!(out, "{:<12}$ {command}", "");
