@@ -16,7 +16,7 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::json;
-use rasterproof_report::study::{self as report, Studied, costs, hard_cases};
+use rasterproof_report::study::{self as report, Places, costs, hard_cases};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::words::{self, number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
@@ -95,8 +95,8 @@ impl<'a> Studied<'a> {
         Ok(Self { scene, origins, sampled, hard })
     }
 
-    fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Studied<'s> {
-        Studied { scene: &self.scene, origins: self.origins, inspect }
+    fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Places<'s> {
+        Places { scene: &self.scene, origins: self.origins, inspect }
     }
 }
 

@@ -150,7 +150,7 @@ fn bad_input_is_refused_with_a_reason() {
 fn inspect_explains_named_cases() {
     for named in rasterproof_render::scene::named::named() {
         let out = check(["inspect", named.name], 0).out;
-        assert!(out.starts_with(&format!("{}: ", named.name)), "{out}");
+        assert!(out.starts_with(&format!("✓ {}: ", named.name)), "{out}");
     }
 }
 
@@ -296,7 +296,7 @@ fn inspect_takes_what_the_tool_prints() {
     check(["inspect", "(0.5, 0.5)", "(5.5, 0.5)", "(5.5, 5.5)"], 0);
     check("inspect T2 --plant inclusive-edges", 1).prints("inclusive-edges against oracle: ");
     check("inspect T2 --plant line-truncates", 2).says("in no engine that draws this case");
-    check("inspect T2 --report", 0).prints("report: target/rasterproof/");
+    check("inspect T2 --report", 0).says("report: target/rasterproof/");
     // Several triangles, each by itself; a corner with values; corners that are not snapped.
     let square = "inspect 0.5,0.5 5.5,0.5 5.5,5.5 0.5,0.5 5.5,5.5 0.5,5.5";
     let out = check(square, 0).out;

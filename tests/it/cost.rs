@@ -208,7 +208,7 @@ fn cost_broken_files_are_refused() {
     refused("\"low\": ", "\"low\": -", "quartiles of times");
     refused("\"median\": ", "\"median\": -", "quartiles of times");
     refused("\"high\": ", "\"high\": \"?\"", "expected");
-    refused("\"ladder\": \"lines\"", "\"ladder\": \"stairs\"", "unknown variant `stairs`");
+    refused("\"group\": \"lines\"", "\"group\": \"stairs\"", "unknown variant `stairs`");
     refused("\"quick\": true", "\"quick\": 1", "invalid type");
     // What concerns a whole board names the place instead.
     type Spoil = fn(&mut Board);

@@ -95,6 +95,11 @@ fn judge_pictures_every_stage() {
         assert!(page.contains(part), "{part}");
     }
     assert_eq!(text.matches("judged").count(), 3, "{text}");
+    // The cause first, then the counts.
+    let (_, verdict) = page.split_once("id=\"verdict\"").unwrap();
+    let (answer, counts) = verdict.split_once("id=\"counts\"").unwrap();
+    assert!(answer.contains(" is not right") && !answer.contains("wrong pixels"), "{answer}");
+    assert!(counts.lines().next().unwrap().contains("wrong pixels"), "{counts}");
     assert!(text.contains("(x and y of clip space, before the division; a cell is "), "{text}");
 }
 

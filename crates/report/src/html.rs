@@ -330,7 +330,7 @@ fn head(report: &Report) -> String {
             out,
             "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{first}</span></p>"
         );
-        if !outcome.answer.is_empty() {
+        if outcome.first() != outcome.sentence {
             let _ = writeln!(out, "<p id=\"counts\">{}</p>", escape(&outcome.sentence));
         }
     }

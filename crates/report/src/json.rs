@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::study::{Found, Studied};
+use super::study::{Found, Places};
 use rasterproof_precision::cost::{Recorded, prices};
 use rasterproof_registry::digest::DigestRow;
 use rasterproof_registry::published_check::SpecimenReport;
@@ -161,7 +161,7 @@ pub struct Engine {
 }
 
 /// A study of a model in a view.
-pub fn study(subject: &Studied<'_>, found: &Found<'_>, answers: &impl Serialize) -> Value {
+pub fn study(subject: &Places<'_>, found: &Found<'_>, answers: &impl Serialize) -> Value {
     let (scene, hard) = (subject.scene, found.hard);
     json!({
         "scene": scene.name,
@@ -177,7 +177,7 @@ pub fn study(subject: &Studied<'_>, found: &Found<'_>, answers: &impl Serialize)
 }
 
 /// The hard cases of a model.
-pub fn hard_cases(subject: &Studied<'_>, found: &HardCases) -> Value {
+pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
     let face = |&triangle: &u32| {
         let origin = triangle_of(subject.scene, triangle)
             .and_then(|(item, number)| Some((subject.origins.get(item)?, number)));
@@ -208,7 +208,7 @@ pub fn hard_cases(subject: &Studied<'_>, found: &HardCases) -> Value {
 }
 
 /// What each choice costs on a model.
-pub fn costs(subject: &Studied<'_>, groups: &[Group]) -> Value {
+pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
     let group = |group: &Group| {
         let choice = |choice: &Choice| {
             let first = choice.first_wrong.map(|(of, [x, y])| {

@@ -106,14 +106,15 @@ fn by(seed: u64) -> String {
 
 fn outcome(verdict: &Judgement, names: Option<&[String; 2]>) -> Outcome {
     let (good, name) = (verdict.agrees(), &verdict.declared.name);
+    if let Some(names) = names {
+        let answer = difference(verdict, names);
+        return Outcome { answer: answer.clone(), ..Outcome::new(good, same(good), answer) };
+    }
     let answer = match good {
         true => format!("{name} is right"),
         false => format!("{name} is not right{}", why_in_short(verdict)),
     };
-    match names {
-        Some(names) => Outcome::new(good, same(good), difference(verdict, names)),
-        None => Outcome { answer, ..Outcome::of(good, closing(verdict)) },
-    }
+    Outcome { answer, ..Outcome::of(good, closing(verdict)) }
 }
 
 /// The first mistake that is known, or what the convention is, after a colon.

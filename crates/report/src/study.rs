@@ -21,14 +21,14 @@ use super::table::{self, Column, Row, Table};
 use super::words::{count, number, thousands};
 
 #[derive(Clone, Copy)]
-pub struct Studied<'a> {
+pub struct Places<'a> {
     pub scene: &'a Scene,
     pub origins: &'a [Origin],
     /// The command that shows a face, by its number from 1.
     pub inspect: &'a dyn Fn(u32) -> String,
 }
 
-impl Studied<'_> {
+impl Places<'_> {
     /// Where a triangle is, in words.
     pub fn place(&self, triangle: u32) -> String {
         let place = triangle_of(self.scene, triangle)
@@ -94,7 +94,7 @@ fn ms(ns: f64) -> String {
 }
 
 /// The three questions of a study, each answered in a sentence or two, and the commands that say more.
-fn answers(subject: &Studied<'_>, found: &Found<'_>, commands: [String; 3]) -> Vec<Statement> {
+fn answers(subject: &Places<'_>, found: &Found<'_>, commands: [String; 3]) -> Vec<Statement> {
     let sentences = [accuracy(found.costs), stability(subject, found.hard), effects(found)];
     let questions = ["accuracy", "hard cases", "effects"];
     let all = questions.into_iter().zip(sentences).zip(commands);
@@ -165,7 +165,7 @@ fn accuracy(groups: &[Group]) -> String {
 const COVERAGE: &str = "Coverage by ";
 
 /// What rounding decides in this view, and which hard cases are seen besides.
-fn stability(subject: &Studied<'_>, found: &HardCases) -> String {
+fn stability(subject: &Places<'_>, found: &HardCases) -> String {
     let classes = &found.classes;
     let mut sentence = match classes.first {
         Some(TiedPair { pixel: [x, y], triangles }) => {
@@ -232,7 +232,7 @@ const FRAMES: &str = "Whole frames";
 const MOST_ROWS: usize = 4;
 
 /// What is seen, what is called for, and the cheapest exact choices: a table for each question.
-fn first_screen(subject: &Studied<'_>, found: &Found<'_>) -> Vec<Table> {
+fn first_screen(subject: &Places<'_>, found: &Found<'_>) -> Vec<Table> {
     let short = |columns: &str, mut rows: Vec<Row>, note: &str| {
         let left_out = rows.len().saturating_sub(MOST_ROWS);
         rows.truncate(MOST_ROWS);
@@ -297,7 +297,7 @@ fn first_screen(subject: &Studied<'_>, found: &Found<'_>) -> Vec<Table> {
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
-pub fn advice(subject: &Studied<'_>, group: &Group) -> Vec<String> {
+pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
     let mut lines = Vec::new();
     let mut limit = f64::INFINITY;
     for (number, measure) in group.measures.iter().enumerate() {
@@ -377,7 +377,7 @@ fn compared(group: &Group, measure: usize) -> Vec<String> {
 }
 
 /// How it is decided which surface is seen, in a sentence or two.
-fn ties(subject: &Studied<'_>, classes: &Classes) -> String {
+fn ties(subject: &Places<'_>, classes: &Classes) -> String {
     let [decided, by_rounding, equal, by_order] =
         [classes.decided, classes.by_rounding, classes.equal, classes.by_order].map(thousands);
     let mut out = format!(
@@ -539,7 +539,7 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
 /// Everything that was found. `about` says of what, `commands` say more about each question, and `command` repeats it.
 #[must_use]
 pub fn report(
-    subject: &Studied<'_>,
+    subject: &Places<'_>,
     found: &Found<'_>,
     about: String,
     commands: [String; 3],
@@ -608,7 +608,7 @@ pub fn report(
 }
 
 /// The hard cases with what is said of them, and the choices that are wrong on them where costs were measured.
-pub fn hard_cases(subject: &Studied<'_>, found: &HardCases, costs: &[Group]) -> Table {
+pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> Table {
     let row = |case: &HardCase| {
         let (mut place, command) = match case.triangles.first() {
             Some(&triangle) => (subject.place(triangle), subject.command(triangle)),
@@ -650,11 +650,11 @@ fn needs_table(needs: &Needs, state: State) -> Table {
 }
 
 /// What each choice costs, a table for each group, with what to choose.
-pub fn costs(subject: &Studied<'_>, groups: &[Group]) -> Vec<Table> {
+pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Vec<Table> {
     groups.iter().map(|group| cost_table(subject, group)).collect()
 }
 
-fn cost_table(subject: &Studied<'_>, group: &Group) -> Table {
+fn cost_table(subject: &Places<'_>, group: &Group) -> Table {
     let least = group.cheapest(&|_| true).and_then(|best| group.choices[best].time);
     let row = |choice: &Choice| {
         let mut cells = vec![choice.name.clone()];
