@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use image::{Rgb, RgbImage};
 use rasterproof_host::limits::PAGE_BYTES;
 use rasterproof_report::html::{
-    Answer, Figure, Outcome, PictureLayer, PictureView, Report, TextDiff, page,
+    Figure, Outcome, PictureLayer, PictureView, Report, Statement, TextDiff, page,
 };
 use rasterproof_report::panels::Sheet;
 use rasterproof_report::table::{Column, Row, Table};
@@ -714,7 +714,7 @@ pub fn every_section() -> Report {
             answer: hostile(),
             sentence: hostile(),
         }),
-        answers: vec![Answer { about: HOSTILE, sentence: hostile(), command: hostile() }],
+        answers: vec![Statement { about: HOSTILE, sentence: hostile(), command: hostile() }],
         command: hostile(),
         notes: vec![hostile()],
         tables: vec![Table {
