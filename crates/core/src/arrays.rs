@@ -2,7 +2,7 @@
 //!
 //! The optimiser is given less to undo (see "What is generic, and why" in `docs/ARCHITECTURE.md`).
 
-/// An array of two or three, each item of which becomes another.
+/// An array of two, three or four, each item of which becomes another.
 pub trait MapArray<T> {
     /// As many of something else.
     type Of<U>;
@@ -11,22 +11,18 @@ pub trait MapArray<T> {
     fn map_array<U>(self, f: impl FnMut(T) -> U) -> Self::Of<U>;
 }
 
-impl<T> MapArray<T> for [T; 2] {
-    type Of<U> = [U; 2];
+macro_rules! map_arrays {
+    ($($count:literal: $($item:ident)*;)*) => {$(
+        impl<T> MapArray<T> for [T; $count] {
+            type Of<U> = [U; $count];
 
-    #[inline(always)]
-    fn map_array<U>(self, mut f: impl FnMut(T) -> U) -> [U; 2] {
-        let [a, b] = self;
-        [f(a), f(b)]
-    }
+            #[inline(always)]
+            fn map_array<U>(self, mut f: impl FnMut(T) -> U) -> [U; $count] {
+                let [$($item),*] = self;
+                [$(f($item)),*]
+            }
+        }
+    )*};
 }
 
-impl<T> MapArray<T> for [T; 3] {
-    type Of<U> = [U; 3];
-
-    #[inline(always)]
-    fn map_array<U>(self, mut f: impl FnMut(T) -> U) -> [U; 3] {
-        let [a, b, c] = self;
-        [f(a), f(b), f(c)]
-    }
-}
+map_arrays! { 2: a b; 3: a b c; 4: a b c d; }

@@ -138,7 +138,7 @@ impl Rasterize for OneWrong {
     fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
         let (x, y) = self.at;
         let here = Span { y_px: y, x0_px: x, x1_px: x + 1 };
-        Oracle.cover(corners, bounds, |span| {
+        Oracle.spans(corners, bounds, &mut |span| {
             if self.by < 0 && span.y_px == y && (span.x0_px..span.x1_px).contains(&x) {
                 let parts = [Span { x1_px: x, ..span }, Span { x0_px: x + 1, ..span }];
                 parts.into_iter().filter(|part| part.x0_px < part.x1_px).for_each(&mut emit);

@@ -33,7 +33,7 @@ impl Quad {
     /// The quadrilateral with one corner on each side of a box: convex whatever the numbers are.
     /// `along` says where on the top, right, bottom and left side, in 256ths of the side.
     pub fn inscribed([left, top, width, height]: [u16; 4], along: [u8; 4]) -> Self {
-        let [left, top, width, height] = [left, top, width, height].map(i32::from);
+        let [left, top, width, height] = [left, top, width, height].map_array(i32::from);
         let part = |length: i32, k: usize| (i64::from(length) * i64::from(along[k]) / 255) as i32;
         let at = |x: i32, y: i32| SubpixelPoint::new(left + x, top + y);
         Self {
@@ -172,7 +172,7 @@ pub(super) fn quad(seed: u64, index: u64) -> Input {
     // The corners of the box give rectangles and triangles with a point on a side.
     let mut part = || [0, 255, 128, rng.int(0, 255)][rng.int(0, 3) as usize] as u8;
     let along = [part(), part(), part(), part()];
-    Input::Quad(Quad::inscribed([left, top, width, height].map(|v| v as u16), along))
+    Input::Quad(Quad::inscribed([left, top, width, height].map_array(|v| v as u16), along))
 }
 
 /// Fans, three in four with their centre on a sample.
@@ -231,7 +231,7 @@ pub(super) fn clip(seed: u64, index: u64) -> Input {
             1 => -w,
             _ => rng.int(-reach, reach),
         };
-        [coordinate(), coordinate(), coordinate(), w].map(|v| v as i32)
+        [coordinate(), coordinate(), coordinate(), w].map_array(|v| v as i32)
     });
     Input::Clip(ClipInput { vertices })
 }

@@ -1,6 +1,7 @@
 //! What is expected of a program: by default the picture of the convention that it declares.
 
 use super::declared::{Declared, Shape};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
@@ -40,7 +41,7 @@ impl Expect for Convention {
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {
         let line = plain_line(ends[0], ends[1]);
         let mut pixels = Vec::new();
-        Oracle.line_pixels(&line, window, |pixel, _| pixels.push((pixel.x, pixel.y)));
+        Oracle.steps(&line, window, &mut |pixel, _| pixels.push((pixel.x, pixel.y)));
         Some(pixels)
     }
 }
@@ -82,8 +83,13 @@ impl Expect for Declared {
 pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTriangle<2>> {
     let corners = declared.convention.centred(&triangle.corners());
     let v = &triangle.vertices;
-    let inv_w = v.map(|v| 1.0 / (1.0 / v.inv_w));
-    ExactTriangle::new(&corners, v.map(|v| v.depth), inv_w, v.map(|v| v.varying.to_array()))
+    let inv_w = v.map_array(|v| 1.0 / (1.0 / v.inv_w));
+    ExactTriangle::new(
+        &corners,
+        v.map_array(|v| v.depth),
+        inv_w,
+        v.map_array(|v| v.varying.to_array()),
+    )
 }
 
 /// How far depth and both attributes may be off: the tolerance times the largest magnitude at the corners. Where all are zero
@@ -91,6 +97,6 @@ pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTri
 pub(super) fn value_bounds(triangle: &Triangle, tolerance: f64) -> [f64; 3] {
     let v = &triangle.vertices;
     let largest = |values: [f64; 3]| values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)]
-        .map(|values| (tolerance * largest(values)).max(f64::MIN_POSITIVE))
+    [v.map_array(|v| v.depth), v.map_array(|v| v.varying.x), v.map_array(|v| v.varying.y)]
+        .map_array(|values| (tolerance * largest(values)).max(f64::MIN_POSITIVE))
 }

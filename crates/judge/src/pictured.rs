@@ -10,7 +10,6 @@ use super::depth::Pile;
 use super::judged::Judged;
 use super::pixels::{hits_of, mesh_of, picture_of};
 use super::{difference, mesh, near_plane, outline};
-use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
@@ -256,7 +255,7 @@ fn fan(corners: &[[f64; 2]], cell: f64, window: PixelRect) -> Coverage {
     let Some((first, rest)) = corners.split_first() else { return picture };
     for pair in rest.windows(2) {
         let mut hit = |span: Span| picture.hit(span.y_px, span.x0_px, span.x1_px);
-        Oracle.cover([*first, pair[0], pair[1]], window, &mut hit);
+        Oracle.spans([*first, pair[0], pair[1]], window, &mut hit);
     }
     picture
 }
@@ -324,7 +323,7 @@ mod tests {
         let picture = pictures(Check::Samples, &case, &[all]);
         let corners = picture.moved.as_ref().unwrap()[0];
         let mut cells = Coverage::new(picture.drawn.bounds(), 0);
-        Oracle.cover(corners, cells.bounds(), |s| cells.hit(s.y_px, s.x0_px, s.x1_px));
+        Oracle.spans(corners, cells.bounds(), &mut |s| cells.hit(s.y_px, s.x0_px, s.x1_px));
         let mut covered = 0;
         for ((_, all), ((_, cells), (_, expected))) in
             picture.drawn.rows().zip(cells.rows().zip(picture.expected.rows()))

@@ -15,7 +15,6 @@ use super::near_plane::{asked, bounds, is_round};
 use super::pixels::masks_of;
 use super::run::MOST_DEATHS;
 use glam::DVec2;
-use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment};
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
@@ -698,7 +697,7 @@ fn layers(list: &[Triangle], window: PixelRect, place: [f64; 2]) -> Layers<'_> {
     let mut of_pixels = vec![Vec::new(); width * window.height() as usize];
     for (number, triangle) in list.iter().enumerate() {
         let corners = triangle.corners();
-        Oracle.cover(corners, window, |span| {
+        Oracle.spans(corners, window, &mut |span| {
             let row = (span.y_px - window.y0) as usize * width;
             for x in span.x0_px..span.x1_px {
                 let at = [f64::from(x) + place[0], f64::from(span.y_px) + place[1]];

@@ -11,6 +11,7 @@ use foldhash::fast::RandomState;
 use glam::{DMat4, DVec3};
 use hashbrown::HashTable;
 use hashbrown::hash_table::Entry;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::parallel::{self, SHARE};
 use rasterproof_host::error::FileError;
 use rasterproof_host::text::printable_short;
@@ -86,7 +87,7 @@ impl<C: Coordinate> Corners<C> {
 
     #[inline]
     fn push(&mut self, point: [C; 3]) {
-        let [x, y, z]: [u64; 3] = point.map(|number| number.bits().into());
+        let [x, y, z]: [u64; 3] = point.map_array(|number| number.bits().into());
         let mixed = (x ^ y.rotate_left(21) ^ z.rotate_left(42)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let recent = &mut self.recent[(mixed >> 50) as usize % RECENT];
         if self.positions.get(*recent as usize) != Some(&point) {
@@ -120,7 +121,7 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
         let mut of_tables: Vec<_> =
             (0..tables).map(|_| Vec::with_capacity(usual + usual / 16)).collect();
         for (number, &point) in (start as u32..).zip(&share.positions) {
-            let keys = point.map(C::bits);
+            let keys = point.map_array(C::bits);
             of_tables[(hash(keys) >> 32) as usize % tables].push((keys, number));
         }
         of_tables
@@ -148,7 +149,7 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
         let first = numbers[number] as usize;
         if first == number {
             numbers[number] = positions.len() as u32;
-            positions.push(DVec3::from_array(point.map(C::into)));
+            positions.push(DVec3::from_array(point.map_array(C::into)));
         } else {
             numbers[number] = numbers[first];
         }
@@ -237,7 +238,7 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
         for record in share {
             let (numbers, _) = record[12..RECORD - 2].as_chunks::<4>();
             for corner in numbers.as_chunks::<3>().0 {
-                corners.push(corner.map(f32::from_le_bytes));
+                corners.push(corner.map_array(f32::from_le_bytes));
             }
         }
         corners
@@ -281,9 +282,9 @@ pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
                 _ => !is_two && kind.eq_ignore_ascii_case(name.as_bytes()),
             };
             if is("vertex") {
-                let numbers = [(); 3].map(|()| words.next().unwrap_or_default());
+                let numbers = [(); 3].map_array(|()| words.next().unwrap_or_default());
                 let is_last = words.peek().is_none_or(|word| begins(word));
-                match numbers.map(crate::text::number) {
+                match numbers.map_array(crate::text::number) {
                     [Some(_), Some(_), Some(_)] if is_last && points.len() == 3 => {
                         wrong = Some("a facet has more than three vertices: export the model as OBJ, which has polygons".to_owned());
                     }

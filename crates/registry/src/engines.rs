@@ -97,7 +97,7 @@ impl Engine {
             Self::Scanline => Scanline.cover(corners, bounds, emit),
             Self::EdgeFunction => EdgeFunction.cover(corners, bounds, emit),
             Self::Tile => Tiles::default().cover(corners, bounds, emit),
-            Self::Oracle => Oracle.cover(corners, bounds, emit),
+            Self::Oracle => Oracle.spans(corners, bounds, emit),
             Self::Mutant(mutant) => mutant.spans(corners, bounds, emit),
             Self::TileMutant(mutant) => mutant.cover_list(&[corners], bounds, &mut |pieces| {
                 pieces.iter().for_each(|piece| piece.spans(&mut *emit));

@@ -253,7 +253,7 @@ impl Drawing {
     fn expected(&self) -> Vec<Expected> {
         if self.kind == Kind::Line {
             let (mut hit, outline) = (Coverage::new(self.rect(), 0), self.halfway());
-            Oracle.line_pixels(&self.line(), self.rect(), |at, _| hit.hit(at.y, at.x, at.x + 1));
+            Oracle.steps(&self.line(), self.rect(), &mut |at, _| hit.hit(at.y, at.x, at.x + 1));
             let pixels = Pixels { hit: runs(&hit), either: Vec::new(), outline: runs(&outline) };
             return vec![Expected { bits: [*BITS.start(), *BITS.end()], samples: vec![pixels] }];
         }
@@ -280,7 +280,7 @@ impl Drawing {
             let triangles = self.triangles(&points);
             let mut hits = Coverage::new(window, 0);
             for corners in &triangles {
-                Oracle.cover(*corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                Oracle.spans(*corners, window, &mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
             }
             for y in window.y0..window.y1 {
                 let all = always.row_mut(y).iter_mut().zip(ever.row_mut(y));

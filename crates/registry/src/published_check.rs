@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::engines::{self, Specimen};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
+use rasterproof_core::contract::{DrawLine as _, RasterizeExact as _};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::parallel;
@@ -315,7 +315,7 @@ fn triangles(specimen: &dyn Published, case: &Case) -> Counts {
     let Shape::Triangles { list, disjoint } = &case.shape else { return Counts::default() };
     let one = |triangle: &Triangle| {
         let mut truth = Coverage::new(case.window, 0);
-        Oracle.cover(triangle.corners(), case.window, |s| truth.hit(s.y_px, s.x0_px, s.x1_px));
+        Oracle.spans(triangle.corners(), case.window, &mut |s| truth.hit(s.y_px, s.x0_px, s.x1_px));
         judge(specimen, &from_screen(triangle), Some(triangle), case.window, &truth)
     };
     let mut counts = list.iter().map(one).fold(Counts::default(), Counts::merge);

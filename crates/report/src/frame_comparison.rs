@@ -6,6 +6,7 @@ use image::RgbImage;
 use image::codecs::png::PngEncoder;
 
 use super::lettering::{Size, write};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_registry::undecided::Ties;
@@ -93,7 +94,7 @@ pub fn compare(
                 (true, true, _) => YELLOW,
                 (true, false, _) => RED,
                 (false, _, Some(_)) => BROWN,
-                (false, _, None) => first.map(|channel| channel / 3),
+                (false, _, None) => first.map_array(|channel| channel / 3),
             };
         }
     }
@@ -153,7 +154,7 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     for (plane, (plane_a, plane_b)) in a.planes.iter().zip(&b.planes).enumerate() {
         let PixelRect { x0, y0, y1, .. } = plane_a.depth.bounds();
         for y_px in y0..y1 {
-            let [row_a, row_b] = [plane_a, plane_b].map(|plane| plane.depth.row(y_px));
+            let [row_a, row_b] = [plane_a, plane_b].map_array(|plane| plane.depth.row(y_px));
             count += row_a.len() as u64;
             if row_a == row_b {
                 continue;
@@ -243,7 +244,7 @@ fn heat(count: f64, most: u32) -> [u8; 3] {
     let at = share.min(1.0) * (STOPS.len() - 1) as f64;
     let low = (at as usize).min(STOPS.len() - 2);
     let part = at - low as f64;
-    [0, 1, 2].map(|i| (STOPS[low][i] * (1.0 - part) + STOPS[low + 1][i] * part) as u8)
+    [0, 1, 2].map_array(|i| (STOPS[low][i] * (1.0 - part) + STOPS[low + 1][i] * part) as u8)
 }
 
 /// Draws how often something occurs in each pixel, with its scale, into a panel.
@@ -308,7 +309,13 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
         let [left, top] = place(i);
         let at = |down: i64| (i64::from(left), i64::from(top) + down);
         let count = paid(map, effect);
-        write(&mut sheet, at(0), effect.name(), Size::Heading, image::Rgb(colour.map(|c| c / 2)));
+        write(
+            &mut sheet,
+            at(0),
+            effect.name(),
+            Size::Heading,
+            image::Rgb(colour.map_array(|c| c / 2)),
+        );
         let share = 100.0 * count as f64 / pixels.max(1) as f64;
         write(&mut sheet, at(20), &format!("{count} px, {share:.1}%"), Size::Small, faint);
         for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
@@ -341,12 +348,12 @@ fn block_mean(
         let shown = match paid & (1 << effect as u32) {
             0 => [40 + grey / 5; 3],
             // The frame shows through.
-            _ => colour.map(|c| u32::from(c) * (160 + grey * 3 / 8) / 256),
+            _ => colour.map_array(|c| u32::from(c) * (160 + grey * 3 / 8) / 256),
         };
         (0..3).for_each(|i| sum[i] += shown[i]);
         count += 1;
     }
-    image::Rgb(sum.map(|sum| (sum / count.max(1)).min(255) as u8))
+    image::Rgb(sum.map_array(|sum| (sum / count.max(1)).min(255) as u8))
 }
 
 /// How long a picture took, in seconds.

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::chapter::{Chapter, chapter_of_source};
 use super::drawn;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
@@ -209,14 +210,14 @@ fn request(engine: &str, case: &Case) -> String {
     let px = |(x, y): (f64, f64)| format!("{x} {y}");
     let requests: Vec<String> = match &case.shape {
         Shape::Triangles { list, .. } => {
-            let corners = list.iter().map(|t| t.corners().map(|p| px(p.to_px())).join(" "));
+            let corners = list.iter().map(|t| t.corners().map_array(|p| px(p.to_px())).join(" "));
             corners.map(|corners| format!("T 1 {width} {height} {corners}")).collect()
         }
         Shape::Lines(list) => {
             let centre = |v: i32| f64::from(v) + 0.5;
-            let ends = list
-                .iter()
-                .map(|l| l.ends.map(|e| px((centre(e.pixel.x), centre(e.pixel.y)))).join(" "));
+            let ends = list.iter().map(|l| {
+                l.ends.map_array(|e| px((centre(e.pixel.x), centre(e.pixel.y)))).join(" ")
+            });
             ends.map(|ends| format!("L 1 {width} {height} {ends}")).collect()
         }
         Shape::Unsnapped { .. } => Vec::new(),
@@ -249,7 +250,7 @@ pub fn of_program(
             view.pictured = format!("The picture: {of}.");
         }
         if let Some(moved) = moved {
-            let corners = moved.iter().map(|c| c.map(|p| [p.x, p.y]));
+            let corners = moved.iter().map(|c| c.map_array(|p| [p.x, p.y]));
             view.shape = ShapeView::Triangles(corners.collect());
         }
         return view;
@@ -279,11 +280,11 @@ pub fn of_case(name: String, about: String, kind: Kind, case: &Case, judged: &Ju
     let engines = judged.with_others().hits(case).into_iter();
     let drawn = engines.map(with_role).chain([oracle]).chain(specimens);
     let shape = match &case.shape {
-        Shape::Triangles { list, .. } => {
-            ShapeView::Triangles(list.iter().map(|t| t.corners().map(|p| [p.x, p.y])).collect())
-        }
+        Shape::Triangles { list, .. } => ShapeView::Triangles(
+            list.iter().map(|t| t.corners().map_array(|p| [p.x, p.y])).collect(),
+        ),
         Shape::Lines(list) => {
-            let ends = list.iter().map(|l| l.ends.map(|e| [e.pixel.x, e.pixel.y]));
+            let ends = list.iter().map(|l| l.ends.map_array(|e| [e.pixel.x, e.pixel.y]));
             ShapeView::Lines(ends.collect())
         }
         Shape::Unsnapped { list, .. } => ShapeView::Free(list.iter().map(|t| t.px()).collect()),

@@ -13,6 +13,7 @@ use super::picture::{
     AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE,
     encoded, line, segments,
 };
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::PixelPoint;
@@ -243,11 +244,11 @@ fn counts(hits: &Coverage, target: &Coverage) -> String {
 
 /// Numbers of columns over the squares, of rows left of them, as many as fit. The squares begin at `left` and `top`.
 pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
-    let widest = [shown.x0, shown.x1 - 1].map(|n| n.to_string().len() as u32);
+    let widest = [shown.x0, shown.x1 - 1].map_array(|n| n.to_string().len() as u32);
     let [cell_width, cell_height] = Size::Small.cell();
     let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
     let step = |room: u32| {
-        let mut steps = (0..6).flat_map(|e| [1, 2, 5].map(|m| m * 10i32.pow(e)));
+        let mut steps = (0..6).flat_map(|e| [1, 2, 5].map_array(|m| m * 10i32.pow(e)));
         steps.find(|s| *s as u32 * zoom >= room).unwrap_or(1_000_000)
     };
     for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(step(rooms[0])) == 0) {
@@ -390,12 +391,12 @@ impl Sheet {
         let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().ok()?;
         let texts = &reader.info().uncompressed_latin1_text;
         let text = &texts.iter().find(|chunk| chunk.keyword == KEY)?.text;
-        let size = [reader.info().width, reader.info().height].map(u64::from);
+        let size = [reader.info().width, reader.info().height].map_array(u64::from);
         let (mut panels, mut claimed) = (Vec::new(), 0);
         for row in text.lines() {
             let panel = parsed(row)?;
             let sides = [panel.shown.width(), panel.shown.height()]
-                .map(|side| u64::from(side) * u64::from(panel.zoom));
+                .map_array(|side| u64::from(side) * u64::from(panel.zoom));
             let fits = |i: usize| u64::from(panel.at[i]) + sides[i] <= size[i];
             claimed += sides[0] * sides[1];
             if !fits(0) || !fits(1) || claimed > size[0] * size[1] {
@@ -428,7 +429,7 @@ impl Sheet {
 fn parsed(row: &str) -> Option<Panel> {
     let mut words = row.splitn(8, ' ');
     let mut number = || words.next()?.parse::<i32>().ok();
-    let [left, top, zoom] = [number()?, number()?, number()?].map(u32::try_from);
+    let [left, top, zoom] = [number()?, number()?, number()?].map_array(u32::try_from);
     let [x0, y0, x1, y1] = [number()?, number()?, number()?, number()?];
     let sides = [x1.checked_sub(x0)?, y1.checked_sub(y0)?];
     if !sides.iter().all(|side| (1..=4096).contains(side)) || !(1..=64).contains(&zoom.ok()?) {

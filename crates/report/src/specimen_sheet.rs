@@ -13,6 +13,7 @@ use super::lettering::{self, Size, write};
 use super::panels::{self, SAMPLED, squares};
 use super::picture;
 use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, MISSING, SAMPLE, TWICE, line};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
@@ -116,7 +117,7 @@ pub fn sheet(sheet: &SourceSheet) -> panels::Sheet {
 }
 
 pub fn contact_sheet() -> RgbImage {
-    picture::stack(&SHEETS.each_ref().map(|s| sheet(s).image))
+    picture::stack(&SHEETS.each_ref().map_array(|s| sheet(s).image))
 }
 
 /// The exposing pictures of every card, for the page, named apart from the cases that are `taken`.
@@ -277,8 +278,8 @@ fn enlarged(picture: &Image, zoom: u32, panels: &Panels) -> RgbImage {
     let origin = DVec2::new(bounds.x0.into(), bounds.y0.into());
     for segment in &panels.outline {
         // Saturating: a corner far outside stays far outside.
-        let ends = segment.map(|p| ((p - origin) * f64::from(zoom)).floor());
-        let ends = ends.map(|p| PixelPoint::new(p.x as i32, p.y as i32));
+        let ends = segment.map_array(|p| ((p - origin) * f64::from(zoom)).floor());
+        let ends = ends.map_array(|p| PixelPoint::new(p.x as i32, p.y as i32));
         let panel = PixelRect::window(image.width(), image.height());
         line(ends, panel, |x, y| image.put_pixel(x, y, EDGE));
     }
@@ -288,8 +289,8 @@ fn enlarged(picture: &Image, zoom: u32, panels: &Panels) -> RgbImage {
 /// Red missing, orange extra, violet twice, blue drawn by both but not alike, grey the same.
 fn difference(panels: &Panels) -> Image {
     image_of(panels.published.bounds(), |x, y| {
-        let [published, repaired] =
-            [&panels.published, &panels.repaired].map(|image| image.get(x, y).unwrap_or_default());
+        let [published, repaired] = [&panels.published, &panels.repaired]
+            .map_array(|image| image.get(x, y).unwrap_or_default());
         match (published, repaired) {
             (p, r) if p == r && r == panels.background => BACKGROUND,
             (p, r) if p == r => AGREES,
@@ -372,7 +373,9 @@ fn triangle_panels(name: &str, specimen: &dyn Published, case: &TriangleCase) ->
     };
     let outline = triangles
         .iter()
-        .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|s| s.map(|v| v.position_px)))
+        .flat_map(|t| {
+            [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map_array(|s| s.map_array(|v| v.position_px))
+        })
         .collect();
     Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true, has_values }
 }
@@ -403,7 +406,7 @@ fn value_images(
         shade(if by_depth { (f.depth - low) / (high - low) } else { f.varying.x })
     };
     let [mut published, mut repaired] =
-        [(); 2].map(|()| -> Image { Frame::new(window, BACKGROUND.0) });
+        [(); 2].map_array(|()| -> Image { Frame::new(window, BACKGROUND.0) });
     let put = |image: &mut Image, f: &Fragment<DVec2>| {
         image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = shown(f);
     };

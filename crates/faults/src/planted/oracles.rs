@@ -32,7 +32,7 @@ impl OracleMutant {
 impl Rasterize for OracleMutant {
     fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
         if *self == Self::AffineValues {
-            return Oracle.cover(corners, bounds, emit);
+            return Oracle.spans(corners, bounds, &mut emit);
         }
         let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL);
         let inside = |x_px, y_px| {

@@ -1,6 +1,7 @@
 //! A model of how dEQP, the base of Khronos' conformance suites, accepts pictures of triangles with one sample for each
 //! pixel (`framework/common/tcuRasterizationVerifier.cpp`).
 
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXEL_BITS};
 use rasterproof_verify::cases::Triangle;
 
@@ -94,27 +95,27 @@ struct Outline {
 
 impl Outline {
     fn new(triangle: &Triangle, bits: u32) -> Self {
-        let mut exact = triangle.corners().map(|p| [i64::from(p.x), i64::from(p.y)]);
+        let mut exact = triangle.corners().map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         if cross(exact[0], exact[1], exact[2]) < 0 {
             exact.swap(1, 2);
         }
         let step = 1i64 << SUBPIXEL_BITS.saturating_sub(bits);
         let down = |v: i64| v.div_euclid(step);
         let up = |v: i64| -(-v).div_euclid(step);
-        Self { exact, rounded: exact.map(|p| [p.map(down), p.map(up)]), bits }
+        Self { exact, rounded: exact.map_array(|p| [p.map_array(down), p.map_array(up)]), bits }
     }
 
     fn cover(&self, pixel: DevicePoint) -> Cover {
         // Nothing but the box of the corners, one pixel wider, is looked at.
         for axis in 0..2 {
-            let of = self.exact.map(|p| p[axis]);
+            let of = self.exact.map_array(|p| p[axis]);
             let (least, most) = (of[0].min(of[1]).min(of[2]), of[0].max(of[1]).max(of[2]));
             if pixel[axis] * 256 > most + 256 || pixel[axis] * 256 < least - 256 {
                 return Cover::None;
             }
         }
         let half = 1i64 << self.bits >> 1;
-        let centre = pixel.map(|px| (px << self.bits) + half);
+        let centre = pixel.map_array(|px| (px << self.bits) + half);
         let at = |dx: i64, dy: i64| [centre[0] + dx, centre[1] + dy];
         let square = [at(-NEAR, -NEAR), at(NEAR, -NEAR), at(NEAR, NEAR), at(-NEAR, NEAR)];
         for edge in 0..3 {
@@ -150,9 +151,9 @@ impl Outline {
 
     /// Within 2 half diagonals of a pixel from the edge, and not beyond its ends.
     fn is_near(&self, pixel: DevicePoint, edge: usize) -> bool {
-        let px = |p: DevicePoint| p.map(|v| v as f64 / 256.0);
+        let px = |p: DevicePoint| p.map_array(|v| v as f64 / 256.0);
         let (a, b) = (px(self.exact[edge]), px(self.exact[(edge + 1) % 3]));
-        let centre = pixel.map(|v| v as f64 + 0.5);
+        let centre = pixel.map_array(|v| v as f64 + 0.5);
         let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
         let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
         let (line, v) = (minus(b, a), minus(centre, a));
@@ -166,7 +167,7 @@ impl Outline {
 
 fn shared_edges(outlines: &[Outline], of: usize) -> [bool; 3] {
     let ends = |i: usize, edge: usize| [outlines[i].exact[edge], outlines[i].exact[(edge + 1) % 3]];
-    [0, 1, 2].map(|edge| {
+    [0, 1, 2].map_array(|edge| {
         let [a, b] = ends(of, edge);
         let others = (0..outlines.len()).filter(|&i| i != of);
         { others }.any(|i| (0..3).any(|e| ends(i, e) == [a, b] || ends(i, e) == [b, a]))
@@ -176,8 +177,8 @@ fn shared_edges(outlines: &[Outline], of: usize) -> [bool; 3] {
 /// On which side of the line from a to b the point c lies: 1, 0 on the line, or -1.
 fn cross(a: DevicePoint, b: DevicePoint, c: DevicePoint) -> i64 {
     // In 128 bits, since hard cases have corners at the ends of the domain.
-    let [dx, dy] = [b[0] - a[0], b[1] - a[1]].map(i128::from);
-    let [px, py] = [c[0] - a[0], c[1] - a[1]].map(i128::from);
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]].map_array(i128::from);
+    let [px, py] = [c[0] - a[0], c[1] - a[1]].map_array(i128::from);
     (dx * py - dy * px).signum() as i64
 }
 

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, Span};
@@ -189,9 +190,9 @@ fn fill(
 fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragment<DVec2> {
     let round = |v: f64| if single { f64::from(v as f32) } else { v };
     let centre =
-        [x_px, y_px].map(|px| f64::from(px) + f64::from(HALF_PIXEL) / f64::from(SUBPIXELS));
+        [x_px, y_px].map_array(|px| f64::from(px) + f64::from(HALF_PIXEL) / f64::from(SUBPIXELS));
     let v = &triangle.vertices;
-    let px = v.each_ref().map(|v| {
+    let px = v.each_ref().map_array(|v| {
         let (x, y) = v.position.to_px();
         [round(x - centre[0]), round(y - centre[1])]
     });
@@ -201,16 +202,21 @@ fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragme
     };
     let areas = [area(0), area(1), area(2)];
     let blend = |weights: [f64; 3], values: [f64; 3]| {
-        let products = [0, 1, 2].map(|i| round(weights[i] * values[i]));
+        let products = [0, 1, 2].map_array(|i| round(weights[i] * values[i]));
         let sum = round(round(weights[0] + weights[1]) + weights[2]);
         round(round(round(products[0] + products[1]) + products[2]) / sum)
     };
-    let over_w = [0, 1, 2].map(|i| round(areas[i] * round(v[i].inv_w)));
+    let over_w = [0, 1, 2].map_array(|i| round(areas[i] * round(v[i].inv_w)));
     let varying = DVec2::new(
-        blend(over_w, v.each_ref().map(|v| round(v.varying.x))),
-        blend(over_w, v.each_ref().map(|v| round(v.varying.y))),
+        blend(over_w, v.each_ref().map_array(|v| round(v.varying.x))),
+        blend(over_w, v.each_ref().map_array(|v| round(v.varying.y))),
     );
-    Fragment { x_px, y_px, depth: blend(areas, v.each_ref().map(|v| round(v.depth))), varying }
+    Fragment {
+        x_px,
+        y_px,
+        depth: blend(areas, v.each_ref().map_array(|v| round(v.depth))),
+        varying,
+    }
 }
 
 /// A picture, and every fragment that went into it.
@@ -267,8 +273,8 @@ fn painted(paint: Paint, under: [u8; 3], varying: DVec2) -> [u8; 3] {
     let byte = |v: f64| (v * 255.0 + 0.5) as u8;
     match paint {
         Paint::White => [255; 3],
-        Paint::Add => under.map(|v| v.saturating_add(127)),
-        Paint::Values => [varying.x, varying.y, 1.0 - varying.x - varying.y].map(byte),
+        Paint::Add => under.map_array(|v| v.saturating_add(127)),
+        Paint::Values => [varying.x, varying.y, 1.0 - varying.x - varying.y].map_array(byte),
         Paint::Checker => {
             let odd = ((varying.x * 8.0).floor() + (varying.y * 8.0).floor()) as i64 & 1;
             if odd == 1 { [230, 220, 190] } else { [40, 60, 90] }

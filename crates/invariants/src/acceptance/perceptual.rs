@@ -4,6 +4,7 @@
 use std::f64::consts::PI;
 
 use super::drawing::Drawn;
+use rasterproof_core::arrays::MapArray as _;
 
 /// Pixels for each degree of the field of view: a 0.7 m wide screen of 3840 pixels seen from 0.7 m.
 const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
@@ -27,7 +28,7 @@ fn to_xyz([r, g, b]: [f64; 3]) -> [f64; 3] {
 
 /// The inverse of [`to_xyz`], to nine digits.
 fn from_xyz(of_white: [f64; 3]) -> [f64; 3] {
-    let [x, y, z] = [0, 1, 2].map(|i| of_white[i] * WHITE[i]);
+    let [x, y, z] = [0, 1, 2].map_array(|i| of_white[i] * WHITE[i]);
     [
         3.241_003_275 * x - 1.537_398_934 * y - 0.498_615_861 * z,
         -0.969_224_334 * x + 1.875_930_071 * y + 0.041_554_224 * z,
@@ -44,12 +45,12 @@ fn lab(rgb: [f64; 3]) -> [f64; 3] {
     let root = |v: f64| {
         if v > 216.0 / 24_389.0 { libm::cbrt(v) } else { v * 841.0 / 108.0 + 4.0 / 29.0 }
     };
-    opponent(to_xyz(rgb).map(root))
+    opponent(to_xyz(rgb).map_array(root))
 }
 
 pub fn lab_of_all(pixels: &[[u8; 3]]) -> Vec<[f64; 3]> {
     let linear: Vec<f64> = (0..=255).map(linear).collect();
-    pixels.iter().map(|pixel| lab(pixel.map(|v| linear[usize::from(v)]))).collect()
+    pixels.iter().map(|pixel| lab(pixel.map_array(|v| linear[usize::from(v)]))).collect()
 }
 
 /// One number for each pixel, row after row.
@@ -86,20 +87,21 @@ impl Flip {
         let linear: Vec<f64> = (0..=255).map(linear).collect();
         let seen: Vec<[f64; 3]> = pixels
             .iter()
-            .map(|pixel| opponent(to_xyz(pixel.map(|v| linear[usize::from(v)]))))
+            .map(|pixel| opponent(to_xyz(pixel.map_array(|v| linear[usize::from(v)]))))
             .collect();
         let plane = |i: usize| -> Channel { seen.iter().map(|v| v[i]).collect() };
-        let channels = [0, 1, 2].map(|i| contrast_filtered(&plane(i), width, CONTRAST[i]));
+        let channels = [0, 1, 2].map_array(|i| contrast_filtered(&plane(i), width, CONTRAST[i]));
         let colours = (0..pixels.len())
             .map(|p| {
-                let [y, cx, cz] = [0, 1, 2].map(|i| channels[i][p]);
+                let [y, cx, cz] = [0, 1, 2].map_array(|i| channels[i][p]);
                 let y = (y + 16.0) / 116.0;
-                let rgb = from_xyz([y + cx / 500.0, y, y - cz / 200.0]).map(|v| v.clamp(0.0, 1.0));
+                let rgb =
+                    from_xyz([y + cx / 500.0, y, y - cz / 200.0]).map_array(|v| v.clamp(0.0, 1.0));
                 hunt(lab(rgb))
             })
             .collect();
         let grey: Channel = seen.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
-        let [edges, points] = [false, true].map(|points| strengths(&grey, width, points));
+        let [edges, points] = [false, true].map_array(|points| strengths(&grey, width, points));
         let features = edges.into_iter().zip(points).map(|(edge, point)| [edge, point]).collect();
         Self { colours, features }
     }
@@ -223,7 +225,7 @@ fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: 
                 products = [products[0] + a * a, products[1] + b * b, products[2] + a * b];
             }
         }
-        let [m, n] = sums.map(|sum| sum / count);
+        let [m, n] = sums.map_array(|sum| sum / count);
         let [of_right, of_drawn, joint] =
             [products[0] / count - m * m, products[1] / count - n * n, products[2] / count - m * n];
         let [c1, c2] = STEADY[channel];
@@ -256,7 +258,7 @@ pub fn pixelmatch(right: &Drawn, drawn: &Drawn, threshold: f64) -> usize {
 }
 
 fn yiq(a: [u8; 3], b: [u8; 3]) -> [f64; 3] {
-    let [r, g, b] = [0, 1, 2].map(|i| f64::from(a[i]) - f64::from(b[i]));
+    let [r, g, b] = [0, 1, 2].map_array(|i| f64::from(a[i]) - f64::from(b[i]));
     [
         r * 0.298_895_31 + g * 0.586_622_47 + b * 0.114_482_23,
         r * 0.595_977_99 - g * 0.274_176_10 - b * 0.321_801_89,

@@ -2,7 +2,6 @@
 
 use glam::DQuat;
 use serde::Deserialize;
-use serde_json::Value;
 
 use super::data::Data;
 use super::document::Node;
@@ -41,9 +40,8 @@ pub(super) fn apply(data: &mut Data<'_>, pose: Pose) -> Result<(), String> {
         0 => "has no animations".to_owned(),
         count => format!("has the animations 1 to {count}, and not {}", pose.animation + 1),
     })?;
-    let animation: Animation = Value::deserialize(animation)
-        .and_then(serde_json::from_value)
-        .map_err(|error| format!("{place}: {error}"))?;
+    let animation: Animation =
+        serde_json::from_value(animation.clone()).map_err(|error| format!("{place}: {error}"))?;
     for Channel { sampler: number, target } in &animation.channels {
         let sampler = animation.samplers.get(*number);
         let sampler = sampler.ok_or_else(|| format!("{place}.samplers[{number}] is not there"))?;

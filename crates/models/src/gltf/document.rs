@@ -14,11 +14,13 @@ fn or_default<'de, D: Deserializer<'de>, T: Deserialize<'de> + Default>(
     Ok(Option::deserialize(from)?.unwrap_or_default())
 }
 
-/// Reads a document. Some programs write whole numbers with a fraction, as `3.0`, which JavaScript does not tell from `3`.
+/// Reads a document. Some programs write whole numbers with a fraction, as `3.0`, which JavaScript does not tell from `3`. Those
+/// are written again and read once more: reading the value itself would compile all that is read a second time.
 pub(super) fn read(json: &[u8]) -> Result<Root, serde_json::Error> {
     serde_json::from_slice(json).or_else(|error| {
-        let document = serde_json::from_slice(json).map(whole_numbers);
-        document.and_then(serde_json::from_value).map_err(|_| error)
+        let whole = serde_json::from_slice(json).map(whole_numbers);
+        let json = whole.and_then(|document| serde_json::to_vec(&document));
+        json.and_then(|json| serde_json::from_slice(&json)).map_err(|_| error)
     })
 }
 

@@ -8,6 +8,7 @@ use serde_json::Value;
 use super::CORNER_BYTES;
 use super::data::Data;
 use super::document::Primitive;
+use rasterproof_core::arrays::MapArray as _;
 
 /// The extension of a primitive that is compressed.
 pub(super) const EXTENSION: &str = "KHR_draco_mesh_compression";
@@ -36,7 +37,7 @@ pub(super) fn decode(
     let (bytes, _) = data.view(view.ok_or(format!("{EXTENSION} names no bufferView"))?)?;
     let mut mesh = Mesh::new();
     let limits = DecodeLimits::default().with_max_decoded_bytes(*left_bytes);
-    let [points, triangles] = BYTES.map(|bytes| *left_bytes / bytes);
+    let [points, triangles] = BYTES.map_array(|bytes| *left_bytes / bytes);
     let limits = limits.with_max_points(points).with_max_faces(triangles);
     MeshDecoder::new()
         .decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh)
@@ -48,7 +49,7 @@ pub(super) fn decode(
             ),
             _ => format!("what Draco compressed cannot be decoded: {error:?}"),
         })?;
-    let counts = [mesh.num_points(), mesh.num_faces()].map(|count| count as u64);
+    let counts = [mesh.num_points(), mesh.num_faces()].map_array(|count| count as u64);
     let taken: u64 = counts.into_iter().zip(BYTES).map(|(count, bytes)| count * bytes).sum();
     *left_bytes = left_bytes.saturating_sub(taken);
     let numbers = value.get("attributes").and_then(Value::as_object).into_iter().flatten();

@@ -21,6 +21,7 @@ use crate::contents::{Sides, Surface};
 use crate::outside;
 use crate::text;
 use crate::textures::{Decoded, Pictures};
+use rasterproof_core::arrays::MapArray as _;
 
 /// Where a texture finds its coordinates: their number among those of a vertex, and what moves them before the lookup; v points
 /// down, as in glTF.
@@ -220,7 +221,7 @@ fn is_physical(material: &Material) -> bool {
 
 /// Each map of a surface in linear light that has an effect, with the texture that the material names for it.
 fn maps(material: &Material) -> [(Map, Option<&Info>); Map::ALL.len()] {
-    Map::ALL.map(|map| {
+    Map::ALL.map_array(|map| {
         let info = match map {
             Map::Emission if material.emissive_factor.iter().all(|of| *of <= 0.0) => &None,
             Map::Emission => &material.emissive_texture,
@@ -271,8 +272,9 @@ fn reflected(material: &Material, count: &mut impl FnMut(&str)) -> (DVec3, f64) 
     if of.specular_texture.is_some() || of.specular_color_texture.is_some() {
         count("map of what is reflected of material");
     }
-    let colour =
-        DVec3::from_array(of.specular_color_factor.map(|channel| f64::from(channel).max(0.0)));
+    let colour = DVec3::from_array(
+        of.specular_color_factor.map_array(|channel| f64::from(channel).max(0.0)),
+    );
     let part = f64::from(of.specular_factor).clamp(0.0, 1.0);
     ((straight * colour).min(DVec3::ONE) * part, part)
 }
@@ -287,7 +289,7 @@ fn physical(
 ) -> Physical {
     let pbr = &material.pbr_metallic_roughness;
     let strength = material.extensions.emissive.as_ref().map_or(1.0, |of| of.emissive_strength);
-    let [r, g, b] = material.emissive_factor.map(|channel| f64::from(channel).max(0.0));
+    let [r, g, b] = material.emissive_factor.map_array(|channel| f64::from(channel).max(0.0));
     let share = |number: f32| f64::from(number).clamp(0.0, 1.0);
     let info = |map: Map| maps(material)[map as usize].1;
     let (straight, grazing) = reflected(material, count);
@@ -348,7 +350,7 @@ fn texture(data: &Data<'_>, info: &Info, images: &mut Images<'_>) -> Result<Deco
 
 /// A texture that is read as a sampler says. Where it does not say it, filters are linear and there is no mip map.
 fn sampled(texture: Texture, sampler: Sampler) -> Texture {
-    let wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
+    let wrap = [sampler.wrap_s, sampler.wrap_t].map_array(|wrap| match wrap {
         Some(CLAMP_TO_EDGE) => Wrap::Clamp,
         Some(MIRRORED_REPEAT) => Wrap::Mirror,
         _ => Wrap::Repeat,
@@ -373,8 +375,8 @@ fn sampled(texture: Texture, sampler: Sampler) -> Texture {
 
 /// The map of texture coordinates, by a rotation that is counter-clockwise with v down.
 fn affine(transform: &Transform) -> DAffine2 {
-    let [scale, offset] =
-        [transform.scale, transform.offset].map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
+    let [scale, offset] = [transform.scale, transform.offset]
+        .map_array(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
     let angle = f64::from(transform.rotation);
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     DAffine2::from_cols(DVec2::new(cos, -sin) * scale.x, DVec2::new(sin, cos) * scale.y, offset)

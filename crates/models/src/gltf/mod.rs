@@ -38,6 +38,7 @@ use document::{
 };
 pub(crate) use materials::encoded;
 use materials::{Described, Images};
+use rasterproof_core::arrays::MapArray as _;
 
 /// Corners of all parts together, where Draco has more of them than the document says.
 const MOST_CORNERS: usize = 1 << 25;
@@ -347,7 +348,7 @@ impl Reader<'_> {
         match (light, kind) {
             (Some(light), Some(kind)) if self.contents.lights.len() < MOST_LIGHTS => {
                 let usual = |number: f32| f64::from(number.clamp(0.0, 1e9));
-                let colour = DVec3::from_array(light.color.unwrap_or([1.0; 3]).map(usual));
+                let colour = DVec3::from_array(light.color.unwrap_or([1.0; 3]).map_array(usual));
                 let light = PunctualLight::new(kind, colour, usual(light.intensity.unwrap_or(1.0)));
                 self.contents.lights.push(light.placed(world));
             }
@@ -410,7 +411,7 @@ impl Reader<'_> {
         if bytes <= most {
             return Ok(most - bytes);
         }
-        let [bytes, most] = [bytes, most].map(|bytes| bytes >> 20);
+        let [bytes, most] = [bytes, most].map_array(|bytes| bytes >> 20);
         Err(format!(
             "shows {copies} copies of its meshes, which take {bytes} MiB, and a file of {length} bytes may have {most} MiB: \
              export it with fewer copies"
@@ -521,7 +522,7 @@ impl Reader<'_> {
         self.morph(primitive, node, &mut positions, &mut normals)?;
         let mut to_file = world;
         if let Some(skin) = node.skin {
-            let skinned = ["JOINTS_0", "WEIGHTS_0"].map(|name| {
+            let skinned = ["JOINTS_0", "WEIGHTS_0"].map_array(|name| {
                 let none = || Err("has a skin and no joints or weights".to_owned());
                 vertices.read::<4>(name).unwrap_or_else(none)
             });

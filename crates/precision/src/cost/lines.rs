@@ -125,7 +125,7 @@ fn truth(ends: Ends, window: PixelRect) -> Vec<PixelPoint> {
     let line =
         ScreenLine { ends: ends.map_array(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 }) };
     let mut pixels = Vec::new();
-    Oracle.line_pixels(&line, window, |pixel, _| pixels.push(pixel));
+    Oracle.steps(&line, window, &mut |pixel, _| pixels.push(pixel));
     pixels
 }
 

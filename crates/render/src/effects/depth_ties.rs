@@ -20,7 +20,7 @@ use crate::pipeline::shade::{Attributes, PLACED};
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{Interpolate, Rasterize};
+use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::parallel;
@@ -152,7 +152,7 @@ impl<'a> TiedPieces<'a> {
                 let Some(moved) = self.pattern.moved(piece, plane) else { continue };
                 let depths = DepthPlane::new(&moved, one);
                 let error = error((&moved, &depths));
-                Oracle.cover(moved.corners(), samples, |span| {
+                Oracle.spans(moved.corners(), samples, &mut |span| {
                     for x_px in span.x0_px..span.x1_px {
                         let ([near, far], off) = (
                             depths.depths(x_px, span.y_px),

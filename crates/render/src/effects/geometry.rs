@@ -155,7 +155,7 @@ impl<'a> Whole<'a> {
         let triangles = &prepared.item.mesh.triangles;
         let positions = &triangles.positions()[run.clone()];
         for (number, positions) in (first as u32..).zip(positions) {
-            let [a, b, c] = positions.map(|number| &item.vertices[number as usize]);
+            let [a, b, c] = positions.map_array(|number| &item.vertices[number as usize]);
             if a.code & b.code & c.code != 0 {
                 continue;
             }
@@ -233,7 +233,7 @@ impl<'a> Whole<'a> {
         let mut parts = 0;
         item.prepared.assemble_one(self.scene, triangle, &mut |piece| {
             let [a, b, c] = &piece.vertices;
-            let values = [a, b, c].map(|vertex| without_place(&vertex.varying));
+            let values = [a, b, c].map_array(|vertex| without_place(&vertex.varying));
             let corners = [a.bare(), b.bare(), c.bare()];
             emit(parts, Surface { material: &item.material, corners, values });
             parts += 1;

@@ -17,6 +17,7 @@ use crate::pipeline::punctual::{Kind, PunctualLight};
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_core::angle::{turn_x, turn_y, turn_z};
+use rasterproof_core::arrays::MapArray as _;
 
 /// Every such scene. The digests of frames are of the book's scenes alone.
 pub const SCENES: &[Entry] = &[
@@ -198,7 +199,7 @@ fn patches([columns, rows]: [u32; 2], position: impl Fn(f64, f64) -> DVec3) -> M
 
 /// A pointed leaf that lies across a square of 128 texels, cut out by an alpha test.
 fn leaf() -> Material {
-    let place = |column: u32, row: u32| [column, row].map(|at| (f64::from(at) - 63.5) / 64.0);
+    let place = |column: u32, row: u32| [column, row].map_array(|at| (f64::from(at) - 63.5) / 64.0);
     let reach =
         |x: f64| 0.72 * (1.0 - x * x) * (0.86 + 0.14 * f64::from(((x + 1.0) * 8.0) as u32 % 2));
     let colours = textures::generate(128, |column, row| {
@@ -212,7 +213,7 @@ fn leaf() -> Material {
         (((reach(x) - y.abs()) * 43.0 + 0.5).clamp(0.0, 1.0) * 255.0) as u8
     });
     let alpha = Texture::grey(128, 128, alpha.collect()).expect("128 x 128 texels");
-    let [colours, alpha] = [colours, alpha].map(|t| t.with(Filter::Bilinear, Wrap::Clamp));
+    let [colours, alpha] = [colours, alpha].map_array(|t| t.with(Filter::Bilinear, Wrap::Clamp));
     let opacity = Opacity {
         factor: 1.0,
         map: Some(Arc::new(OpacityMap::new(alpha))),
@@ -259,7 +260,7 @@ fn panes(scene: Scene, turn: f64) -> Scene {
     let mut items = vec![Item::new(floor, checks)];
     // From the middle 0 to the border 1: a hole, glass, and a frame.
     let alpha = (0..256 * 256).map(|at| {
-        let [x, y] = [at % 256, at / 256].map(|at| (f64::from(at) - 127.5) / 127.5);
+        let [x, y] = [at % 256, at / 256].map_array(|at| (f64::from(at) - 127.5) / 127.5);
         match (x * x + y * y, x.abs().max(y.abs())) {
             (square, _) if square < 0.36 * 0.36 => 0,
             (_, reach) if reach > 0.70 => u8::MAX,
@@ -451,12 +452,12 @@ fn lights(scene: Scene, turn: f64) -> Scene {
 
 fn surfaces(scene: Scene, turn: f64) -> Scene {
     let from_middle = |column: u32, row: u32| {
-        [column, row].map(|at| (f64::from(at) - 63.5) / 64.0).map(|at| (at, at.abs()))
+        [column, row].map_array(|at| (f64::from(at) - 63.5) / 64.0).map_array(|at| (at, at.abs()))
     };
     // Half spheres in the middle; what lies around is flat.
     let bumps = textures::generate(128, |column, row| {
         let [(_, x), (_, y)] = from_middle(column, row);
-        let [u, v] = [column, row].map(|at| (f64::from(at % 16) - 7.5) / 8.0);
+        let [u, v] = [column, row].map_array(|at| (f64::from(at % 16) - 7.5) / 8.0);
         let height = 1.0 - u * u - v * v;
         if x.max(y) < 0.5 && height > 0.0 {
             (DVec3::new(u, -v, height.sqrt()).normalize() + 1.0) / 2.0

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec4};
 use crate::pipeline::Counters;
 use crate::pipeline::assemble::{Assembler, Cull};
 use crate::pipeline::multisample::{SAMPLES, onto_centre};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_verify::cases::named::{Input, NamedCase, plain_triangle};
 use rasterproof_verify::cases::{self, Case, Shape, Triangle};
@@ -45,7 +46,7 @@ fn clipped(triangles: &[[Clip; 3]]) -> Case {
     let mut list: Vec<Triangle> = Vec::new();
     for corners in triangles {
         let assembler = Assembler::new(WINDOW, Cull::None);
-        let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
+        let points = corners.map_array(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
         let varyings = |_| [DVec2::ZERO, DVec2::X, DVec2::Y];
         let mut counters = Counters::default();
         assembler.assemble(points.each_ref(), varyings, &mut counters, |p| list.push(*p));
@@ -64,7 +65,7 @@ fn at((x, y): Px) -> SubpixelPoint {
 
 /// The same triangle with all coordinates times `scale`: the same place.
 fn scaled(corners: [Clip; 3], scale: f64) -> [Clip; 3] {
-    corners.map(|(x, y, z, w)| (x * scale, y * scale, z * scale, w * scale))
+    corners.map_array(|(x, y, z, w)| (x * scale, y * scale, z * scale, w * scale))
 }
 
 fn perspective() -> Vec<NamedCase> {
@@ -127,9 +128,9 @@ fn perspective() -> Vec<NamedCase> {
         "P5U", "book-bugs clip_stack_overflow: corners within ulps of planes",
             clipped(&[overflow]), [0];
         "P6", "a triangle .061 px wide, 2^14 px from the origin: one pixel",
-            drawn(far_window, vec![plain_triangle(tiny.map(at))]), [1];
+            drawn(far_window, vec![plain_triangle(tiny.map_array(at))]), [1];
         "P7", "nvdiffrast 20c4135: samples on the edge opposite a corner: weights add up to 1",
-            drawn(WINDOW, vec![plain_triangle(opposite.map(at))]), [36];
+            drawn(WINDOW, vec![plain_triangle(opposite.map_array(at))]), [36];
         "P8", "PCSX2#2980: the same depth at the corners is that depth, to the bit",
             drawn(WINDOW, vec![flat]), [120];
         "P9", "xemu#665: the last two corners fall on one point, w = 1 and w = -0.1",
@@ -168,7 +169,9 @@ fn samples() -> Vec<NamedCase> {
         [(2.0, 2.0), (0.0, 1.2), (1.2, 0.0)],
         [(2.0, 2.0), (1.2, 0.0), (2.0, 0.0)],
     ];
-    let plain = |list: [[Px; 3]; 4]| list.map(|corners| plain_triangle(corners.map(at))).to_vec();
+    let plain = |list: [[Px; 3]; 4]| {
+        list.map_array(|corners| plain_triangle(corners.map_array(at))).to_vec()
+    };
     table![
         "M1", "an edge through each of the four sample positions: each sample is hit once",
             drawn(PixelRect::window(13, 4), through), [3, 1, 3, 1, 3, 1, 3, 1];

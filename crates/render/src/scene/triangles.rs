@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, DVec4};
 
 use super::Corner;
+use rasterproof_core::arrays::MapArray as _;
 
 /// The values of one attribute for all corners of all triangles.
 #[derive(Clone, Debug)]
@@ -37,10 +38,10 @@ impl<V: Copy> Attribute<V> {
     fn get(&self, triangle: usize, positions: [u32; 3]) -> [V; 3] {
         match self {
             Self::Same(value) => [*value; 3],
-            Self::OfPositions(values) => positions.map(|number| values[number as usize]),
+            Self::OfPositions(values) => positions.map_array(|number| values[number as usize]),
             Self::OfCorners(values) => values[triangle],
             Self::Indexed { values, indices } => {
-                indices.as_chunks::<3>().0[triangle].map(|number| values[number as usize])
+                indices.as_chunks::<3>().0[triangle].map_array(|number| values[number as usize])
             }
         }
     }
@@ -89,7 +90,7 @@ impl Normals {
         match self {
             Self::Given(values) => values.get(triangle, positions),
             Self::Flat(at) => {
-                let corners = positions.map(|number| at[number as usize]);
+                let corners = positions.map_array(|number| at[number as usize]);
                 [face_normal(corners).normalize_or_zero(); 3]
             }
         }
@@ -244,16 +245,16 @@ impl Triangles {
 
     pub fn push(&mut self, corners: [Corner; 3]) {
         let before = self.positions.as_chunks().0;
-        self.colours.of_corners(before).push(corners.map(|corner| corner.colour));
-        self.normals.of_corners(before).push(corners.map(|corner| corner.normal));
-        self.uvs.of_corners(before).push(corners.map(|corner| corner.uv));
+        self.colours.of_corners(before).push(corners.map_array(|corner| corner.colour));
+        self.normals.of_corners(before).push(corners.map_array(|corner| corner.normal));
+        self.uvs.of_corners(before).push(corners.map_array(|corner| corner.uv));
         if let Some(tangents) = &mut self.tangents {
             tangents.of_corners(before).push([DVec4::ZERO; 3]);
         }
         if let Some(uvs) = &mut self.second_uvs {
             uvs.of_corners(before).push([DVec2::ZERO; 3]);
         }
-        self.positions.extend(corners.map(|corner| corner.position));
+        self.positions.extend(corners.map_array(|corner| corner.position));
     }
 
     /// Changes the corners of a triangle.
@@ -264,11 +265,11 @@ impl Triangles {
         let mut corners = self.at(triangle);
         change(&mut corners);
         let before = self.positions.as_chunks().0;
-        self.colours.of_corners(before)[triangle] = corners.map(|corner| corner.colour);
-        self.normals.of_corners(before)[triangle] = corners.map(|corner| corner.normal);
-        self.uvs.of_corners(before)[triangle] = corners.map(|corner| corner.uv);
+        self.colours.of_corners(before)[triangle] = corners.map_array(|corner| corner.colour);
+        self.normals.of_corners(before)[triangle] = corners.map_array(|corner| corner.normal);
+        self.uvs.of_corners(before)[triangle] = corners.map_array(|corner| corner.uv);
         let of = &mut self.positions.as_chunks_mut().0[triangle];
-        *of = corners.map(|corner| corner.position);
+        *of = corners.map_array(|corner| corner.position);
     }
 
     pub fn change_corners(&mut self, mut change: impl FnMut(&mut Corner)) {

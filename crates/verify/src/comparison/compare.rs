@@ -441,7 +441,7 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
         for line in lines {
             let mut truth = Vec::new();
             Oracle
-                .line_pixels(line, case.window, |pixel, step| truth.push((pixel.x, pixel.y, step)));
+                .steps(line, case.window, &mut |pixel, step| truth.push((pixel.x, pixel.y, step)));
             facts.shapes += 1;
             facts.pixels += truth.len() as u64;
             facts.ties += u64::from(line_has_tie(line));

@@ -319,9 +319,9 @@ impl fmt::Display for Convention {
 
 impl Rasterize for Convention {
     /// What has to be drawn.
-    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
         if self.is_standard() && self.winding == Winding::Both {
-            Oracle.cover(corners, bounds, emit);
+            Oracle.spans(corners, bounds, &mut emit);
         } else {
             self.expected(&corners, bounds).must.into_iter().for_each(emit);
         }
@@ -362,7 +362,7 @@ fn mirrored(corners: &Corners, window: PixelRect, in_x: bool, in_y: bool) -> Vec
         SubpixelPoint::new(x, if in_y { flip(p.y, window.y0, window.y1) } else { p.y })
     });
     let mut runs = Vec::new();
-    Oracle.cover(image, window, |span| {
+    Oracle.spans(image, window, &mut |span| {
         let x = |px: i32| window.x0 + (window.x1 - px);
         let (x0_px, x1_px) =
             if in_x { (x(span.x1_px), x(span.x0_px)) } else { (span.x0_px, span.x1_px) };

@@ -20,6 +20,7 @@
 //! |a1 - a0| and |a2 - a0| in Gx and Gy become |a1| + |a0| and |a2| + |a0|: the products are rounded
 //! before they cancel.
 
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
 
 use crate::cases::Triangle;
@@ -40,11 +41,13 @@ struct Setup {
 
 impl Setup {
     fn new(triangle: &Triangle, page_px: f64) -> Self {
-        let px =
-            triangle.corners().map(|p| [p.x, p.y].map(|v| f64::from(v) / f64::from(SUBPIXELS)));
+        let px = triangle
+            .corners()
+            .map_array(|p| [p.x, p.y].map_array(|v| f64::from(v) / f64::from(SUBPIXELS)));
         let [a, b, c] = px;
         let area2 = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        let reach = [0, 1].map(|i| px.iter().fold(page_px, |m, p| m.max(p[i].abs() + page_px)));
+        let reach =
+            [0, 1].map_array(|i| px.iter().fold(page_px, |m, p| m.max(p[i].abs() + page_px)));
         Self { px, area2, reach }
     }
 
@@ -57,7 +60,7 @@ impl Setup {
     /// The same where values are weighed without being subtracted from each other first: what is
     /// rounded are products of the values themselves.
     fn bound_of_weights(&self, values: [f64; 3], roundings: f64) -> f64 {
-        let [a, b, c] = values.map(f64::abs);
+        let [a, b, c] = values.map_array(f64::abs);
         self.carried(values, [a + b, a + c], roundings)
     }
 
@@ -85,25 +88,25 @@ pub fn perspective_bounds(triangle: &Triangle, (x_px, y_px): (i32, i32), page_px
     let setup = Setup::new(triangle, page_px);
     let pixel = [f64::from(x_px) + 0.5, f64::from(y_px) + 0.5];
     let v = &triangle.vertices;
-    let inv_w = v.map(|v| v.inv_w);
+    let inv_w = v.map_array(|v| v.inv_w);
     let d = setup.at(inv_w, pixel);
     let d_bound = setup.bound(inv_w, ROUNDINGS_OVER_W);
     let quotient = |values: [f64; 3]| {
-        let over_w = [0, 1, 2].map(|i| values[i] * inv_w[i]);
+        let over_w = [0, 1, 2].map_array(|i| values[i] * inv_w[i]);
         let value = (setup.at(over_w, pixel) / d).abs();
         if d <= d_bound {
             return f64::INFINITY;
         }
         (setup.bound(over_w, ROUNDINGS_OVER_W) + value * d_bound) / (d - d_bound) + 3.0 * U * value
     };
-    let depth = setup.bound(v.map(|v| v.depth), ROUNDINGS);
-    [depth, quotient(v.map(|v| v.varying.x)), quotient(v.map(|v| v.varying.y))]
+    let depth = setup.bound(v.map_array(|v| v.depth), ROUNDINGS);
+    [depth, quotient(v.map_array(|v| v.varying.x)), quotient(v.map_array(|v| v.varying.y))]
 }
 
 /// Bounds of depth: of a plane set up from differences, and of the specification's own sum of weights.
 #[must_use]
 pub fn depth_bounds(triangle: &Triangle, page_px: f64) -> [f64; 2] {
-    let (setup, depths) = (Setup::new(triangle, page_px), triangle.vertices.map(|v| v.depth));
+    let (setup, depths) = (Setup::new(triangle, page_px), triangle.vertices.map_array(|v| v.depth));
     [setup.bound(depths, ROUNDINGS), setup.bound_of_weights(depths, ROUNDINGS)]
 }
 
@@ -113,7 +116,11 @@ pub fn depth_bounds(triangle: &Triangle, page_px: f64) -> [f64; 2] {
 pub fn linear_bounds(triangle: &Triangle, page_px: f64) -> [[f64; 2]; 3] {
     let setup = Setup::new(triangle, page_px);
     let v = &triangle.vertices;
-    [v.map(|v| v.inv_w), v.map(|v| v.varying.x), v.map(|v| v.varying.y)].map(|values| {
-        [setup.bound(values, ROUNDINGS_OVER_W), setup.bound_of_weights(values, ROUNDINGS_OVER_W)]
-    })
+    [v.map_array(|v| v.inv_w), v.map_array(|v| v.varying.x), v.map_array(|v| v.varying.y)]
+        .map_array(|values| {
+            [
+                setup.bound(values, ROUNDINGS_OVER_W),
+                setup.bound_of_weights(values, ROUNDINGS_OVER_W),
+            ]
+        })
 }

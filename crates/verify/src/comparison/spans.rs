@@ -180,7 +180,7 @@ pub fn oracle_pixels_each(case: &Case) -> Vec<u64> {
         Shape::Lines(lines) => {
             let count = |line| {
                 let mut count = 0;
-                Oracle.line_pixels(line, case.window, |_, _| count += 1);
+                Oracle.steps(line, case.window, &mut |_, _| count += 1);
                 count
             };
             lines.iter().map(count).collect()
@@ -197,8 +197,8 @@ pub fn unsnapped_truth(list: &[FreeCorners], window: PixelRect) -> (Coverage, u6
     let mut hits = Coverage::new(window, 0);
     let mut ties = 0;
     for corners in list {
-        let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
-        ties += cover_and_count_ties(corners, window, hit);
+        let mut hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+        ties += cover_and_count_ties(corners, window, &mut hit);
     }
     (hits, ties)
 }
@@ -211,7 +211,7 @@ pub fn oracle_hits(case: &Case) -> Coverage {
         Shape::Lines(lines) => {
             let mut hits = Coverage::new(case.window, 0);
             for line in lines {
-                Oracle.line_pixels(line, case.window, |at, _| hits.hit(at.y, at.x, at.x + 1));
+                Oracle.steps(line, case.window, &mut |at, _| hits.hit(at.y, at.x, at.x + 1));
             }
             hits
         }

@@ -98,7 +98,7 @@ impl Bench<'_> {
         let questions: Vec<_> = (0..30)
             .map(|i| {
                 let [x, y, dx, dy] = [(4, 10), (4, 10), (-2, 2), (-2, 2)]
-                    .map(|(low, high)| whole(self.rng.int(low, high)));
+                    .map_array(|(low, high)| whole(self.rng.int(low, high)));
                 // Where the grid allows, half of them run through centres.
                 let half = if self.grain <= 128 && i % 2 == 0 { 128 } else { 0 };
                 let at = |n: i32| SubpixelPoint::new(x + n * dx + half, y + n * dy + half);
@@ -157,13 +157,14 @@ impl Bench<'_> {
             let list: Vec<_> =
                 (0..4).map(|i| drawable(with_edge(side, EDGES[i], at[i]), draws)).collect();
             let answers = bench.draw_all(&list);
-            [0, 1, 2, 3]
-                .map(|i| answers[i].map(|answer| answer.drawn.has(watched(side), watched(side))))
+            [0, 1, 2, 3].map_array(|i| {
+                answers[i].map(|answer| answer.drawn.has(watched(side), watched(side)))
+            })
         };
-        let [start, end] =
-            [flips.map(|f| f.low), flips.map(|f| f.high)].map_array(|at| watch(self, at));
+        let [start, end] = [flips.map_array(|f| f.low), flips.map_array(|f| f.high)]
+            .map_array(|at| watch(self, at));
         while flips.iter().any(|flip| flip.high - flip.low > grain) {
-            let middle = flips.map(|f| (f.low + f.high).div_euclid(2 * grain) * grain);
+            let middle = flips.map_array(|f| (f.low + f.high).div_euclid(2 * grain) * grain);
             let seen = watch(self, middle);
             for (i, flip) in flips.iter_mut().enumerate().filter(|(_, f)| f.high - f.low > grain) {
                 // A refusal decides nothing in particular.
@@ -174,7 +175,7 @@ impl Bench<'_> {
                 }
             }
         }
-        [0, 1, 2, 3].map(|i| (start[i] != end[i] && end[i].is_some()).then_some(flips[i]))
+        [0, 1, 2, 3].map_array(|i| (start[i] != end[i] && end[i].is_some()).then_some(flips[i]))
     }
 
     /// Whether answers depend on the order of the corners: of `triangles` in all orders, those that

@@ -7,6 +7,7 @@
 
 use super::joined;
 use super::place::{Emit, Place, Points, around, edges};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 rasterproof_core::named! {
@@ -60,7 +61,7 @@ impl Scan {
 
     /// Rows between two crossings.
     fn rows(self, points: &Points, window: PixelRect, put: &mut dyn FnMut(i64, i64)) {
-        let edges = edges(points).map(|[p, q]| if p[1] <= q[1] { [p, q] } else { [q, p] });
+        let edges = edges(points).map_array(|[p, q]| if p[1] <= q[1] { [p, q] } else { [q, p] });
         let rect = around(points, 2).intersect(&window);
         for y in i64::from(rect.y0)..rect.y1.into() {
             let columns = edges.iter().filter_map(|edge| match self {
@@ -92,7 +93,7 @@ fn rows(top: i64, bottom: i64) -> std::ops::Range<i64> {
 
 /// As [`above`].
 fn coarse([p, q]: &[[i64; 2]; 2], row: i64) -> Option<i64> {
-    let ([x, top], [end, bottom]) = (p.map(|v| 4 * v), q.map(|v| 4 * v));
+    let ([x, top], [end, bottom]) = (p.map_array(|v| 4 * v), q.map_array(|v| 4 * v));
     let rows = rows(top, bottom);
     rows.contains(&row).then(|| {
         let (dx, dy) = (end - x, bottom - top);
@@ -148,7 +149,7 @@ fn sides(points: &Points, put: &mut dyn FnMut(i64, i64)) {
                 return;
             }
         }
-        let [a, b] = both.map(|side| (side.x + ONE / 2).div_euclid(ONE));
+        let [a, b] = both.map_array(|side| (side.x + ONE / 2).div_euclid(ONE));
         (a.min(b)..=a.max(b)).for_each(|x| put(x, y));
         both.iter_mut().for_each(|side| side.x += side.slope);
     }
@@ -174,7 +175,7 @@ fn next(side: &mut Side, points: &Points, y: i64, edges: &mut i32) -> bool {
 
 /// A line from end to end along its longer axis, the other coordinate stepped; and its farther end.
 fn line(from: [i64; 2], to: [i64; 2], put: &mut dyn FnMut(i64, i64)) {
-    let delta = [0, 1].map(|k| (to[k] - from[k]) * SUB);
+    let delta = [0, 1].map_array(|k| (to[k] - from[k]) * SUB);
     let major = usize::from(delta[0].abs() <= delta[1].abs());
     let minor = 1 - major;
     let (start, end, sign) = if delta[major] < 0 { (to, from, -1) } else { (from, to, 1) };

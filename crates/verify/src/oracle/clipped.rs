@@ -3,6 +3,7 @@
 //! z = 0 and z = w, and the view is a cell of [`CELL_PX`].
 
 use crate::cases::Rng;
+use rasterproof_core::arrays::MapArray as _;
 
 /// The side of the cell that the view volume is drawn in, in px.
 pub const CELL_PX: u32 = 64;
@@ -62,7 +63,7 @@ impl Linear {
 /// What is not negative inside of what the planes leave: the three edges, near and far.
 #[must_use]
 pub fn borders(corners: &[Whole; 3]) -> Option<[Linear; 5]> {
-    let wide = corners.map(|c| c.map(i128::from));
+    let wide = corners.map_array(|c| c.map_array(i128::from));
     // The side of the plane through the eye and an edge, as (x, y, 1) in clip space.
     let edge = |i: usize| {
         let ([ax, ay, _, aw], [bx, by, _, bw]) = (wide[(i + 1) % 3], wide[(i + 2) % 3]);
@@ -74,13 +75,14 @@ pub fn borders(corners: &[Whole; 3]) -> Option<[Linear; 5]> {
     if volume == 0 {
         return None;
     }
-    let edges = edges.map(|e| e.map(|v| v * volume.signum()));
+    let edges = edges.map_array(|e| e.map_array(|v| v * volume.signum()));
     // Depth and w of the plane through the corners, both times the volume; z counts in 1/8 more.
     let weighed = |of: [i128; 3]| {
-        [0, 1, 2].map(|axis| edges.iter().zip(of).map(|(e, value)| e[axis] * value).sum::<i128>())
+        [0, 1, 2]
+            .map_array(|axis| edges.iter().zip(of).map(|(e, value)| e[axis] * value).sum::<i128>())
     };
-    let near = weighed(wide.map(|c| c[2]));
-    let far = weighed(wide.map(|c| 8 * c[3] - c[2]));
+    let near = weighed(wide.map_array(|c| c[2]));
+    let far = weighed(wide.map_array(|c| 8 * c[3] - c[2]));
     Some([edges[0], edges[1], edges[2], near, far].map(Linear))
 }
 

@@ -25,7 +25,9 @@ pub mod values;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Fragment, ScreenLine, ScreenTriangle, Varying};
+use rasterproof_core::triangle::{
+    Corners, Fragment, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, Span, Varying,
+};
 
 /// The oracle as a rasterizer and a line drawer, so that it can answer wherever an engine can.
 #[derive(Clone, Copy, Debug, Default)]
@@ -64,6 +66,34 @@ impl Interpolate for Oracle {
                 });
             }
         });
+    }
+}
+
+impl Oracle {
+    /// The spans of [`Rasterize::cover`], by code that is compiled once and not for each caller.
+    pub fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        self.cover(corners, bounds, emit);
+    }
+
+    /// The pixels and steps of [`Oracle::line_pixels`] in the same way.
+    pub fn steps<V>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(PixelPoint, u64),
+    ) {
+        let ends = [&line.ends[0], &line.ends[1]];
+        self.steps_between(ends.map_array(|end| end.pixel), bounds, emit);
+    }
+
+    fn steps_between(
+        &self,
+        ends: [PixelPoint; 2],
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(PixelPoint, u64),
+    ) {
+        let end = |pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 };
+        self.line_pixels(&ScreenLine { ends: ends.map_array(end) }, bounds, emit);
     }
 }
 

@@ -24,9 +24,9 @@ impl RasterizeExact for Oracle {
         &self,
         corners: &FreeCorners,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        mut emit: impl FnMut(Span),
     ) -> Decisions {
-        cover_and_count_ties(corners, bounds, emit);
+        cover_and_count_ties(corners, bounds, &mut emit);
         Decisions::default()
     }
 }
@@ -36,7 +36,7 @@ impl RasterizeExact for Oracle {
 pub fn cover_and_count_ties(
     corners: &FreeCorners,
     bounds: PixelRect,
-    emit: impl FnMut(Span),
+    emit: &mut dyn FnMut(Span),
 ) -> u64 {
     let corners = corners.px();
     let rect = around(&corners).intersect(&bounds);
@@ -61,7 +61,7 @@ pub fn cover_and_count_ties(
         |(mantissa, exponent): (i64, i32)| i128::from(mantissa) << shift(mantissa, exponent, unit);
     let wide = parts.map_array(|corner| corner.map_array(whole));
     // No sample, nor the column after the last, reaches farther than these.
-    let ends = [rect.x0, rect.x1, rect.y0, rect.y1].map(|px| centre_in(px, unit));
+    let ends = [rect.x0, rect.x1, rect.y0, rect.y1].map_array(|px| centre_in(px, unit));
     if wide.as_flattened().iter().chain(&ends).all(|value| value.abs() < 1 << 30) {
         let narrow = wide.map_array(|corner| corner.map_array(|value| value as i64));
         scan(&narrow, |px| centre_in(px, unit) as i64, rect, emit)
@@ -78,10 +78,12 @@ pub fn cover_and_count_ties(
 /// If a coordinate is not finite.
 #[must_use]
 pub fn edge_value(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> (Ordering, f64) {
-    let parts = [a, b, p].map(|point| point.map(take_apart));
+    let parts = [a, b, p].map_array(|point| point.map_array(take_apart));
     let unit = parts.as_flattened().iter().map(|&(_, exponent)| exponent).fold(0, i32::min);
-    let [a, b, p] = parts.map(|point| {
-        point.map(|(mantissa, exponent)| BigInt::from(mantissa) << shift(mantissa, exponent, unit))
+    let [a, b, p] = parts.map_array(|point| {
+        point.map_array(|(mantissa, exponent)| {
+            BigInt::from(mantissa) << shift(mantissa, exponent, unit)
+        })
     });
     let value = (&b[0] - &a[0]) * (&p[1] - &a[1]) - (&b[1] - &a[1]) * (&p[0] - &a[0]);
     // So many bits below the first 53 go; halves of a power that may itself be no f64.
@@ -146,7 +148,7 @@ fn scan<T: Whole>(
     corners: &[[T; 2]; 3],
     centre: impl Fn(i32) -> T,
     rect: PixelRect,
-    mut emit: impl FnMut(Span),
+    emit: &mut dyn FnMut(Span),
 ) -> u64 {
     let first = centre(rect.x0);
     let pixel = centre(rect.x0 + 1).minus(&first);
@@ -219,7 +221,7 @@ mod tests {
     fn spans(corners: [[f64; 2]; 3]) -> (Vec<(i32, i32, i32)>, u64) {
         let mut spans = Vec::new();
         let corners = FreeCorners::new(corners).unwrap();
-        let ties = cover_and_count_ties(&corners, PixelRect::window(8, 8), |s| {
+        let ties = cover_and_count_ties(&corners, PixelRect::window(8, 8), &mut |s| {
             spans.push((s.y_px, s.x0_px, s.x1_px));
         });
         (spans, ties)

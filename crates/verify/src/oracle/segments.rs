@@ -10,6 +10,7 @@
 
 use std::collections::BTreeSet;
 
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 
 /// The ends of a segment.
@@ -98,8 +99,8 @@ fn shape(
         let is_lit = lit.contains(&pixel);
         // The corners of the shape are rounded to the lattice: its sides move by a step at most.
         let [is_right, is_allowed] = match is_lit {
-            true => [0, i64::from(step)].map(|more| holds(pixel, more, true)),
-            false => [0, -i64::from(step)].map(|more| !holds(pixel, more, false)),
+            true => [0, i64::from(step)].map_array(|more| holds(pixel, more, true)),
+            false => [0, -i64::from(step)].map_array(|more| !holds(pixel, more, false)),
         };
         match (is_right, is_allowed) {
             (true, _) => {}
@@ -130,7 +131,8 @@ fn from_centre(point: SubpixelPoint, (x, y): (i32, i32)) -> [i64; 2] {
 /// Whether the moved segment enters the open diamond of a pixel.
 fn enters([a, b]: &Ends, pixel: (i32, i32)) -> bool {
     let p = from_centre(*a, pixel);
-    let d = [i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y)].map(|v| v * FINE);
+    let d =
+        [i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y)].map_array(|v| v * FINE);
     let half = i128::from(HALF_PIXEL) * i128::from(FINE);
     // On the segment p + t d each side sx x + sy y < half is a bound on t, a fraction.
     let (mut low, mut high) = ((0i128, 1i128), (1i128, 1i128));

@@ -305,11 +305,11 @@ impl From<f64> for Exact {
 /// If a number is not finite.
 #[must_use]
 pub fn at_crossing(ends: [f64; 2], distances: [[f64; 2]; 2]) -> Exact {
-    let [a, b] = ends.map(Dyadic::new);
-    let parts = distances.map(|sum| sum.map(Dyadic::new));
+    let [a, b] = ends.map_array(Dyadic::new);
+    let parts = distances.map_array(|sum| sum.map_array(Dyadic::new));
     let unit = parts.iter().flatten().map(|part| part.exponent).min().unwrap_or(0);
-    let [from, to] = parts.map(|sum| {
-        let [first, second] = sum.map(|part| part.mantissa << (part.exponent - unit));
+    let [from, to] = parts.map_array(|sum| {
+        let [first, second] = sum.map_array(|part| part.mantissa << (part.exponent - unit));
         first + second
     });
     let exponent = a.exponent.min(b.exponent);

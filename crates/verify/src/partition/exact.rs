@@ -7,6 +7,7 @@ use num_bigint::BigInt;
 use super::{Point, Triangle, key, order};
 use crate::oracle::rational::edge_value;
 use crate::oracle::values::take_apart;
+use rasterproof_core::arrays::MapArray as _;
 
 /// On which side of the line from `a` to `b` the point `c` lies: `Greater` on the left (counterclockwise where y points
 /// up), `Equal` on the line. All coordinates are finite.
@@ -26,7 +27,7 @@ pub(super) fn orientation(a: Point, b: Point, c: Point) -> Ordering {
 /// The orientation where all coordinates are multiples below 2^61 of one power of two: differences are below 2^62, their
 /// products below 2^124.
 fn in_128_bits(points: [Point; 3]) -> Option<Ordering> {
-    let parts = points.map(|point| point.map(take_apart));
+    let parts = points.map_array(|point| point.map_array(take_apart));
     let nonzero = || parts.as_flattened().iter().filter(|(mantissa, _)| *mantissa != 0);
     let unit = nonzero().map(|&(_, exponent)| exponent).min().unwrap_or(0);
     let fits = |&(mantissa, exponent): &(i64, i32)| {
@@ -39,7 +40,7 @@ fn in_128_bits(points: [Point; 3]) -> Option<Ordering> {
         0 => 0,
         _ => i128::from(mantissa) << (exponent - unit),
     };
-    let [a, b, c] = parts.map(|point| point.map(whole));
+    let [a, b, c] = parts.map_array(|point| point.map_array(whole));
     Some(((b[0] - a[0]) * (c[1] - a[1])).cmp(&((b[1] - a[1]) * (c[0] - a[0]))))
 }
 
@@ -61,7 +62,7 @@ pub(super) fn sides(
     boundary: &[[Point; 2]],
 ) -> Sides {
     // On which side of an edge all points between the ends lie; nothing where the edge passes between them.
-    let side = |[a, b]: [Point; 2]| match ends.map(|end| orientation(a, b, end)) {
+    let side = |[a, b]: [Point; 2]| match ends.map_array(|end| orientation(a, b, end)) {
         [one, Ordering::Equal] => Some(one),
         [one, other] if one == other || one.is_eq() => Some(other),
         _ => None,

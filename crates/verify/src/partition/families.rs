@@ -8,6 +8,7 @@ use super::region::region;
 use super::{FillRule, Point, Polygon};
 use crate::cases::Rng;
 use crate::cases::unsnapped::{nudge_f32, nudge_f64};
+use rasterproof_core::arrays::MapArray as _;
 
 /// Which numbers a tessellator takes as coordinates, so that it is judged by what it was given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -190,7 +191,7 @@ fn placed(contours: Vec<Contour>, rng: &mut Rng, coordinates: Coordinates) -> Po
             let x = x + shear * y;
             let x = if is_mirrored { -x } else { x };
             let [x, y] = if is_transposed { [y, x] } else { [x, y] };
-            [x + offset[0], y + offset[1]].map(|value| coordinates.round(value * unit))
+            [x + offset[0], y + offset[1]].map_array(|value| coordinates.round(value * unit))
         };
         contour.into_iter().map(place).collect()
     });
@@ -337,7 +338,8 @@ fn islands(rng: &mut Rng) -> Vec<Contour> {
     let depth = rng.int(2, 6);
     let ring = |inward: i64| {
         let scale = (depth - inward) as f64;
-        let mut contour: Contour = outline.iter().map(|point| point.map(|v| v * scale)).collect();
+        let mut contour: Contour =
+            outline.iter().map(|point| point.map_array(|v| v * scale)).collect();
         if inward % 2 == 1 {
             contour.reverse();
         }
@@ -349,13 +351,13 @@ fn islands(rng: &mut Rng) -> Vec<Contour> {
 /// The points of the contours at twelfths of their edges, so that points on them are whole.
 fn in_twelfths(contours: Vec<Contour>) -> Vec<Contour> {
     let scaled =
-        |contour: Contour| contour.into_iter().map(|point| point.map(|v| v * 12.0)).collect();
+        |contour: Contour| contour.into_iter().map(|point| point.map_array(|v| v * 12.0)).collect();
     contours.into_iter().map(scaled).collect()
 }
 
 fn between(a: Point, b: Point, twelfths: i64) -> Point {
     let part = twelfths as f64;
-    [0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) / 12.0 * part)
+    [0, 1].map_array(|axis| a[axis] + (b[axis] - a[axis]) / 12.0 * part)
 }
 
 fn collinear(rng: &mut Rng) -> Vec<Contour> {
@@ -400,7 +402,7 @@ fn spikes(rng: &mut Rng) -> Vec<Contour> {
         let tip = match rng.int(0, 2) {
             0 => between(here, next, rng.int(1, 11)),
             1 => between(here, next, -rng.int(1, 6)),
-            _ => between(here, other, rng.int(1, 6)).map(|v| v + whole(rng, -2, 2)),
+            _ => between(here, other, rng.int(1, 6)).map_array(|v| v + whole(rng, -2, 2)),
         };
         contour.splice(at..=at, [here, tip, here]);
     }
@@ -426,7 +428,8 @@ fn nearly_touching(rng: &mut Rng, coordinates: Coordinates) -> Polygon {
     let holes = if has_notch { 0 } else { rng.int(1, 3) };
     for number in 0..holes {
         // Side by side, from the one edge to the other.
-        let [left, right] = [number, number + 1].map(|n| width / 12.0 * (n * 12 / holes) as f64);
+        let [left, right] =
+            [number, number + 1].map_array(|n| width / 12.0 * (n * 12 / holes) as f64);
         let (low, high) = (0.0, if rng.chance(2) { height } else { height / 2.0 });
         let middle = height / 12.0 * whole(rng, 1, 5);
         contours.push(if rng.chance(2) {
@@ -457,7 +460,7 @@ fn circle(rng: &mut Rng, coordinates: Coordinates) -> Vec<Contour> {
     let grid = if rng.chance(2) { 0.0 } else { (radius / whole(rng, 2, 40)).floor() };
     let snap = |v: f64| if grid > 0.0 { (v / grid).round_ties_even() * grid } else { v };
     let ring = |quarter: i64, radius: f64| -> Contour {
-        circle_of(quarter, radius).into_iter().map(|point| point.map(snap)).collect()
+        circle_of(quarter, radius).into_iter().map(|point| point.map_array(snap)).collect()
     };
     let mut contours = vec![ring(rng.int(1, 12), radius)];
     if rng.chance(2) {

@@ -130,7 +130,7 @@ pub(super) fn truth(picture: &Picture) -> Result<(Coverage, u64), String> {
     let mut hits = Coverage::new(window, 0);
     let mut ties = 0;
     for corners in picture.as_given()? {
-        ties += cover_and_count_ties(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+        ties += cover_and_count_ties(&corners, window, &mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
     }
     Ok((hits, ties))
 }

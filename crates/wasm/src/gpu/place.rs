@@ -1,7 +1,6 @@
 //! Where a sample lies with respect to a triangle, by the signs of three edge functions in whole numbers,
 //! and what the fill rules make of it. The oracle decides by other means, so that the two check each other.
 
-use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::oracle::Oracle;
@@ -76,7 +75,7 @@ pub(super) fn cover(
     let flip = |v: i32, turn: bool| if turn { cell * SUBPIXELS - v } else { v };
     let image = corners
         .map(|p| SubpixelPoint::new(flip(p.x + moved[0], turn_x), flip(p.y + moved[1], turn_y)));
-    Oracle.cover(image, PixelRect::window(cell as u32, cell as u32), |span| {
+    Oracle.spans(image, PixelRect::window(cell as u32, cell as u32), &mut |span| {
         let y = if turn_y { cell - 1 - span.y_px } else { span.y_px };
         for x in span.x0_px..span.x1_px {
             let x = if turn_x { cell - 1 - x } else { x };
