@@ -211,7 +211,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     report.tables = vec![Table::new("", "~found 1", rows).judged()];
     report.outcome = Some(match (is_compared, agrees) {
         (false, _) => {
-            let why = "No pixel of this window is drawn; choose other pixels with --window.";
+            let why = "No pixel of this window is drawn; name another --window.";
             Outcome::not_compared(why)
         }
         (_, true) => Outcome::of(true, "every engine draws what the oracle draws"),

@@ -169,7 +169,11 @@ impl Table {
             {
                 let gap = if i > 0 { " " } else { "" };
                 let takes_rest = i + 1 == cells.len() && !is_whole(&cells);
-                let label = if column.is_labelled { &*format!("{}: ", column.label) } else { "" };
+                let label = if column.is_labelled && !takes_rest {
+                    &*format!("{}: ", column.label)
+                } else {
+                    ""
+                };
                 let _ = match (width, column.is_number && !takes_rest) {
                     (0, _) => cell.lines().enumerate().try_for_each(|(number, part)| {
                         let label = if number == 0 { label } else { "" };
