@@ -719,7 +719,7 @@ fn limits(answered: &[Answered<Question>]) -> Vec<i64> {
 }
 
 /// Answers that scans are fitted to.
-const FITTED: usize = 80;
+const FITTED: usize = 240;
 
 /// Some of the answers that hypotheses are chosen by: those of triangles that are small, so that slopes do not matter much.
 fn near<'a>(answered: &'a [Answered<Question>], is_wrong: &[bool]) -> Vec<scans::Drawn<'a>> {
