@@ -1317,6 +1317,12 @@ fn mistakes_of_stages_are_named() {
         &["depth-order"],
     );
     assert!(said.contains("depths: It shows the triangle that was drawn last"), "{said}");
+    // Depths are moved by the order of the triangles.
+    let biased = |question: &judge::ask::Question, answer| {
+        by_key(question, answer, &|depth, number| depth - 0.002 * number as f64, false)
+    };
+    let said = judged(biased, &["depth-order"]);
+    assert!(said.contains("depths: It takes 2e-3 off the depth of a triangle"), "{said}");
     // A quadrilateral loses its last corner.
     let said = judged(
         |_, answer| match answer {
@@ -1386,12 +1392,22 @@ fn mistakes_of_stages_are_named() {
 
 /// The nearest triangle by depths that are cut down to so many bits.
 fn in_bits(question: &judge::ask::Question, answer: Answer, bits: i32, is_last: bool) -> Answer {
+    by_key(question, answer, &|depth, _| (depth * f64::from(1 << bits)).floor(), is_last)
+}
+
+/// The triangle with the least key, from its depth and its number.
+fn by_key(
+    question: &judge::ask::Question,
+    answer: Answer,
+    key: &dyn Fn(f64, u64) -> f64,
+    is_last: bool,
+) -> Answer {
     let (Asked::Depth(list), Answer::Seen(_)) = (&question.of, &answer) else { return answer };
     let window = PixelRect::window(question.width, question.height);
     let mut seen = std::collections::BTreeMap::new();
     for (number, t) in (0..).zip(list) {
         let mut show = |f: Fragment<DVec2>| {
-            let depth = (f.depth * f64::from(1 << bits)) as i64;
+            let depth = key(f.depth, u64::from(number));
             let kept = seen.entry((f.y_px, f.x_px)).or_insert((depth, number));
             if depth < kept.0 || (is_last && depth == kept.0) {
                 *kept = (depth, number);
@@ -1479,6 +1495,10 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         f.varying = DVec2::new(half(f.varying.x), half(f.varying.y));
     };
     let flat: Change = |t, f| f.varying = t.vertices[2].varying;
+    let six: Change = |_, f| {
+        let bits = |v: f64| (v.clamp(0.0, 1.0) * 63.0).round() / 63.0;
+        f.varying = DVec2::new(bits(f.varying.x), bits(f.varying.y));
+    };
     let inverse: Change = |t, f| {
         let exact =
             ExactTriangle::new(&t.corners(), t.vertices.map(|v| v.inv_w), [1.0; 3], [[0.0; 2]; 3]);
@@ -1491,6 +1511,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
             "It gives every pixel the values of the last corner (attributes alone: depth is right)",
         ),
         (inverse, "It gives 1/w as depth"),
+        (six, "It keeps values in 6 bits between 0 and 1, rounded (attributes alone"),
     ] {
         let said = judged_as(
             "tolerance=1e-4",
@@ -1509,14 +1530,16 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     let places = [(3, 5), (12, 2), (5, 11), (11, 13)];
     let elsewhere = |mask: u8| mask & 15;
     let whole = |mask: u8| if mask & 15 == 0 { 0 } else { 15 };
+    let lost = |mask: u8| mask & 11;
     type Gate = fn(u8) -> u8;
-    let cases: [(_, Gate, _); 2] = [
+    let cases: [(_, Gate, _); 3] = [
         (
             places,
             elsewhere as Gate,
             "It tests samples at (3, 5), (12, 2), (5, 11) and (11, 13) of 1/16 px",
         ),
         (SAMPLES, whole, "It draws all four samples of a pixel where any is covered"),
+        (SAMPLES, lost, "It never draws the sample with the number 2"),
     ];
     for (places, gate, wanted) in cases {
         let said = judged(
@@ -1536,6 +1559,30 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         );
         assert!(said.contains(&format!("samples: {wanted}")), "{wanted}: {said}");
     }
+    // A plane that is in no table is read off the new corners.
+    let said = judged(
+        |question, answer| match (judge::near_plane::asked(&question.of), answer) {
+            (Some(t), Answer::Polygon(_)) => {
+                let (corners, mut left) = (clip_corners(&t), Vec::new());
+                for (i, from) in corners.iter().enumerate() {
+                    let to = corners[(i + 1) % 3];
+                    let [a, b] = [from[3] - 0.3, to[3] - 0.3];
+                    if a >= 0.0 {
+                        left.push(*from);
+                    }
+                    if (a < 0.0) != (b < 0.0) {
+                        left.push(
+                            [0, 1, 2, 3, 4].map(|k| from[k] + (to[k] - from[k]) * (a / (a - b))),
+                        );
+                    }
+                }
+                Answer::Polygon(left)
+            }
+            (_, answer) => answer,
+        },
+        &["near-plane"],
+    );
+    assert!(said.contains("near plane: It clips at w = 0.3."), "{said}");
     // New corners with w = 1, and triangles of which two corners lie behind.
     let said = judged(
         |question, answer| match (judge::near_plane::asked(&question.of), answer) {

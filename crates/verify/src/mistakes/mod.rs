@@ -230,6 +230,11 @@ struct Answered<Q> {
 }
 
 impl<Q> Answered<Q> {
+    /// Nothing is drawn: where all is blank, every mistake that draws nothing explains it.
+    fn is_blank(&self) -> bool {
+        self.drawn.is_empty()
+    }
+
     fn is_wrong(&self) -> bool {
         !self.is(self.right, Mask::default())
     }
@@ -293,6 +298,9 @@ pub fn of_triangles(
         if wrong == 0 || wrong >= ENOUGH_WRONG {
             break;
         }
+    }
+    if answered.iter().all(Answered::is_blank) {
+        return None;
     }
     // Width, height and area are told apart near the limits between what is drawn and what is not.
     let sizes = limits(&answered).into_iter().map(triangles::size);
@@ -420,6 +428,9 @@ pub fn of_lines(
             let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
             answered.push(Answered { question: *question, drawn, twice, right });
         }
+    }
+    if answered.iter().all(Answered::is_blank) {
+        return None;
     }
     let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
     let mut bases = vec![*expected];
@@ -720,7 +731,7 @@ fn limits(answered: &[Answered<TriangleQuestion>]) -> Vec<i64> {
 }
 
 /// Answers that scans are fitted to.
-const FITTED: usize = 80;
+const FITTED: usize = 240;
 
 /// Some of the answers that hypotheses are chosen by: those of triangles that are small, so that slopes do not matter much.
 fn near<'a>(

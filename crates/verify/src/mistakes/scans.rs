@@ -24,7 +24,7 @@ enum Slope {
     /// The slope is a product with the reciprocal of the height, which is cut to so many bits of fraction, the height being
     /// counted in subpixels.
     Inverse(u32),
-    /// The same, with a reciprocal that is a float with so many bits after the first one, cut.
+    /// In single precision, with a reciprocal that has so many bits after the first one, cut.
     Mantissa(u32),
     /// In so many bits of fraction, the slope by one of `CUTS` and the first crossing by one of `STARTS`.
     Fixed { bits: u32, cut: i64, start: i64 },
@@ -148,7 +148,7 @@ pub(super) struct Scan {
     /// What is drawn of a triangle in one row: 0, what the loop makes of it; 1, from its least to its greatest x; 2, nothing; 3, from
     /// the least pixel to the greatest.
     level: i64,
-    /// The heights that corners are sorted by: 0, exact ones; or one of `SORTED`.
+    /// The heights that corners are sorted by: 0, those that are drawn; or one of `SORTED`, or the exact ones where corners are cut.
     sorted: i64,
 }
 
@@ -218,7 +218,10 @@ impl Scan {
         let Self { slope, lower, above, whole, rows, height, left, right, level, sorted } =
             Self::of(p);
         let mut words = WHOLE[whole as usize].to_owned();
-        if sorted > 0 {
+        if sorted > 0 && whole > 0 {
+            words += "sorts them by their exact heights, ";
+        }
+        if sorted > 0 && whole == 0 {
             words += &format!(
                 "sorts the corners by their heights in whole pixels ({}), so that corners in one row keep the order in which they are given, and ",
                 SORTED[sorted as usize]
@@ -269,7 +272,8 @@ impl Scan {
 
     /// Whether corners are sorted by whole rows.
     pub(super) fn is_sorted_by_rows(p: i64) -> bool {
-        Self::of(p).sorted > 0
+        let Self { sorted, whole, .. } = Self::of(p);
+        sorted > 0 && whole == 0
     }
 
     /// All of a frame: what is rounded, where edges begin, what level triangles are, and how corners are sorted.
@@ -278,13 +282,24 @@ impl Scan {
         // The places of the last two digits.
         let [level_at, sorted_at] = [8, 9].map(|i| DIGITS[..i].iter().product::<i64>());
         let mut all = Vec::new();
-        for level in 0..if base.whole > 0 { 4 } else { 1 } {
-            let frame = frame + level * level_at;
+        // Of whole corners there are level triangles, and corners that were sorted before.
+        let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
+        for (level, order) in
+            (0..levels).flat_map(|level| (0..orders).map(move |order| (level, order)))
+        {
+            let frame = frame + level * level_at + order * sorted_at;
             for (slope, begins) in
                 (0..Slope::COUNT).flat_map(|slope| (0..12).map(move |begins| (slope, begins)))
             {
-                // Where nothing is added, it does not matter where an edge begins.
-                if Slope::of(slope).is_added() || [0, 2, 3].contains(&begins) {
+                // Where nothing is added, it does not matter where an edge begins; nor does it of whole corners, nearly.
+                let (lower, above) = (begins % 4, begins / 4);
+                let is_added = Slope::of(slope).is_added() && base.whole == 0;
+                let is_tried = match lower {
+                    0 => above == 0 || is_added,
+                    1 => is_added,
+                    _ => above == 0 && (base.whole == 0 || slope < SLOPES.len() as i64),
+                };
+                if is_tried {
                     all.push(frame + slope + Slope::COUNT * begins);
                 }
             }
@@ -326,7 +341,7 @@ pub(super) type Drawn<'a> = (&'a Corners, PixelRect, Mask);
 /// The parameters of a frame: slopes, and where edges begin.
 const WITHIN: i64 = DIGITS[0] * DIGITS[1] * DIGITS[2];
 /// Frames that are tried with all ways of rounding, for each of two slopes.
-const FRAMES: usize = 6;
+const FRAMES: usize = 10;
 
 /// The parameters whose frames (rows, heights and ends of rows) come nearest to what was drawn: with exact crossings, and with
 /// the slope and the beginning that are best in the first of these.
@@ -403,7 +418,7 @@ impl Walk {
             }
             Slope::Mantissa(bits) => {
                 let cut = f64::from(1.0 / px(dy) as f32).to_bits() >> (52 - bits) << (52 - bits);
-                (0.0, px(dx) * f64::from_bits(cut))
+                (0.0, single(px(dx) * f64::from_bits(cut)))
             }
             Slope::Fixed { bits, cut, start } => {
                 let unit = 1_i128 << bits;
@@ -434,12 +449,10 @@ impl Walk {
         let ahead = how.ahead(row, self.first_row, self.from[1]);
         let [dx, dy] = [self.to[0] - self.from[0], (self.to[1] - self.from[1]).max(1)];
         match how.slope {
-            Slope::Computed | Slope::Reciprocal => {
+            Slope::Computed | Slope::Reciprocal | Slope::Mantissa(_) => {
                 single(px(self.from[0]) + single(self.slope * single(px(ahead))))
             }
-            Slope::Half | Slope::Inverse(_) | Slope::Mantissa(_) => {
-                px(self.from[0]) + self.slope * px(ahead)
-            }
+            Slope::Half | Slope::Inverse(_) => px(self.from[0]) + self.slope * px(ahead),
             Slope::Between(is_single) => {
                 let r = |v: f64| if is_single { single(v) } else { v };
                 let [from, to] = [self.from, self.to].map_array(|p| r(px(p[0])));
@@ -493,11 +506,13 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
         3 => v / 256 * 256,
         _ => (v + 255).div_euclid(256) * 256,
     };
-    let mut sorted = points(corners).map_array(|p| p.map_array(whole));
-    sorted.sort_by_key(|p| match how.sorted {
-        0 => p[1],
-        kind => (p[1] + [0, 0, 128, 255][kind as usize]).div_euclid(256),
+    let mut exact = points(corners);
+    exact.sort_by_key(|p| match (how.whole, how.sorted) {
+        (0, 0) | (1.., 1) => p[1],
+        (1.., _) => whole(p[1]),
+        (_, kind) => (p[1] + [0, 0, 128, 255][kind as usize]).div_euclid(256),
     });
+    let sorted = exact.map_array(|p| p.map_array(whole));
     let [top, middle, bottom] = sorted;
     let mut mask = Mask::default();
     let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
@@ -521,8 +536,12 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
             mask.set(x, y as i32);
         }
     };
-    let starts = [top, middle, bottom].map_array(|p| how.first_row(p[1]));
+    let mut starts = [top, middle, bottom].map_array(|p| how.first_row(p[1]));
     let end = starts[2] + how.rows % 2;
+    // Whole corners at the lower side of the triangle leave nothing for the lower half.
+    if how.whole > 0 && middle[1] == bottom[1] {
+        starts[1] = end;
+    }
     if top[1] == bottom[1] && how.level > 0 {
         let xs = sorted.map_array(|p| px(p[0]));
         let (least, most) = (xs[0].min(xs[1]).min(xs[2]), xs[0].max(xs[1]).max(xs[2]));
