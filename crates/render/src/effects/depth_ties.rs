@@ -6,7 +6,7 @@
 
 use super::assembled::Assembled;
 use super::conditions::{self, EVERY_FRAGMENT};
-use super::kernel::Kernel;
+use super::kernel::{Coat, Kernel};
 use super::plan::Canvas;
 use super::planner;
 use super::primitive::{BadScene, Piece, Prepared, bare, pack, surfaces, touched};
@@ -187,7 +187,9 @@ impl<'a> TiedPieces<'a> {
         let perspective = !self.scene.affine;
         let plan = conditions::of_every_fragment(self.scene, item.item);
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
-        let kernel = Kernel::new(item, piece, plan, map, None, &mut Counters::default());
+        let counters = &mut Counters::default();
+        let coat = Coat::of(item, piece, plan, counters);
+        let kernel = Kernel::new(item, piece, plan, map, None, coat.as_ref(), counters);
         let packed = pack::<PLACED>(&moved, plan.interpolates);
         let emit = |f: Fragment<Attributes<PLACED>>| {
             see(f.x_px, f.y_px, kernel.shade_all(&f.varying.0, f.depth));
@@ -305,7 +307,9 @@ impl<'a> TiedPieces<'a> {
             return;
         }
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
-        let kernel = Kernel::new(item, piece, plan, map, None, &mut Counters::default());
+        let counters = &mut Counters::default();
+        let coat = Coat::of(item, piece, plan, counters);
+        let kernel = Kernel::new(item, piece, plan, map, None, coat.as_ref(), counters);
         let Some(texture) = kernel.varying_texture() else { return };
         let uv = surfaces(&moved).map_array(|of| of.uv);
         let bounds_of_uv =

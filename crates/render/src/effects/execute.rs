@@ -7,7 +7,7 @@ use std::num::NonZeroU32;
 use super::Effect;
 use super::assembled::Assembled;
 use super::conditions::{self, Facts, shadows};
-use super::kernel::Kernel;
+use super::kernel::{Coat, Kernel};
 use super::parts::{Constants, Part, Whole};
 use super::plan::{
     Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, Samples,
@@ -394,7 +394,9 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
             let constants = parts.is_some().then_some(&part.constants);
             let map = map.filter(|_| part.plan.shadows);
             let last = part.constants.shares_texels.then(|| RefCell::new(FourTexels::NONE));
-            let mut kernel = Kernel::new(item, piece, part.plan, map, constants, counters);
+            let coat = Coat::of(item, piece, part.plan, counters);
+            let coat = coat.as_ref();
+            let mut kernel = Kernel::new(item, piece, part.plan, map, constants, coat, counters);
             kernel.last = last.as_ref();
             let samples = samples.as_deref_mut();
             kernel.draw(engine, piece, part.bounds, target, samples, counters);

@@ -129,19 +129,19 @@ pub(super) struct Kernel<'a> {
     first_opacity: Option<u8>,
     /// Whether it is checked if all fragments of a run have one colour in the fog or one highlight.
     checks_runs: bool,
-    /// Of a physical surface. Most kernels have none, and would be much larger with it.
-    coat: Option<Box<Coat<'a>>>,
+    /// Of a physical surface.
+    coat: Option<&'a Coat<'a>>,
 }
 
 /// What a physical surface has beside base colour, normal and light.
-struct Coat<'a> {
+pub(super) struct Coat<'a> {
     surface: &'a Physical,
     parts: Parts,
     punctual: &'a [PunctualLight],
     /// The maps that are read in each fragment.
     maps: [Option<&'a Texture>; Map::ALL.len()],
     /// How those at the second texture coordinates are read at levels of detail or several times.
-    reading: Option<Box<HowRead<'a>>>,
+    reading: Option<HowRead<'a>>,
     /// The texels of maps that have one colour where the piece reads them.
     texels: [DVec3; Map::ALL.len()],
     eye: DVec4,
@@ -151,6 +151,17 @@ struct Coat<'a> {
 }
 
 impl<'a> Coat<'a> {
+    /// Nothing for a surface that is not physical. Whoever draws a piece keeps it beside the kernel, which is copied less so.
+    #[inline]
+    pub fn of(
+        item: &'a Prepared<'_>,
+        piece: &Piece,
+        plan: PiecePlan,
+        counters: &mut Counters,
+    ) -> Option<Self> {
+        Some(Self::new(item, item.physical()?, piece, plan, counters))
+    }
+
     fn new(
         item: &'a Prepared<'_>,
         surface: &'a Physical,
@@ -176,11 +187,22 @@ impl<'a> Coat<'a> {
         let mut reading = None;
         if plan.reads_around() && plan.interpolates.has(Attributes::SECOND_UV) {
             // All are read in one way but for their sizes.
-            reading = Some(Box::new(how_read(item, (&WHITE, true), piece, plan)));
+            reading = Some(how_read(item, (&WHITE, true), piece, plan));
         }
         let parts = Parts { emission, reflection, occlusion, bumps };
         let punctual = if plan.punctual { item.punctual } else { &[] };
         Self { surface, parts, punctual, maps, reading, texels, eye: item.eye, world, tangent }
+    }
+
+    /// Counts what so many evaluations have paid for.
+    fn count(&self, shaded: u64, counters: &mut Counters) {
+        let where_true = |pays: bool| if pays { shaded } else { 0 };
+        counters.reflections += where_true(self.parts.reflection);
+        counters.punctual += where_true(!self.punctual.is_empty());
+        counters.bumped += where_true(self.parts.bumps);
+        counters.occluded += where_true(self.parts.occlusion);
+        counters.emitted += where_true(self.parts.emission);
+        counters.texels += shaded * self.maps.iter().flatten().count() as u64;
     }
 }
 
@@ -205,6 +227,7 @@ impl<'a> Kernel<'a> {
         plan: PiecePlan,
         map: Option<&'a ShadowMap>,
         part: Option<&Constants>,
+        coat: Option<&'a Coat<'a>>,
         counters: &mut Counters,
     ) -> Self {
         let constants = part.copied().unwrap_or_default();
@@ -269,12 +292,11 @@ impl<'a> Kernel<'a> {
             counters.highlights += 1;
             kernel.shine = dimmed(item.highlight.at(first.normal), kernel.lit);
         }
-        if let Some(surface) = item.physical() {
-            let coat = Coat::new(item, surface, piece, plan, counters);
-            kernel.reading = kernel.reading.or(coat.reading.as_deref().copied());
-            kernel.coat = Some(Box::new(coat));
+        if let Some(coat) = coat {
+            kernel.reading = kernel.reading.or(coat.reading);
+            kernel.coat = Some(coat);
             if plan.is_one_colour() {
-                kernel.count_coat(1, counters);
+                coat.count(1, counters);
             }
         }
         kernel
@@ -416,19 +438,9 @@ impl<'a> Kernel<'a> {
         counters.levels += where_true(self.plan.mip_maps && self.reading.is_some(), shaded);
         counters.taps += self.taps.take();
         counters.lights += where_true(self.plan.interpolates.has(Attributes::NORMAL), shaded);
-        self.count_coat(shaded, counters);
-    }
-
-    /// Counts what so many evaluations of a physical surface have paid for.
-    fn count_coat(&self, shaded: u64, counters: &mut Counters) {
-        let Some(coat) = &self.coat else { return };
-        let where_true = |pays: bool| if pays { shaded } else { 0 };
-        counters.reflections += where_true(coat.parts.reflection);
-        counters.punctual += where_true(!coat.punctual.is_empty());
-        counters.bumped += where_true(coat.parts.bumps);
-        counters.occluded += where_true(coat.parts.occlusion);
-        counters.emitted += where_true(coat.parts.emission);
-        counters.texels += shaded * coat.maps.iter().flatten().count() as u64;
+        if let Some(coat) = self.coat {
+            coat.count(shaded, counters);
+        }
     }
 
     /// The kernel for the `N` components of the attributes in `MASK`.
@@ -516,7 +528,7 @@ impl<'a> Kernel<'a> {
         let lit = self.receiver.map_or(self.lit, |receiver| receiver.lit(at(Attributes::PLACE)));
         let base = self.base;
         let colour = if varies(Attributes::COLOUR) { base * at(Attributes::COLOUR) } else { base };
-        if let Some(coat) = &self.coat {
+        let shown = if let Some(coat) = self.coat {
             let world = if varies(Attributes::WORLD) { at(Attributes::WORLD) } else { coat.world };
             let tangent = if varies(Attributes::TANGENT) {
                 DVec4::from_slice(&values[self.start(Attributes::TANGENT)..])
@@ -528,8 +540,7 @@ impl<'a> Kernel<'a> {
                 let Some(map) = coat.maps[number] else { continue };
                 let is_second = coat.surface.second[number];
                 let uv = DVec2::from_slice(&values[self.start(Attributes::uv(is_second))..]);
-                let reading =
-                    if is_second { coat.reading.as_deref() } else { self.reading.as_ref() };
+                let reading = if is_second { coat.reading.as_ref() } else { self.reading.as_ref() };
                 *texel = match reading {
                     None => map.at(uv),
                     Some((reading, veil)) => {
@@ -543,25 +554,21 @@ impl<'a> Kernel<'a> {
             let share = f64::from(lit) / f64::from(TAPS);
             let point = Point { base, normal, tangent, to_eye, texels, lit: share, place: world };
             let lights = Lights { main: &self.light, punctual: coat.punctual };
-            let shown = coat.surface.colour(lights, &point, coat.parts);
-            return self.finish(shown, normal, lit, depth);
-        }
-        let intensity = if varies(Attributes::NORMAL) || self.receiver.is_some() {
-            self.light.intensity_in(normal, lit)
+            coat.surface.colour(lights, &point, coat.parts)
         } else {
-            self.intensity
+            let intensity = if varies(Attributes::NORMAL) || self.receiver.is_some() {
+                self.light.intensity_in(normal, lit)
+            } else {
+                self.intensity
+            };
+            to_colour(colour * texel * intensity)
         };
-        self.finish(to_colour(colour * texel * intensity), normal, lit, depth)
-    }
-
-    /// A colour with its highlight, in the fog.
-    fn finish(&self, colour: Colour, normal: DVec3, lit: u32, depth: f64) -> Colour {
         let shine = match (self.highlight, self.receiver) {
             (Some(highlight), _) => dimmed(highlight.at(normal), lit),
             (None, Some(_)) => dimmed(self.shine, lit),
             (None, None) => self.shine,
         };
-        let colour = brightened(colour, shine);
+        let colour = brightened(shown, shine);
         self.veil.map_or(colour, |veil| veil.before(colour, veil.distance(depth)))
     }
 

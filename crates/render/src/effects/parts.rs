@@ -384,11 +384,12 @@ impl<'a> Whole<'a> {
             square.depths = [square.depths[0].min(depth), square.depths[1].max(depth)];
             square.inv_w[i] = sum;
             let weights = parts.map_array(|part| part / sum);
-            for (bit, range) in Attributes::RANGES {
-                if !self.plan.interpolates.has(bit) {
+            // A physical surface alone has more.
+            for (bit, range) in &Attributes::RANGES[..4] {
+                if !self.plan.interpolates.has(*bit) {
                     continue;
                 }
-                for at in range {
+                for at in range.clone() {
                     let [a, b, c] = vertices.map_array(|vertex| vertex.varying.0[at]);
                     values.0[at] = weights[0] * a + weights[1] * b + weights[2] * c;
                     if !values.0[at].is_finite() {

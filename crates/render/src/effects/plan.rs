@@ -162,6 +162,9 @@ impl Attributes {
         (Attribute::SecondUv, Self::SECOND_UV),
     ];
 
+    /// What most items carry.
+    pub(super) const FIRST: Self = Self(Self::COLOUR | Self::NORMAL | Self::UV);
+
     /// No attribute.
     pub const NONE: Self = Self(0);
 

@@ -239,27 +239,37 @@ impl<'a> Prepared<'a> {
             }
         }
         let uvs = if self.has_uv { triangles.uvs(triangle) } else { [DVec2::ZERO; 3] };
+        let has_more = !self.carries.without(Attributes::FIRST).is_empty();
         move |i: usize| {
-            let view = self.light_view.as_ref();
-            let place = view.map_or(DVec3::ZERO, |view| view.place(self.index, positions[i]));
-            let (mut world, mut tangent) = (DVec3::ZERO, DVec4::ZERO);
-            let mut second_uv = DVec2::ZERO;
-            if self.carries.has(Attributes::SECOND_UV) {
-                second_uv = triangles.second_uvs(triangle)[i];
-            }
-            if self.carries.has(Attributes::WORLD) {
-                let position = mesh.positions[positions[i] as usize];
-                world = self.item.model.transform_point3(position);
-            }
-            if self.carries.has(Attributes::TANGENT) {
-                let DVec4 { x, y, z, w } = triangles.tangents(triangle)[i];
-                let (matrix, sign) = self.tangents;
-                // Of a back the turned normal is reversed, and so are all three directions that it is made of.
-                let back = if is_back { -1.0 } else { 1.0 };
-                tangent = (matrix * DVec3::new(x, y, z)).extend(sign * w) * back;
-            }
             let (colour, normal, uv) = (colours[i], normals[i], uvs[i]);
-            Surface { colour, normal, uv, place, world, tangent, second_uv }.into()
+            let mut surface = Surface { colour, normal, uv, ..Surface::NONE };
+            if has_more {
+                self.add_more(triangle, i, is_back, &mut surface);
+            }
+            surface.into()
+        }
+    }
+
+    /// Computes what few items carry of a corner.
+    #[inline(never)]
+    fn add_more(&self, triangle: usize, corner: usize, is_back: bool, to: &mut Surface) {
+        let mesh = &self.item.mesh;
+        let position = mesh.triangles.positions()[triangle][corner];
+        if let Some(view) = &self.light_view {
+            to.place = view.place(self.index, position);
+        }
+        if self.carries.has(Attributes::WORLD) {
+            to.world = self.item.model.transform_point3(mesh.positions[position as usize]);
+        }
+        if self.carries.has(Attributes::TANGENT) {
+            let DVec4 { x, y, z, w } = mesh.triangles.tangents(triangle)[corner];
+            let (matrix, sign) = self.tangents;
+            // Of a back the turned normal is reversed, and so are all three directions that it is made of.
+            let back = if is_back { -1.0 } else { 1.0 };
+            to.tangent = (matrix * DVec3::new(x, y, z)).extend(sign * w) * back;
+        }
+        if self.carries.has(Attributes::SECOND_UV) {
+            to.second_uv = mesh.triangles.second_uvs(triangle)[corner];
         }
     }
 
@@ -325,11 +335,13 @@ pub(super) fn bare(piece: &Piece) -> ScreenTriangle<Packed<0>> {
 #[inline]
 pub(super) fn pack<const N: usize>(piece: &Piece, some: Attributes) -> ScreenTriangle<Packed<N>> {
     let places = some.places();
-    let vertices = piece.vertices.map_array(|ScreenVertex { position, depth, inv_w, varying }| {
-        let varying = Packed(std::array::from_fn(|i| varying.0[usize::from(places[i])]));
-        ScreenVertex { position, depth, inv_w, varying }
-    });
-    ScreenTriangle { vertices }
+    let of = |vertex: &ScreenVertex<Packed<PLACED>>| {
+        let ScreenVertex { position, depth, inv_w, varying: Packed(all) } = vertex;
+        let varying = Packed(std::array::from_fn(|i| all[usize::from(places[i])]));
+        ScreenVertex { position: *position, depth: *depth, inv_w: *inv_w, varying }
+    };
+    let [a, b, c] = &piece.vertices;
+    ScreenTriangle { vertices: [of(a), of(b), of(c)] }
 }
 
 /// Pixels that a triangle may touch: those whose centres lie in [min, max), by the fill rule.

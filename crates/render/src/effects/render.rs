@@ -7,7 +7,7 @@ use super::primitive::pack;
 use super::Effects;
 use super::conditions::{EVERY_FRAGMENT, of_every_fragment};
 use super::execute::{Observer, draw, fit};
-use super::kernel::Kernel;
+use super::kernel::{Coat, Kernel};
 use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
 use crate::pipeline::Counters;
@@ -147,7 +147,8 @@ pub fn render_wireframe(
         item.assemble(scene, &mut counters, &mut |piece, fills| {
             // A line drawer draws no shadow map.
             let plan = PiecePlan { shadows: false, ..of_every_fragment(scene, item.item) };
-            let kernel = Kernel::new(item, piece, plan, None, None, fills);
+            let coat = Coat::of(item, piece, plan, fills);
+            let kernel = Kernel::new(item, piece, plan, None, None, coat.as_ref(), fills);
             draw_edges(drawer, &pack::<PLACED>(piece, plan.interpolates), bounds, |f| {
                 fills.fragments += 1;
                 let colour = kernel.shade_all(&f.varying.0, f.depth);

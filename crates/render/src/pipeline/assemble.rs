@@ -252,9 +252,9 @@ impl Assembler {
             let corners = [a.position, b.position, c.position];
             if self.keeps(corners, counters) {
                 let of = varyings(self.is_back(corners));
-                let vertices =
-                    [a.with_varying(of(0)), b.with_varying(of(1)), c.with_varying(of(2))];
-                emit(&ScreenTriangle { vertices });
+                emit(&ScreenTriangle {
+                    vertices: [a.with_varying(of(0)), b.with_varying(of(1)), c.with_varying(of(2))],
+                });
             }
             return;
         }

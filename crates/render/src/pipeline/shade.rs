@@ -73,6 +73,17 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// All of it 0.
+    pub const NONE: Self = Self {
+        colour: DVec3::ZERO,
+        normal: DVec3::ZERO,
+        uv: DVec2::ZERO,
+        place: DVec3::ZERO,
+        world: DVec3::ZERO,
+        tangent: DVec4::ZERO,
+        second_uv: DVec2::ZERO,
+    };
+
     /// The first or the second texture coordinates.
     #[must_use]
     #[inline]

@@ -41,8 +41,8 @@ pub fn differing(mut of: Attributes, piece: &Piece) -> Attributes {
         let bits = a.varying.0[i].to_bits();
         bits != b.varying.0[i].to_bits() || bits != c.varying.0[i].to_bits()
     };
-    for (bit, mut range) in Attributes::RANGES {
-        if of.has(bit) && !range.any(varies) {
+    for (bit, range) in &Attributes::RANGES {
+        if of.has(*bit) && !range.clone().any(varies) {
             of.0 &= !bit;
         }
     }

@@ -169,7 +169,9 @@ impl Facts {
         if rule.where_it_varies {
             facts.varies = interpolation::differing(rule.interpolates, piece);
         }
-        physical::see(rule, item, piece, samples, &mut facts);
+        if item.physical().is_some() {
+            physical::see(rule, item, piece, samples, &mut facts);
+        }
         let faces_away = rule.shadows.is_open()
             && !rule.normal_maps.pays(facts.is_bumpy)
             && shadows::piece_faces_away(item, piece);

@@ -190,7 +190,6 @@ fn reaches(light: &PunctualLight, places: [DVec3; 3], normals: [DVec3; 3]) -> bo
 
 /// What is known of a piece of a physical surface.
 pub fn see(rule: &Rule, item: &Prepared<'_>, piece: &Piece, samples: i64, facts: &mut Facts) {
-    let Some(surface) = item.physical() else { return };
     if rule.normal_maps.is_open() {
         facts.is_bumpy = !all_are(rule, item, piece, (samples, Map::Normal), Physical::is_flat);
     }
@@ -206,7 +205,8 @@ pub fn see(rule: &Rule, item: &Prepared<'_>, piece: &Piece, samples: i64, facts:
         facts.is_occluded = !all_are(rule, item, piece, (samples, Map::Occlusion), is_white);
     }
     if rule.emission.is_open() {
-        let is_black = |texel: DVec3| surface.emission * texel == DVec3::ZERO;
+        let emission = item.physical().map_or(DVec3::ZERO, |surface| surface.emission);
+        let is_black = |texel: DVec3| emission * texel == DVec3::ZERO;
         facts.is_emitting = !all_are(rule, item, piece, (samples, Map::Emission), is_black);
     }
 }
