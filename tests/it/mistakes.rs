@@ -1051,6 +1051,13 @@ fn check(number: usize, expected: &str, found: Option<&Mistakes>, failed: &mut V
     }
 }
 
+/// Every mistake that may draw nothing would explain it.
+#[test]
+fn what_draws_nothing_has_no_cause() {
+    assert_eq!(of_stroke(|_, _, _| {}), None);
+    assert_eq!(of_fill(|_, _, _| {}), None);
+}
+
 /// Every mistake is named for a program that has it, with a parameter of its own.
 #[test]
 #[ignore = "takes half a minute; .ci/run runs it"]
