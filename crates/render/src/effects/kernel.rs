@@ -129,7 +129,7 @@ pub(super) struct Kernel<'a> {
     first_opacity: Option<u8>,
     /// Whether it is checked if all fragments of a run have one colour in the fog or one highlight.
     checks_runs: bool,
-    /// Of a physical surface.
+    /// What a physical surface has; nothing of another one.
     coat: Option<&'a Coat<'a>>,
 }
 
@@ -151,7 +151,7 @@ pub(super) struct Coat<'a> {
 }
 
 impl<'a> Coat<'a> {
-    /// Nothing for a surface that is not physical. Whoever draws a piece keeps it beside the kernel, which is copied less so.
+    /// Nothing for a surface that is not physical. It lies beside the kernel and not in it, since a kernel is copied.
     #[inline]
     pub fn of(
         item: &'a Prepared<'_>,

@@ -162,7 +162,7 @@ impl Attributes {
         (Attribute::SecondUv, Self::SECOND_UV),
     ];
 
-    /// What most items carry.
+    /// The attributes beside which few items carry others.
     pub(super) const FIRST: Self = Self(Self::COLOUR | Self::NORMAL | Self::UV);
 
     /// No attribute.

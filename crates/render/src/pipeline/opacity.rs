@@ -227,7 +227,7 @@ impl OpacityMap {
     }
 }
 
-/// The same of a picture by itself.
+/// The least and the largest texel of one level, likewise.
 fn own_between(texture: &Texture, uv: [DVec2; 3], reach: f64) -> [u8; 2] {
     let Ends { blocks: ends, whole } = texture.ends();
     if reach > f64::from(u16::MAX) {

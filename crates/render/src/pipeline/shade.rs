@@ -73,7 +73,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// All of it 0.
+    /// A surface of which nothing is known yet: all numbers are 0.
     pub const NONE: Self = Self {
         colour: DVec3::ZERO,
         normal: DVec3::ZERO,

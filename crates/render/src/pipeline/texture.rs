@@ -62,7 +62,7 @@ pub struct Texture {
 #[derive(Debug, Default)]
 struct Derived {
     plain: PlainBlocks,
-    /// Of a map of opacities.
+    /// What plans ask of a map of opacities.
     ends: OnceLock<Ends>,
     /// The levels of the mip map, read as a texture is where nothing else is said.
     levels: OnceLock<Vec<Texture>>,
@@ -543,7 +543,7 @@ impl Texture {
         [self.width as usize, self.height as usize]
     }
 
-    /// Those of its red channel.
+    /// The least and the largest byte of the red channel, in each block and in all.
     pub(super) fn ends(&self) -> &Ends {
         let red = |column: usize, row: usize| {
             let at = row * self.width as usize + column;
