@@ -13,7 +13,7 @@ use super::page::{PageArguments, Shown, as_file, show};
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{
-    InputError, Status, Streams, exit, explain, png_name, program, study, usage, write_picture,
+    InputError, Status, Streams, ends_in, exit, explain, program, study, usage, write_picture,
 };
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -112,7 +112,7 @@ fn no_part(plant: Option<&String>) -> InputError {
 
 pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<'_>) -> Status {
     if let Some(path) = &arguments.output {
-        png_name(path)?;
+        ends_in(path, "png", "the picture")?;
     }
     let asked = arguments.output.as_deref().map(Output::typed);
     let page = arguments.page.page("inspect.html");

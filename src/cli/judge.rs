@@ -28,7 +28,7 @@ pub struct JudgeArguments {
         value_parser = super::whole::<u64>(1..=u64::MAX), allow_negative_numbers = true)]
     cases: u64,
     /// Seconds for all that is asked after the start; a last answer is waited for one second more
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = super::seconds, allow_negative_numbers = true)]
     seconds: Option<Duration>,
     /// Only this family; may be repeated
     #[arg(long, value_name = "NAME", value_parser = family_names(), hide_possible_values = true)]
@@ -40,10 +40,10 @@ pub struct JudgeArguments {
     #[arg(long, value_name = "NUMBER", value_parser = super::whole::<u64>(super::NUMBERS), allow_negative_numbers = true)]
     case: Option<u64>,
     /// Seconds allowed for each answer
-    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value = "5", value_parser = super::seconds, allow_negative_numbers = true)]
     timeout: Duration,
     /// Seconds allowed from the start to the answer of HELLO
-    #[arg(long, value_name = "S", default_value = "30", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value = "30", value_parser = super::seconds, allow_negative_numbers = true)]
     start_timeout: Duration,
     /// Copies of the program that are run at once
     #[arg(long, value_name = "N", default_value_t = 1,
@@ -78,13 +78,6 @@ pub struct JudgeArguments {
     /// The program and its arguments, after --
     #[arg(last = true, required_unless_present = "league", value_name = "CMD")]
     command: Vec<String>,
-}
-
-fn seconds(text: &str) -> Result<Duration, String> {
-    match text.parse::<f64>() {
-        Ok(s) if s > 0.0 && s <= 1e6 => Ok(Duration::from_secs_f64(s)),
-        _ => Err("expected a number of seconds above 0, at most 1e6".to_owned()),
-    }
 }
 
 /// A program and its arguments, typed as one word.
@@ -145,15 +138,9 @@ fn tessellator(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
-    let idle = [
-        ("--seconds", arguments.seconds.is_some()),
-        ("--baseline", arguments.baseline.is_some()),
-        ("--against", arguments.against.is_some()),
-        ("--report", arguments.page.page("judge.html").is_some()),
-    ];
-    if let Some((option, _)) = idle.iter().find(|(_, is_given)| *is_given) {
+    if let Some(option) = typed.given(&["seconds", "baseline", "against", "report"]) {
         return Err(usage(format!(
-            "{option} is not for tessellators, and {name} is one; leave it out"
+            "--{option} is not for tessellators, and {name} is one; leave it out"
         )));
     }
     let report = polygons::judge(program, options).map_err(usage)?;

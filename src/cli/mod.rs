@@ -44,6 +44,7 @@ use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::ops::RangeInclusive;
 use std::path::Path;
+use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
@@ -516,9 +517,11 @@ fn whole<T: TryFrom<u64> + Clone + Send + Sync + 'static>(
 /// The numbers of cases: all but the largest, behind which a range could not end.
 const NUMBERS: RangeInclusive<u64> = 0..=u64::MAX - 1;
 
-/// A number of seconds; whether there can be so many is for the command to say.
-fn parse_seconds(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| "expected a number of seconds, for example 60".to_owned())
+fn seconds(text: &str) -> Result<Duration, String> {
+    match text.parse::<f64>() {
+        Ok(s) if s > 0.0 && s <= 1e6 => Ok(Duration::from_secs_f64(s)),
+        _ => Err("expected a number of seconds above 0, at most 1e6".to_owned()),
+    }
 }
 
 /// The nearest of some names as a question, where one is near, then a full stop.
@@ -534,12 +537,14 @@ fn did_you_mean(word: &str, names: impl Iterator<Item = &'static str>) -> String
 }
 
 /// Refuses a name that promises another format than the bytes have.
-fn png_name(path: &Path) -> Result<(), InputError> {
-    match path.extension().and_then(|ending| ending.to_str()) {
-        Some(ending) if ending.eq_ignore_ascii_case("png") => Ok(()),
-        _ => {
-            let path = printable_path(path);
-            Err(usage(format!("{path}: the picture is a PNG: end its name with .png")))
+fn ends_in(path: &Path, wanted: &str, what: &str) -> Result<(), InputError> {
+    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted)) {
+        true => Ok(()),
+        false => {
+            let (path, format) = (printable_path(path), wanted.to_ascii_uppercase());
+            Err(usage(format!(
+                "{path}: {what} is written as {format}: end its name with .{wanted}"
+            )))
         }
     }
 }

@@ -14,7 +14,7 @@ use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, Purpose, SceneArguments};
-use super::{InputError, Status, Streams, exit, usage};
+use super::{InputError, Status, Streams, ends_in, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn};
@@ -23,7 +23,6 @@ use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
 use rasterproof_render::effects::render::{PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
-use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::{Hidden, Scene};
@@ -107,14 +106,9 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
     let default = || arguments.page.place.output(format!("{}.{extension}", what.name()));
     let output = arguments.output.as_deref().map_or_else(default, Output::typed);
-    let ending = output.path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
-    if arguments.output.is_some() && !ending.eq_ignore_ascii_case(extension) {
-        return Err(usage(format!(
-            "{}: {} is written as {}: end its name with .{extension}",
-            printable_path(&output.path),
-            if extension == "gif" { "a full turn" } else { "the picture" },
-            extension.to_ascii_uppercase()
-        )));
+    if let Some(path) = &arguments.output {
+        let what = if extension == "gif" { "a full turn" } else { "the picture" };
+        ends_in(path, extension, what)?;
     }
     // Whose name is chosen even where that of the picture is typed. It is not always drawn, so whether it
     // replaces something is seen when it is.
@@ -141,7 +135,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
     if arguments.engine == DrawnBy::Tiles {
-        return draw_in_tiles(arguments, &maker, &output, streams);
+        return draw_in_tiles((arguments, typed), &maker, &output, streams);
     }
     if let Some(frames) = arguments.spin {
         return spin(arguments, &maker, frames, &output, &progress, streams);
@@ -478,27 +472,16 @@ fn is_empty(rendered: &Rendered) -> bool {
 
 /// One frame in tiles: a picture and nothing else.
 fn draw_in_tiles(
-    arguments: &RenderArguments,
+    (arguments, typed): (&RenderArguments, &Typed),
     maker: &Maker,
     output: &Output,
     streams: &mut Streams<'_>,
 ) -> Status {
-    let refused = [
-        (
-            "--aa other than none and msaa4",
-            !matches!(arguments.what.view.aa, Antialias::None | Antialias::Multisample4),
-        ),
-        ("--depth", arguments.what.view.depth != DepthFormat::Unorm32),
-        ("--effects", arguments.effects.is_some()),
-        ("--json", arguments.json),
-        ("--map", arguments.map),
-        ("--plan", arguments.plan.is_some()),
-        ("--report", arguments.page.report),
-        ("--spin", arguments.spin.is_some()),
-        ("--wireframe", arguments.wireframe),
-    ];
-    if let Some((option, _)) = refused.iter().find(|(_, given)| *given) {
-        return Err(usage(format!("{option} is not for --engine tiles; name another engine")));
+    let others = ["depth", "effects", "json", "map", "plan", "report", "spin", "wireframe"];
+    let is_aa = !matches!(arguments.what.view.aa, Antialias::None | Antialias::Multisample4);
+    let refused = is_aa.then_some("aa other than none and msaa4").or(typed.given(&others));
+    if let Some(option) = refused {
+        return Err(usage(format!("--{option} is not for --engine tiles; name another engine")));
     }
     let mut target = arguments.what.view.target()?;
     let size = target.size();

@@ -6,7 +6,7 @@ use super::files::{self, Output, written};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Status, Streams, exit, png_name, write_picture};
+use super::{Status, Streams, ends_in, exit, write_picture};
 use rasterproof_faults::published::catalogue::{CARDS, Card};
 use rasterproof_registry::published_check::{SpecimenReport, survey};
 use rasterproof_report::html::{Outcome, Report};
@@ -42,7 +42,7 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
     let files: Vec<_> = sheet_file.into_iter().chain(as_file(&page)).collect();
     files::check(&files)?;
     if let Some(path) = &arguments.output {
-        png_name(path)?;
+        ends_in(path, "png", "the picture")?;
     }
     let cards: Vec<&Card> = CARDS
         .iter()

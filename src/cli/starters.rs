@@ -37,45 +37,27 @@ fn put(starter: &str, place: &str) -> Option<String> {
 }
 
 pub fn files(language: Language, solution: bool) -> Vec<File> {
-    let file = |name, starter: &str, place: &str| File {
-        name,
-        text: put(starter, place).unwrap_or_else(|| starter.to_owned()),
-    };
-    match language {
-        Language::Rust => vec![file(
-            "starter.rs",
-            include_str!("../../adapters/starter.rs"),
-            if solution {
-                include_str!("../../adapters/course/solution.rs")
-            } else {
-                include_str!("../../adapters/course/place.rs")
-            },
-        )],
-        Language::Cpp => vec![
-            file(
-                "starter.cpp",
-                include_str!("../../adapters/starter.cpp"),
-                if solution {
-                    include_str!("../../adapters/course/solution.cpp")
-                } else {
-                    include_str!("../../adapters/course/place.cpp")
-                },
-            ),
-            File {
-                name: "rasterproof.h",
-                text: include_str!("../../adapters/rasterproof.h").to_owned(),
-            },
-        ],
-        Language::Python => vec![file(
-            "starter.py",
-            include_str!("../../adapters/starter.py"),
-            if solution {
-                include_str!("../../adapters/course/solution.py")
-            } else {
-                include_str!("../../adapters/course/place.py")
-            },
-        )],
+    macro_rules! starter {
+        ($ending:literal) => {
+            (
+                concat!("starter.", $ending),
+                include_str!(concat!("../../adapters/starter.", $ending)),
+                include_str!(concat!("../../adapters/course/place.", $ending)),
+                include_str!(concat!("../../adapters/course/solution.", $ending)),
+            )
+        };
     }
+    let (name, starter, place, solved) = match language {
+        Language::Rust => starter!("rs"),
+        Language::Cpp => starter!("cpp"),
+        Language::Python => starter!("py"),
+    };
+    let text = put(starter, if solution { solved } else { place });
+    let text = text.unwrap_or_else(|| starter.to_owned());
+    let header = include_str!("../../adapters/rasterproof.h").to_owned();
+    let header = File { name: "rasterproof.h", text: header };
+    let header = Some(header).filter(|_| language == Language::Cpp);
+    [File { name, text }].into_iter().chain(header).collect()
 }
 
 /// The page of the steps, for those who have the program alone: without links, which lead to other pages.

@@ -13,7 +13,7 @@ use rasterproof_report::table::Table;
 use super::files::Output;
 use super::page::{Shown, show};
 use super::progress::Progress;
-use super::{Status, Streams, exit, usage};
+use super::{Status, Streams, ends_in, exit};
 
 #[derive(clap::Args, Debug)]
 pub struct TolerancesArguments {
@@ -30,10 +30,8 @@ pub struct TolerancesArguments {
 
 /// Judges pictures by every rule. That a rule errs is the result, so the exit status is 0.
 pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status {
-    if let Some(path) = &arguments.plot
-        && !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
-    {
-        return Err(usage("the plot is an SVG: end the name of --plot with .svg"));
+    if let Some(path) = &arguments.plot {
+        ends_in(path, "svg", "the plot")?;
     }
     let progress = Progress::new(streams.progress, "scenes", None);
     let report = report(arguments.seed, &|| progress.done(1));

@@ -52,8 +52,8 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "N", value_parser = super::whole::<u64>(1..=u64::MAX), allow_hyphen_values = true)]
     cases: Option<u64>,
     /// Stop after about this many seconds, however many cases that is
-    #[arg(long, value_name = "S", value_parser = super::parse_seconds, allow_negative_numbers = true)]
-    seconds: Option<f64>,
+    #[arg(long, value_name = "S", value_parser = super::seconds, allow_negative_numbers = true)]
+    seconds: Option<Duration>,
     /// Only this family; may be repeated
     #[arg(long, value_name = "NAME", value_parser = family_names())]
     family: Vec<String>,
@@ -143,25 +143,16 @@ pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
 
 impl VerifyArguments {
     fn options(&self) -> Result<Options, InputError> {
-        let limit = match self.seconds {
-            None => None,
-            Some(s) if s > 0.0 && s <= 1e6 => Some(Duration::from_secs_f64(s)),
-            Some(s) => {
-                return Err(usage(format!(
-                    "--seconds {s}: expected a number above 0, at most 1e6"
-                )));
-            }
-        };
         let mut options = Options::default().seed(self.seed);
         // With a time limit alone, the time decides.
-        let default = if limit.is_some() { u64::MAX / 4 } else { options.cases };
+        let default = if self.seconds.is_some() { u64::MAX / 4 } else { options.cases };
         options = options.cases(self.cases.unwrap_or(default));
         for name in &self.family {
             options = options.family(name.parse().map_err(usage)?);
         }
         let (part, parts) = self.shard;
         options.shard = Shard::new(part, parts).map_err(usage)?;
-        options.time_limit = limit;
+        options.time_limit = self.seconds;
         options.only = self.case;
         Ok(options)
     }

@@ -118,11 +118,11 @@ fn bad_input_is_refused_with_a_reason() {
         ("--cases many", "expected a whole number from 1"),
         ("--seed -1", "expected a whole number from 0"),
         ("--case 1e3", "expected a whole number from 0"),
-        ("--seconds -1", "expected a number above 0"),
+        ("--seconds -1", "expected a number of seconds above 0"),
         ("judge --cases -1 -- x", "expected a whole number from 1"),
         ("inspect 1,2", "a point alone"),
         ("inspect sliver", "sliver#0"),
-        ("--seconds nan", "--seconds NaN"),
+        ("--seconds nan", "expected a number of seconds above 0"),
         ("--shard 3/3", "I from 0 to N - 1"),
         ("--shard -1/2", "I from 0 to N - 1"),
         ("inspect T2 --exact --seed -3/4", "whole number from 0"),
@@ -300,7 +300,7 @@ fn inspect_takes_what_the_tool_prints() {
     // Several triangles, each by itself; a corner with values; corners that are not snapped.
     let square = "inspect 0.5,0.5 5.5,0.5 5.5,5.5 0.5,0.5 5.5,5.5 0.5,5.5";
     let out = check(square, 0).out;
-    assert!(out.starts_with("2 triangles\n") && out.contains("oracle: 25 px"), "{out}");
+    assert!(out.starts_with("✓ 2 triangles\n") && out.contains("oracle: 25 px"), "{out}");
     check("inspect 2,29,1 12,4,4,0,0,1 20,4,4,0.5,1,1", 0)
         .prints("edge-function against oracle: agrees; ");
     check("inspect 2,29,-1 12,4 20,4", 2).says("'2,29,-1': ");
@@ -309,7 +309,7 @@ fn inspect_takes_what_the_tool_prints() {
         .omits("edge-function against ");
     check("inspect --exact T2", 0).prints("oracle: 25 px");
     let out = check("inspect --line 0,0 5,0 5,0 5,5", 0).out;
-    assert!(out.starts_with("2 lines\n"), "{out}");
+    assert!(out.starts_with("✓ 2 lines\n"), "{out}");
     check("inspect 0,0 900,0 0,900", 0)
         .prints("cropped: the shape is 900 x 900 px, the window 64 x 64");
 }

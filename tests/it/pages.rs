@@ -297,7 +297,8 @@ fn pages_specimens_are_as_surveyed() {
                 .collect();
             assert_eq!(figures, wanted[1..7], "{folder}: {name}");
             let card = &survey[survey.find(&format!("\n  {name} ")).unwrap() + 1..];
-            let shown = card.lines().nth(3).unwrap().trim_end_matches(" pixels");
+            let shown = card.lines().find(|line| line.contains("shown by: ")).unwrap();
+            let shown = shown.trim_end_matches(" pixels");
             let pixels = cells[5].trim_end_matches(" px").rsplit([' ', '：']).next().unwrap();
             assert!(shown.ends_with(&format!(" {pixels}")), "{folder}: {name}: {pixels}, {shown}");
             checked += 1;
