@@ -354,6 +354,8 @@ pub(super) fn fitting(drawn: &[Drawn<'_>]) -> Vec<i64> {
             best = (missed, p);
         }
     }
+    // Too many that explain the same crowd out others.
+    all.truncate(2);
     all.extend(frames(drawn, best.1 % WITHIN).into_iter().map(|p| p - p % WITHIN));
     all.sort_unstable();
     all.dedup();
@@ -377,6 +379,8 @@ fn frames(drawn: &[Drawn<'_>], slope: i64) -> Vec<i64> {
             best.truncate(FRAMES);
         }
     }
+    let least = best.first().map_or(0, |(missed, _)| *missed);
+    best.retain(|(missed, _)| *missed <= 2 * least + 4);
     best.into_iter().map(|(_, frame)| frame).collect()
 }
 
@@ -538,8 +542,8 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
     };
     let mut starts = [top, middle, bottom].map_array(|p| how.first_row(p[1]));
     let end = starts[2] + how.rows % 2;
-    // Whole corners at the lower side of the triangle leave nothing for the lower half.
-    if how.whole > 0 && middle[1] == bottom[1] {
+    // A level lower side leaves nothing for the lower half.
+    if how.lower > 1 && middle[1] == bottom[1] {
         starts[1] = end;
     }
     if top[1] == bottom[1] && how.level > 0 {

@@ -272,8 +272,10 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             let [x, y] = axes(p).map_array(|(step, rounding)| {
                 move |v: i32| if step == 1 { v } else { ROUNDINGS[rounding].1(v, step) }
             });
-            // The same for both is a convention.
-            if p / AXIS == p % AXIS {
+            // The same for both is a convention, and to the nearest is nearly the same whatever becomes of halves.
+            let is_nearest = |rounding: usize| [2, 4].contains(&rounding);
+            let [(step_x, by_x), (step_y, by_y)] = axes(p);
+            if step_x == step_y && (by_x == by_y || (is_nearest(by_x) && is_nearest(by_y))) {
                 return Vec::new();
             }
             vec![corners.map_array(|c| SubpixelPoint::new(x(c.x), y(c.y)))]
