@@ -128,8 +128,11 @@ pub fn report(
     let whole = judge_text::whole(verdict, repeat_all, repeat, false);
     let mut data = whole.data;
     data["agrees"] = stand.agrees().into();
-    let (about, planted, findings) = (&stand.about, stand.plant, &stand.findings);
-    data["device"] = json::value(&Device { about, planted, findings });
+    data["device"] = json::value(&Device {
+        about: &stand.about,
+        planted: stand.plant,
+        findings: &stand.findings,
+    });
     Report {
         title: format!("Verdict on {}", stand.about.device),
         about,
