@@ -70,13 +70,13 @@ struct FailureJson<'a> {
 /// The verdict as JSON; `repeat` gives the command that repeats a failing case.
 pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value {
     let failures = verdict.failures.iter().map(|f| FailureJson {
-        family: &f.family,
+        family: f.family,
         index: f.index,
         pair: f.evidence.pair.each_ref().map(String::as_str),
         what: &f.what,
         shrunk: shrink::describe(&f.case),
         window: f.case.window,
-        repeat: repeat(&f.family, f.index),
+        repeat: repeat(f.family, f.index),
     });
     let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
     value(&Json {

@@ -103,7 +103,7 @@ pub fn of_verdict(
         let found = format!("{} against {}: {}", f.evidence.pair[0], f.evidence.pair[1], f.what);
         let mut view = of_case(name, about, Kind::Failing, &f.case, judged);
         view.start = [view.place(&f.evidence.pair[0], 0), view.place(&f.evidence.pair[1], 1)];
-        views.push(CaseView { found, command: repeat(&f.family, f.index), ..view });
+        views.push(CaseView { found, command: repeat(f.family, f.index), ..view });
     }
     views.extend(closest(verdict, judged));
     views.extend(unsnapped_samples(verdict, judged));

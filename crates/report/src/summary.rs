@@ -51,7 +51,7 @@ pub fn danger(family: &str) -> &'static Danger {
 pub fn chapter(failure: &Failure) -> &'static str {
     let is_pixel = ["missing", "extra", "twice", "order", "panics"];
     if is_pixel.iter().any(|word| failure.what.contains(word)) {
-        danger(&failure.family).chapter
+        danger(failure.family).chapter
     } else if failure.family.starts_with("w-") {
         "docs/ch05.md"
     } else {
