@@ -134,7 +134,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
                 Some(found) => found,
                 None => {
                     report.about = about.join("\n");
-                    let why = "Nothing of this face is drawn: it lies outside of the window, or is culled.";
+                    let why = "The face lies outside of the window, or is culled.";
                     report.outcome = Some(Outcome::not_compared(why));
                     show(report, Shown::All, None, streams)?;
                     return Ok(exit::USAGE);
