@@ -322,7 +322,7 @@ impl Run<'_> {
                 .into_iter()
                 .collect(),
             places: vec![
-                ("repeat with", self.repeat(&failure.family, failure.index)),
+                ("repeat with", self.repeat(failure.family, failure.index)),
                 ("explain it", self.explain(failure)),
                 ("read on in", summary::chapter(failure).to_owned()),
             ],
