@@ -22,6 +22,11 @@ pub trait Ask {
     /// the program refused or died.
     fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>>;
 
+    /// How many questions of a mistake it is asked before it is looked whether there is time for more.
+    fn at_once(&self) -> usize {
+        100
+    }
+
     /// Whether nobody waits for a conclusion: the answers come later, and all is asked again.
     fn is_abandoned(&self) -> bool {
         false

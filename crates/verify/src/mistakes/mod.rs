@@ -214,7 +214,7 @@ impl fmt::Display for Mistakes {
 /// Wrong answers that are enough, and how often a program is asked for more of them.
 const ENOUGH_WRONG: usize = 24;
 const MOST_ROUNDS: u64 = 6;
-/// Questions that are asked at once, so that a slow program can be left in time.
+/// Lines that are asked at once, so that a slow program can be left in time.
 const AT_ONCE: usize = 100;
 /// The questions are the same in every run.
 const SEED: u64 = 1;
@@ -279,7 +279,7 @@ pub fn of_triangles(
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
     let mut ask_all = |questions: &[TriangleQuestion],
                        answered: &mut Vec<Answered<TriangleQuestion>>| {
-        for questions in questions.chunks(AT_ONCE).take_while(|_| goes_on()) {
+        for questions in questions.chunks(ask.at_once()).take_while(|_| goes_on()) {
             for (question, answer) in questions.iter().zip(ask.ask(questions)) {
                 let right = expected.mask(&question.corners, question.window);
                 let Some(right) = right else { continue };
@@ -309,15 +309,21 @@ pub fn of_triangles(
         return None;
     }
     let found_bases = bases(&known.declared, found);
-    let mut why = explain(&answered, &found_bases, programs);
     // In a tiny window a convention may not have been found, and explain what is wrong.
     let is_one = |base: &&Base| base.convention != *expected && base.explains(&answered);
     if let Some(base) = found_bases.iter().find(is_one) {
         let words = base.said.as_ref().map_or_else(String::new, |said| said.concat());
         let said = format!("As far as these answers tell, it {words}: this is a convention.");
         let as_one = |why| Mistakes { causes: Vec::new(), lead: None, common: vec![said], ..why };
+        let why = explain(&answered, &found_bases, programs);
         return with_limits(why.map(as_one), answered.len(), Vec::new());
     }
+    // All that is asked comes before the weighing, which takes long, where each answer begins the search anew.
+    let limits = thresholds::of_triangles(ask, known, expected, goes_on);
+    if ask.is_abandoned() {
+        return None;
+    }
+    let mut why = explain(&answered, &found_bases, programs);
     if why.as_ref().is_some_and(|why| !why.is_known())
         && answered.iter().any(|a| !a.twice.is_empty())
     {
@@ -331,7 +337,7 @@ pub fn of_triangles(
             why = why.map(|why| Mistakes { causes, lead: None, common: Vec::new(), ..why });
         }
     }
-    with_limits(why, answered.len(), thresholds::of_triangles(ask, known, expected, goes_on))
+    with_limits(why, answered.len(), limits)
 }
 
 /// The mistake that explains answers about triangles.

@@ -72,6 +72,11 @@ impl Ask for Asked {
         answers
     }
 
+    /// As many as a picture holds, since each picture begins the search anew.
+    fn at_once(&self) -> usize {
+        LAYOUT.room()
+    }
+
     /// After the first questions without an answer the search goes astray.
     fn is_abandoned(&self) -> bool {
         !self.waiting.is_empty()
