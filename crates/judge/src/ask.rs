@@ -101,6 +101,20 @@ impl Answer {
         }
     }
 
+    /// Whether nothing is in it: no pixel, no corner.
+    pub(super) fn is_blank(&self) -> bool {
+        match self {
+            Self::Coverage(runs) => runs.is_empty(),
+            Self::Values(fragments) => fragments.is_empty(),
+            Self::Samples(runs) | Self::Seen(runs) => runs.is_empty(),
+            Self::Line(pixels) => pixels.is_empty(),
+            Self::Polygon(corners) | Self::Carried(corners) => corners.is_empty(),
+            Self::Triangles(triangles) => triangles.is_empty(),
+            Self::Two(both) => both.iter().all(Self::is_blank),
+            Self::Refused(_) | Self::Died(_) => true,
+        }
+    }
+
     /// Whether the program had to be started again.
     #[must_use]
     pub fn is_death(&self) -> bool {

@@ -124,6 +124,10 @@ fn hypotheses<'a>(
     is_wrong: &[bool],
     truth: &Truth,
 ) -> Vec<Hypothesis<'a>> {
+    // Where nothing is drawn, every mistake that may draw nothing explains it.
+    if !all.is_empty() && all.iter().flat_map(|a| &a.answers).all(Answer::is_blank) {
+        return Vec::new();
+    }
     match check {
         Check::Values => of_values(all, truth.declared.tolerance),
         Check::Samples => of_samples(all, is_wrong),
