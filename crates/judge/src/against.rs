@@ -159,10 +159,8 @@ fn causes(
     {
         let rows = found.rows.iter().filter(|row| row.sides.as_ref().is_some_and(is_wrong));
         let checks = run::checks_of(rows);
-        let start = Instant::now();
-        let goes_on = || start.elapsed() < options.terms.patience;
-        let mut asked = Timed::new(&mut **side, end);
-        let why = recognise::mistakes(&mut asked, &checks, truth, None, &goes_on);
+        let (asked, patience) = (&mut Timed::new(&mut **side, end), options.terms.patience);
+        let why = recognise::mistakes(asked, &checks, truth, None, patience);
         causes.extend(why.into_iter().map(|why| Why { by: name.clone(), ..why }));
     }
     causes

@@ -13,7 +13,7 @@ use super::run::{Failing, Found, MOST_DEATHS, Row};
 use super::shrink::smaller;
 use rasterproof_verify::cases::Case;
 
-/// A failing case, shrunk.
+/// A failing case with the requests of the smallest one, and their answers.
 pub type Failure = rasterproof_verify::judge::Failure<Case, Exchanged>;
 
 /// What was asked and answered in a failing case.
@@ -126,7 +126,7 @@ fn failure(
 pub struct Search<'a> {
     pub check: Check,
     pub truth: &'a Truth,
-    /// The seed of the case.
+    /// The seed by which the failing case was generated.
     pub seed: u64,
     pub patience: Duration,
     /// Whether a smaller case is one to ask.

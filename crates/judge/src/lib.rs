@@ -159,16 +159,8 @@ pub fn judge(
     if !checks.is_empty() {
         progress(Step::Cause);
     }
-    let mut causes = Vec::new();
-    // Each kind of check has a time of its own, so that what is found of one does not depend on the others.
-    for check in &checks {
-        let start = Instant::now();
-        let goes_on = || start.elapsed() < options.terms.patience;
-        let check = std::slice::from_ref(check);
-        let mut asked = Timed::new(first, end);
-        let found = found_before.as_ref();
-        causes.extend(recognise::mistakes(&mut asked, check, &truth, found, &goes_on));
-    }
+    let (asked, patience) = (&mut Timed::new(first, end), options.terms.patience);
+    let causes = recognise::mistakes(asked, &checks, &truth, found_before.as_ref(), patience);
     found.strays.extend(first.strays());
     first.end_at(None);
     let mut verdict = Judgement::new(

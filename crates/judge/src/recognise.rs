@@ -6,6 +6,7 @@
 
 use std::cell::RefCell;
 use std::fmt::Write as _;
+use std::time::{Duration, Instant};
 
 use super::Options;
 use super::adapt_case;
@@ -198,17 +199,20 @@ fn known(declared: &Declared) -> Known {
     }
 }
 
-/// Why a program is wrong in each kind of check, where no convention explains it; asked as long as `goes_on`.
+/// Why a program is wrong in each kind of check, where no convention explains it. It is asked so long for each of them, so that
+/// what is found of one does not depend on the others.
 pub fn mistakes(
     program: &mut dyn Subject,
     checks: &[Check],
     truth: &Truth,
     recognised: Option<&Recognised>,
-    goes_on: &dyn Fn() -> bool,
+    patience: Duration,
 ) -> Vec<Why> {
     let known = known(&truth.declared);
     let mut all = Vec::new();
     for &check in checks {
+        let start = Instant::now();
+        let goes_on: &dyn Fn() -> bool = &|| start.elapsed() < patience;
         let mut bench = Bench { program: &mut *program, deaths_left: MOST_DEATHS, is_over: false };
         let (of, why) = match check {
             Check::Coverage => {

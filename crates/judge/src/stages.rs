@@ -598,14 +598,9 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
                 "ch06",
                 "two triangles that lie nearer to each other and are shown in the right order",
             );
-            let piles = Rc::clone(&piles);
-            let predicts = move |i: usize| {
-                let here = |(layers, answer): &(Layers<'_>, &Answer)| {
-                    is_seen(layers, answer, &|a, b| replaces(a, b, by))
-                };
-                piles[i].as_ref().is_none_or(here)
-            };
-            hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+            hypotheses.push(of_piles(&piles, says, move |layers, answer| {
+                is_seen(layers, answer, &|a, b| replaces(a, b, by))
+            }));
         }
     }
     // What is nearer than a depth, or farther, is cut away.
@@ -617,22 +612,17 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
     let of = |is_seen: bool| {
         seen.iter().filter(move |(_, seen)| *seen == is_seen).map(|(depth, _)| *depth)
     };
-    let (least, most) = (of(true).fold(f64::MAX, f64::min), of(true).fold(f64::MIN, f64::max));
-    let lost = || of(false);
-    let below = lost().filter(|lost| *lost < least).fold(f64::MIN, f64::max);
-    let above = lost().filter(|lost| *lost > most).fold(f64::MAX, f64::min);
-    for (low, high, does) in [
-        (
-            (below + least) / 2.0,
-            f64::MAX,
-            format!("draws nothing nearer than about {:.3}", (below + least) / 2.0),
-        ),
-        (
-            f64::MIN,
-            (above + most) / 2.0,
-            format!("draws nothing farther than about {:.3}", (above + most) / 2.0),
-        ),
-    ] {
+    let (least, most) = (of(true).reduce(f64::min), of(true).reduce(f64::max));
+    let nearer = of(false).filter(|lost| least.is_some_and(|least| *lost < least));
+    let farther = of(false).filter(|lost| most.is_some_and(|most| *lost > most));
+    let middle = |lost: Option<f64>, seen: Option<f64>| Some((lost? + seen?) / 2.0);
+    let low = middle(nearer.reduce(f64::max), least);
+    let high = middle(farther.reduce(f64::min), most);
+    let ranges = [
+        low.map(|low| (low, f64::MAX, format!("draws nothing nearer than about {low:.3}"))),
+        high.map(|high| (f64::MIN, high, format!("draws nothing farther than about {high:.3}"))),
+    ];
+    for (low, high, does) in ranges.into_iter().flatten() {
         let says = Explanation::new(
             "a range of depth",
             does,
@@ -640,18 +630,13 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
             "ch06",
             "a triangle beyond that depth that is seen",
         );
-        let piles = Rc::clone(&piles);
-        let predicts = move |i: usize| {
-            let here = |(layers, answer): &(Layers<'_>, &Answer)| {
-                let kept = |layer: &&Layer<'_>| layer.depth > low && layer.depth < high;
-                let of_pixels =
-                    layers.of_pixels.iter().map(|here| here.iter().filter(kept).copied().collect());
-                let layers = Layers { window: layers.window, of_pixels: of_pixels.collect() };
-                is_seen(&layers, answer, &|a, b| b.depth < a.depth)
-            };
-            piles[i].as_ref().is_none_or(here)
-        };
-        hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+        hypotheses.push(of_piles(&piles, says, move |layers, answer| {
+            let kept = |layer: &&Layer<'_>| layer.depth > low && layer.depth < high;
+            let of_pixels =
+                layers.of_pixels.iter().map(|here| here.iter().filter(kept).copied().collect());
+            let layers = Layers { window: layers.window, of_pixels: of_pixels.collect() };
+            is_seen(&layers, answer, &|a, b| b.depth < a.depth)
+        }));
     }
     for bits in 4..=MOST_BITS {
         for (quantise, how) in QUANTISED {
@@ -666,25 +651,34 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
                     "ch06",
                     "two depths that differ by less and are told apart",
                 );
-                let piles = Rc::clone(&piles);
-                let replaces = move |a: &Layer<'_>, b: &Layer<'_>| {
-                    let [a, b] = [a, b].map(|layer| quantise(layer.depth, bits));
-                    b < a || (is_last && a == b)
-                };
-                let predicts = move |i: usize| {
-                    piles[i]
-                        .as_ref()
-                        .is_none_or(|(layers, answer)| is_seen(layers, answer, &replaces))
-                };
-                hypotheses.push(Hypothesis { predicts: Box::new(predicts), says });
+                hypotheses.push(of_piles(&piles, says, move |layers, answer| {
+                    is_seen(layers, answer, &|a, b| {
+                        let [a, b] = [a, b].map(|layer| quantise(layer.depth, bits));
+                        b < a || (is_last && a == b)
+                    })
+                }));
             }
         }
     }
     hypotheses
 }
 
+/// A hypothesis about what is shown of piles.
+fn of_piles<'a>(
+    piles: &Rc<Vec<Option<Pile<'a>>>>,
+    says: Explanation,
+    explains: impl Fn(&Layers<'_>, &Answer) -> bool + 'a,
+) -> Hypothesis<'a> {
+    let piles = Rc::clone(piles);
+    let here = move |(layers, answer): &Pile<'a>| explains(layers, answer);
+    let predicts = move |i: usize| piles[i].as_ref().is_none_or(&here);
+    Hypothesis { predicts: Box::new(predicts), says }
+}
+
 /// The layers at the centre of each pixel of a case, and what was answered.
-fn pile(answered: &Answered) -> Option<(Layers<'_>, &Answer)> {
+type Pile<'a> = (Layers<'a>, &'a Answer);
+
+fn pile(answered: &Answered) -> Option<Pile<'_>> {
     let (question, answer) = (answered.questions.first()?, answered.answers.first()?);
     let Asked::Depth(list) = &question.of else { return None };
     Some((layers(list, window_of(question), CENTRE), answer))

@@ -75,19 +75,19 @@ fn answers(answers: &[Statement], columns: usize) -> String {
 /// A case with its pixels, what is said of it, and where to go on.
 #[must_use]
 pub fn excerpt(of: &Excerpt, columns: usize) -> String {
-    let out = &mut String::new();
-    of.title.lines().for_each(|line| lines(out, line, columns, ["", "  "]));
-    labelled(out, &of.exchanges);
+    let mut out = String::new();
+    of.title.lines().for_each(|line| lines(&mut out, line, columns, ["", "  "]));
+    labelled(&mut out, &of.exchanges);
     if !of.grid.is_empty() {
         let gap = if out.is_empty() || !of.exchanges.is_empty() { "" } else { "\n" };
         let _ = writeln!(out, "{gap}{}", of.grid.trim_end_matches('\n'));
     }
     for words in &of.notes {
         out.push('\n');
-        note(out, words, columns, ["", "  "]);
+        note(&mut out, words, columns, ["", "  "]);
     }
-    labelled(out, &of.places);
-    std::mem::take(out) + "\n"
+    labelled(&mut out, &of.places);
+    out + "\n"
 }
 
 /// Lines that are not broken, each behind what it is.

@@ -188,14 +188,12 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     if !failing.asked.judged.died.is_empty() {
         return None;
     }
-    let start = Instant::now();
-    let goes_on = || start.elapsed() < patience;
     let checks = [match failing.exercise.check {
         Check::Watertight | Check::Order => Check::Coverage,
         Check::Direction => Check::Line,
         check => check,
     }];
-    let found = recognise::mistakes(program, &checks, &failing.truth, None, &goes_on);
+    let found = recognise::mistakes(program, &checks, &failing.truth, None, patience);
     found.into_iter().map(|found| found.why).find(Mistakes::is_known)
 }
 

@@ -148,7 +148,7 @@ pub struct FamilyReport {
     pub pairs: Vec<PairReport>,
 }
 
-/// A failing case, shrunk.
+/// A failing case with what two engines draw in the smallest one.
 pub type Failure = judge::Failure<Case, Compared>;
 
 /// What two draw in a case in which they differ.

@@ -314,9 +314,9 @@ pub fn of_triangles(
     if let Some(base) = found_bases.iter().find(is_one) {
         let words = base.said.as_ref().map_or_else(String::new, |said| said.concat());
         let said = format!("As far as these answers tell, it {words}: this is a convention.");
-        let as_one = |why| Mistakes { causes: Vec::new(), lead: None, common: vec![said], ..why };
-        let why = explain(&answered, &found_bases, programs);
-        return with_limits(why.map(as_one), answered.len(), Vec::new());
+        let wrong = answered.iter().filter(|a| a.is_wrong()).count() as u64;
+        let wrong = Count { drawn: wrong, of: answered.len() as u64 };
+        return Some(Mistakes { wrong, common: vec![said], ..Mistakes::default() });
     }
     // All that is asked comes before the weighing, which takes long, where each answer begins the search anew.
     let limits = thresholds::of_triangles(ask, known, expected, goes_on);
@@ -418,21 +418,20 @@ pub fn of_lines(
         [lines::mask(&pixels, question.window), Mask::default()]
     };
     // Where few answers are wrong, some more are needed.
-    let all = (SEED..SEED + MOST_ROUNDS).map(|seed| questions::lines(known, seed));
-    for questions in all.flat_map(|all| all.chunks(AT_ONCE).map(<[_]>::to_vec).collect::<Vec<_>>())
-    {
-        let wrong = answered.iter().filter(|a| a.is_wrong()).count();
-        let is_enough = answered.len() >= questions::LINES && (wrong == 0 || wrong >= ENOUGH_WRONG);
-        if is_enough || !goes_on() {
-            break;
-        }
-        let questions = &questions;
-        let answers = ask.ask_lines(questions);
-        for (question, answer) in questions.iter().zip(answers) {
-            let right = lines::of_convention(expected, wide(question.ends), question.window);
-            let Some(right) = right else { continue };
-            let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
-            answered.push(Answered { question: *question, drawn, twice, right });
+    'rounds: for seed in SEED..SEED + MOST_ROUNDS {
+        for questions in questions::lines(known, seed).chunks(AT_ONCE) {
+            let wrong = answered.iter().filter(|a| a.is_wrong()).count();
+            let is_settled = wrong == 0 || wrong >= ENOUGH_WRONG;
+            if answered.len() >= questions::LINES && is_settled || !goes_on() {
+                break 'rounds;
+            }
+            let answers = ask.ask_lines(questions);
+            for (question, answer) in questions.iter().zip(answers) {
+                let right = lines::of_convention(expected, wide(question.ends), question.window);
+                let Some(right) = right else { continue };
+                let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
+                answered.push(Answered { question: *question, drawn, twice, right });
+            }
         }
     }
     if answered.iter().all(Answered::is_blank) {

@@ -83,7 +83,7 @@ impl Polygons {
     }
 }
 
-/// A failing polygon, shrunk.
+/// A failing polygon with the triangles of the smallest one.
 pub type Failure = judge::Failure<Polygon, Triangulated>;
 
 /// What a tessellator makes of a failing polygon.

@@ -2,7 +2,6 @@
 
 use rasterproof_verify::specification::{self as rules, Clause, Standing};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
 use super::engine::Gpu;
 use super::known::{self, Known};
@@ -111,10 +110,8 @@ pub fn judge_with(
     let failures = failures::failures(first, &found, &options, &truth);
     let scope = Scope { triangles: true, lines: false, always: false };
     let recognised = if found.failing.is_empty() { None } else { recognise(first, scope) };
-    let start = Instant::now();
-    let goes_on = || start.elapsed() < options.terms.patience;
     let checks = if found.failing.is_empty() { Vec::new() } else { found.unexplained() };
-    let causes = mistakes(first, &checks, &truth, recognised.as_ref(), &goes_on);
+    let causes = mistakes(first, &checks, &truth, recognised.as_ref(), options.terms.patience);
     let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
