@@ -1,6 +1,7 @@
 //! The table of mistakes in drawing lines. To add one, add an entry: everything else follows from it.
 
-use super::fills::{rounded, without_border};
+use super::fills::without_border;
+use super::values::rounded;
 use super::{Mistake, Parameters, border};
 use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;
@@ -56,8 +57,11 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
             let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
             let from = ["", ", counted from the end that is cut", ", counted from the other end"];
             if p >= 72 {
+                let how =
+                    ["", "their distance from it being "][(p / 3 % 2) as usize].to_owned() + how;
+                let to = ["", " and the first pixels after it"][((p - 72) / 6) as usize];
                 return format!(
-                    "cuts lines at the window and draws the rest as a line of its own, whose new ends are both counted from the first one and {how}: the rest takes other pixels"
+                    "cuts lines at the window{to} and draws the rest as a line of its own, whose new ends are both counted from the first one, {how}: the rest takes other pixels"
                 );
             }
             let (from, turned) = (
@@ -71,7 +75,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line across the border with the pixels of the whole line",
-        parameters: Parameters::Below(75),
+        parameters: Parameters::Below(84),
         draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
     },
     Mistake {
@@ -191,9 +195,13 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         sentence: |p| {
             let [bits, cut, start, ends] = slope_of(p);
             let cut = ["cut toward zero", "cut down", "rounded"][cut as usize];
-            let start =
-                ["half a pixel ahead", "at the end's own coordinate", "a step before half a pixel"]
-                    [start as usize];
+            let start = [
+                "half a pixel ahead",
+                "at the end's own coordinate",
+                "a step before half a pixel",
+                "half a pixel ahead in x and a step before it in y",
+                "half a pixel ahead in y and a step before it in x",
+            ][start as usize];
             format!(
                 "adds a slope that is {cut} to 1/{} px, beginning {start}{}: on long lines the far end drifts away",
                 1_i64 << bits,
@@ -203,7 +211,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "keep the remainder of the division, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line that reaches its second end",
-        parameters: Parameters::Below(9 * 3 * 3 * 2),
+        parameters: Parameters::Below(9 * 3 * 5 * 2),
         draws: Stroke::Own(fixed_slope),
     },
     Mistake {
@@ -426,7 +434,7 @@ fn from_left(ends: Ends, left: bool) -> Ends {
 /// counted, and from 36 on a line is turned round whose second end was cut.
 fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     if p >= 72 {
-        return cut_both([a, b], window, p % 3);
+        return cut_both([a, b], window, p - 72);
     }
     let last = [i64::from(window.x1) - 1, i64::from(window.y1) - 1];
     let order = if p / 3 % 2 == 0 { [1, 0] } else { [0, 1] };
@@ -479,12 +487,14 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     None
 }
 
-/// The part within the window by Liang and Barsky: both new ends are counted from the first one.
+/// The part within the window by Liang and Barsky: both new ends are counted from the first one. `how` mod 3 is the rounding,
+/// `how` / 3 mod 2 is whether distances from the first end are rounded, and from 6 on the window is one pixel wider and higher.
 fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
     let way = [b[0] - a[0], b[1] - a[1]].map(|v| v as f64);
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (k, side) in [(0, window.x1), (1, window.y1)] {
-        let [low, high] = [-a[k], i64::from(side) - 1 - a[k]].map(|v| v as f64);
+        let end = i64::from(side) - i64::from(how < 6);
+        let [low, high] = [-a[k], end - a[k]].map(|v| v as f64);
         if way[k] == 0.0 && (low > 0.0 || high < 0.0) {
             return None;
         }
@@ -494,8 +504,9 @@ fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
         }
     }
     let at = |t: f64, k: usize| {
-        let v = a[k] as f64 + t * way[k];
-        [v as i64, v.floor() as i64, v.round() as i64][how as usize]
+        let from = if how / 3 % 2 == 0 { 0 } else { a[k] };
+        let v = (a[k] - from) as f64 + t * way[k];
+        from + [v as i64, v.floor() as i64, v.round() as i64][(how % 3) as usize]
     };
     (first <= last).then(|| [first, last].map(|t| [at(t, 0), at(t, 1)]))
 }
@@ -559,7 +570,7 @@ fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
 
 /// Bits of fraction, how the slope is cut, where the line begins, and whether the last pixel is left out.
 fn slope_of(p: i64) -> [i64; 4] {
-    [[16, 8, 10, 12, 4, 6, 7, 14, 20][(p % 9) as usize], p / 9 % 3, p / 27 % 3, p / 81]
+    [[16, 8, 10, 12, 4, 6, 7, 14, 20][(p % 9) as usize], p / 9 % 3, p / 27 % 5, p / 135]
 }
 
 fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
@@ -575,9 +586,11 @@ fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]
         _ => ((d << bits) * 2 + steps).div_euclid(2 * steps),
     };
     let (sx, sy) = (cut(x1 - x0), cut(y1 - y0));
-    let half = [1 << (bits - 1), 0, (1 << (bits - 1)) - 1][start as usize];
+    let half = 1 << (bits - 1);
+    let [a, b] =
+        [[half; 2], [0; 2], [half - 1; 2], [half, half - 1], [half - 1, half]][start as usize];
     (0..=steps - without_last)
-        .map(|i| [((x0 << bits) + half + i * sx) >> bits, ((y0 << bits) + half + i * sy) >> bits])
+        .map(|i| [((x0 << bits) + a + i * sx) >> bits, ((y0 << bits) + b + i * sy) >> bits])
         .collect()
 }
 

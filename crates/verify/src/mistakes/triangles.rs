@@ -760,6 +760,35 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         draws: Fill::Own(scans::scanned),
     },
     Mistake {
+        name: "two halves from their tips",
+        sentence: |p| {
+            let [precision, whole, ends, rows, upper, lower] = fills::HALVES.digits(p);
+            let cut = ["cut toward zero", "cut down", "rounded", "rounded up from the sample"];
+            format!(
+                "splits triangles at the middle corner{} and adds up the slopes of each half from its tip, the lower half upwards, in floats of {} bits; crossings are {}, heights {}; {}: two loops of many tutorials",
+                [
+                    "",
+                    ", after corners are cut to whole pixels,",
+                    ", after corners are rounded to whole pixels,"
+                ][whole as usize],
+                ["32", "64"][precision as usize],
+                cut[ends as usize],
+                cut[rows as usize],
+                [
+                    "neither half draws the row between",
+                    "the upper half draws the row between",
+                    "the lower half draws the row between",
+                    "both halves draw the row between"
+                ][(upper + 2 * lower) as usize]
+            )
+        },
+        repair: "walk both halves along the unsplit long edge, and take each crossing at the height of the samples",
+        page: "ch02-scanline",
+        refuted: "a triangle with its top cut off that draws the same rows below",
+        parameters: Parameters::Below(fills::HALVES.count()),
+        draws: Fill::Own(fills::halves),
+    },
+    Mistake {
         name: "whole pixels by integer divisions",
         sentence: |p| {
             let mut words = format!(
