@@ -1,5 +1,6 @@
 //! The table of mistakes in drawing lines. To add one, add an entry: everything else follows from it.
 
+use super::cells;
 use super::fills::without_border;
 use super::values::rounded;
 use super::{Mistake, Parameters, border};
@@ -178,6 +179,9 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                 0 => "the first end",
                 1 => "the left end",
                 2 => "the first end, as times of crossings in floats of 64 bits have it",
+                _ if p == 15 => {
+                    "the left end, walked in floats of 64 bits in steps of at least 1e-9 px"
+                }
                 _ => "the first end, as times of crossings in floats of 32 bits have it",
             };
             format!(
@@ -187,8 +191,26 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "light one pixel for each step along the longer axis",
         page: "ch03",
         refuted: "a diagonal step without a pixel between",
-        parameters: Parameters::Below(15),
+        parameters: Parameters::Below(16),
         draws: Stroke::Own(supercover),
+    },
+    Mistake {
+        name: "a stroke of area",
+        sentence: |p| {
+            let least = match cells::LEAST[(p % 4) as usize] {
+                1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
+                least => format!("an area of {least} of 255"),
+            };
+            format!(
+                "draws a line as an area of 1 px across and {}, and a pixel of it from {least} on",
+                ["from centre to centre", "half a pixel longer at both ends"][(p / 4) as usize]
+            )
+        },
+        repair: "light one pixel for each step along the longer axis",
+        page: "ch03",
+        refuted: "a step with one pixel",
+        parameters: Parameters::Below(8),
+        draws: Stroke::Own(stroke),
     },
     Mistake {
         name: "the slope is cut",
@@ -511,7 +533,11 @@ fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
     (first <= last).then(|| [first, last].map(|t| [at(t, 0), at(t, 1)]))
 }
 
-fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+fn supercover(ends: Ends, window: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    if p == 15 {
+        let centres = ends.map_array(|end| end.map_array(|v| v as f64 + 0.5));
+        return pixels_of(&cells::touched(centres, window, 0.0), window);
+    }
     let [[mut x, mut y], [x1, y1]] = from_left(ends, p / 4 == 1);
     let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
     let (dx, dy) = ((x1 - x).abs(), (y1 - y).abs());
@@ -772,6 +798,27 @@ fn short_error([[mut x, mut y], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i
         }
     }
     pixels
+}
+
+fn pixels_of(mask: &Mask, window: PixelRect) -> Vec<[i64; 2]> {
+    let all = (0..window.y1).flat_map(|y| (0..window.x1).map(move |x| [x, y]));
+    all.filter(|&[x, y]| mask.has(x, y)).map(|pixel| pixel.map_array(i64::from)).collect()
+}
+
+/// A line as an area of one pixel's width, with both ends a half longer or not.
+fn stroke(ends: Ends, window: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [[x0, y0], [x1, y1]] = ends.map_array(|end| end.map_array(|v| v as f64 + 0.5));
+    let (dx, dy) = (x1 - x0, y1 - y0);
+    let length = (dx * dx + dy * dy).sqrt();
+    if length == 0.0 {
+        return Vec::new();
+    }
+    let [dx, dy] = [dx, dy].map_array(|v| v / length / 2.0);
+    let longer = if p > 3 { 1.0 } else { 0.0 };
+    let (x0, y0) = (x0 - dx * longer, y0 - dy * longer);
+    let (x1, y1) = (x1 + dx * longer, y1 + dy * longer);
+    let area = [[x0 + dy, y0 - dx], [x1 + dy, y1 - dx], [x1 - dy, y1 + dx], [x0 - dy, y0 + dx]];
+    pixels_of(&cells::by_area(&area, window, cells::LEAST[(p % 4) as usize]), window)
 }
 
 /// The picture of pixels in a window.
