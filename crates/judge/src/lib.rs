@@ -136,6 +136,7 @@ pub fn judge(
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
     truth.declared.reach = reach::reach(&mut first);
+    truth.declared.side = reach::side(&mut first);
     let mut found_before = recognise(&mut first);
     let mut recognised = found_before.as_mut().map(|found| {
         truth.recognised = found.expect.take();
@@ -174,6 +175,7 @@ pub fn judge(
     );
     verdict.causes = causes;
     verdict.reach = truth.declared.reach;
+    verdict.side = truth.declared.side;
     verdict
 }
 

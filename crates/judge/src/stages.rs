@@ -22,6 +22,7 @@ use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::pixels::few;
+use rasterproof_verify::convention::{Convention, Shape, Ties};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
 use rasterproof_verify::oracle::Oracle;
@@ -195,7 +196,7 @@ fn of_values(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
     let of = |known: ValueHypothesis| {
         hypothesis(all, known.says.clone(), move |question, answer| match (&question.of, answer) {
             (Asked::Values(triangle), Answer::Values(fragments)) => {
-                let predict = |pixel| Some(known.predict(triangle, pixel));
+                let predict = |pixel| known.predict(triangle, pixel);
                 are_near(triangle, fragments, &predict, tolerance)
             }
             _ => true,
@@ -361,6 +362,7 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
         (pattern, does, (same, 0))
     });
     let patterns = patterns().into_iter().map(|(pattern, does)| (pattern, does, (same, 0)));
+    let rules = (0..RULES.len() * RULES.len()).skip(1).filter_map(|p| sample_rule(all, p));
     let gates = gates().into_iter().map(|(gate, number, does)| (SAMPLES, does, (gate, number)));
     patterns
         .chain(gates)
@@ -389,7 +391,50 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
                 })
             })
         })
+        .chain(rules)
         .collect()
+}
+
+/// Rules that samples may follow, the right one first.
+const RULES: [&str; 6] =
+    ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
+
+/// Another rule for the samples of clockwise triangles, or of the others, or of both.
+fn sample_rule(all: &[Answered], p: usize) -> Option<Hypothesis<'_>> {
+    let rules = [p / RULES.len(), p % RULES.len()].map(|rule| RULES[rule]);
+    let [clockwise, other] = [Ties::named(rules[0])?, Ties::named(rules[1])?];
+    let does = match rules[0] == rules[1] {
+        true => format!("follows the {} rule for samples on edges", rules[0]),
+        false => format!(
+            "follows the {} rule for samples on edges of clockwise triangles and the {} rule for those of others",
+            rules[0], rules[1]
+        ),
+    };
+    let says = Explanation::new(
+        "rule for samples",
+        does,
+        "test each sample by the rule that pixels follow",
+        "ch02",
+        "a sample on an edge that the top-left rule decides",
+    );
+    Some(hypothesis(all, says, move |question, answer| {
+        let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
+            return true;
+        };
+        let window = window_of(question);
+        let drawn = masks_of(runs, window);
+        let ties = if area2(corners) > 0 { clockwise } else { other };
+        SAMPLES.iter().enumerate().all(|(bit, (x, y))| {
+            let shape = Shape::Point { x: 16 * x, y: 16 * y };
+            let rule = Convention { shape, ties, ..Convention::default() };
+            let Some(covered) = rule.cover(corners, window) else { return true };
+            drawn.rows().all(|(y, row)| {
+                (window.x0..).zip(row).all(|(x, mask)| {
+                    (mask >> bit & 1 == 1) == covered.get(x, y).is_some_and(|hits| hits > 0)
+                })
+            })
+        })
+    }))
 }
 
 fn window_of(question: &Question) -> PixelRect {
@@ -526,6 +571,14 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
+        does: "compares how far depths lie from 1/2, as where the sign of depths from -1 to 1 is lost",
+        repair: "compare the depths themselves",
+        refuted: "a pixel that shows the nearest of two triangles before 1/2",
+        key: |a| (a.depth - 0.5).abs(),
+        last: None,
+        place: CENTRE,
+    },
+    DepthMistake {
         does: "sorts whole triangles by their middle corner",
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
@@ -603,6 +656,25 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
             }));
         }
     }
+    for (buffer, does, repair) in BUFFERS {
+        for (is_last, which) in [(false, ""), (true, ", a tie going to the later one")] {
+            let says = Explanation::new(
+                "the buffer of depths",
+                format!("{does}{which}"),
+                repair,
+                "ch06",
+                "a pixel of three triangles that shows the nearest one",
+            );
+            hypotheses.push(of_piles(&piles, says, move |layers, answer| {
+                let passes = |new: f64, kept: f64| new < kept || (is_last && new == kept);
+                layers.of_pixels.iter().zip(shown(layers, answer)).all(|(here, shown)| {
+                    let seen = (0..here.len())
+                        .rfind(|&i| i == 0 || passes(here[i].depth, buffer(&here[..i])));
+                    seen.map_or(0, |i| here[i].number as u8 + 1) == shown
+                })
+            }));
+        }
+    }
     // What is nearer than a depth, or farther, is cut away.
     let seen: Vec<(f64, bool)> = chosen_by(is_wrong)
         .iter()
@@ -615,7 +687,7 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
     let (least, most) = (of(true).reduce(f64::min), of(true).reduce(f64::max));
     let nearer = of(false).filter(|lost| least.is_some_and(|least| *lost < least));
     let farther = of(false).filter(|lost| most.is_some_and(|most| *lost > most));
-    let middle = |lost: Option<f64>, seen: Option<f64>| Some((lost? + seen?) / 2.0);
+    let middle = |lost: Option<f64>, seen: Option<f64>| Some(simplest(lost?, seen?));
     let low = middle(nearer.reduce(f64::max), least);
     let high = middle(farther.reduce(f64::min), most);
     let ranges = [
@@ -631,7 +703,7 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
             "a triangle beyond that depth that is seen",
         );
         hypotheses.push(of_piles(&piles, says, move |layers, answer| {
-            let kept = |layer: &&Layer<'_>| layer.depth > low && layer.depth < high;
+            let kept = |layer: &&Layer<'_>| layer.depth >= low && layer.depth < high;
             let of_pixels =
                 layers.of_pixels.iter().map(|here| here.iter().filter(kept).copied().collect());
             let layers = Layers { window: layers.window, of_pixels: of_pixels.collect() };
@@ -661,6 +733,31 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
         }
     }
     hypotheses
+}
+
+/// What a new triangle is compared with, from the layers before it, of which there is one at least.
+type Buffer = fn(&[Layer<'_>]) -> f64;
+const BUFFERS: [(Buffer, &str, &str); 2] = [
+    (
+        |before| before[0].depth,
+        "tests depths and does not write them: a pixel keeps the depth of its first triangle",
+        "write the depth of each triangle that passes the test",
+    ),
+    (
+        |before| before[before.len() - 1].depth,
+        "writes the depth of a triangle also where the test fails",
+        "write depths where the test passes, and nowhere else",
+    ),
+];
+
+/// The number with the fewest digits between two.
+fn simplest(a: f64, b: f64) -> f64 {
+    let rounded = (0..9).map(|digits| {
+        let unit = f64::from(10).powi(digits);
+        ((a + b) / 2.0 * unit).round() / unit
+    });
+    let mut between = rounded.filter(|v| (a - v) * (b - v) <= 0.0);
+    between.next().unwrap_or((a + b) / 2.0)
 }
 
 /// A hypothesis about what is shown of piles.
@@ -988,9 +1085,19 @@ struct Edge {
     lost: ClipCorner,
     t: f64,
     is_forward: bool,
+    /// What becomes of the part of the way, where that is a mistake.
+    cut: Part,
 }
 
 impl Edge {
+    /// The number where the part is counted from the end that comes first.
+    fn from_first(&self, k: usize) -> f64 {
+        match self.is_forward {
+            true => self.with(k, (self.cut)(self.t)),
+            false => self.lost[k] + (self.kept[k] - self.lost[k]) * (self.cut)(1.0 - self.t),
+        }
+    }
+
     /// The number where the edge is divided by other distances of its ends.
     fn divided(&self, k: usize, distance: fn(ClipCorner) -> f64) -> f64 {
         let [a, b] = [distance(self.kept), distance(self.lost)];
@@ -1010,7 +1117,7 @@ impl Edge {
 
 /// What a new corner gets in place of a number.
 type New = fn(&Edge, usize) -> f64;
-const NEW: [(New, &str); 18] = [
+const NEW: [(New, &str); 17] = [
     (|e, k| e.kept[k], "keeps {} of the corner that stays at a new corner"),
     (|e, k| e.lost[k], "keeps {} of the corner that is cut off at a new corner"),
     (
@@ -1061,10 +1168,21 @@ const NEW: [(New, &str); 18] = [
         |e, k| e.with(k, if e.is_forward { e.t } else { 1.0 - e.t }),
         "divides {} of an edge from the wrong end where it comes back",
     ),
-    (
-        |e, k| e.with(k, f64::from(e.t as f32 * 1024.0).round() / 1024.0),
-        "divides {} of an edge by a part that is rounded to 1/1024",
-    ),
+];
+
+/// What becomes of the part of the way between two corners.
+type Part = fn(f64) -> f64;
+const CUT: [(Part, &str); 10] = [
+    (|t| values::rounded(t, 2), "that is a float of 16 bits"),
+    (|t| values::rounded(t, 0), "that is a float of 32 bits"),
+    (|t| (t * 256.0).round() / 256.0, "that is rounded to 1/256"),
+    (|t| (t * 256.0).floor() / 256.0, "that is cut to 1/256"),
+    (|t| (t * 1024.0).round() / 1024.0, "that is rounded to 1/1024"),
+    (|t| (t * 65536.0).round() / 65536.0, "that is rounded to 1/65536"),
+    (|t| (t * 65536.0).floor() / 65536.0, "that is cut to 1/65536"),
+    (|t| t.min(0.5), "that is 1/2 at most"),
+    (|t| t.max(0.5), "that is 1/2 at least"),
+    (|t| t / (2.0 * t - 1.0), "of the sum of the distances, where their difference is right"),
 ];
 
 /// Another plane, on which all new corners lie, and how it is said.
@@ -1152,16 +1270,25 @@ fn of_near<'a>(all: &'a [Answered], is_wrong: &[bool], declared: &Declared) -> V
         let refuted = "a new corner that lies elsewhere";
         hypotheses.push(of(format!("clips at {said}"), repair, refuted, Box::new(clip)));
     }
+    let whole: Part = |t| t;
+    let mut made: Vec<(New, Part, String)> =
+        NEW.into_iter().map(|(new, does)| (new, whole, does.to_owned())).collect();
+    for (cut, said) in CUT {
+        let does = |from| format!("divides {{}} of an edge by a part{from} {said}");
+        made.push((|e, k| e.with(k, (e.cut)(e.t)), cut, does("")));
+        made.push((Edge::from_first, cut, does(", counted from its first end,")));
+    }
     for (numbers, said) in NUMBERS {
         // A corner in the plane may be given once more as a new one, or not.
-        for ((new, does), again) in NEW.into_iter().flat_map(|new| [(new, true), (new, false)]) {
+        for ((new, cut, does), again) in made.iter().flat_map(|new| [(new, true), (new, false)]) {
+            let (new, cut) = (*new, *cut);
             let repair = "a new corner divides the edge as the distances of its ends to the plane do, in all of x, y, z, w and attributes";
             let clip = move |corners| {
                 clip(corners, near, |kept, lost, t| {
                     let mut made = between(kept, lost, t);
                     let is_forward =
                         (0..3).any(|i| corners[i] == kept && corners[(i + 1) % 3] == lost);
-                    let edge = Edge { kept, lost, t, is_forward };
+                    let edge = Edge { kept, lost, t, is_forward, cut };
                     for &k in numbers.iter().filter(|_| again || t > 0.0) {
                         made[k] = new(&edge, k);
                     }

@@ -145,7 +145,8 @@ pub fn everything(
         "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures,
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "causes": verdict.causes, "line_reach": verdict.reach, "stderr": verdict.complaints, "repeat": repeat_all,
+        "causes": verdict.causes, "line_reach": verdict.reach, "triangle_side": verdict.side,
+        "stderr": verdict.complaints, "repeat": repeat_all,
     });
     if let Some(second) = &verdict.against {
         all["against"] = json!({

@@ -40,6 +40,10 @@ pub fn report(
         let most = thousands(reach.unsigned_abs().into());
         format!("it walks along its lines, so lines of at most {most} steps are asked for")
     }));
+    about.extend(verdict.side.map(|side| {
+        let most = thousands(side.unsigned_abs().into());
+        format!("it walks along rows outside the window, so triangles of at most {most} px are asked for")
+    }));
     let mut first_screen: Vec<Table> = verdict.causes.iter().map(cause).collect();
     match &names {
         Some(names) => first_screen.extend([who_is_right(&verdict.sides(), names), sides(verdict)]),

@@ -1,5 +1,6 @@
 //! The wrong fills that the table names, as functions of the corners in subpixels (1/256 px).
 
+use super::values::rounded;
 use crate::comparison::area2;
 use crate::convention::{Convention, Mask, facing};
 use rasterproof_core::arrays::MapArray as _;
@@ -619,21 +620,6 @@ pub(super) const FORMULAS: [&str; 24] = [
     "two barycentric weights from dot products of the edges, whose sum may be 1 at most",
 ];
 
-/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
-pub(super) fn rounded(v: f64, precision: i64) -> f64 {
-    match precision {
-        0 => f64::from(v as f32),
-        1 => v,
-        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
-        _ => {
-            // 10 bits after the first one, down to 2^-24; adding and subtracting rounds halves to even.
-            let exponent = (v.to_bits() >> 52 & 2047) as i32 - 1023;
-            let unit = f64::from(2).powi(exponent.max(-14) - 10);
-            (v / unit).round_ties_even() * unit
-        }
-    }
-}
-
 /// One of `FORMULAS`, rounded after every operation. Of corners that turn the other way, two are
 /// exchanged, or the sign of every value is.
 pub(super) fn float(
@@ -783,6 +769,98 @@ pub(super) fn float(
         (0..3).all(|i| passes(values[i], owns[i]))
     })
 }
+
+/// Two halves with a level side each, row by row from the corner opposite to it, the lower one upwards. The digits of p are the
+/// precision, how corners are cut, how crossings and heights become pixels, and whether the row of the level side belongs to the
+/// upper half and to the lower one.
+pub(super) fn halves(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    let [precision, whole, ends, rows, upper, lower] = HALVES.digits(p);
+    let r = |v: f64| rounded(v, precision);
+    let sorted = sorted(&corners.map_array(|c| {
+        let cut = |v: i32| match whole {
+            0 => v,
+            1 => v / 256 * 256,
+            _ => v.saturating_add(128).div_euclid(256) * 256,
+        };
+        SubpixelPoint::new(cut(c.x), cut(c.y))
+    }));
+    let [top, middle, bottom] = sorted.map_array(|p| p.map_array(|v| r(v as f64 / 256.0)));
+    let pixel = |v: f64, how: i64| match how {
+        0 => v.trunc(),
+        1 => v.floor(),
+        2 => (v + 0.5).floor(),
+        _ => (v - 0.5).ceil(),
+    };
+    let mut mask = Mask::default();
+    let mut fill = |y: i64, a: f64, b: f64| {
+        let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
+        let end = pixel(a.max(b), ends) + f64::from(u8::from(ends < 3));
+        for x in clamp(pixel(a.min(b), ends))..clamp(end) {
+            mask.set(x, y as i32);
+        }
+    };
+    // From the row of a corner on to that of a level side.
+    let mut half = |tip: [f64; 2], a: [f64; 2], b: [f64; 2], with_last: bool| {
+        let [from, to] = [tip, a].map_array(|p| pixel(p[1], rows) as i64);
+        let down = a[1] >= tip[1];
+        let count = (to - from).abs() + i64::from(with_last);
+        let seen = if down { from + count > 0 } else { from - count < window.y1.into() };
+        if count > MOST_ROWS || !seen {
+            return;
+        }
+        let slope =
+            |p: [f64; 2]| r(r(p[0] - tip[0]) / r(p[1] - tip[1])) * if down { 1.0 } else { -1.0 };
+        let steps = [slope(a), slope(b)];
+        let mut at = [tip[0]; 2];
+        for i in 0..count {
+            let y = if down { from + i } else { from - i };
+            if (0..i64::from(window.y1)).contains(&y) {
+                fill(y, at[0], at[1]);
+            }
+            at = [0, 1].map_array(|k: usize| r(at[k] + steps[k]));
+        }
+    };
+    if middle[1] == bottom[1] {
+        half(top, middle, bottom, upper == 1);
+    } else if top[1] == middle[1] {
+        half(bottom, top, middle, lower == 1);
+    } else {
+        let part = r(r(middle[1] - top[1]) / r(bottom[1] - top[1]));
+        let cut = [r(top[0] + r(part * r(bottom[0] - top[0]))), middle[1]];
+        half(top, middle, cut, upper == 1);
+        half(bottom, middle, cut, lower == 1);
+    }
+    mask
+}
+
+/// Longer triangles are not expected: their rows are walked one by one.
+const MOST_ROWS: i64 = 1 << 16;
+
+/// A number whose digits are choices, of so many each.
+pub(super) struct Digits<const N: usize>(pub(super) [i64; N]);
+
+impl<const N: usize> Digits<N> {
+    pub(super) const fn count(&self) -> i64 {
+        let (mut all, mut i) = (1, 0);
+        while i < N {
+            all *= self.0[i];
+            i += 1;
+        }
+        all
+    }
+
+    pub(super) fn digits(&self, mut p: i64) -> [i64; N] {
+        let mut digits = self.0;
+        for digit in &mut digits {
+            let many = *digit;
+            *digit = p % many;
+            p /= many;
+        }
+        digits
+    }
+}
+
+pub(super) const HALVES: Digits<6> = Digits([2, 3, 4, 4, 2, 2]);
 
 /// The loop over whole pixels: bit 0 rounds corners, bit 1 divides down, bit 2 wraps products in 16 bits, bits 3 and 4 are
 /// what goes wrong at the ends, bit 5 wraps corners in 16 bits, and bit 6 cuts corners toward zero.

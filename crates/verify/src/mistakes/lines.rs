@@ -1,6 +1,8 @@
 //! The table of mistakes in drawing lines. To add one, add an entry: everything else follows from it.
 
-use super::fills::{rounded, without_border};
+use super::cells;
+use super::fills::without_border;
+use super::values::rounded;
 use super::{Mistake, Parameters, border};
 use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;
@@ -56,8 +58,11 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
             let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
             let from = ["", ", counted from the end that is cut", ", counted from the other end"];
             if p >= 72 {
+                let how =
+                    ["", "their distance from it being "][(p / 3 % 2) as usize].to_owned() + how;
+                let to = ["", " and the first pixels after it"][((p - 72) / 6) as usize];
                 return format!(
-                    "cuts lines at the window and draws the rest as a line of its own, whose new ends are both counted from the first one and {how}: the rest takes other pixels"
+                    "cuts lines at the window{to} and draws the rest as a line of its own, whose new ends are both counted from the first one, {how}: the rest takes other pixels"
                 );
             }
             let (from, turned) = (
@@ -71,7 +76,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line across the border with the pixels of the whole line",
-        parameters: Parameters::Below(75),
+        parameters: Parameters::Below(84),
         draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
     },
     Mistake {
@@ -174,6 +179,9 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                 0 => "the first end",
                 1 => "the left end",
                 2 => "the first end, as times of crossings in floats of 64 bits have it",
+                _ if p == 15 => {
+                    "the left end, walked in floats of 64 bits in steps of at least 1e-9 px"
+                }
                 _ => "the first end, as times of crossings in floats of 32 bits have it",
             };
             format!(
@@ -183,17 +191,39 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "light one pixel for each step along the longer axis",
         page: "ch03",
         refuted: "a diagonal step without a pixel between",
-        parameters: Parameters::Below(15),
+        parameters: Parameters::Below(16),
         draws: Stroke::Own(supercover),
+    },
+    Mistake {
+        name: "a stroke of area",
+        sentence: |p| {
+            let least = match cells::LEAST[(p % 4) as usize] {
+                1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
+                least => format!("an area of {least} of 255"),
+            };
+            format!(
+                "draws a line as an area of 1 px across and {}, and a pixel of it from {least} on",
+                ["from centre to centre", "half a pixel longer at both ends"][(p / 4) as usize]
+            )
+        },
+        repair: "light one pixel for each step along the longer axis",
+        page: "ch03",
+        refuted: "a step with one pixel",
+        parameters: Parameters::Below(8),
+        draws: Stroke::Own(stroke),
     },
     Mistake {
         name: "the slope is cut",
         sentence: |p| {
             let [bits, cut, start, ends] = slope_of(p);
             let cut = ["cut toward zero", "cut down", "rounded"][cut as usize];
-            let start =
-                ["half a pixel ahead", "at the end's own coordinate", "a step before half a pixel"]
-                    [start as usize];
+            let start = [
+                "half a pixel ahead",
+                "at the end's own coordinate",
+                "a step before half a pixel",
+                "half a pixel ahead in x and a step before it in y",
+                "half a pixel ahead in y and a step before it in x",
+            ][start as usize];
             format!(
                 "adds a slope that is {cut} to 1/{} px, beginning {start}{}: on long lines the far end drifts away",
                 1_i64 << bits,
@@ -203,7 +233,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "keep the remainder of the division, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line that reaches its second end",
-        parameters: Parameters::Below(9 * 3 * 3 * 2),
+        parameters: Parameters::Below(9 * 3 * 5 * 2),
         draws: Stroke::Own(fixed_slope),
     },
     Mistake {
@@ -426,7 +456,7 @@ fn from_left(ends: Ends, left: bool) -> Ends {
 /// counted, and from 36 on a line is turned round whose second end was cut.
 fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     if p >= 72 {
-        return cut_both([a, b], window, p % 3);
+        return cut_both([a, b], window, p - 72);
     }
     let last = [i64::from(window.x1) - 1, i64::from(window.y1) - 1];
     let order = if p / 3 % 2 == 0 { [1, 0] } else { [0, 1] };
@@ -479,12 +509,14 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     None
 }
 
-/// The part within the window by Liang and Barsky: both new ends are counted from the first one.
+/// The part within the window by Liang and Barsky: both new ends are counted from the first one. `how` mod 3 is the rounding,
+/// `how` / 3 mod 2 is whether distances from the first end are rounded, and from 6 on the window is one pixel wider and higher.
 fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
     let way = [b[0] - a[0], b[1] - a[1]].map(|v| v as f64);
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (k, side) in [(0, window.x1), (1, window.y1)] {
-        let [low, high] = [-a[k], i64::from(side) - 1 - a[k]].map(|v| v as f64);
+        let end = i64::from(side) - i64::from(how < 6);
+        let [low, high] = [-a[k], end - a[k]].map(|v| v as f64);
         if way[k] == 0.0 && (low > 0.0 || high < 0.0) {
             return None;
         }
@@ -494,13 +526,18 @@ fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
         }
     }
     let at = |t: f64, k: usize| {
-        let v = a[k] as f64 + t * way[k];
-        [v as i64, v.floor() as i64, v.round() as i64][how as usize]
+        let from = if how / 3 % 2 == 0 { 0 } else { a[k] };
+        let v = (a[k] - from) as f64 + t * way[k];
+        from + [v as i64, v.floor() as i64, v.round() as i64][(how % 3) as usize]
     };
     (first <= last).then(|| [first, last].map(|t| [at(t, 0), at(t, 1)]))
 }
 
-fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+fn supercover(ends: Ends, window: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    if p == 15 {
+        let centres = ends.map_array(|end| end.map_array(|v| v as f64 + 0.5));
+        return pixels_of(&cells::touched(centres, window, 0.0), window);
+    }
     let [[mut x, mut y], [x1, y1]] = from_left(ends, p / 4 == 1);
     let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
     let (dx, dy) = ((x1 - x).abs(), (y1 - y).abs());
@@ -559,7 +596,7 @@ fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
 
 /// Bits of fraction, how the slope is cut, where the line begins, and whether the last pixel is left out.
 fn slope_of(p: i64) -> [i64; 4] {
-    [[16, 8, 10, 12, 4, 6, 7, 14, 20][(p % 9) as usize], p / 9 % 3, p / 27 % 3, p / 81]
+    [[16, 8, 10, 12, 4, 6, 7, 14, 20][(p % 9) as usize], p / 9 % 3, p / 27 % 5, p / 135]
 }
 
 fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
@@ -575,9 +612,11 @@ fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]
         _ => ((d << bits) * 2 + steps).div_euclid(2 * steps),
     };
     let (sx, sy) = (cut(x1 - x0), cut(y1 - y0));
-    let half = [1 << (bits - 1), 0, (1 << (bits - 1)) - 1][start as usize];
+    let half = 1 << (bits - 1);
+    let [a, b] =
+        [[half; 2], [0; 2], [half - 1; 2], [half, half - 1], [half - 1, half]][start as usize];
     (0..=steps - without_last)
-        .map(|i| [((x0 << bits) + half + i * sx) >> bits, ((y0 << bits) + half + i * sy) >> bits])
+        .map(|i| [((x0 << bits) + a + i * sx) >> bits, ((y0 << bits) + b + i * sy) >> bits])
         .collect()
 }
 
@@ -759,6 +798,27 @@ fn short_error([[mut x, mut y], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i
         }
     }
     pixels
+}
+
+fn pixels_of(mask: &Mask, window: PixelRect) -> Vec<[i64; 2]> {
+    let all = (0..window.y1).flat_map(|y| (0..window.x1).map(move |x| [x, y]));
+    all.filter(|&[x, y]| mask.has(x, y)).map(|pixel| pixel.map_array(i64::from)).collect()
+}
+
+/// A line as an area of one pixel's width, with both ends a half longer or not.
+fn stroke(ends: Ends, window: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [[x0, y0], [x1, y1]] = ends.map_array(|end| end.map_array(|v| v as f64 + 0.5));
+    let (dx, dy) = (x1 - x0, y1 - y0);
+    let length = (dx * dx + dy * dy).sqrt();
+    if length == 0.0 {
+        return Vec::new();
+    }
+    let [dx, dy] = [dx, dy].map_array(|v| v / length / 2.0);
+    let longer = if p > 3 { 1.0 } else { 0.0 };
+    let (x0, y0) = (x0 - dx * longer, y0 - dy * longer);
+    let (x1, y1) = (x1 + dx * longer, y1 + dy * longer);
+    let area = [[x0 + dy, y0 - dx], [x1 + dy, y1 - dx], [x1 - dy, y1 + dx], [x0 - dy, y0 + dx]];
+    pixels_of(&cells::by_area(&area, window, cells::LEAST[(p % 4) as usize]), window)
 }
 
 /// The picture of pixels in a window.

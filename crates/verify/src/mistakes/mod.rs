@@ -7,6 +7,7 @@
 //! and of the right ones, among answers that it was not chosen by. Otherwise the nearest one is a lead, and what all wrong
 //! answers have in common is said.
 
+mod cells;
 mod common;
 mod fills;
 mod lines;

@@ -415,7 +415,7 @@ impl Walk {
                 (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
             }
             Slope::Reciprocal => (0.0, single(single(px(dx)) * single(1.0 / single(px(dy))))),
-            Slope::Half => (0.0, super::fills::rounded(px(dx) / px(dy), 2)),
+            Slope::Half => (0.0, super::values::rounded(px(dx) / px(dy), 2)),
             Slope::Inverse(bits) => {
                 let unit = 1_i64 << bits;
                 (0.0, px(dx) * (unit / dy) as f64 * 256.0 / unit as f64)

@@ -1,5 +1,6 @@
 //! The table of mistakes in filling triangles. To add one, add an entry: everything else follows from it.
 
+use super::cells;
 use super::fills::{self, Words};
 use super::scans::{self, Scan};
 use super::{Mistake, Parameters, border};
@@ -758,6 +759,80 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a row whose ends are where they should be",
         parameters: Parameters::Scans(Scan::is_exact),
         draws: Fill::Own(scans::scanned),
+    },
+    Mistake {
+        name: "all that edges touch",
+        sentence: |p| {
+            format!(
+                "draws the pixels that the sides touch, too, walked in floats of 64 bits from pixel to pixel{}",
+                [
+                    "",
+                    ", but not those that a side touches along their own sides or in one point",
+                    ", but not those that a side touches by less than 1/100 px"
+                ][p as usize]
+            )
+        },
+        repair: "draw the samples within the triangle alone, or declare that all that is touched is drawn, and compute it exactly",
+        page: "ch02",
+        refuted: "a pixel that is touched and is not drawn",
+        parameters: Parameters::Below(3),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            let mut mask = base.mask(corners, window).unwrap_or_default();
+            let points = cells::places(corners);
+            for i in 0..3 {
+                let side = [points[i], points[(i + 1) % 3]];
+                mask.add(&cells::touched(side, window, [0.0, 1e-3, 1e-2][p as usize]));
+            }
+            mask
+        }),
+    },
+    Mistake {
+        name: "coverage by area",
+        sentence: |p| {
+            let least = match cells::LEAST[p as usize] {
+                1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
+                least => format!("an area of {least} of 255"),
+            };
+            format!(
+                "adds up areas in whole numbers of 1/256 px, as for antialiasing, and draws a pixel from {least} on"
+            )
+        },
+        repair: "test one sample of each pixel: what neighbours share is drawn by one of them then",
+        page: "ch02",
+        refuted: "a pixel of which less is covered and that is drawn",
+        parameters: Parameters::Below(4),
+        draws: Fill::Own(|corners, window, p| {
+            cells::by_area(&cells::places(corners), window, cells::LEAST[p as usize])
+        }),
+    },
+    Mistake {
+        name: "two halves from their tips",
+        sentence: |p| {
+            let [precision, whole, ends, rows, upper, lower] = fills::HALVES.digits(p);
+            let cut = ["cut toward zero", "cut down", "rounded", "rounded up from the sample"];
+            format!(
+                "splits triangles at the middle corner{} and adds up the slopes of each half from its tip, the lower half upwards, in floats of {} bits; crossings are {}, heights {}; {}: two loops of many tutorials",
+                [
+                    "",
+                    ", after corners are cut to whole pixels,",
+                    ", after corners are rounded to whole pixels,"
+                ][whole as usize],
+                ["32", "64"][precision as usize],
+                cut[ends as usize],
+                cut[rows as usize],
+                [
+                    "neither half draws the row between",
+                    "the upper half draws the row between",
+                    "the lower half draws the row between",
+                    "both halves draw the row between"
+                ][(upper + 2 * lower) as usize]
+            )
+        },
+        repair: "walk both halves along the unsplit long edge, and take each crossing at the height of the samples",
+        page: "ch02-scanline",
+        refuted: "a triangle with its top cut off that draws the same rows below",
+        parameters: Parameters::Below(fills::HALVES.count()),
+        draws: Fill::Own(fills::halves),
     },
     Mistake {
         name: "whole pixels by integer divisions",

@@ -463,6 +463,21 @@ fn in_steps(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {
     cut(v / unit) * unit
 }
 
+/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
+#[must_use]
+pub fn rounded(v: f64, precision: i64) -> f64 {
+    match precision {
+        0 => f64::from(v as f32),
+        1 => v,
+        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
+        _ => {
+            // 10 bits after the first one, down to 2^-24: a sum with 1.5 x 2^52 such units has no others, halves to even.
+            let large = f64::from_bits(((exponent(v).max(-14) + 42 + 1023) as u64) << 52) * 1.5;
+            v + large - large
+        }
+    }
+}
+
 /// The power of two of the first digit of a number that is not tiny.
 #[must_use]
 pub fn exponent(v: f64) -> i32 {
@@ -497,18 +512,24 @@ pub struct ValueHypothesis {
     /// Numbers in which values are kept, or the weights of the corners, with their bits.
     kept: Option<(Kept, i32)>,
     weights: Option<(Kept, i32)>,
+    /// The same of 1/w at a pixel, or of w, by which attributes are multiplied.
+    divisor: Option<(Kept, i32, bool)>,
     /// Pixels of a block that have one value, and the place in the block.
     block: Option<(i32, f64)>,
-    /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row.
-    steps: Option<(i32, bool)>,
+    /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row;
+    /// nothing where all pixels of a row have the values of the first one.
+    steps: Option<(Option<i32>, bool)>,
 }
 
 impl ValueHypothesis {
-    /// Depth and both attributes that it predicts at a pixel.
+    /// Depth and both attributes that it predicts at a pixel; nothing of moved corners without area.
     #[must_use]
-    pub fn predict(&self, triangle: &Triangle, (x_px, y_px): (i32, i32)) -> [f64; 3] {
+    pub fn predict(&self, triangle: &Triangle, (x_px, y_px): (i32, i32)) -> Option<[f64; 3]> {
         let corners =
             triangle.corners().map(|p| SubpixelPoint::new((self.moved)(p.x), (self.moved)(p.y)));
+        if area2(&corners) == 0 {
+            return None;
+        }
         let in_bits = |kept: Option<(Kept, i32)>| {
             move |v: f64| kept.map_or(v, |((keep, ..), bits)| keep(v, bits))
         };
@@ -520,7 +541,17 @@ impl ValueHypothesis {
             };
             weights(&corners, at).map(in_bits(self.weights))
         };
-        let at = |x: i32| (self.values)(triangle, weights_at(x)).map(in_bits(self.kept));
+        let at = |x: i32| {
+            let l = weights_at(x);
+            let mut values = (self.values)(triangle, l).map(in_bits(self.kept));
+            if let Some(((keep, ..), bits, is_w)) = self.divisor {
+                let whole = sum(l, triangle.vertices.map(|v| v.inv_w));
+                let w = if is_w { keep(1.0 / whole, bits) } else { 1.0 / keep(whole, bits) };
+                let over_w = [0, 1, 2].map(|i| l[i] * triangle.vertices[i].inv_w * w);
+                values = with(values[0], attributes(triangle, over_w));
+            }
+            values
+        };
         let mut values = at(x_px);
         if let Some((steps, from_first)) = self.steps {
             let is_in = |x: i32| weights_at(x).iter().all(|weight| *weight >= 0.0);
@@ -528,15 +559,20 @@ impl ValueHypothesis {
                 true => (0..x_px).rev().find(|&x| !is_in(x)).map_or(0, |x| x + 1),
                 false => 0,
             };
-            let start = first + (x_px - first) / steps * steps;
-            let (from, to) = (at(start), at(start + steps));
-            let part = f64::from(x_px - start) / f64::from(steps);
-            for i in [1, 2] {
-                values[i] = from[i] + (to[i] - from[i]) * part;
+            match steps {
+                None => values = at(first),
+                Some(steps) => {
+                    let start = first + (x_px - first) / steps * steps;
+                    let (from, to) = (at(start), at(start + steps));
+                    let part = f64::from(x_px - start) / f64::from(steps);
+                    for i in [1, 2] {
+                        values[i] = from[i] + (to[i] - from[i]) * part;
+                    }
+                }
             }
         }
         let right = right_at(triangle, (x_px, y_px));
-        [0, 1, 2].map(|i| if self.parts[i] { values[i] } else { right[i] })
+        Some([0, 1, 2].map(|i| if self.parts[i] { values[i] } else { right[i] }))
     }
 }
 
@@ -563,12 +599,17 @@ pub fn are_explained(
         let (right, allowed) = (right_at(triangle, pixel), allowed(predicted));
         let values = [fragment.depth, fragment.varying.x, fragment.varying.y];
         for i in 0..3 {
-            let miss = (values[i] - predicted[i]).abs() / allowed[i];
-            if miss > 10.0 || miss.is_nan() {
+            let miss = |to: [f64; 3]| match values[i].is_finite() || to[i].is_finite() {
+                true => (values[i] - to[i]).abs() / allowed[i],
+                // A division by 0 may give anything but a number.
+                false => 0.0,
+            };
+            let missed = miss(predicted);
+            if missed > 10.0 || missed.is_nan() {
                 return false;
             }
-            off = off.max(miss);
-            off_right = off_right.max((values[i] - right[i]).abs() / allowed[i]);
+            off = off.max(missed);
+            off_right = off_right.max(miss(right));
         }
     }
     off_right <= 1.0 || 2.0 * off <= off_right
@@ -592,6 +633,7 @@ pub fn of_values() -> Vec<ValueHypothesis> {
         parts,
         kept: None,
         weights: None,
+        divisor: None,
         block: None,
         steps: None,
     };
@@ -620,6 +662,12 @@ pub fn of_values() -> Vec<ValueHypothesis> {
             let does = format!("keeps the weights of the corners in {numbers}{said}");
             add(&FEW_BITS, does, ValueHypothesis { weights: Some((kept, bits)), ..right(parts) });
         }
+        for (is_w, what) in [(false, "1/w"), (true, "w")] {
+            let does =
+                format!("keeps {what} at a pixel in {numbers}, and divides attributes by that");
+            let divisor = Some((kept, bits, is_w));
+            add(&FEW_BITS, does, ValueHypothesis { divisor, ..right([true; 3]) });
+        }
     }
     for side in [2, 4, 8] {
         for (place, at) in [(0.5, "of its first pixel"), (f64::from(side) / 2.0, "at its middle")] {
@@ -638,7 +686,12 @@ pub fn of_values() -> Vec<ValueHypothesis> {
             "corrects attributes for perspective at every {steps}th pixel, counted from {}, and interpolates linearly between",
             if from_first { "the first one of the row" } else { "the left side of the window" }
         );
-        add(&STEPS, does, ValueHypothesis { steps: Some((steps, from_first)), ..right([true; 3]) });
+        let steps = Some((Some(steps), from_first));
+        add(&STEPS, does, ValueHypothesis { steps, ..right([true; 3]) });
+    }
+    for (parts, said) in [PARTS[0], PARTS[3], PARTS[4]] {
+        let does = format!("gives the pixels of a row the values of the first one{said}");
+        add(&BLOCKS, does, ValueHypothesis { steps: Some((None, true)), ..right(parts) });
     }
     all
 }
@@ -662,7 +715,7 @@ const FEW_BITS: ValueMistake = ValueMistake {
     values: right_values,
 };
 const BLOCKS: ValueMistake = ValueMistake {
-    name: "one value for a block",
+    name: "one value for several pixels",
     does: "",
     repair: "compute the values of each pixel",
     page: "ch05",
@@ -706,7 +759,7 @@ pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mis
             let allowed = |predicted: [f64; 3]| {
                 [0, 1, 2].map(|i| bounds[i] + 6.4 * f64::EPSILON * predicted[i].abs())
             };
-            let predict = |pixel| Some(known.predict(triangle, pixel));
+            let predict = |pixel| known.predict(triangle, pixel);
             are_explained(triangle, &mut fragments.iter(), &predict, &allowed)
         }),
     };
