@@ -703,6 +703,42 @@ const FILLS: &[(&str, Fill)] = &[
         let runs: Vec<_> = out.runs().filter(|(y, ..)| Some(*y) == first).collect();
         runs.into_iter().for_each(|(y, a, b)| out.hit(y, a, b));
     }),
+    ("blocks are drawn whole", |c, w, out| {
+        // A hierarchy that takes a block for covered if three of its corner pixels are.
+        right(c, w, out);
+        let mut around = Coverage::new(PixelRect { x1: w.x1 + 3, y1: w.y1 + 3, ..w }, 0);
+        right(c, around.bounds(), &mut around);
+        let has = |x: i32, y: i32| i32::from(around.get(x, y).unwrap_or(0) > 0);
+        for (y, x) in (w.y0..w.y1).flat_map(|y| (w.x0..w.x1).map(move |x| (y, x))) {
+            let (left, top) = (x / 4 * 4, y / 4 * 4);
+            if has(left, top) + has(left + 3, top) + has(left, top + 3) + has(left + 3, top + 3) > 2
+            {
+                light(out, x, y);
+            }
+        }
+    }),
+    ("rows end elsewhere", |c, w, out| {
+        // No sub-pixel correction: rows are counted from the one that holds a corner.
+        walked(c, w, out, &|y, from, to| {
+            let slope = f64::from(to.x - from.x) / f64::from(to.y - from.y);
+            f64::from(from.x) / 256.0 + slope * f64::from(y - from.y.div_euclid(256))
+        });
+    }),
+    ("rows end elsewhere", |mut c, w, out| {
+        // A pixel at least in each row, so that thin parts have no gaps.
+        right(c, w, out);
+        c.sort_by_key(|p| p.y);
+        let first = |p: SubpixelPoint| (p.y + 127).div_euclid(256);
+        let at = |y: i32, from: SubpixelPoint, to: SubpixelPoint| {
+            let part = f64::from(y * 256 + 128 - from.y) / f64::from(to.y - from.y);
+            (f64::from(from.x) + f64::from(to.x - from.x) * part) / 256.0
+        };
+        for y in first(c[0]).max(0)..first(c[2]).min(w.y1) {
+            let short = if y < first(c[1]) { at(y, c[0], c[1]) } else { at(y, c[1], c[2]) };
+            let x = (short.min(at(y, c[0], c[2])) - 0.5).ceil();
+            light(out, x.clamp(-1.0, 9999.0) as i32, y);
+        }
+    }),
     ("the whole box is filled", |c, w, out| {
         let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
         for y in w.y0..w.y1 {
@@ -996,6 +1032,23 @@ const STROKES: &[(&str, Stroke)] = &[
             }
         }
         bresenham([p, q], emit);
+    }),
+    ("ends overflow", |[[x0, y0], [x1, y1]], _, emit| {
+        let side = |v: i32| i32::from(v as i16);
+        bresenham([[x0, y0], [x0 + side(x1 - x0), y0 + side(y1 - y0)]], emit);
+    }),
+    ("one step at a time", |[[mut x, mut y], [x1, y1]], _, emit| {
+        let [dx, dy] = [i64::from((x1 - x).abs()), i64::from((y1 - y).abs())];
+        let (sx, sy, mut error) = ((x1 - x).signum(), (y1 - y).signum(), dx - dy);
+        emit(x, y);
+        for _ in 0..dx + dy {
+            if 2 * error > -dy {
+                (x, error) = (x + sx, error - dy);
+            } else {
+                (y, error) = (y + sy, error + dx);
+            }
+            emit(x, y);
+        }
     }),
     ("the sign of a step", |[[x0, y0], [x1, y1]], _, emit| {
         bresenham([[x0, y0], [x1, y0 + (y1 - y0).abs()]], emit);

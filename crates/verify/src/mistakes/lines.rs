@@ -294,6 +294,22 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         draws: Stroke::Own(one_axis),
     },
     Mistake {
+        name: "one step at a time",
+        sentence: |p| {
+            let axes = ["x", "y"];
+            format!(
+                "steps along {} or else along {}, never along both at once, so that a slanted line is a staircase",
+                axes[(p % 2) as usize],
+                axes[(1 - p % 2) as usize]
+            )
+        },
+        repair: "test the error for each axis by itself, without an else",
+        page: "ch03",
+        refuted: "two pixels in turn that share a corner alone",
+        parameters: Parameters::Below(4),
+        draws: Stroke::Own(staircase),
+    },
+    Mistake {
         name: "the error term overflows",
         sentence: |p| {
             format!(
@@ -313,18 +329,26 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     Mistake {
         name: "ends overflow",
         sentence: |p| {
-            format!(
-                "keeps coordinates in {p} bits: ends beyond {} px wrap around",
-                1_i64 << (p - 1)
-            )
+            let (bits, most) = (p % 100, 1_i64 << (p % 100 - 1));
+            match p / 100 {
+                0 => format!("keeps coordinates in {bits} bits: ends beyond {most} px wrap around"),
+                _ => format!(
+                    "keeps the sides of a line in {bits} bits: those of {most} px and more wrap around"
+                ),
+            }
         },
         repair: "clip first, or use a longer word",
         page: "stability",
         refuted: "a line with an end out there that is drawn rightly",
-        parameters: Parameters::Fixed(&[8, 12, 16]),
+        parameters: Parameters::Fixed(&[8, 12, 16, 108, 112, 116]),
         draws: Stroke::Instead(|ends, _, p| {
-            let shift = 64 - p as u32;
-            vec![ends.map_array(|end| end.map_array(|v| v << shift >> shift))]
+            let shift = 64 - (p % 100) as u32;
+            let wrap = |v: i64| v << shift >> shift;
+            let [[x0, y0], [x1, y1]] = ends;
+            vec![match p / 100 {
+                0 => ends.map_array(|end| end.map_array(wrap)),
+                _ => [[x0, y0], [x0 + wrap(x1 - x0), y0 + wrap(y1 - y0)]],
+            }]
         }),
     },
     Mistake {
@@ -696,6 +720,30 @@ const STARTS: [(Start, &str); 8] = [
     (|a, _| a, "a"),
     (|a, _| -a, "-a"),
 ];
+
+/// Steps by an error of both axes, of which one moves at a time: x is tested first, or y with p mod 2; p / 2 is whether a tie
+/// does not count.
+fn staircase([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [dx, dy] = [(x1 - x0).abs(), (y1 - y0).abs()];
+    if dx + dy > 2 * MOST_STEPS {
+        return Vec::new();
+    }
+    let (mut x, mut y, mut error) = (x0, y0, dx - dy);
+    let mut pixels = vec![[x, y]];
+    // Where it misses its end, it goes on somewhere else.
+    while [x, y] != [x1, y1] && (x - x0).abs() <= dx && (y - y0).abs() <= dy {
+        let tie = p / 2;
+        let moves = [2 * error >= tie - dy, 2 * error <= dx - tie];
+        let along_x = moves[0] && (p % 2 == 0 || !moves[1]);
+        if along_x {
+            (x, error) = (x + (x1 - x0).signum(), error - dy);
+        } else {
+            (y, error) = (y + (y1 - y0).signum(), error + dx);
+        }
+        pixels.push([x, y]);
+    }
+    pixels
+}
 
 /// p mod 8 is where the error term begins, p / 8 mod 3 what is added and taken away, p / 24 mod 2 what happens at 0, and from 48
 /// on lines are seen from the left. What is right draws nothing, as it is a convention.

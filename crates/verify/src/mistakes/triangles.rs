@@ -615,21 +615,22 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "blocks are drawn whole",
         sentence: |p| {
             format!(
-                "draws blocks of {} x {} px wholly or not at all, {}",
+                "draws blocks of {} x {} px wholly {}",
                 1 << (p % 5),
                 1 << (p / 5 % 5),
                 [
-                    "as their first sample is covered",
-                    "as their middle is covered",
-                    "as their last sample is covered",
-                    "wholly if any of their samples is covered"
+                    "or not at all, as their first sample is covered",
+                    "or not at all, as their middle is covered",
+                    "or not at all, as their last sample is covered",
+                    "or not at all: wholly if any of their samples is covered",
+                    "where the samples of three of their corner pixels are covered",
                 ][(p / 25) as usize]
             )
         },
         repair: "test the sample of each pixel",
         page: "speed",
         refuted: "two pixels of such a block of which one is drawn",
-        parameters: Parameters::Below(100),
+        parameters: Parameters::Below(125),
         draws: Fill::Ruled(fills::blocks),
     },
     Mistake {
