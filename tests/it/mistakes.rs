@@ -141,6 +141,13 @@ const FILLS: &[(&str, Fill)] = &[
         let word = |v: i32| i32::from((v / 16) as i16) * 16 + v % 16;
         right(c.map_array(|p| SubpixelPoint::new(word(p.x), word(p.y))), w, out);
     }),
+    ("coordinates in short floats", |c, w, out| {
+        let half = |v: i32| {
+            let bits = (v as f32).to_bits();
+            f32::from_bits((bits + 0xfff + (bits >> 13 & 1)) & !0x1fff) as i32
+        };
+        right(c.map_array(|p| SubpixelPoint::new(half(p.x), half(p.y))), w, out);
+    }),
     ("each axis on a grid of its own", |c, w, out| {
         right(c.map_array(|p| SubpixelPoint::new(p.x / 64 * 64, p.y)), w, out);
     }),

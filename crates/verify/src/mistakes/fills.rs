@@ -433,6 +433,15 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
     }
 }
 
+/// A number with so many bits after its first one; the rest is cut off, or rounded to the nearest, halves to even.
+pub(super) fn shortened(v: i32, bits: i64, is_cut: bool) -> i32 {
+    let size = v.unsigned_abs();
+    let rest = (32 - size.leading_zeros()).saturating_sub(bits as u32 + 1);
+    let (kept, left) = (i64::from(size >> rest), i64::from(size) % (1 << rest) * 2);
+    let up = !is_cut && (left > 1 << rest || (left == 1 << rest && kept % 2 == 1));
+    ((kept + i64::from(up)) << rest) as i32 * v.signum()
+}
+
 /// Blocks that are drawn wholly or not at all: p mod 5 and p / 5 mod 5 are the powers of two of their sides, and p / 25 is the
 /// place that decides: the sample of the first pixel, the middle, the sample of the last pixel, or any sample. With 4 they are
 /// drawn wholly where three of their corner pixels are covered, and else pixel by pixel.
