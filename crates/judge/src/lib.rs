@@ -1,7 +1,7 @@
 //! The judge of other people's programs: anybody who answers questions is asked the cases of the
 //! families and judged as our own engines are.
 //!
-//! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`in_process`] an
+//! [`ask`] is what is asked and answered; the crate `program` asks a program through pipes, and [`in_process`] an
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
 //! wrong with a case ([`judged`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
@@ -29,8 +29,6 @@ mod outline;
 pub mod pictured;
 pub mod pixels;
 pub mod polygons;
-pub mod process;
-pub mod process_group;
 mod reach;
 pub mod recognise;
 pub mod run;

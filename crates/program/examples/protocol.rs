@@ -6,9 +6,9 @@
 use std::process::ExitCode;
 
 use rasterproof_judge::ask::Subject;
-use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::{Options, judge, process_group, server};
+use rasterproof_judge::{Options, judge, server};
+use rasterproof_program::{Limits, Program, group};
 use rasterproof_registry::engines;
 
 const USAGE: &str =
@@ -45,7 +45,7 @@ fn answer(name: &str) -> ExitCode {
 }
 
 fn ask(cases: u64, declare: &str, command: &[String]) -> ExitCode {
-    process_group::end_all_on_ctrl_c();
+    group::end_all_on_ctrl_c();
     let declared: Vec<String> = declare.split_whitespace().map(str::to_owned).collect();
     let program = match Program::start(command, &declared, Limits::default()) {
         Ok(program) => program,
