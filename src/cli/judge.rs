@@ -16,6 +16,7 @@ use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_judge::{Options, family_names, polygons};
 use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
@@ -221,7 +222,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         against::compare(&mut pairs, &options, &step)
     };
     drop(progress);
-    if let Some(why) = verdict.judged_nothing(&options) {
+    if let Some(why) = verdict.judged_nothing() {
         return Err(usage(why));
     }
     if let Some(baseline) = &baseline {

@@ -17,6 +17,7 @@ use rasterproof_judge::near_plane::asked;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::Outcome;
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_judge::{Step, adapt_case, judge};
 use rasterproof_registry::engines;
 use rasterproof_report::html::page;
@@ -132,10 +133,10 @@ fn judge_keeps_its_time() {
     let took = start.elapsed();
     // Asked without a limit, 64 cases of each family alone take longer than a minute.
     assert!(took < Duration::from_secs(12), "{took:?}");
-    let said = verdict.recognised.as_ref().unwrap();
+    let said = verdict.more.recognised.as_ref().unwrap();
     assert_eq!(said.sentences, ["The time was up before its convention was found."]);
     assert!(verdict.by_convention().is_none());
-    let families = verdict.found.rows.iter().filter(|row| row.cases > 0).count();
+    let families = verdict.families.iter().filter(|row| row.cases > 0).count();
     assert!(families > 15, "{families}");
 }
 
@@ -224,10 +225,10 @@ fn progress_counts_what_is_judged() {
     let judged: u64 =
         steps.iter().map(|step| if let Step::Judged(n) = step { *n } else { 0 }).sum();
     assert_eq!((steps[0], *steps.last().unwrap()), (Step::Rule, Step::Smaller));
-    let rows = verdict.found.rows.iter().filter(|row| row.name != "line-direction");
+    let rows = verdict.families.iter().filter(|row| row.name != "line-direction");
     let cases: u64 = rows.map(|row| row.cases).sum();
     assert!(
-        judged == cases && judged == verdict.found.of_cases && judged > 100,
+        judged == cases && judged == verdict.more.found.of_cases && judged > 100,
         "{judged} {cases}"
     );
 }

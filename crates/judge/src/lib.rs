@@ -51,7 +51,7 @@ use rasterproof_verify::partition;
 use recognise::{Recognised, Said};
 use run::Incident;
 use timed::Timed;
-use verdict::Judgement;
+use verdict::{Particulars, Verdict};
 
 /// The time limit is that of all questions. An answer that is still missing at its end is awaited a short while longer.
 pub type Options = rasterproof_verify::judge::Options<String, Asking>;
@@ -120,7 +120,7 @@ pub fn judge(
     options: &Options,
     recognise: Recognise<'_>,
     progress: &(dyn Fn(Step) + Sync),
-) -> Judgement {
+) -> Verdict {
     let start = Instant::now();
     let end = options.time_limit.map(|limit| start + limit);
     askers.iter_mut().for_each(|asker| asker.end_at(end));
@@ -145,34 +145,33 @@ pub fn judge(
             (Some(Said { sentences: vec![late], ..Said::default() }), None);
     }
     let before = first.incidents;
-    let options = &for_families(options, start);
+    let asked = &for_families(options, start);
     let mut all: Vec<&mut dyn Subject> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
-    let mut found = run::run(&mut all, options, &truth, &|cases| progress(Step::Judged(cases)));
+    let mut found = run::run(&mut all, asked, &truth, &|cases| progress(Step::Judged(cases)));
     found.incidents.splice(0..0, before);
     found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];
     progress(Step::Smaller);
-    let failures = failures::failures(&mut Timed::new(first, end), &found, options, &truth);
+    let failures = failures::failures(&mut Timed::new(first, end), &found, asked, &truth);
     let checks = found.unexplained();
     if !checks.is_empty() {
         progress(Step::Cause);
     }
-    let (asked, patience) = (&mut Timed::new(first, end), options.terms.patience);
-    let causes = recognise::mistakes(asked, &checks, &truth, found_before.as_ref(), patience);
+    let (timed, patience) = (&mut Timed::new(first, end), asked.terms.patience);
+    let causes = recognise::mistakes(timed, &checks, &truth, found_before.as_ref(), patience);
     found.strays.extend(first.strays());
     first.end_at(None);
-    let mut verdict = Judgement::new(
+    let (reach, complaints) = (truth.declared.reach, first.complaints());
+    let more = Particulars {
         declared,
-        options,
         windings,
         recognised,
         found,
-        failures,
-        first.complaints(),
-    );
-    verdict.causes = causes;
-    verdict.reach = truth.declared.reach;
-    verdict
+        reach,
+        complaints,
+        ..Particulars::default()
+    };
+    verdict::verdict(options, more, failures, causes)
 }
 
 /// Somebody who is asked before the families, and what came instead of answers.

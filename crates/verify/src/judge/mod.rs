@@ -200,7 +200,7 @@ impl<C, E> Failure<C, E> {
 /// What came of all cases.
 #[derive(Clone, Debug)]
 #[must_use = "a verdict may be that something is wrong: call `check`"]
-pub struct Verdict<O, R, F, W> {
+pub struct Verdict<O, R, F, W, M = ()> {
     /// The options it was run with.
     pub options: O,
     /// One for each family, in the order of the catalogue.
@@ -208,7 +208,9 @@ pub struct Verdict<O, R, F, W> {
     /// The smallest failing cases that were found, those to look at first in front.
     pub failures: Vec<F>,
     /// Why it is wrong, where it was looked for.
-    pub cause: Option<W>,
+    pub cause: W,
+    /// What one kind of judge alone says beside it.
+    pub more: M,
 }
 
 /// Cases that a thread judges in one go.

@@ -14,7 +14,7 @@ use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, mistakes, recognise};
 use rasterproof_judge::run::{Failing, Found, Row, run};
-use rasterproof_judge::verdict::{Judgement, Outcome, sentence};
+use rasterproof_judge::verdict::{Outcome, Particulars, Verdict, sentence, verdict};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
 use rasterproof_verify::comparison::Rule as Tie;
@@ -28,7 +28,7 @@ const MOST_OF_A_STAGE: u64 = 2048;
 pub struct DeviceReport {
     pub about: About,
     pub plant: Option<&'static str>,
-    pub verdict: Judgement,
+    pub verdict: Verdict,
     pub findings: Vec<Requirement>,
     /// Known faults of this driver that were seen, or not any more.
     pub known: Vec<String>,
@@ -115,9 +115,15 @@ pub fn judge_with(
     let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
-    let mut verdict =
-        Judgement::new(declared, &options, windings, said, found, failures, complaints);
-    verdict.causes = causes;
+    let more = Particulars {
+        declared,
+        windings,
+        recognised: said,
+        found,
+        complaints,
+        ..Particulars::default()
+    };
+    let mut verdict = verdict(&options, more, failures, causes);
     let mut findings = of_rows(&mut verdict, &old, &stale);
     drop(shared);
     if options.only.is_none() {
@@ -167,12 +173,12 @@ fn rule(property: &str) -> Clause {
 }
 
 /// Every row with its rule; the verdict's properties come out alike.
-fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Requirement> {
+fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requirement> {
     let mut findings = Vec::new();
-    for row in &verdict.found.rows {
+    for row in &verdict.families {
         let is_of = |f: &&Failing| f.property == row.name;
         let known = old.iter().filter(is_of).count();
-        let news = verdict.found.failing.iter().filter(is_of).count();
+        let news = verdict.more.found.failing.iter().filter(is_of).count();
         let class = class(row, known, news, stale);
         let mut detail = sentence(row);
         if known > 0 {
@@ -185,7 +191,7 @@ fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Re
             detail,
         });
     }
-    for property in &mut verdict.properties {
+    for property in &mut verdict.more.properties {
         if let Some(finding) = findings.iter().find(|f| f.name == property.name) {
             property.outcome = match finding.class {
                 Standing::Known => Outcome::ExpectedFailure,
