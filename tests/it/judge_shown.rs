@@ -21,12 +21,13 @@ use rasterproof_judge::verdict::Scores as _;
 use rasterproof_judge::{Step, adapt_case, judge};
 use rasterproof_registry::engines;
 use rasterproof_report::html::page;
+use rasterproof_report::judge_text as shown;
 use rasterproof_report::text::{WIDTH, text};
-use rasterproof_report::{ascii, judge_text as shown};
 use rasterproof_teaching::quiz::{self, Language, page as quiz_page};
 use rasterproof_verify::cases::near_plane::clip_corners;
 use rasterproof_verify::cases::{FamilyName, Shape};
 use rasterproof_verify::comparison::{Convention, Rule, judge_coverage};
+use rasterproof_verify::judge::ascii;
 
 #[cfg(target_os = "linux")]
 use crate::judge::is_gone;

@@ -4,7 +4,7 @@ use super::formats;
 use super::html::{Chapter, Excerpt, Outcome, Report};
 use super::table::{Mark, Row, Table};
 use super::words::{of_bound, same, thousands};
-use super::{ascii, page_cases, summary};
+use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::check::Check;
 use rasterproof_judge::declared::Declared;
@@ -13,6 +13,7 @@ use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow, Sides};
 use rasterproof_judge::verdict::{self, Score, Scores as _, Verdict, per_million};
+use rasterproof_verify::judge::ascii;
 use rasterproof_verify::partition::{self, Polygon};
 
 const MOST_EXCHANGES: usize = 3;
@@ -374,13 +375,8 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
 /// What was drawn beside what was expected, as characters.
 pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
     let Pictured { drawn, other, expected, .. } = picture;
-    let drawn = drawn_by.iter().zip([drawn].into_iter().chain(other));
-    let judged = drawn.map(|(by, drawn)| ((*by).to_owned(), ascii::grid(drawn, expected)));
-    let exact = ("expected".to_owned(), ascii::grid(expected, expected));
-    let blocks: Vec<_> = judged.chain([exact]).collect();
-    let lines = ascii::side_by_side(&blocks, 98);
-    let lines = lines.lines().map(|line| format!("  {line}").trim_end().to_owned() + "\n");
-    lines.collect::<String>() + &format!("  ({})\n", ascii::LEGEND)
+    let drawn: Vec<_> = [drawn].into_iter().chain(other).collect();
+    ascii::beside(drawn_by, &drawn, expected, 98)
 }
 
 /// Whether both of two compared programs answer the same.

@@ -122,7 +122,9 @@ fn planted_faults_are_caught() {
             let failure = failure.unwrap_or_else(|| panic!("{plant}: {text}"));
             if property == family {
                 assert!(failure.evidence.picture.is_some(), "{plant}: {text}");
-                assert!(text.contains("judged"), "{text}");
+                for part in ["shrunk)\n", "judged   expected\n", "repeat with: "] {
+                    assert!(text.contains(part), "{part}: {text}");
+                }
                 let is_explained =
                     stand.verdict.more.recognised.is_some() || !stand.verdict.cause.is_empty();
                 assert!(

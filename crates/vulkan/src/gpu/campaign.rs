@@ -1,6 +1,6 @@
 //! A device judged: the families by the judge of programs, then the stages, each with its rule.
 
-use rasterproof_verify::specification::{self as rules, Clause, Standing};
+use rasterproof_verify::specification::{Clause, Standing, VULKAN};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::engine::Gpu;
@@ -17,7 +17,6 @@ use rasterproof_judge::run::{Failing, Found, Row, run};
 use rasterproof_judge::verdict::{Outcome, Particulars, Verdict, sentence, verdict};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
-use rasterproof_verify::comparison::Rule as Tie;
 
 /// Cases of a stage for each case of a family.
 const STAGE_SHARE: u64 = 2;
@@ -99,7 +98,7 @@ pub fn judge_with(
     let mut truth = Truth::of(&declared);
     truth.expect = Box::new(Specified::new(&declared));
     // The specification asks for less than the oracle: either of two triangles has a shared sample.
-    let open = declared.convention.rule(Tie::Unspecified);
+    let open = declared.convention.rule(VULKAN.edges);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
     let mut found = run(&mut [&mut shared], &options, &truth, progress);
@@ -165,11 +164,11 @@ fn stale(
 }
 
 fn rule(property: &str) -> Clause {
-    match property {
-        "values" => rules::PERSPECTIVE,
-        "samples4" => rules::SAMPLES,
-        _ => rules::POLYGONS,
-    }
+    VULKAN.clause(match property {
+        "values" => "perspective",
+        "samples4" => "samples",
+        _ => "polygons",
+    })
 }
 
 /// Every row with its rule; the verdict's properties come out alike.
@@ -203,7 +202,7 @@ fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requ
             // That it draws, in both windings, and answers.
             let (name, detail) = (property.name.to_owned(), property.detail.clone());
             let class = if name == "protocol" { Standing::NoAnswer } else { Standing::Outside };
-            findings.push(Requirement { name, rule: rules::POLYGONS, class, detail });
+            findings.push(Requirement { name, rule: VULKAN.clause("polygons"), class, detail });
         }
     }
     findings
