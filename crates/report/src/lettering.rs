@@ -9,8 +9,6 @@ pub enum Size {
     /// Words beside a picture, numbers of rows and columns.
     Small,
     Heading,
-    /// Words of a plot, at two picture pixels to the unit.
-    Plot,
 }
 
 /// Shades between paper and ink: few, so that a picture keeps a palette.
@@ -23,7 +21,6 @@ impl Size {
         match self {
             Self::Small => [7, 16],
             Self::Heading => [9, 20],
-            Self::Plot => [16, 32],
         }
     }
 
@@ -33,7 +30,6 @@ impl Size {
         match self {
             Self::Small => get_raster(drawn, FontWeight::Regular, RasterHeight::Size16),
             Self::Heading => get_raster(drawn, FontWeight::Bold, RasterHeight::Size20),
-            Self::Plot => get_raster(drawn, FontWeight::Regular, RasterHeight::Size32),
         }
     }
 
@@ -41,12 +37,7 @@ impl Size {
     fn ink(self, glyph: Option<RasterizedChar>, x: u32, y: u32) -> u8 {
         let [width, height] = self.cell();
         match glyph {
-            Some(glyph) => {
-                // Cells of plots are wider than their letters.
-                let left = (width as usize).saturating_sub(glyph.width()) / 2;
-                let column = (x as usize).checked_sub(left);
-                column.and_then(|column| glyph.pixel(column, y as usize)).unwrap_or(0)
-            }
+            Some(glyph) => glyph.pixel(x as usize, y as usize).unwrap_or(0),
             None => {
                 let (x_in, y_in) = (x < width - 1, (height / 4..height * 3 / 4).contains(&y));
                 let on_side = x == 0 || x == width - 2;
@@ -138,7 +129,7 @@ mod tests {
 
     const PAPER: Rgb<u8> = Rgb([255, 255, 255]);
     const INK: Rgb<u8> = Rgb([1, 2, 3]);
-    const ALL: [Size; 3] = [Size::Small, Size::Heading, Size::Plot];
+    const ALL: [Size; 2] = [Size::Small, Size::Heading];
 
     fn drawn(sides: (u32, u32), left_top: (i64, i64), text: &str, size: Size) -> RgbImage {
         let mut image = RgbImage::from_pixel(sides.0, sides.1, PAPER);
@@ -169,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_picture_with_letters_keeps_few_colours() {
-        let image = drawn((300, 32), (0, 0), "Quick brown fox, 0123456789", Size::Plot);
+        let image = drawn((300, 32), (0, 0), "Quick brown fox, 0123456789", Size::Heading);
         let colours: std::collections::HashSet<_> = image.pixels().map(|p| p.0).collect();
         assert!((3..=SHADES as usize + 1).contains(&colours.len()), "{colours:?}");
     }
