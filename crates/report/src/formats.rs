@@ -103,30 +103,13 @@ pub fn everything(
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Value {
     let d = &verdict.declared;
-    let failures: Vec<Value> = verdict
-        .failures
-        .iter()
-        .map(|f| {
-            let exchanges: Vec<Value> = f
-                .evidence
-                .exchanges
-                .iter()
-                .map(|e| {
-                    let mut exchange =
-                        json!({"request": e.request, "answer": e.answer, "expected": e.expected});
-                    if !e.other.is_empty() {
-                        exchange["other"] = e.other.clone().into();
-                    }
-                    exchange
-                })
-                .collect();
-            json!({
-                "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
-                "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
-                "exchanges": exchanges, "repeat": repeat(f.family, f.index),
-            })
+    let failures = verdict.failures.iter().map(|f| {
+        json!({
+            "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
+            "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
+            "exchanges": f.evidence.exchanges, "repeat": repeat(f.family, f.index),
         })
-        .collect();
+    });
     let incidents = verdict.found.incidents.iter().map(|i| {
         let of_family = Some(i).filter(|i| !i.family.is_empty());
         json!({
@@ -142,7 +125,7 @@ pub fn everything(
         "known_failures": verdict.known, "agrees": verdict.agrees(), "windings": verdict.windings,
         "recognised": verdict.recognised, "score_as_declared": verdict.as_declared(),
         "score_by_convention": verdict.by_convention(), "answers": verdict.found.answered,
-        "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures,
+        "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures.collect::<Vec<_>>(),
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "causes": verdict.causes, "line_reach": verdict.reach, "stderr": verdict.complaints, "repeat": repeat_all,

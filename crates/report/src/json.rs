@@ -12,7 +12,7 @@ use rasterproof_study::effects::{Need, Needs, State};
 use rasterproof_study::hard::HardCases;
 use rasterproof_study::{face_of, triangle_of};
 use rasterproof_verify::cases::Kind;
-use rasterproof_verify::comparison::{Comparisons, FamilyReport, Verdict, shrink};
+use rasterproof_verify::comparison::{Verdict, shrink};
 
 /// What `--json` prints: lines that can be read, or one line for what is as long as the plan of a large model.
 #[must_use]
@@ -39,59 +39,24 @@ pub fn value(of: &impl Serialize) -> Value {
     serde_json::to_value(of).unwrap_or_default()
 }
 
-#[derive(Serialize)]
-struct Json<'a> {
-    version: &'static str,
-    seed: u64,
-    cases: u64,
-    shard: String,
-    agrees: bool,
-    /// Wrong pixels against the oracle, on and off the lattice.
-    mismatches: u64,
-    comparisons: Comparisons,
-    triangles: u64,
-    lines: u64,
-    families: &'a [FamilyReport],
-    failures: Vec<FailureJson<'a>>,
-    off_grid_triangles: u64,
-}
-
-#[derive(Serialize)]
-struct FailureJson<'a> {
-    family: &'a str,
-    index: u64,
-    pair: [&'a str; 2],
-    what: &'a str,
-    shrunk: String,
-    window: rasterproof_core::grid::PixelRect,
-    repeat: String,
-}
-
 /// The verdict as JSON; `repeat` gives the command that repeats a failing case.
 pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value {
-    let failures = verdict.failures.iter().map(|f| FailureJson {
-        family: f.family,
-        index: f.index,
-        pair: f.evidence.pair.each_ref().map(String::as_str),
-        what: &f.what,
-        shrunk: shrink::describe(&f.case),
-        window: f.case.window,
-        repeat: repeat(f.family, f.index),
+    let failures = verdict.failures.iter().map(|f| {
+        json!({
+            "family": f.family, "index": f.index, "pair": f.evidence.pair, "what": f.what,
+            "shrunk": shrink::describe(&f.case), "window": f.case.window,
+            "repeat": repeat(f.family, f.index),
+        })
     });
+    let shapes = Kind::ALL.map(|(kind, _)| verdict.sum(kind, |family| family.shapes));
     let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
-    value(&Json {
-        version: env!("CARGO_PKG_VERSION"),
-        seed: verdict.options.seed,
-        cases: verdict.options.cases,
-        shard: format!("{part}/{parts}"),
-        agrees: verdict.agrees(),
-        mismatches: verdict.mismatches(),
-        comparisons: verdict.comparisons(),
-        triangles: verdict.sum(Kind::Triangles, |f| f.shapes),
-        lines: verdict.sum(Kind::Lines, |f| f.shapes),
-        families: &verdict.families,
-        failures: failures.collect(),
-        off_grid_triangles: verdict.sum(Kind::Unsnapped, |f| f.shapes),
+    json!({
+        "version": env!("CARGO_PKG_VERSION"), "seed": verdict.options.seed,
+        "cases": verdict.options.cases, "shard": format!("{part}/{parts}"),
+        "agrees": verdict.agrees(), "mismatches": verdict.mismatches(),
+        "comparisons": verdict.comparisons(), "triangles": shapes[0], "lines": shapes[1],
+        "off_grid_triangles": shapes[2], "families": verdict.families,
+        "failures": failures.collect::<Vec<_>>(),
     })
 }
 

@@ -78,7 +78,6 @@ pub fn report(
         tables: first_screen.iter().cloned().chain([properties(verdict)]).collect(),
         first_screen,
         repeat: repeat_all.to_owned(),
-        seed: Some(verdict.seed),
         ..Report::default()
     }
 }

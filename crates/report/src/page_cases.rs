@@ -184,7 +184,8 @@ pub fn of_specimens() -> Vec<CaseView> {
         }
         view.start = [place, view.place("oracle", 1)];
         let found = format!("{}; cure: {}", card.fault, card.cure);
-        let (command, chapter) = (request(card.name, &case), chapter_of_source(card.source));
+        let command = format!("rasterproof specimens --specimen {}", card.name);
+        let chapter = chapter_of_source(card.source);
         Some(CaseView { found, command, chapter, ..view })
     });
     views.collect()
@@ -202,28 +203,6 @@ fn snapped(case: &TriangleCase) -> Option<Case> {
     let list = real_triangles(case).iter().map(triangle).collect::<Option<Vec<_>>>()?;
     let window = PixelRect::window(case.side_px, case.side_px);
     Some(Case { window, shape: Shape::Triangles { list, disjoint: false } })
-}
-
-/// The command that has an engine draw a case, in the line protocol.
-fn request(engine: &str, case: &Case) -> String {
-    let (width, height) = (case.window.width(), case.window.height());
-    let px = |(x, y): (f64, f64)| format!("{x} {y}");
-    let requests: Vec<String> = match &case.shape {
-        Shape::Triangles { list, .. } => {
-            let corners = list.iter().map(|t| t.corners().map_array(|p| px(p.to_px())).join(" "));
-            corners.map(|corners| format!("T 1 {width} {height} {corners}")).collect()
-        }
-        Shape::Lines(list) => {
-            let centre = |v: i32| f64::from(v) + 0.5;
-            let ends = list.iter().map(|l| {
-                l.ends.map_array(|e| px((centre(e.pixel.x), centre(e.pixel.y)))).join(" ")
-            });
-            ends.map(|ends| format!("L 1 {width} {height} {ends}")).collect()
-        }
-        Shape::Unsnapped { .. } => Vec::new(),
-    };
-    let quoted: Vec<_> = requests.iter().map(|request| format!("'{request}'")).collect();
-    format!("printf '%s\\n' {} | rasterproof engine {engine}", quoted.join(" "))
 }
 
 /// A failing case of a program that was judged, or of two that were compared, beside what the engines and the specimens draw. Where
