@@ -8,10 +8,10 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::html;
-use super::json::{self as json_text, pretty};
+use super::judge_text::excerpts;
+use super::{html, json as json_text, text};
+use json_text::pretty;
 use rasterproof_judge::verdict::{Judgement, Outcome, Property};
-use rasterproof_verify::comparison::shrink;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -51,7 +51,7 @@ pub fn write(
 ) -> String {
     match format {
         Format::Text => String::new(),
-        Format::Json => json_text::text(&everything(verdict, repeat_all, repeat)),
+        Format::Json => json_text::text(&json_text::judgement(verdict, repeat_all, repeat)),
         Format::Junit => junit(verdict, repeat),
         Format::Tap => tap(verdict, repeat),
         Format::Gradescope => {
@@ -64,78 +64,15 @@ pub fn write(
     }
 }
 
-/// What was found, and where it fails the smallest case.
+/// What was found, and the cases that a terminal shows of it.
 fn message(
     verdict: &Judgement,
     property: &Property,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> String {
-    let mut out = format!("{}: {}", property.about, property.detail);
-    for failure in verdict.failures.iter().filter(|f| f.evidence.property == property.name) {
-        let _ = write!(out, "\n{}", failure.what);
-        for e in failure.evidence.exchanges.iter().take(3) {
-            let _ = write!(out, "\nrequest:  {}\nanswer:   {}", e.request, e.answer);
-            if !e.other.is_empty() {
-                let _ = write!(out, "\nother:    {}", e.other);
-            }
-            if !e.expected.is_empty() {
-                let _ = write!(out, "\nexpected: {}", e.expected);
-            }
-        }
-        let _ = write!(out, "\nrepeat with: {}", repeat(failure.family, failure.index));
-    }
-    if property.name == "protocol" {
-        for incident in verdict.found.incidents.iter().take(3) {
-            let _ = write!(out, "\nit {}\nrequest:  {}", incident.what, incident.request);
-            if !incident.family.is_empty() {
-                let _ = write!(out, "\nrepeat with: {}", repeat(incident.family, incident.index));
-            }
-        }
-    }
-    out
-}
-
-/// Everything that was found, as JSON.
-#[must_use]
-pub fn everything(
-    verdict: &Judgement,
-    repeat_all: &str,
-    repeat: &dyn Fn(&str, u64) -> String,
-) -> Value {
-    let d = &verdict.declared;
-    let failures = verdict.failures.iter().map(|f| {
-        json!({
-            "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
-            "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
-            "exchanges": f.evidence.exchanges, "repeat": repeat(f.family, f.index),
-        })
-    });
-    let incidents = verdict.found.incidents.iter().map(|i| {
-        let of_family = Some(i).filter(|i| !i.family.is_empty());
-        json!({
-            "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
-            "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
-        })
-    });
-    let mut all = json!({
-        "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
-        "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.seed,
-        "cases": verdict.cases, "judged_cases": verdict.found.cases,
-        "all_cases": verdict.found.of_cases, "out_of_time": verdict.found.out_of_time,
-        "known_failures": verdict.known, "agrees": verdict.agrees(), "windings": verdict.windings,
-        "recognised": verdict.recognised, "score_as_declared": verdict.as_declared(),
-        "score_by_convention": verdict.by_convention(), "answers": verdict.found.answered,
-        "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures.collect::<Vec<_>>(),
-        "incidents": incidents.collect::<Vec<_>>(),
-        "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "causes": verdict.causes, "line_reach": verdict.reach, "stderr": verdict.complaints, "repeat": repeat_all,
-    });
-    if let Some(second) = &verdict.against {
-        all["against"] = json!({
-            "program": second.name, "declared": second.to_string(), "sides": verdict.sides(),
-        });
-    }
-    all
+    let shown = excerpts(verdict, repeat, Some(property.name));
+    let shown: String = shown.iter().map(|one| text::excerpt(one, text::WIDTH)).collect();
+    format!("{}: {}\n{shown}", property.about, property.detail).trim_end().to_owned()
 }
 
 /// Text between tags and in quoted attributes, where the ends of lines are kept.

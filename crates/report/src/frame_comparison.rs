@@ -1,6 +1,6 @@
 //! Two rendered frames compared pixel for pixel and depth for depth, and what the pixels of one pay for.
 
-use image::RgbImage;
+use image::{Rgb, RgbImage, imageops};
 
 use super::lettering::Size;
 use super::panels;
@@ -156,21 +156,9 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     (count, wrong)
 }
 
-/// The effects of the book, which have a place in every map, in the order of its panels.
-const OF_EVERY_MAP: [Effect; 6] = [
-    Effect::Samples,
-    Effect::Perspective,
-    Effect::Depth,
-    Effect::Colour,
-    Effect::Light,
-    Effect::Texture,
-];
-
-/// The effects of a map, in the order of its panels.
+/// The effects of a map.
 pub fn mapped() -> impl Iterator<Item = Effect> {
-    let is_other =
-        |effect: &Effect| effect.map_colour().is_some() && !OF_EVERY_MAP.contains(effect);
-    OF_EVERY_MAP.into_iter().chain(Effect::ALL.into_iter().filter(is_other))
+    Effect::ALL.into_iter().filter(|effect| effect.map_colour().is_some())
 }
 
 pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
@@ -230,81 +218,55 @@ fn heat(count: f64, most: u32) -> [u8; 3] {
     [0, 1, 2].map_array(|i| (STOPS[low][i] * (1.0 - part) + STOPS[low + 1][i] * part) as u8)
 }
 
-/// What pixels pay as small pictures: how many fragments, what all of these pay for, and for each effect the frame,
-/// dimmed, and in colour the pixels that pay for it.
+/// What pixels pay as small pictures: how many fragments, what all of these pay for, and for each effect that is paid for
+/// the frame, dimmed, and in colour the pixels that pay for it.
 pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> RgbImage {
     let map = &paid_map.effects;
     let bounds = map.bounds();
-    let shrunk = (bounds.width() * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
-    let (width, height) = (bounds.width().div_ceil(shrunk), bounds.height().div_ceil(shrunk));
-    let cell = |name: &str, ink: [u8; 3], words: &str, colour: &dyn Fn(u32, u32) -> [u8; 3]| {
-        let small =
-            RgbImage::from_fn(width, height, |x, y| image::Rgb(colour(x * shrunk, y * shrunk)));
-        let name = (name.to_owned(), Size::Heading, image::Rgb(ink));
-        let words = (words.to_owned(), Size::Small, panels::FAINT);
-        let image = panels::titled(&[name, words], &small, [0, 0]);
+    let (width, height) = (bounds.width(), bounds.height());
+    let shrunk = (width * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
+    let cell = |name: &str, ink: [u8; 3], words: String, colour: &dyn Fn(i32, i32) -> [u8; 3]| {
+        let colour = |x, y| Rgb(colour(bounds.x0 + x as i32, bounds.y0 + y as i32));
+        let whole = RgbImage::from_fn(width, height, colour);
+        let [width, height] = [width, height].map(|side| side.div_ceil(shrunk));
+        let name = (name.to_owned(), Size::Heading, Rgb(ink));
+        let words = [name, (words, Size::Small, panels::FAINT)];
+        let image = panels::titled(&words, &imageops::thumbnail(&whole, width, height), [0, 0]);
         panels::Sheet { image, panels: Vec::new() }
     };
     let amounts =
         [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)];
     let amounts = amounts.map(|(name, counts)| {
         let Amount { mean, most, .. } = Amount::of(counts);
-        cell(name, panels::INK.0, &format!("mean {mean:.2}, at most {most}"), &|left, top| {
-            // The most of a block, so that no expensive pixel gets lost.
-            let block = (0..shrunk).flat_map(|dy| (0..shrunk).map(move |dx| (dx, dy)));
-            let counts = block.filter_map(|(dx, dy)| {
-                counts.get(bounds.x0 + (left + dx) as i32, bounds.y0 + (top + dy) as i32)
-            });
-            heat(counts.max().unwrap_or(0).into(), most)
+        cell(name, panels::INK.0, format!("mean {mean:.2}, at most {most}"), &|x, y| {
+            heat(counts.get(x, y).unwrap_or(0).into(), most)
         })
     });
-    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
-    let is_shown = |effect: &Effect| OF_EVERY_MAP.contains(effect) || paid(map, *effect) > 0;
-    let with_colour = |effect: Effect| Some((effect, effect.map_colour()?));
-    let effects = mapped().filter(is_shown).filter_map(with_colour).map(|(effect, colour)| {
-        let count = paid(map, effect);
+    let pixels = u64::from(width) * u64::from(height);
+    let effects = mapped().filter(|effect| paid(map, *effect) > 0).filter_map(|effect| {
+        let (count, paint) = (paid(map, effect), effect.map_colour()?);
         let words = format!("{count} px, {:.1}%", 100.0 * count as f64 / pixels.max(1) as f64);
-        cell(effect.name(), colour.map_array(|c| c / 2), &words, &|left, top| {
-            block_mean(picture, map, (effect, colour), [left, top], shrunk)
-        })
+        Some(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
+            let [r, g, b, _] = picture.get(x, y).unwrap_or_default();
+            let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
+            match map.get(x, y).unwrap_or(0) & (1 << effect as u32) {
+                0 => [(40 + grey / 5) as u8; 3],
+                // The frame shows through.
+                _ => {
+                    paint.map_array(|c| (u32::from(c) * (160 + grey * 3 / 8) / 256).min(255) as u8)
+                }
+            }
+        }))
     });
     let cells = amounts.into_iter().chain(effects).collect();
-    let scale = (1..=9).map(|count| image::Rgb(heat(count.into(), 9))).collect();
+    let scale = (1..=9).map(|count| Rgb(heat(count.into(), 9))).collect();
     let entries = [
-        (vec![image::Rgb(heat(0.0, 1))], "none".to_owned()),
+        (vec![Rgb(heat(0.0, 1))], "none".to_owned()),
         (scale, "from one a pixel to the most".to_owned()),
     ];
     let note = "effects: in colour the pixels that pay; behind it the frame, dimmed";
     let title = (title.to_owned(), Size::Heading, panels::INK);
     panels::arranged(&[title], cells, MAP_COLUMNS, &entries, note).image
-}
-
-/// The mean of a block of the frame, in the effect's colour where it is paid for, else dimmed.
-fn block_mean(
-    picture: &Frame<Colour>,
-    map: &Frame<u32>,
-    (effect, colour): (Effect, [u8; 3]),
-    [x, y]: [u32; 2],
-    side: u32,
-) -> [u8; 3] {
-    let bounds = map.bounds();
-    let (mut sum, mut count) = ([0u32; 3], 0);
-    for (dx, dy) in (0..side).flat_map(|dy| (0..side).map(move |dx| (dx, dy))) {
-        let (x_px, y_px) = (bounds.x0 + (x + dx) as i32, bounds.y0 + (y + dy) as i32);
-        let (Some(paid), Some([r, g, b, _])) = (map.get(x_px, y_px), picture.get(x_px, y_px))
-        else {
-            continue;
-        };
-        let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
-        let shown = match paid & (1 << effect as u32) {
-            0 => [40 + grey / 5; 3],
-            // The frame shows through.
-            _ => colour.map_array(|c| u32::from(c) * (160 + grey * 3 / 8) / 256),
-        };
-        (0..3).for_each(|i| sum[i] += shown[i]);
-        count += 1;
-    }
-    sum.map_array(|sum| (sum / count.max(1)).min(255) as u8)
 }
 
 /// How long a picture took, in seconds.
