@@ -106,7 +106,6 @@ fn report(
             let typed = typed.clone().first("cases", arguments.cases);
             typed.first("seed", arguments.seed).line()
         },
-        seed: Some(arguments.seed),
         tables: specimens::tables(reports),
         data: json::specimens(arguments.seed, arguments.cases, reports),
         cases,

@@ -297,7 +297,6 @@ impl Run<'_> {
                 .collect(),
             command: self.repeat_all().line(),
             repeat: self.repeat_all().without_output().line(),
-            seed: Some(seed),
             first_screen,
             tables: families.into_iter().chain([differential::refused()]).collect(),
             cases: cases.unwrap_or_default(),

@@ -740,13 +740,6 @@ pub fn every_section() -> Report {
             svg: "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned(),
             narrow: None,
         }],
-        plan: Some(Table {
-            // Regions of a page have names of their own.
-            caption: format!("plan {}", hostile()),
-            columns: ["effect", "reason"].map(Column::words).to_vec(),
-            rows: vec![vec![hostile(), hostile()].into()],
-            ..Table::default()
-        }),
         diffs: vec![TextDiff {
             name: hostile(),
             about: hostile(),
@@ -776,7 +769,6 @@ fn page_takes_every_section_and_any_text() {
         assert_eq!(browser.text(selector), HOSTILE, "{selector}");
     }
     assert_eq!(browser.eval("document.title"), json!(HOSTILE));
-    assert_eq!(browser.text("#plan tbody td"), HOSTILE);
     assert_eq!(browser.eval("document.querySelector('#plots img').naturalWidth"), json!(60));
     assert_eq!(browser.text(".diff .added pre"), HOSTILE);
     assert_eq!(browser.text(".diff .removed pre"), "old");

@@ -8,10 +8,10 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::html;
-use super::json::{self as json_text, pretty};
+use super::judge_text::excerpts;
+use super::{html, json as json_text, text};
+use json_text::pretty;
 use rasterproof_judge::verdict::{Outcome, Property, Scores as _, Verdict};
-use rasterproof_verify::comparison::shrink;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -51,7 +51,7 @@ pub fn write(
 ) -> String {
     match format {
         Format::Text => String::new(),
-        Format::Json => json_text::text(&everything(verdict, repeat_all, repeat)),
+        Format::Json => json_text::text(&json_text::judgement(verdict, repeat_all, repeat)),
         Format::Junit => junit(verdict, repeat),
         Format::Tap => tap(verdict, repeat),
         Format::Gradescope => {
@@ -64,91 +64,11 @@ pub fn write(
     }
 }
 
-/// What was found, and where it fails the smallest case.
+/// What was found, and the cases that a terminal shows of it.
 fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
-    let mut out = format!("{}: {}", property.about, property.detail);
-    for failure in verdict.failures.iter().filter(|f| f.evidence.property == property.name) {
-        let _ = write!(out, "\n{}", failure.what);
-        for e in failure.evidence.exchanges.iter().take(3) {
-            let _ = write!(out, "\nrequest:  {}\nanswer:   {}", e.request, e.answer);
-            if !e.other.is_empty() {
-                let _ = write!(out, "\nother:    {}", e.other);
-            }
-            if !e.expected.is_empty() {
-                let _ = write!(out, "\nexpected: {}", e.expected);
-            }
-        }
-        let _ = write!(out, "\nrepeat with: {}", repeat(failure.family, failure.index));
-    }
-    if property.name == "protocol" {
-        for incident in verdict.more.found.incidents.iter().take(3) {
-            let _ = write!(out, "\nit {}\nrequest:  {}", incident.what, incident.request);
-            if !incident.family.is_empty() {
-                let _ = write!(out, "\nrepeat with: {}", repeat(incident.family, incident.index));
-            }
-        }
-    }
-    out
-}
-
-/// Everything that was found, as JSON.
-#[must_use]
-pub fn everything(
-    verdict: &Verdict,
-    repeat_all: &str,
-    repeat: &dyn Fn(&str, u64) -> String,
-) -> Value {
-    let d = &verdict.more.declared;
-    let failures: Vec<Value> = verdict
-        .failures
-        .iter()
-        .map(|f| {
-            let exchanges: Vec<Value> = f
-                .evidence
-                .exchanges
-                .iter()
-                .map(|e| {
-                    let mut exchange =
-                        json!({"request": e.request, "answer": e.answer, "expected": e.expected});
-                    if !e.other.is_empty() {
-                        exchange["other"] = e.other.clone().into();
-                    }
-                    exchange
-                })
-                .collect();
-            json!({
-                "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
-                "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
-                "exchanges": exchanges, "repeat": repeat(f.family, f.index),
-            })
-        })
-        .collect();
-    let incidents = verdict.more.found.incidents.iter().map(|i| {
-        let of_family = Some(i).filter(|i| !i.family.is_empty());
-        json!({
-            "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
-            "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
-        })
-    });
-    let mut all = json!({
-        "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
-        "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.options.seed,
-        "cases": verdict.options.cases, "judged_cases": verdict.more.found.cases,
-        "all_cases": verdict.more.found.of_cases, "out_of_time": verdict.more.found.out_of_time,
-        "known_failures": verdict.more.known, "agrees": verdict.agrees(), "windings": verdict.more.windings,
-        "recognised": verdict.more.recognised, "score_as_declared": verdict.as_declared(),
-        "score_by_convention": verdict.by_convention(), "answers": verdict.more.found.answered,
-        "properties": verdict.more.properties, "rows": verdict.families, "failures": failures,
-        "incidents": incidents.collect::<Vec<_>>(),
-        "strays": verdict.more.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "causes": verdict.cause, "line_reach": verdict.more.reach, "stderr": verdict.more.complaints, "repeat": repeat_all,
-    });
-    if let Some(second) = &verdict.more.against {
-        all["against"] = json!({
-            "program": second.name, "declared": second.to_string(), "sides": verdict.sides(),
-        });
-    }
-    all
+    let shown = excerpts(verdict, repeat, Some(property.name));
+    let shown: String = shown.iter().map(|one| text::excerpt(one, text::WIDTH)).collect();
+    format!("{}: {}\n{shown}", property.about, property.detail).trim_end().to_owned()
 }
 
 /// Text between tags and in quoted attributes, where the ends of lines are kept.

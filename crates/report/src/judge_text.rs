@@ -1,7 +1,7 @@
 //! The verdict on a program that was judged through the line protocol, on two that were compared, and on a tessellator.
 
-use super::formats;
 use super::html::{Chapter, Excerpt, Outcome, Report};
+use super::json;
 use super::table::{Mark, Row, Table};
 use super::words::{of_bound, same, thousands};
 use super::{page_cases, summary};
@@ -58,11 +58,6 @@ pub fn report(
         let note = format!("not shown: {known} failing cases that the baseline knows");
         first_screen.push(Table::of_notes("", vec![note]));
     }
-    let drawn_by =
-        names.as_ref().map_or(vec!["judged"], |names| names.iter().map(|n| &**n).collect());
-    let failures = verdict.failures.iter();
-    let failures =
-        failures.map(|failure| excerpt(failure, &drawn_by, repeat(failure.family, failure.index)));
     let title = match &names {
         Some([first, second]) => format!("{first} against {second}"),
         None => format!("Verdict on {}", d.name),
@@ -71,15 +66,10 @@ pub fn report(
         title,
         about: about.join("\n"),
         outcome: Some(outcome(verdict, names.as_ref())),
-        excerpts: incidents(verdict, repeat)
-            .into_iter()
-            .chain(failures)
-            .chain(complaints(verdict))
-            .collect(),
+        excerpts: excerpts(verdict, repeat, None).into_iter().chain(complaints(verdict)).collect(),
         tables: first_screen.iter().cloned().chain([properties(verdict)]).collect(),
         first_screen,
         repeat: repeat_all.to_owned(),
-        seed: Some(verdict.options.seed),
         ..Report::default()
     }
 }
@@ -99,7 +89,7 @@ pub fn whole(
         .map(|second| against::names([&verdict.more.declared, second]));
     Report {
         cases: views(verdict, names.as_ref(), repeat),
-        data: formats::everything(verdict, repeat_all, repeat),
+        data: json::judgement(verdict, repeat_all, repeat),
         ..report(verdict, repeat_all, repeat, with_table)
     }
 }
@@ -299,6 +289,23 @@ fn families(verdict: &Verdict) -> Table {
         ));
     }
     Table::new("", columns, by_share(verdict).into_iter().map(row).collect()).noted(notes)
+}
+
+/// What broke the protocol and the cases that fail: of one property, or of all.
+pub(super) fn excerpts(
+    verdict: &Verdict,
+    repeat: &dyn Fn(&str, u64) -> String,
+    property: Option<&str>,
+) -> Vec<Excerpt> {
+    let is_asked = |name: &str| property.is_none_or(|one| one == name);
+    let more = &verdict.more;
+    let names = more.against.as_ref().map(|second| against::names([&more.declared, second]));
+    let drawn_by =
+        names.as_ref().map_or(vec!["judged"], |names| names.iter().map(|name| &**name).collect());
+    let broken = if is_asked("protocol") { incidents(verdict, repeat) } else { Vec::new() };
+    let failures = verdict.failures.iter().filter(|f| is_asked(f.evidence.property));
+    let failures = failures.map(|f| excerpt(f, &drawn_by, repeat(f.family, f.index)));
+    broken.into_iter().chain(failures).collect()
 }
 
 /// What broke the protocol: the first of each kind.

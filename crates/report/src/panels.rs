@@ -25,16 +25,14 @@ const MOST_PX: [u32; 2] = [1400, 1000];
 /// Larger cases are cropped to the pixels that differ.
 const MOST_CROPPED_PX: u32 = 48;
 /// Picture pixels of a pixel's side from which the dot of its sample is shown.
-pub(super) const SAMPLED: u32 = 8;
+const SAMPLED: u32 = 8;
 /// Room around everything and between panels.
 const GAP: u32 = 12;
 /// Room for the numbers of the columns, and the least for those of the rows.
-pub(super) const ABOVE: u32 = 16;
+const ABOVE: u32 = 16;
 const BESIDE: u32 = 34;
-/// Lines of text over a panel.
-const HEAD: u32 = 38;
-const INK: Rgb<u8> = Rgb([30, 30, 30]);
-const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
+pub(super) const INK: Rgb<u8> = Rgb([30, 30, 30]);
+pub(super) const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
 const KEY: &str = "rasterproof-panels";
 
@@ -64,9 +62,94 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
         Shape::Lines(_) => "the line itself",
         _ => "edges",
     };
-    let owners = owners(case, target);
-    let judged = (actual, target, owners.as_ref());
-    sheet((title, outline), case.window, judged, |window, zoom| segments(case, window, zoom))
+    let (window, owners) = (case.window, owners(case, target));
+    let oracle = [("oracle".to_owned(), target.clone())];
+    let all: Vec<&Drawn> = actual.iter().chain(&oracle).collect();
+    let shown = crop(window, &all, target, &segments(case, window, 1));
+    let (zoom, columns) = layout(shown, all.len() as u32);
+    let outlines = segments(case, shown, zoom);
+    let mut occurring = BTreeSet::new();
+    let panels = all.iter().map(|(name, hits)| {
+        let colour = |x_px, y_px| {
+            let of = |hits: &Coverage| hits.get(x_px, y_px).unwrap_or(0);
+            colour(of(hits), of(target), owners.as_ref().map_or(0, of))
+        };
+        occurring.extend(pixels(shown).map(|(x, y)| colour(x, y).0));
+        let counts = (counts(hits, target), Size::Small, FAINT);
+        let words = [(name.clone(), Size::Heading, INK), counts];
+        panel(name.clone(), &words, (shown, zoom, true), &outlines, &colour)
+    });
+    let panels = panels.collect();
+    let owned =
+        (1..).zip(OWNERS).map(|(number, colour)| (colour, format!("right: triangle {number}")));
+    let words = [
+        (AGREES, "as the oracle"),
+        (MISSING, "missing"),
+        (EXTRA, "extra"),
+        (TWICE, "hit too often"),
+        (OVERLAP, "rightly more than once"),
+    ];
+    let words = words.map(|(colour, text)| (colour, text.to_owned()));
+    let samples = (zoom >= SAMPLED).then_some((SAMPLE, "samples"));
+    let others = [(EDGE, outline)].into_iter().chain(samples);
+    let others = others.map(|(colour, text)| (colour, text.to_owned()));
+    let entries = owned.chain(words).filter(|(c, _)| occurring.contains(&c.0)).chain(others);
+    let entries: Vec<Entry> = entries.map(|(colour, text)| (vec![colour], text)).collect();
+    let note = if shown == window {
+        String::new()
+    } else {
+        format!(
+            "columns {} to {}, rows {} to {} of {} x {} px",
+            shown.x0,
+            shown.x1 - 1,
+            shown.y0,
+            shown.y1 - 1,
+            window.width(),
+            window.height()
+        )
+    };
+    arranged(&[(title.to_owned(), Size::Heading, INK)], panels, columns, &entries, &note)
+}
+
+/// Words of one size and colour.
+pub(super) type Words = (String, Size, Rgb<u8>);
+
+/// Words, below them pictures in so many columns, below these what the colours mean, and a note.
+pub(super) fn arranged(
+    words: &[Words],
+    cells: Vec<Sheet>,
+    columns: u32,
+    entries: &[Entry],
+    note: &str,
+) -> Sheet {
+    let wide = cells.iter().map(|cell| cell.image.width()).max().unwrap_or(1);
+    let high = cells.iter().map(|cell| cell.image.height()).max().unwrap_or(1);
+    let rows = (cells.len() as u32).div_ceil(columns);
+    let width = (GAP + columns * (wide + GAP)).max(420);
+    let mut heading = Vec::new();
+    let mut top = GAP;
+    for (text, size, ink) in words {
+        for line in lettering::wrapped(text, *size, width - 2 * GAP) {
+            heading.push((line, top, *size, *ink));
+            top += size.cell()[1];
+        }
+    }
+    top += GAP / 2;
+    let foot = foot(width, entries, note);
+    let height = top + rows * (high + GAP) + foot.height();
+    let mut image = RgbImage::from_pixel(width, height, WHITE);
+    for (text, y, size, ink) in heading {
+        write(&mut image, (GAP.into(), y.into()), &text, size, ink);
+    }
+    let mut panels = Vec::new();
+    for (i, cell) in (0u32..).zip(cells) {
+        let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
+        imageops::replace(&mut image, &cell.image, left.into(), top.into());
+        let moved = |panel: Panel| Panel { at: [panel.at[0] + left, panel.at[1] + top], ..panel };
+        panels.extend(cell.panels.into_iter().map(moved));
+    }
+    imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
+    Sheet { image, panels }
 }
 
 /// The number of the triangle that the oracle gives each pixel to, from 1, where a few triangles lie side by side and no
@@ -86,47 +169,6 @@ fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
         }
     }
     Some(owners)
-}
-
-/// The title, and what the outline is. Segments are asked for in picture pixels of a panel, once the
-/// zoom is known.
-fn sheet(
-    (title, outline): (&str, &str),
-    window: PixelRect,
-    (actual, target, owners): (&[Drawn], &Coverage, Option<&Coverage>),
-    segments: impl Fn(PixelRect, u32) -> Vec<[PixelPoint; 2]>,
-) -> Sheet {
-    let oracle = [("oracle".to_owned(), target.clone())];
-    let all: Vec<&Drawn> = actual.iter().chain(&oracle).collect();
-    let shown = crop(window, &all, target, &segments(window, 1));
-    let (zoom, columns) = layout(shown, all.len() as u32);
-    let panels: Vec<RgbImage> = all
-        .iter()
-        .map(|(name, hits)| {
-            panel(name, (hits, target, owners), (shown, zoom), &segments(shown, zoom))
-        })
-        .collect();
-    let wide = panels.iter().map(RgbImage::width).max().unwrap_or(1);
-    let high = panels.iter().map(RgbImage::height).max().unwrap_or(1);
-    let rows = (all.len() as u32).div_ceil(columns);
-    let width = (GAP + columns * (wide + GAP)).max(420);
-    let heading = lettering::wrapped(title, Size::Heading, width - 2 * GAP);
-    let top = GAP + heading.len() as u32 * Size::Heading.cell()[1] + GAP / 2;
-    let foot = foot(width, window, (shown, zoom), &all, (target, owners), outline);
-    let height = top + rows * (high + GAP) + foot.height();
-    let mut image = RgbImage::from_pixel(width, height, WHITE);
-    for (text, y) in heading.iter().zip((GAP..).step_by(Size::Heading.cell()[1] as usize)) {
-        write(&mut image, (GAP.into(), y.into()), text, Size::Heading, INK);
-    }
-    let mut places = Vec::new();
-    for (i, (picture, (name, _))) in (0u32..).zip(panels.iter().zip(&all)) {
-        let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
-        imageops::replace(&mut image, picture, left.into(), top.into());
-        let at = [left + beside(shown), top + HEAD + ABOVE];
-        places.push(Panel { name: name.clone(), at, zoom, shown });
-    }
-    imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
-    Sheet { image, panels: places }
 }
 
 /// The part of the window that is worth seeing: the shape and what is hit, a pixel to spare. Of a
@@ -160,15 +202,13 @@ fn union(a: PixelRect, b: PixelRect) -> PixelRect {
 
 /// The box around the pixels of a kind, some to spare, within the window.
 fn around(window: PixelRect, is_in: impl Fn(i32, i32) -> bool, spare: i32) -> Option<PixelRect> {
-    let pixels = (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)));
-    let boxes = pixels.filter(|&(x, y)| is_in(x, y)).map(|(x, y)| PixelRect {
+    let boxes = pixels(window).filter(|&(x, y)| is_in(x, y)).map(|(x, y)| PixelRect {
         x0: x,
         y0: y,
         x1: x + 1,
         y1: y + 1,
     });
-    let PixelRect { x0, y0, x1, y1 } = boxes.reduce(union)?;
-    Some(wider(PixelRect { x0, y0, x1, y1 }, spare, window))
+    Some(wider(boxes.reduce(union)?, spare, window))
 }
 
 /// A box with some to spare, within the window.
@@ -201,35 +241,44 @@ fn beside(shown: PixelRect) -> u32 {
     wide(shown.y0).max(wide(shown.y1 - 1)).max(BESIDE)
 }
 
-/// Name and counts, numbered rows and columns, squares and outline.
-fn panel(
-    name: &str,
-    (hits, target, owners): (&Coverage, &Coverage, Option<&Coverage>),
-    (shown, zoom): (PixelRect, u32),
-    segments: &[[PixelPoint; 2]],
-) -> RgbImage {
-    let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
-    let counts = counts(hits, target);
-    let text = lettering::width(name, Size::Heading).max(lettering::width(&counts, Size::Small));
-    let mut image =
-        RgbImage::from_pixel(beside(shown) + width.max(text), HEAD + ABOVE + height, WHITE);
-    let left = beside(shown);
-    write(&mut image, (left.into(), 0), name, Size::Heading, INK);
-    write(&mut image, (left.into(), 20), &counts, Size::Small, FAINT);
-    let at = [left, HEAD + ABOVE];
-    numbers(&mut image, at, shown, zoom);
-    let colour = |x_px, y_px| {
-        let of = |hits: &Coverage| hits.get(x_px, y_px).unwrap_or(0);
-        colour(of(hits), of(target), owners.map_or(0, of))
-    };
-    let squares = squares((shown, zoom), (4, Some(zoom / 32)), colour);
-    imageops::replace(&mut image, &squares, at[0].into(), at[1].into());
-    for segment in segments {
-        line(*segment, PixelRect::window(width, height), |x, y| {
-            image.put_pixel(at[0] + x, at[1] + y, EDGE);
-        });
+/// A picture below some words, with room left of it and above.
+pub(super) fn titled(words: &[Words], picture: &RgbImage, [left, above]: [u32; 2]) -> RgbImage {
+    let text = words.iter().map(|(text, size, _)| lettering::width(text, *size)).max();
+    let wide = left + picture.width().max(text.unwrap_or(0));
+    let top = head(words) + above;
+    let mut image = RgbImage::from_pixel(wide, top + picture.height(), WHITE);
+    let mut y = 0;
+    for (text, size, ink) in words {
+        write(&mut image, (left.into(), y.into()), text, *size, *ink);
+        y += size.cell()[1];
     }
+    imageops::replace(&mut image, picture, left.into(), top.into());
     image
+}
+
+fn head(words: &[Words]) -> u32 {
+    words.iter().map(|(_, size, _)| size.cell()[1]).sum::<u32>() + 2
+}
+
+/// Each pixel as a square of its colour, with an outline over them, numbered rows and columns, and a dot for each sample where
+/// these are shown.
+pub(super) fn panel(
+    name: String,
+    words: &[Words],
+    (shown, zoom, has_samples): (PixelRect, u32, bool),
+    outline: &[[PixelPoint; 2]],
+    colour: &dyn Fn(i32, i32) -> Rgb<u8>,
+) -> Sheet {
+    let mut picture = squares(shown, zoom, has_samples, colour);
+    let bounds = PixelRect::window(picture.width(), picture.height());
+    for segment in outline {
+        line(*segment, bounds, |x, y| picture.put_pixel(x, y, EDGE));
+    }
+    let left = beside(shown);
+    let mut image = titled(words, &picture, [left, ABOVE]);
+    let at = [left, head(words) + ABOVE];
+    numbers(&mut image, at, shown, zoom);
+    Sheet { image, panels: vec![Panel { name, at, zoom, shown }] }
 }
 
 /// What is wrong in words, or how many pixels are right.
@@ -243,7 +292,7 @@ fn counts(hits: &Coverage, target: &Coverage) -> String {
 }
 
 /// Numbers of columns over the squares, of rows left of them, as many as fit. The squares begin at `left` and `top`.
-pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
+fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
     let widest = [shown.x0, shown.x1 - 1].map_array(|n| n.to_string().len() as u32);
     let [cell_width, cell_height] = Size::Small.cell();
     let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
@@ -270,20 +319,21 @@ pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelR
     }
 }
 
-/// Each pixel as a square of its colour, with a border; from so many picture pixels of a side on with a grid between
-/// them; and with a dot for each sample, where samples are shown, that reaches so far from its middle.
-pub(super) fn squares(
-    (shown, zoom): (PixelRect, u32),
-    (least_grid, dot): (u32, Option<u32>),
-    colour: impl Fn(i32, i32) -> Rgb<u8>,
+/// With a border, and where there is room a grid between them.
+fn squares(
+    shown: PixelRect,
+    zoom: u32,
+    has_samples: bool,
+    colour: &dyn Fn(i32, i32) -> Rgb<u8>,
 ) -> RgbImage {
     let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
-    let dot = dot.filter(|_| zoom >= SAMPLED);
-    let is_dot = |offset: u32| dot.is_some_and(|reach| offset.abs_diff(zoom / 2) <= reach);
+    let has_grid = zoom >= if has_samples { 4 } else { 6 };
+    let has_samples = has_samples && zoom >= SAMPLED;
+    let is_dot = |offset: u32| has_samples && offset.abs_diff(zoom / 2) <= zoom / 32;
     RgbImage::from_fn(width, height, |x, y| {
         if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
             BORDER
-        } else if zoom >= least_grid && (x % zoom == 0 || y % zoom == 0) {
+        } else if has_grid && (x % zoom == 0 || y % zoom == 0) {
             GRID
         } else if is_dot(x % zoom) && is_dot(y % zoom) {
             SAMPLE
@@ -305,72 +355,42 @@ fn colour(actual: u8, target: u8, owner: u8) -> Rgb<u8> {
     }
 }
 
-/// What the colours mean that occur, and what part of the window is shown.
-fn foot(
-    width: u32,
-    window: PixelRect,
-    (shown, zoom): (PixelRect, u32),
-    all: &[&Drawn],
-    (target, owners): (&Coverage, Option<&Coverage>),
-    outline: &str,
-) -> RgbImage {
-    let of_panel = |(_, hits): &&Drawn| {
-        let pixels = (shown.y0..shown.y1).flat_map(|y| (shown.x0..shown.x1).map(move |x| (x, y)));
-        let at = |c: &Coverage, (x, y)| c.get(x, y).unwrap_or(0);
-        let shade =
-            |pixel| colour(at(hits, pixel), at(target, pixel), owners.map_or(0, |c| at(c, pixel)));
-        pixels.map(|pixel| shade(pixel).0).collect::<Vec<_>>()
-    };
-    let occurring: BTreeSet<[u8; 3]> = all.iter().flat_map(of_panel).collect();
-    let owned =
-        (1..).zip(OWNERS).map(|(number, colour)| (colour, format!("right: triangle {number}")));
-    let words = [
-        (AGREES, "as the oracle"),
-        (MISSING, "missing"),
-        (EXTRA, "extra"),
-        (TWICE, "hit too often"),
-        (OVERLAP, "rightly more than once"),
-    ];
-    let words = words.map(|(colour, text)| (colour, text.to_owned()));
-    let mut entries: Vec<_> =
-        owned.chain(words).filter(|(c, _)| occurring.contains(&c.0)).collect();
-    entries.push((EDGE, outline.to_owned()));
-    if zoom >= SAMPLED {
-        entries.push((SAMPLE, "samples".to_owned()));
-    }
-    let mut image = RgbImage::from_pixel(width, 3 * 18 + GAP / 2, WHITE);
+/// Colours with what they mean.
+pub(super) type Entry = (Vec<Rgb<u8>>, String);
+
+/// What the colours mean, in rows that fit a width, and a note below them.
+fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
+    const ROW: u32 = 18;
     let (mut left, mut top) = (GAP, 0);
-    for (colour, text) in entries {
-        let wide = 18 + lettering::width(&text, Size::Small);
+    let mut places = Vec::new();
+    for (colours, text) in entries {
+        let wide = 6 + 12 * colours.len() as u32 + lettering::width(text, Size::Small);
         if left + wide > width - GAP && left > GAP {
-            (left, top) = (GAP, top + 18);
+            (left, top) = (GAP, top + ROW);
         }
-        let (wide_mark, high) = match colour {
-            EDGE => (0..12, 6..8),
-            SAMPLE => (4..7, 5..8),
-            _ => (0..12, 1..13),
-        };
-        for (x, y) in wide_mark.flat_map(|x| high.clone().map(move |y| (x, y))) {
-            image.put_pixel(left + x, top + y, colour);
-        }
-        write(&mut image, (i64::from(left) + 18, i64::from(top) - 1), &text, Size::Small, INK);
+        places.push([left, top]);
         left += wide + 16;
     }
-    top += 18;
-    if shown != window {
-        let text = format!(
-            "columns {} to {}, rows {} to {} of {} x {} px",
-            shown.x0,
-            shown.x1 - 1,
-            shown.y0,
-            shown.y1 - 1,
-            window.width(),
-            window.height()
-        );
-        write(&mut image, (GAP.into(), i64::from(top) - 1), &text, Size::Small, FAINT);
-        top += 18;
+    let rows = if entries.is_empty() { 0 } else { top + ROW };
+    let note_rows = if note.is_empty() { 0 } else { ROW };
+    let end = if rows + note_rows > 0 { GAP / 2 } else { 0 };
+    let mut image = RgbImage::from_pixel(width, rows + note_rows + end, WHITE);
+    for ([mut left, top], (colours, text)) in places.into_iter().zip(entries) {
+        for &colour in colours {
+            let (wide, high) = match colour {
+                EDGE => (0..12, 6..8),
+                SAMPLE => (4..7, 5..8),
+                _ => (0..12, 1..13),
+            };
+            for (x, y) in wide.flat_map(|x| high.clone().map(move |y| (x, y))) {
+                image.put_pixel(left + x, top + y, colour);
+            }
+            left += 12;
+        }
+        write(&mut image, (i64::from(left) + 6, i64::from(top) - 1), text, Size::Small, INK);
     }
-    imageops::crop_imm(&image, 0, 0, width, (top + GAP / 2).min(image.height())).to_image()
+    write(&mut image, (GAP.into(), i64::from(rows) - 1), note, Size::Small, FAINT);
+    image
 }
 
 impl Sheet {

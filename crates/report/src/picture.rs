@@ -4,7 +4,6 @@
 //! twice, green is hit more than once and rightly so. A dark dot is a sample; a blue line is an edge.
 
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 use image::{Rgb, RgbImage};
 
@@ -41,12 +40,13 @@ pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(
     Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
 }
 
-/// The pixels of a frame as a picture of the same size.
+/// The pixels of a frame as a picture of the same size, of their first three channels.
 #[must_use]
-pub fn of_frame(frame: &Frame<[u8; 3]>) -> RgbImage {
+pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
     let bounds = frame.bounds();
     RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
-        Rgb(frame.get(bounds.x0 + x as i32, bounds.y0 + y as i32).unwrap_or_default())
+        let pixel = &frame.row(bounds.y0 + y as i32)[x as usize];
+        Rgb([pixel[0], pixel[1], pixel[2]])
     })
 }
 
@@ -86,7 +86,7 @@ fn edges([a, b, c]: [PixelPoint; 3]) -> [[PixelPoint; 2]; 3] {
 }
 
 /// Room between two pictures of a stack.
-pub const STACK_GAP: u32 = 12;
+const STACK_GAP: u32 = 12;
 
 /// Stacks pictures under each other on white, with a gap between.
 pub fn stack(pictures: &[RgbImage]) -> RgbImage {
@@ -114,10 +114,10 @@ pub fn png(image: &RgbImage) -> Vec<u8> {
 pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
-    encoder.set_compression(png::Compression::High);
     let data = match indexed(image) {
         Some((palette, indices)) => {
             encoder.set_color(png::ColorType::Indexed);
+            encoder.set_compression(png::Compression::High);
             encoder.set_palette(palette);
             encoder.set_filter(png::Filter::NoFilter);
             indices
@@ -138,27 +138,15 @@ pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
 
 /// The colours in the order of their first pixels, and the number of each pixel's; none beyond 256.
 fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
-    let mut numbers: HashMap<[u8; 3], u8> = HashMap::new();
+    let mut numbers = HashMap::new();
     let (mut palette, mut indices) = (Vec::new(), Vec::new());
-    let mut last = None;
     for pixel in image.pixels() {
-        // Most pixels have the colour of the one before.
-        if let Some((colour, number)) = last
-            && colour == pixel.0
-        {
-            indices.push(number);
-            continue;
-        }
         let next = numbers.len();
-        let number = match numbers.entry(pixel.0) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(new) => {
-                palette.extend(pixel.0);
-                *new.insert(u8::try_from(next).ok()?)
-            }
-        };
-        indices.push(number);
-        last = Some((pixel.0, number));
+        let number = *numbers.entry(pixel.0).or_insert_with(|| {
+            palette.extend(pixel.0);
+            next
+        });
+        indices.push(u8::try_from(number).ok()?);
     }
     Some((palette, indices))
 }

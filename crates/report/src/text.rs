@@ -41,7 +41,7 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
     out.extend(report.excerpts.iter().map(|one| excerpt(one, columns)));
     let all = all || report.first_screen.is_empty();
     out += &match all {
-        true => tables(report.plan.iter().chain(&report.tables), columns, colour),
+        true => tables(&report.tables, columns, colour),
         false => tables(&report.first_screen, screen, colour),
     };
     if all {
