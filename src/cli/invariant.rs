@@ -49,7 +49,7 @@ pub fn run(
             format!("{program} verify --invariant {name} --seed {seed} --cases {cases}{planted}")
         };
         let report = invariant.run(&subject, seed, cases);
-        rows.push(row(invariant, &subject, (seed, cases), &report, &repeat, &mut outcomes));
+        rows.push(row(invariant, &subject, seed, &report, &repeat, &mut outcomes));
         let places = || {
             let asks = format!("{} verify{planted}", program());
             [("repeat with", repeat(cases)), ("a cause is looked for by", asks)]
@@ -126,7 +126,7 @@ fn excerpt(
 fn row(
     invariant: &Invariant,
     subject: &Implementations,
-    (seed, cases): (u64, u64),
+    seed: u64,
     report: &Trial,
     repeat: &dyn Fn(u64) -> String,
     outcomes: &mut Outcomes,

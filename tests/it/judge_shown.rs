@@ -301,10 +301,7 @@ fn legends_name_every_character() {
     let options =
         rasterproof_verify::comparison::Options::default().cases(60).family(FamilyName::Fan);
     let message = judge_coverage(&strict, &options).unwrap().check().unwrap_err().to_string();
-    assert!(
-        message.contains("2 to 9 drawn so often") && message.contains(". neither"),
-        "{message}"
-    );
+    assert!(message.contains(ascii::LEGEND), "{message}");
 }
 
 /// A window larger than what is printed shows a pixel that differs, wherever others are.

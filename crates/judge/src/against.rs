@@ -93,7 +93,6 @@ fn said_by(name: &str, what: Misbehaviour) -> Misbehaviour {
 ///
 /// # Panics
 /// If `pairs` is empty.
-#[must_use]
 pub fn compare(
     pairs: &mut [[Box<dyn Subject>; 2]],
     options: &Options,

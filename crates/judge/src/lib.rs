@@ -114,7 +114,6 @@ pub type Recognise<'a> = &'a dyn Fn(&mut dyn Subject) -> Option<Recognised>;
 ///
 /// # Panics
 /// If nobody is there to be asked.
-#[must_use]
 pub fn judge(
     askers: &mut [Box<dyn Subject>],
     options: &Options,

@@ -63,7 +63,6 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
 }
 
 /// The report as a verdict with a property for each family, for what is written for machines.
-#[must_use]
 pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdict) -> Verdict {
     let row = |family: &partition::Polygons| Row {
         name: family.family.name(),

@@ -83,7 +83,6 @@ const CHECKS: [(&str, &str); 7] = [
 ];
 
 /// The verdict on a program, from everything that was found.
-#[must_use]
 pub fn verdict(
     options: &Options,
     mut of: Particulars,
