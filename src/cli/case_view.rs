@@ -102,7 +102,7 @@ impl Shown {
 
     /// A panel for each engine that did not panic, then the oracle.
     pub fn picture(&self, title: &str, case: &Case) -> RgbImage {
-        panels::of_case(title, case, &self.drawn(), &self.target).image
+        panels::of_case(title, case, &self.drawn(), &self.target)
     }
 
     fn drawn(&self) -> Vec<panels::Drawn> {

@@ -56,7 +56,7 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
         .collect();
     drop(progress);
     let drawn = match cards.as_slice() {
-        [card] => specimen_sheet::alone(card).image,
+        [card] => specimen_sheet::alone(card),
         _ => specimen_sheet::contact_sheet(),
     };
     let (png, unasked) = (picture::png(&drawn), arguments.page.place.output("specimens.png"));

@@ -231,8 +231,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
         let [width, height] = [width, height].map(|side| side.div_ceil(shrunk));
         let name = (name.to_owned(), Size::Heading, Rgb(ink));
         let words = [name, (words, Size::Small, panels::FAINT)];
-        let image = panels::titled(&words, &imageops::thumbnail(&whole, width, height), [0, 0]);
-        panels::Sheet { image, panels: Vec::new() }
+        panels::titled(&words, &imageops::thumbnail(&whole, width, height), [0, 0])
     };
     let amounts =
         [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)];
@@ -266,7 +265,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
     ];
     let note = "effects: in colour the pixels that pay; behind it the frame, dimmed";
     let title = (title.to_owned(), Size::Heading, panels::INK);
-    panels::arranged(&[title], cells, MAP_COLUMNS, &entries, note).image
+    panels::arranged(&[title], cells, MAP_COLUMNS, &entries, note)
 }
 
 /// How long a picture took, in seconds.

@@ -1,17 +1,14 @@
 //! The sheet of a case: a panel for each engine with its name and its counts, rows and columns
 //! numbered, cropped to what matters, and a legend of what occurs.
-//!
-//! The PNG of a sheet remembers where its panels are, so that two sheets can be compared pixel for
-//! pixel of the cases instead of picture pixel for picture pixel.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use image::{Rgb, RgbImage, imageops};
 
 use super::lettering::{self, Size, write};
 use super::picture::{
-    AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE,
-    encoded, line, segments,
+    AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE, line,
+    outline, scaled,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
@@ -34,40 +31,20 @@ const BESIDE: u32 = 34;
 pub(super) const INK: Rgb<u8> = Rgb([30, 30, 30]);
 pub(super) const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
-const KEY: &str = "rasterproof-panels";
 
 pub type Drawn = (String, Coverage);
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Panel {
-    pub name: String,
-    /// Left and top in picture pixels.
-    pub at: [u32; 2],
-    /// Picture pixels of a pixel's side.
-    pub zoom: u32,
-    pub shown: PixelRect,
-}
-
-#[derive(Clone, Debug)]
-pub struct Sheet {
-    pub image: RgbImage,
-    pub panels: Vec<Panel>,
-}
 
 /// What each engine draws, judged by `target`; then the target, as `oracle`.
 ///
 /// All coverages show the case's window.
-pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> Sheet {
-    let outline = match &case.shape {
-        Shape::Lines(_) => "the line itself",
-        _ => "edges",
-    };
-    let (window, owners) = (case.window, owners(case, target));
+pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> RgbImage {
+    let (window, owners, segments) = (case.window, owners(case, target), outline(case));
     let oracle = [("oracle".to_owned(), target.clone())];
     let all: Vec<&Drawn> = actual.iter().chain(&oracle).collect();
-    let shown = crop(window, &all, target, &segments(case, window, 1));
+    let shown = crop(window, &all, target, &scaled(&segments, window, 1));
     let (zoom, columns) = layout(shown, all.len() as u32);
-    let outlines = segments(case, shown, zoom);
+    let outlines = scaled(&segments, shown, zoom);
+    let is_line = matches!(case.shape, Shape::Lines(_));
     let mut occurring = BTreeSet::new();
     let panels = all.iter().map(|(name, hits)| {
         let colour = |x_px, y_px| {
@@ -77,7 +54,7 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
         occurring.extend(pixels(shown).map(|(x, y)| colour(x, y).0));
         let counts = (counts(hits, target), Size::Small, FAINT);
         let words = [(name.clone(), Size::Heading, INK), counts];
-        panel(name.clone(), &words, (shown, zoom, true), &outlines, &colour)
+        panel(&words, (shown, zoom, true), &outlines, &colour)
     });
     let panels = panels.collect();
     let owned =
@@ -91,7 +68,8 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
     ];
     let words = words.map(|(colour, text)| (colour, text.to_owned()));
     let samples = (zoom >= SAMPLED).then_some((SAMPLE, "samples"));
-    let others = [(EDGE, outline)].into_iter().chain(samples);
+    let others =
+        [(EDGE, if is_line { "the line itself" } else { "edges" })].into_iter().chain(samples);
     let others = others.map(|(colour, text)| (colour, text.to_owned()));
     let entries = owned.chain(words).filter(|(c, _)| occurring.contains(&c.0)).chain(others);
     let entries: Vec<Entry> = entries.map(|(colour, text)| (vec![colour], text)).collect();
@@ -117,13 +95,13 @@ pub(super) type Words = (String, Size, Rgb<u8>);
 /// Words, below them pictures in so many columns, below these what the colours mean, and a note.
 pub(super) fn arranged(
     words: &[Words],
-    cells: Vec<Sheet>,
+    cells: Vec<RgbImage>,
     columns: u32,
     entries: &[Entry],
     note: &str,
-) -> Sheet {
-    let wide = cells.iter().map(|cell| cell.image.width()).max().unwrap_or(1);
-    let high = cells.iter().map(|cell| cell.image.height()).max().unwrap_or(1);
+) -> RgbImage {
+    let wide = cells.iter().map(|cell| cell.width()).max().unwrap_or(1);
+    let high = cells.iter().map(|cell| cell.height()).max().unwrap_or(1);
     let rows = (cells.len() as u32).div_ceil(columns);
     let width = (GAP + columns * (wide + GAP)).max(420);
     let mut heading = Vec::new();
@@ -141,15 +119,12 @@ pub(super) fn arranged(
     for (text, y, size, ink) in heading {
         write(&mut image, (GAP.into(), y.into()), &text, size, ink);
     }
-    let mut panels = Vec::new();
     for (i, cell) in (0u32..).zip(cells) {
         let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
-        imageops::replace(&mut image, &cell.image, left.into(), top.into());
-        let moved = |panel: Panel| Panel { at: [panel.at[0] + left, panel.at[1] + top], ..panel };
-        panels.extend(cell.panels.into_iter().map(moved));
+        imageops::replace(&mut image, &cell, left.into(), top.into());
     }
     imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
-    Sheet { image, panels }
+    image
 }
 
 /// The number of the triangle that the oracle gives each pixel to, from 1, where a few triangles lie side by side and no
@@ -263,12 +238,11 @@ fn head(words: &[Words]) -> u32 {
 /// Each pixel as a square of its colour, with an outline over them, numbered rows and columns, and a dot for each sample where
 /// these are shown.
 pub(super) fn panel(
-    name: String,
     words: &[Words],
     (shown, zoom, has_samples): (PixelRect, u32, bool),
     outline: &[[PixelPoint; 2]],
     colour: &dyn Fn(i32, i32) -> Rgb<u8>,
-) -> Sheet {
+) -> RgbImage {
     let mut picture = squares(shown, zoom, has_samples, colour);
     let bounds = PixelRect::window(picture.width(), picture.height());
     for segment in outline {
@@ -276,9 +250,8 @@ pub(super) fn panel(
     }
     let left = beside(shown);
     let mut image = titled(words, &picture, [left, ABOVE]);
-    let at = [left, head(words) + ABOVE];
-    numbers(&mut image, at, shown, zoom);
-    Sheet { image, panels: vec![Panel { name, at, zoom, shown }] }
+    numbers(&mut image, [left, head(words) + ABOVE], shown, zoom);
+    image
 }
 
 /// What is wrong in words, or how many pixels are right.
@@ -393,102 +366,6 @@ fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
     image
 }
 
-impl Sheet {
-    /// The sheet as a PNG that remembers its panels.
-    pub fn png(&self) -> Vec<u8> {
-        let row = |p: &Panel| {
-            let ([left, top], PixelRect { x0, y0, x1, y1 }) = (p.at, p.shown);
-            format!("{left} {top} {} {x0} {y0} {x1} {y1} {}", p.zoom, p.name)
-        };
-        let rows: Vec<_> = self.panels.iter().map(row).collect();
-        encoded(&self.image, Some((KEY, &rows.join("\n"))))
-    }
-
-    /// The sheet that a PNG remembers; nothing where it is no such PNG, or where its panels claim more
-    /// pixels than the picture has, so that to compare them takes no longer than to read the picture.
-    #[must_use]
-    pub fn from_png(bytes: &[u8]) -> Option<Self> {
-        let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().ok()?;
-        let texts = &reader.info().uncompressed_latin1_text;
-        let text = &texts.iter().find(|chunk| chunk.keyword == KEY)?.text;
-        let size = [reader.info().width, reader.info().height].map_array(u64::from);
-        let (mut panels, mut claimed) = (Vec::new(), 0);
-        for row in text.lines() {
-            let panel = parsed(row)?;
-            let sides = [panel.shown.width(), panel.shown.height()]
-                .map_array(|side| u64::from(side) * u64::from(panel.zoom));
-            let fits = |i: usize| u64::from(panel.at[i]) + sides[i] <= size[i];
-            claimed += sides[0] * sides[1];
-            if !fits(0) || !fits(1) || claimed > size[0] * size[1] {
-                return None;
-            }
-            panels.push(panel);
-        }
-        Some(Self { image: image::load_from_memory(bytes).ok()?.to_rgb8(), panels })
-    }
-
-    /// The colour of a pixel of the case in a panel: the most frequent in its square.
-    fn colour(&self, panel: &Panel, x_px: i32, y_px: i32, square: &mut Vec<[u8; 3]>) -> [u8; 3] {
-        let PixelRect { x0, y0, x1, y1 } = panel.shown;
-        if !(x0..x1).contains(&x_px) || !(y0..y1).contains(&y_px) {
-            return BACKGROUND.0;
-        }
-        let offset = |v: i32, from: i32| v.abs_diff(from) * panel.zoom;
-        let (left, top) = (panel.at[0] + offset(x_px, x0), panel.at[1] + offset(y_px, y0));
-        square.clear();
-        for (x, y) in (0..panel.zoom).flat_map(|y| (0..panel.zoom).map(move |x| (x, y))) {
-            square.extend(self.image.get_pixel_checked(left + x, top + y).map(|pixel| pixel.0));
-        }
-        // Sorted, since a square may have as many colours as it has picture pixels.
-        square.sort_unstable();
-        let runs = square.chunk_by(|a, b| a == b);
-        runs.max_by_key(|run| run.len()).map_or(BACKGROUND.0, |run| run[0])
-    }
-}
-
-fn parsed(row: &str) -> Option<Panel> {
-    let mut words = row.splitn(8, ' ');
-    let mut number = || words.next()?.parse::<i32>().ok();
-    let [left, top, zoom] = [number()?, number()?, number()?].map_array(u32::try_from);
-    let [x0, y0, x1, y1] = [number()?, number()?, number()?, number()?];
-    let sides = [x1.checked_sub(x0)?, y1.checked_sub(y0)?];
-    if !sides.iter().all(|side| (1..=4096).contains(side)) || !(1..=64).contains(&zoom.ok()?) {
-        return None;
-    }
-    Some(Panel {
-        name: words.next()?.to_owned(),
-        at: [left.ok()?, top.ok()?],
-        zoom: zoom.ok()?,
-        shown: PixelRect { x0, y0, x1, y1 },
-    })
-}
-
-/// For each panel of both sheets its name, and in how many pixels of the case they differ.
-///
-/// Only the pixels that a panel shows are compared. The two windows may lie far apart, so that the
-/// rectangle around both can be many times larger than the pictures.
-pub fn changes(old: &Sheet, new: &Sheet) -> Vec<(String, u64)> {
-    let mut by_name = HashMap::new();
-    for panel in &old.panels {
-        by_name.entry(panel.name.as_str()).or_insert(panel);
-    }
-    let squares = &mut [Vec::new(), Vec::new()];
-    let mut changed = |before: &Panel, after: &Panel| {
-        let is_new = |&(x, y): &(i32, i32)| {
-            let PixelRect { x0, y0, x1, y1 } = before.shown;
-            !(x0..x1).contains(&x) || !(y0..y1).contains(&y)
-        };
-        let pixels = pixels(before.shown).chain(pixels(after.shown).filter(is_new));
-        let [a, b] = &mut *squares;
-        let differ = pixels
-            .filter(|&(x, y)| old.colour(before, x, y, a) != new.colour(after, x, y, b))
-            .count();
-        (after.name.clone(), differ as u64)
-    };
-    let pairs = new.panels.iter().filter_map(|after| Some((*by_name.get(&*after.name)?, after)));
-    pairs.map(|(before, after)| changed(before, after)).collect()
-}
-
 fn pixels(PixelRect { x0, y0, x1, y1 }: PixelRect) -> impl Iterator<Item = (i32, i32)> {
     (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)))
 }
@@ -515,77 +392,15 @@ mod tests {
     }
 
     #[test]
-    fn a_png_remembers_its_panels_and_tells_who_changed() {
-        let (case, engines, target) = drawn("T2");
-        let old =
-            of_case("T2", &case, &[engines[0].clone(), ("x".to_owned(), target.clone())], &target);
-        let new = of_case(
-            "T2",
-            &case,
-            &[engines[0].clone(), ("x".to_owned(), engines[1].1.clone())],
-            &target,
-        );
-        let again = Sheet::from_png(&new.png()).unwrap();
-        assert_eq!((&again.panels, again.image), (&new.panels, new.image.clone()));
-        let counts = |name: &str, n| (name.to_owned(), n);
-        let expected = [counts("right", 0), counts("x", 1), counts("oracle", 0)];
-        assert_eq!(changes(&old, &new), expected);
-        assert!(Sheet::from_png(&super::super::picture::png(&new.image)).is_none());
-    }
-
-    #[test]
     fn a_large_window_is_cropped_to_what_differs() {
         let (case, engines, target) = drawn("T4");
         assert!(case.window.width() > MOST_CROPPED_PX, "{:?}", case.window);
-        let shown = of_case("T4", &case, &engines, &target).panels[0].shown;
+        let shown = |engines: &[Drawn]| {
+            let all: Vec<_> = engines.iter().collect();
+            crop(case.window, &all, &target, &scaled(&outline(&case), case.window, 1))
+        };
+        let (shown, whole) = (shown(&engines), shown(&engines[..1]));
         assert!(shown.width() <= 9 && shown.height() <= 9, "{shown:?}");
-        let whole = of_case("T4", &case, &engines[..1], &target).panels[0].shown;
         assert!(whole.width() > 9 && whole.width() <= case.window.width(), "{whole:?}");
-    }
-
-    /// A sheet whose panels are as given, as a PNG that says so.
-    fn claiming(side: u32, panels: Vec<Panel>) -> Sheet {
-        Sheet { image: RgbImage::from_pixel(side, side, WHITE), panels }
-    }
-
-    fn far_panel(name: &str, x0: i32, side: i32, zoom: u32) -> Panel {
-        let shown = PixelRect { x0, y0: -x0, x1: x0 + side, y1: side - x0 };
-        Panel { name: name.to_owned(), at: [0, 0], zoom, shown }
-    }
-
-    /// The rectangle around both windows has 16,000,000 x 16,000,000 pixels.
-    #[test]
-    fn windows_far_apart_are_compared_alone() {
-        let old = claiming(64, vec![far_panel("x", -8_000_000, 8, 8)]);
-        let mut new = claiming(64, vec![far_panel("x", 8_000_000, 8, 8)]);
-        assert_eq!(changes(&old, &new), [("x".to_owned(), 128)]);
-        new.panels[0].shown = old.panels[0].shown;
-        assert_eq!(changes(&old, &new), [("x".to_owned(), 0)]);
-        // A window that grew: old pixels are compared with old ones, new ones with the background.
-        new = claiming(96, vec![far_panel("x", -8_000_000, 12, 8)]);
-        assert_eq!(changes(&old, &new), [("x".to_owned(), 144 - 64)]);
-    }
-
-    #[test]
-    fn panels_claim_no_more_than_the_picture_has() {
-        let huge = claiming(64, vec![far_panel("x", 0, 4096, 64)]);
-        assert!(Sheet::from_png(&huge.png()).is_none());
-        let whole = far_panel("x", 0, 8, 8);
-        assert!(Sheet::from_png(&claiming(64, vec![whole.clone()]).png()).is_some());
-        assert!(Sheet::from_png(&claiming(64, vec![whole; 1000]).png()).is_none());
-        let apart = |i: u32| Panel { at: [i % 64, i / 64], ..far_panel(&format!("{i}"), 0, 1, 1) };
-        let many = claiming(64, (0..1000).map(apart).collect());
-        let again = Sheet::from_png(&many.png()).unwrap();
-        assert_eq!(changes(&many, &again).len(), 1000);
-    }
-
-    #[test]
-    fn broken_memories_are_none() {
-        for row in
-            ["", "1 2 3", "1 2 99999 0 0 4 4 x", "1 2 8 0 0 -4 4 x", "1 2 8 0 0 2147483647 4 x"]
-        {
-            assert_eq!(parsed(row), None, "{row}");
-        }
-        assert_eq!(parsed("1 2 8 -1 0 4 4 a b").unwrap().name, "a b");
     }
 }

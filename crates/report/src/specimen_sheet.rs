@@ -13,13 +13,15 @@ use super::chapter::chapter_of_source;
 use super::html::{PictureLayer, PictureView};
 use super::lettering::Size;
 use super::panels::{self, Entry, FAINT, INK};
-use super::picture::{self, AGREES, BACKGROUND, EDGE, EXTRA, MISSING, SAMPLE, TWICE};
+use super::picture::{
+    self, AGREES, BACKGROUND, EDGE, EXTRA, MISSING, SAMPLE, Segment, TWICE, edges, outline, scaled,
+};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function::EdgeFunction;
-use rasterproof_core::triangle::{Fragment, LineEnd, PixelPoint};
+use rasterproof_core::triangle::Fragment;
 use rasterproof_faults::published::catalogue::{CARDS, Card, Exhibit, TriangleCase};
 use rasterproof_faults::published::scene::{BLACK, Colour, Image, Setting, Version};
 use rasterproof_faults::published::{Published, PublishedLine, RealTriangle};
@@ -42,8 +44,7 @@ struct Panels {
     published: Image,
     repaired: Image,
     background: Colour,
-    /// Segments in window pixels.
-    outline: Vec<[DVec2; 2]>,
+    outline: Vec<Segment>,
     has_samples: bool,
     /// Whether the colours are those of [`shade`].
     has_values: bool,
@@ -54,11 +55,11 @@ pub fn contact_sheet() -> RgbImage {
     let shown: Vec<_> = CARDS.iter().filter_map(versions).collect();
     let strips = CARDS.iter().map(|card| strip(card, &[])).collect();
     let title = ("Published algorithms and their faults".to_owned(), Size::Heading, INK);
-    panels::arranged(&[title], strips, 2, &legend(&shown), "").image
+    panels::arranged(&[title], strips, 2, &legend(&shown), "")
 }
 
 /// The strip of a card, with what its colours mean.
-pub fn alone(card: &Card) -> panels::Sheet {
+pub fn alone(card: &Card) -> RgbImage {
     let shown: Vec<_> = versions(card).into_iter().collect();
     strip(card, &legend(&shown))
 }
@@ -110,19 +111,14 @@ fn legend(shown: &[Panels]) -> Vec<Entry> {
 }
 
 /// Published, repaired and their difference, below the name, the fault and its cure.
-fn strip(card: &Card, legend: &[Entry]) -> panels::Sheet {
+fn strip(card: &Card, legend: &[Entry]) -> RgbImage {
     let Some(panels) = versions(card) else {
-        return panels::Sheet { image: RgbImage::new(1, 1), panels: Vec::new() };
+        return RgbImage::new(1, 1);
     };
     let bounds = panels.published.bounds();
     let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
-    let origin = DVec2::new(bounds.x0.into(), bounds.y0.into());
-    let outline = panels.outline.iter().map(|segment| {
-        // Saturating: a corner far outside stays far outside.
-        let ends = segment.map_array(|p| ((p - origin) * f64::from(zoom)).floor());
-        ends.map_array(|p| PixelPoint::new(p.x as i32, p.y as i32))
-    });
-    let (outline, difference) = (outline.collect::<Vec<_>>(), difference(&panels));
+    let outline = scaled(&panels.outline, bounds, zoom);
+    let difference = difference(&panels);
     let all = [
         ("published", &panels.published),
         ("repaired", &panels.repaired),
@@ -132,7 +128,7 @@ fn strip(card: &Card, legend: &[Entry]) -> panels::Sheet {
         let colour = |x_px, y_px| Rgb(picture.get(x_px, y_px).unwrap_or_default());
         let shown = (bounds, zoom, panels.has_samples);
         let words = [(title.to_owned(), Size::Small, FAINT)];
-        panels::panel(format!("{}, {title}", card.name), &words, shown, &outline, &colour)
+        panels::panel(&words, shown, &outline, &colour)
     });
     let words = [
         (format!("{} ({})", card.name, card.source), Size::Heading, INK),
@@ -202,12 +198,11 @@ fn line_panels(specimen: &dyn PublishedLine, case: &Case) -> Option<Panels> {
     let mut truth = Coverage::new(case.window, 0);
     Oracle.draw(&lines[0], case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
     let hits = specimen_line_coverage(specimen, lines, case.window);
-    let centre = |end: &LineEnd<DVec2>| DVec2::new(end.pixel.x.into(), end.pixel.y.into()) + 0.5;
     Some(Panels {
         published: hits_image(&hits.unwrap_or_else(|_| Coverage::new(case.window, 0))),
         repaired: hits_image(&truth),
         background: BACKGROUND.0,
-        outline: vec![[centre(&lines[0].ends[0]), centre(&lines[0].ends[1])]],
+        outline: outline(case),
         has_samples: false,
         has_values: false,
     })
@@ -227,12 +222,8 @@ fn triangle_panels(name: &str, specimen: &dyn Published, case: &TriangleCase) ->
         let hits = hits.unwrap_or_else(|_| Coverage::new(window, 0));
         (hits_image(&hits), hits_image(&free_truth(&triangles, window)))
     };
-    let outline = triangles
-        .iter()
-        .flat_map(|t| {
-            [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map_array(|s| s.map_array(|v| v.position_px))
-        })
-        .collect();
+    let corners = |t: &RealTriangle| edges(t.each_ref().map(|v| v.position_px.to_array()));
+    let outline = triangles.iter().flat_map(corners).collect();
     Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true, has_values }
 }
 
