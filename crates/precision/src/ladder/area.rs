@@ -33,15 +33,9 @@ pub fn share(corners: &Corners, x_px: i32, y_px: i32) -> f64 {
     let parts = [right_of(a, b), right_of(b, c), right_of(c, a)];
     // Each part is at most S^2 = 2^16, so three denominators and 16 bits must fit.
     if parts.iter().all(|&(_, d)| d < 1 << 36) {
-        // Mostly one edge alone passes through a pixel, and the others are whole numbers.
-        let [n, d] = parts.into_iter().fold([0, 1], |[n, d], (n1, d1)| match (d, d1) {
-            (_, 1) => [n + n1 * d, d],
-            (1, _) => [n * d1 + n1, d1],
-            _ => [n * d1 + n1 * d, d * d1],
-        });
-        // The same roundings; of 64 bits a machine has an instruction for it.
-        let float = |n: i128| i64::try_from(n).map_or_else(|_| n as f64, |n| n as f64);
-        return float(n.abs()) / float(d * i128::from(S * S));
+        let [(n0, d0), (n1, d1), (n2, d2)] = parts;
+        let sum = n0 * d1 * d2 + n1 * d0 * d2 + n2 * d0 * d1;
+        return sum.unsigned_abs() as f64 / (d0 * d1 * d2 * i128::from(S * S)) as f64;
     }
     let sum: BigRational =
         parts.iter().map(|&(n, d)| BigRational::new(n.into(), BigInt::from(d))).sum();
@@ -56,18 +50,17 @@ fn right_of(from: [i64; 2], to: [i64; 2]) -> (i128, i128) {
         return (0, 1);
     }
     let (dx, dy) = (i128::from(b[0] - a[0]), i128::from(b[1] - a[1]));
-    let right_of_all = |width: i64| (sign * i128::from(width * (y1 - y0)), 1);
     if dx == 0 {
-        return right_of_all((S - a[0]).clamp(0, S));
+        let width = (S - a[0]).clamp(0, S);
+        return (sign * i128::from(width * (y1 - y0)), 1);
     }
     let n = |y: i64| i128::from(a[0]) * dy + i128::from(y - a[1]) * dx;
     let s = i128::from(S);
     let (n0, n1) = (n(y0), n(y1));
-    if n0.max(n1) <= 0 {
-        return right_of_all(S);
-    }
-    if n0.min(n1) >= s * dy {
-        return right_of_all(0);
+    // Edges that pass by the pixel are whole numbers, which are not rounded.
+    if n0.max(n1) <= 0 || n0.min(n1) >= s * dy {
+        let width = if n0 < s * dy { s } else { 0 };
+        return (sign * width * i128::from(y1 - y0), 1);
     }
     // Twice dy squared times the antiderivative of g.
     let p = |n: i128| {
@@ -85,6 +78,69 @@ fn right_of(from: [i64; 2], to: [i64; 2]) -> (i128, i128) {
     } else {
         (sign * numerator, denominator)
     }
+}
+
+/// Whether all numbers of a [`Part`] fit 64 bits, and its denominator is below what [`share`] takes without `BigInt`.
+fn is_narrow([a, b]: [[i64; 2]; 2]) -> bool {
+    let (dx, dy) = ((a[0] - b[0]).abs(), (a[1] - b[1]).abs());
+    dx.max(dy) < 1 << 20 && 2 * dx * dy < 1 << 36
+}
+
+/// A narrow edge within a row of pixels, for [`right_of`] column by column.
+struct Part {
+    /// Of the edge within the row, with its sign.
+    height: i64,
+    /// n at the upper and the lower end, as seen from column 0.
+    ends: [i64; 2],
+    dx: i64,
+    dy: i64,
+}
+
+impl Part {
+    fn new([from, to]: [[i64; 2]; 2], y_px: i32) -> Self {
+        let (sign, a, b) = if from[1] <= to[1] { (1, from, to) } else { (-1, to, from) };
+        let top = i64::from(y_px) * S;
+        let (y0, y1) = (a[1].max(top), b[1].min(top + S));
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let n = |y: i64| a[0] * dy + (y - a[1]) * dx;
+        Self { height: sign * (y1 - y0).max(0), ends: [n(y0), n(y1)], dx, dy }
+    }
+
+    fn right_of(&self, x_px: i32) -> (i64, i64) {
+        let &Self { height, ends: [n0, n1], dx, dy } = self;
+        let (left, all) = (i64::from(x_px) * S * dy, S * dy);
+        let (n0, n1) = (n0 - left, n1 - left);
+        if height == 0 || n0.min(n1) >= all {
+            return (0, 1);
+        }
+        if n0.max(n1) <= 0 {
+            return (S * height, 1);
+        }
+        if dx == 0 {
+            return ((all - n0) / dy * height, 1);
+        }
+        let p = |n: i64| {
+            if n < all { 2 * all * n - n.max(0) * n } else { all * all }
+        };
+        let sign = height.signum() * dx.signum();
+        (sign * (p(n1) - p(n0)), 2 * dy * dx.abs())
+    }
+}
+
+/// The same bits as those of [`share`].
+fn sum(parts: &[Part; 3], x_px: i32) -> f64 {
+    let [(n0, d0), (n1, d1), (n2, d2)] = parts.each_ref().map_array(|part| part.right_of(x_px));
+    let area = S * S;
+    // Mostly one edge alone passes through a pixel, and the others are whole numbers.
+    let most = d0.max(d1).max(d2);
+    if d0 + d1 + d2 - most == 2 {
+        let share = |n: i64, d: i64| if d == 1 { n * most } else { n };
+        let n = share(n0, d0) + share(n1, d1) + share(n2, d2);
+        return n.abs() as f64 / (most * area) as f64;
+    }
+    let [d0, d1, d2] = [d0, d1, d2].map_array(i128::from);
+    let n = i128::from(n0) * d1 * d2 + i128::from(n1) * d0 * d2 + i128::from(n2) * d0 * d1;
+    n.unsigned_abs() as f64 / (d0 * d1 * d2 * i128::from(area)) as f64
 }
 
 /// Emits (columns, row, share) for the pixels of `bounds` that the triangle covers in part, one by one, and whole, as one run.
@@ -107,7 +163,9 @@ pub fn shares(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Range<i
         return;
     }
     let edges = if area > 0 { [[a, b], [b, c], [c, a]] } else { [[a, c], [c, b], [b, a]] };
+    let is_narrow = edges.into_iter().all(is_narrow);
     for y_px in rect.y0..rect.y1 {
+        let parts = is_narrow.then(|| edges.map_array(|edge| Part::new(edge, y_px)));
         let (mut touched, mut whole) = ([rect.x0, rect.x1], [rect.x0, rect.x1]);
         for edge in edges {
             cut(&mut touched, edge, y_px, false);
@@ -116,7 +174,10 @@ pub fn shares(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Range<i
         let [from, to] = if whole[0] < whole[1] { whole } else { [touched[1]; 2] };
         for columns in [touched[0]..from, to..touched[1]] {
             for x_px in columns {
-                let share = share(corners, x_px, y_px);
+                let share = match &parts {
+                    Some(parts) => sum(parts, x_px),
+                    None => share(corners, x_px, y_px),
+                };
                 if share > 0.0 {
                     emit(x_px..x_px + 1, y_px, share);
                 }
