@@ -240,7 +240,6 @@ pub fn report(recorded: &Recorded, figures: Vec<Figure>) -> Report {
         title: "What accuracy costs in time".to_owned(),
         about: format!("rasterproof {version} cost, seed {seed}{quick}"),
         repeat: printable(repeat).into_owned(),
-        seed: Some(*seed),
         tables: boards.iter().flat_map(tables).chain(price(boards)).collect(),
         figures,
         data: json::cost(recorded),

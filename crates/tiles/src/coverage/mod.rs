@@ -9,9 +9,7 @@
 //!   (`setup::Single`). Both are stepped in i32 as long as that is wide enough, else in i64 (`wide`).
 //! - Triangles of at most 4 x 4 and 8 x 8 px are decided whole while they are set up, one a lane, in i16
 //!   (`cells`).
-//! - Tiles of a triangle that is wider than one begin at columns that are multiples of 16, since rows
-//!   of pixels are written 64 bytes, a line of the cache, at a time. All others begin at the first
-//!   pixel of the triangle's box, so that small ones are one tile.
+//! - Tiles begin at the first pixel of the triangle's box, so that there are few of them.
 //!
 //! It shares nothing with the other engines or the oracle. It does not clip, cull, depth-test or
 //! shade, and it computes no values.
