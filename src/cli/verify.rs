@@ -17,9 +17,10 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::table::Table;
-use rasterproof_report::{ascii, differential, json, page_cases, picture, summary};
+use rasterproof_report::{differential, json, page_cases, picture, summary};
 use rasterproof_verify::cases::{self, Case, Kind, Shape};
 use rasterproof_verify::comparison::{self, FamilyReport, Options, PairReport, Shard, Verdict};
+use rasterproof_verify::judge::ascii;
 
 /// `verify` with its name, which can also judge the engines on a model.
 #[derive(clap::Args, Debug)]

@@ -16,6 +16,7 @@ use rasterproof_judge as judge;
 use rasterproof_judge::ask::{Answer, Asked};
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_registry::engines;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Cull;
@@ -1229,7 +1230,7 @@ fn judged_as(
     families: &[&str],
 ) -> String {
     let verdict = verdict(words, changed, families, &|_| None);
-    let said = verdict.causes.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
+    let said = verdict.cause.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
     said.collect::<Vec<_>>().join("\n")
 }
 
@@ -1245,7 +1246,7 @@ fn verdict(
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
     recognise: judge::Recognise<'_>,
-) -> judge::verdict::Judgement {
+) -> judge::verdict::Verdict {
     let right = Inside::new(engines::find("scanline").unwrap());
     let mut declared = judge::ask::Subject::declared(&right).clone();
     words.split_whitespace().for_each(|word| declared.hear(word));
@@ -1470,7 +1471,7 @@ fn mistakes_that_are_planted_are_named() {
         let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
-        let is_named = verdict.causes.iter().any(|cause| cause.why.is_known());
+        let is_named = verdict.cause.iter().any(|cause| cause.why.is_known());
         let is_convention = verdict.by_convention().is_some_and(|score| score.wrong == 0);
         if !is_named && !is_convention {
             unnamed.push(name);
@@ -1709,19 +1710,19 @@ fn mistakes_planted_elsewhere_are_named() {
 }
 
 /// The name of the causes, the convention, or that all answers are right.
-fn told(verdict: &judge::verdict::Judgement) -> String {
+fn told(verdict: &judge::verdict::Verdict) -> String {
     let named: Vec<_> = verdict
-        .causes
+        .cause
         .iter()
         .flat_map(|why| why.why.causes.iter().map(|cause| format!("{}, {}", why.of, cause.name)))
         .collect();
     if !named.is_empty() {
         return named.join("; ");
     }
-    match &verdict.recognised {
-        Some(said) if verdict.causes.is_empty() => said.sentences.join(" "),
+    match &verdict.more.recognised {
+        Some(said) if verdict.cause.is_empty() => said.sentences.join(" "),
         _ if verdict.agrees() => "all answers are right".to_owned(),
-        _ if verdict.causes.is_empty() => "another winding than declared".to_owned(),
+        _ if verdict.cause.is_empty() => "another winding than declared".to_owned(),
         _ => "wrong, and no cause is named".to_owned(),
     }
 }
@@ -1747,9 +1748,9 @@ fn mistakes_beyond_small_windows_are_found() {
         &|_| None,
     );
     let wrong: Vec<_> =
-        verdict.found.rows.iter().filter(|row| row.wrong_cases > 0).map(|row| row.name).collect();
+        verdict.families.iter().filter(|row| row.wrong_cases > 0).map(|row| row.name).collect();
     assert_eq!(wrong, ["wide-window"]);
-    let said: Vec<_> = verdict.causes.iter().flat_map(|cause| cause.why.sentences()).collect();
+    let said: Vec<_> = verdict.cause.iter().flat_map(|cause| cause.why.sentences()).collect();
     let said = said.join(" ");
     assert!(said.contains("triangles are wrong from column 256 on"), "{said}");
 }

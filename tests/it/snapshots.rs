@@ -27,12 +27,13 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_render::scene::named::{find, named};
 use rasterproof_report::panels;
-use rasterproof_report::{ascii, picture};
+use rasterproof_report::picture;
 use rasterproof_verify::cases::named::{Input, NamedCase};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{
     Tally, engine_coverage, line_coverage, oracle_coverage, oracle_hits, oracle_pixels_each,
 };
+use rasterproof_verify::judge::ascii;
 
 /// Largest sheet of a case that is kept, and picture of anything else.
 const MOST_BYTES: usize = 32 << 10;

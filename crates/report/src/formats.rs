@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::judge_text::excerpts;
 use super::{html, json as json_text, text};
 use json_text::pretty;
-use rasterproof_judge::verdict::{Judgement, Outcome, Property};
+use rasterproof_judge::verdict::{Outcome, Property, Scores as _, Verdict};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -44,7 +44,7 @@ impl Format {
 
 /// The verdict in a format other than text; `repeat` gives the command that repeats a case.
 pub fn write(
-    verdict: &Judgement,
+    verdict: &Verdict,
     format: Format,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
@@ -55,21 +55,17 @@ pub fn write(
         Format::Junit => junit(verdict, repeat),
         Format::Tap => tap(verdict, repeat),
         Format::Gradescope => {
-            let tests = verdict.properties.iter();
+            let tests = verdict.more.properties.iter();
             let tests = tests.map(|p| (p.name, p.outcome.is_good(), message(verdict, p, repeat)));
             let tests: Vec<_> = tests.collect();
-            pretty(&gradescope(&tests, "properties hold", verdict.found.seconds))
+            pretty(&gradescope(&tests, "properties hold", verdict.more.found.seconds))
         }
         Format::GithubClassroom => pretty(&classroom(verdict, repeat_all, repeat)),
     }
 }
 
 /// What was found, and the cases that a terminal shows of it.
-fn message(
-    verdict: &Judgement,
-    property: &Property,
-    repeat: &dyn Fn(&str, u64) -> String,
-) -> String {
+fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let shown = excerpts(verdict, repeat, Some(property.name));
     let shown: String = shown.iter().map(|one| text::excerpt(one, text::WIDTH)).collect();
     format!("{}: {}\n{shown}", property.about, property.detail).trim_end().to_owned()
@@ -80,21 +76,21 @@ fn xml(text: &str) -> String {
     html::escape(text).replace('\n', "&#10;")
 }
 
-fn junit(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
+fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let count = |wanted: &dyn Fn(Outcome) -> bool| {
-        verdict.properties.iter().filter(|p| wanted(p.outcome)).count()
+        verdict.more.properties.iter().filter(|p| wanted(p.outcome)).count()
     };
-    let (tests, failures) = (verdict.properties.len(), count(&|o| !o.is_good()));
+    let (tests, failures) = (verdict.more.properties.len(), count(&|o| !o.is_good()));
     let skipped = count(&|o| o == Outcome::ExpectedFailure);
-    let name = xml(&verdict.declared.name);
-    let seconds = verdict.found.seconds;
+    let name = xml(&verdict.more.declared.name);
+    let seconds = verdict.more.found.seconds;
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let counts = format!(
         "tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" skipped=\"{skipped}\" time=\"{seconds:.3}\""
     );
     let _ = writeln!(out, "<testsuites name=\"rasterproof judge\" {counts}>");
     let _ = writeln!(out, "  <testsuite name=\"{name}\" {counts}>");
-    for p in &verdict.properties {
+    for p in &verdict.more.properties {
         let case = format!("<testcase classname=\"{name}\" name=\"{}\" time=\"0\"", xml(p.name));
         let text = xml(&message(verdict, p, repeat));
         let about = xml(&p.detail);
@@ -113,16 +109,16 @@ fn junit(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
             ),
         };
     }
-    if !verdict.complaints.is_empty() {
-        let text = xml(&verdict.complaints.join("\n"));
+    if !verdict.more.complaints.is_empty() {
+        let text = xml(&verdict.more.complaints.join("\n"));
         let _ = writeln!(out, "    <system-err>{text}</system-err>");
     }
     out + "  </testsuite>\n</testsuites>\n"
 }
 
-fn tap(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
-    let mut out = format!("TAP version 14\n1..{}\n", verdict.properties.len());
-    for (p, number) in verdict.properties.iter().zip(1..) {
+fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
+    let mut out = format!("TAP version 14\n1..{}\n", verdict.more.properties.len());
+    for (p, number) in verdict.more.properties.iter().zip(1..) {
         let (word, mark) = match p.outcome {
             Outcome::Pass => ("ok", ""),
             Outcome::ExpectedFailure => ("not ok", " # TODO known failure"),
@@ -157,8 +153,8 @@ pub fn gradescope(tests: &[(&str, bool, String)], about: &str, seconds: f64) -> 
     })
 }
 
-fn classroom(verdict: &Judgement, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
-    let tests = verdict.properties.iter().map(|p| {
+fn classroom(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+    let tests = verdict.more.properties.iter().map(|p| {
         let good = p.outcome.is_good();
         json!({
             "name": p.name, "status": if good { "pass" } else { "fail" }, "score": i32::from(good),
@@ -168,6 +164,6 @@ fn classroom(verdict: &Judgement, repeat_all: &str, repeat: &dyn Fn(&str, u64) -
     });
     json!({
         "version": 1, "status": if verdict.agrees() { "pass" } else { "fail" },
-        "max_score": verdict.properties.len(), "tests": tests.collect::<Vec<_>>(),
+        "max_score": verdict.more.properties.len(), "tests": tests.collect::<Vec<_>>(),
     })
 }

@@ -15,6 +15,7 @@ use rasterproof_judge::ask::{Answer, Breach, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_judge::{Options, family_names, judge, polygons};
 
 /// The program that started this one. Several share its streams: while one waits for answers, another judges those that it has.
@@ -146,7 +147,7 @@ impl Job {
         let host = |_| Box::new(Host(declared.clone())) as Box<dyn Subject>;
         let mut askers: Vec<_> = (0..hosts).map(host).collect();
         let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
-        if let Some(why) = verdict.judged_nothing(&self.options) {
+        if let Some(why) = verdict.judged_nothing() {
             return Err(why);
         }
         let text =

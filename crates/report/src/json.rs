@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::study::{Found, Places};
-use rasterproof_judge::verdict::Judgement;
+use rasterproof_judge::verdict::{Scores as _, Verdict as Judgement};
 use rasterproof_precision::cost::{Recorded, prices};
 use rasterproof_registry::digest::DigestRow;
 use rasterproof_registry::published_check::SpecimenReport;
@@ -68,7 +68,7 @@ pub fn judgement(
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Value {
-    let d = &verdict.declared;
+    let d = &verdict.more.declared;
     let failures = verdict.failures.iter().map(|f| {
         json!({
             "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
@@ -76,7 +76,7 @@ pub fn judgement(
             "exchanges": f.evidence.exchanges, "repeat": repeat(f.family, f.index),
         })
     });
-    let incidents = verdict.found.incidents.iter().map(|i| {
+    let incidents = verdict.more.found.incidents.iter().map(|i| {
         let of_family = Some(i).filter(|i| !i.family.is_empty());
         json!({
             "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
@@ -85,18 +85,18 @@ pub fn judgement(
     });
     let mut all = json!({
         "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
-        "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.seed,
-        "cases": verdict.cases, "judged_cases": verdict.found.cases,
-        "all_cases": verdict.found.of_cases, "out_of_time": verdict.found.out_of_time,
-        "known_failures": verdict.known, "agrees": verdict.agrees(), "windings": verdict.windings,
-        "recognised": verdict.recognised, "score_as_declared": verdict.as_declared(),
-        "score_by_convention": verdict.by_convention(), "answers": verdict.found.answered,
-        "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures.collect::<Vec<_>>(),
+        "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.options.seed,
+        "cases": verdict.options.cases, "judged_cases": verdict.more.found.cases,
+        "all_cases": verdict.more.found.of_cases, "out_of_time": verdict.more.found.out_of_time,
+        "known_failures": verdict.more.known, "agrees": verdict.agrees(), "windings": verdict.more.windings,
+        "recognised": verdict.more.recognised, "score_as_declared": verdict.as_declared(),
+        "score_by_convention": verdict.by_convention(), "answers": verdict.more.found.answered,
+        "properties": verdict.more.properties, "rows": verdict.families, "failures": failures.collect::<Vec<_>>(),
         "incidents": incidents.collect::<Vec<_>>(),
-        "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "causes": verdict.causes, "line_reach": verdict.reach, "stderr": verdict.complaints, "repeat": repeat_all,
+        "strays": verdict.more.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "causes": verdict.cause, "line_reach": verdict.more.reach, "stderr": verdict.more.complaints, "repeat": repeat_all,
     });
-    if let Some(second) = &verdict.against {
+    if let Some(second) = &verdict.more.against {
         all["against"] = json!({
             "program": second.name, "declared": second.to_string(), "sides": verdict.sides(),
         });
