@@ -844,6 +844,28 @@ fn judge_measures_how_far_lines_are_walked() {
     assert_eq!(judged(inside("bresenham"), &options(3, &["line-octants"])).more.reach, None);
 }
 
+/// The same of triangles, whose rows outside the window are walked.
+#[test]
+fn judge_measures_how_large_triangles_are_walked() {
+    let mut engine = Inside::new(engines::find("scanline").unwrap());
+    let answer = move |questions: &[Question], most: u64| {
+        for question in questions {
+            if let Asked::Coverage(corners) = question.of {
+                let y = corners.map(|c| c.y);
+                let rows = y.iter().max().unwrap().abs_diff(*y.iter().min().unwrap()) / 256;
+                std::thread::sleep(Duration::from_nanos(100 * u64::from(rows)));
+            }
+        }
+        engine.ask(questions, most)
+    };
+    let declared = Declared::parse("HELLO 2 x coverage").unwrap();
+    let verdict = judged(Box::new(Answering(declared, answer)), &options(3, &["huge"]));
+    let side = verdict.side.unwrap();
+    assert!((1 << 12..=1 << 20).contains(&side), "{side}");
+    assert!(verdict.agrees());
+    assert_eq!(judged(inside("scanline"), &options(3, &["uniform"])).side, None);
+}
+
 /// What a program wrote before it ended without HELLO is shown.
 #[cfg(unix)]
 #[test]

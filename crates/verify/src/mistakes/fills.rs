@@ -257,17 +257,18 @@ pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
 type Metric = fn(&Corners) -> i64;
 
 /// What may be measured, in which unit that is said, and how much it is.
-pub(super) const METRICS: [(&str, &str, Metric); 7] = [
+pub(super) const METRICS: [(&str, &str, Metric); 8] = [
     ("area", "square px", |corners| i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32)),
     ("width", "px", |corners| extent(xs(corners))),
     ("height", "px", |corners| extent(ys(corners))),
     ("longer side", "px", |corners| extent(xs(corners)).max(extent(ys(corners)))),
+    ("shorter side", "px", |corners| extent(xs(corners)).min(extent(ys(corners)))),
     ("farthest coordinate", "px", |corners| farthest(xs(corners)).max(farthest(ys(corners)))),
     ("farthest x", "px", |corners| farthest(xs(corners))),
     ("farthest y", "px", |corners| farthest(ys(corners))),
 ];
 /// The first of the metrics that are coordinates; those before it are sizes.
-pub(super) const FARTHEST: usize = 4;
+pub(super) const FARTHEST: usize = 5;
 
 pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
     METRICS[which].2(corners)
@@ -399,6 +400,17 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
             sign * (dx * py - dy * px) >= -most_px * 256.0 * (dx * dx + dy * dy).sqrt()
         })
     };
+    // Whether no edge has outside the corner pixel that lies farthest in, or in x or y farthest out.
+    let is_inside = |x: i32, y: i32, is_out: [bool; 2]| {
+        (0..3).all(|i| {
+            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
+            let [dx, dy] = [bx - ax, by - ay].map_array(|v| i128::from(v) * sign as i128);
+            let far = |is_last: bool| i32::from(is_last) * (side - 1);
+            let at = [x + far((dy < 0) != is_out[0]), y + far((dx > 0) != is_out[1])];
+            let at = at.map_array(|v| i64::from(v) * 256 + 128);
+            dx * i128::from(at[1] - ay) - dy * i128::from(at[0] - ax) >= 0
+        })
+    };
     let last = side - 1;
     let corners_of = |x: i32, y: i32, side: i32| {
         [(x, y), (x + side, y), (x, y + side), (x + side, y + side)].into_iter()
@@ -409,6 +421,9 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
         3 => corners_of(x, y, side).any(|(x, y)| holds(x, y, 0.0)),
         4 => holds(x + side / 2, y + side / 2, f64::from(side) / 2.0),
         5 => holds(x, y, 0.0),
+        8 => is_inside(x, y, [true, true]),
+        9 => is_inside(x, y, [true, false]),
+        10 => is_inside(x, y, [false, true]),
         7 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
         _ => has(x, y),
     };
@@ -610,7 +625,7 @@ pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention,
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 24] = [
+pub(super) const FORMULAS: [&str; 25] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -635,6 +650,7 @@ pub(super) const FORMULAS: [&str; 24] = [
     "two barycentric weights from differences to the first corner, whose sum may be 1 at most",
     "two barycentric weights from differences to the last corner, whose sum may be 1 at most",
     "two barycentric weights from dot products of the edges, whose sum may be 1 at most",
+    "the edge function as a x + b y + c with an exact c that is rounded once",
 ];
 
 /// One of `FORMULAS`, rounded after every operation. Of corners that turn the other way, two are
@@ -653,7 +669,7 @@ pub(super) fn float(
         return Mask::default();
     }
     let points = points(corners);
-    let is_exact = formula == 7;
+    let is_exact = matches!(formula, 7 | 24);
     let px =
         |p: Point| p.map_array(|v| if is_exact { v as f64 / 256.0 } else { r(v as f64 / 256.0) });
     let mut ordered = points;
@@ -730,14 +746,18 @@ pub(super) fn float(
         let at = px(at);
         let values = match formula {
             0 | 7 | 8 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
-            1 | 19 => sides.map_array(|[i, j]| {
+            1 | 19 | 24 => sides.map_array(|[i, j]| {
                 let [mut p, mut q] = [corners[i], corners[j]];
                 let turns = formula == 19 && p[1] > q[1];
                 if turns {
                     (p, q) = (q, p);
                 }
                 let [a, b] = [r(p[1] - q[1]), r(q[0] - p[0])];
-                let c = r(-r(r(a * p[0]) + r(b * p[1])));
+                let c = match formula {
+                    // Of coordinates that floats of 64 bits hold with their products.
+                    24 => r(p[0] * q[1] - p[1] * q[0]),
+                    _ => r(-r(r(a * p[0]) + r(b * p[1]))),
+                };
                 let value = r(r(r(a * at[0]) + r(b * at[1])) + c);
                 if turns { -value } else { value }
             }),

@@ -57,6 +57,13 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         sentence: |p| {
             let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
             let from = ["", ", counted from the end that is cut", ", counted from the other end"];
+            if p >= 84 {
+                let (axis, rest) = (["y", "x"][((p - 84) / 36) as usize], (p - 84) % 36);
+                return format!(
+                    "cuts lines at the window where {axis} leaves it and draws the rest as a line of its own, whose new ends are {how}{}: the rest takes other pixels",
+                    from[(rest / 12) as usize]
+                );
+            }
             if p >= 72 {
                 let how =
                     ["", "their distance from it being "][(p / 3 % 2) as usize].to_owned() + how;
@@ -76,7 +83,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line across the border with the pixels of the whole line",
-        parameters: Parameters::Below(84),
+        parameters: Parameters::Below(84 + 2 * 36),
         draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
     },
     Mistake {
@@ -157,6 +164,42 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                     [[x0 + u, y0 + v], [x1 - u, y1 - v]]
                 })
                 .collect()
+        }),
+    },
+    Mistake {
+        name: "ties by direction",
+        sentence: |p| {
+            let on: Vec<&str> = (0..8)
+                .filter(|octant| p >> octant & 1 == 1)
+                .map(|octant| OCTANTS[octant as usize])
+                .collect();
+            format!(
+                "lets a tie go on where lines run {}, and not yet where they run elsewhere",
+                on.join(", or ")
+            )
+        },
+        repair: "let one comparison decide in all directions",
+        page: "ch03",
+        refuted: "a tie in one of these directions that does not go on",
+        parameters: Parameters::Octants,
+        draws: Stroke::Own(by_octant),
+    },
+    Mistake {
+        name: "halved again and again",
+        sentence: |p| {
+            format!(
+                "draws both halves of a line from pixel to pixel, whose middle is {}: errors of the halves add up",
+                ["cut toward zero", "cut down", "rounded up"][p as usize]
+            )
+        },
+        repair: "step along the longer axis with one error term",
+        page: "ch03",
+        refuted: "a long line with one pixel for each step",
+        parameters: Parameters::Below(3),
+        draws: Stroke::Own(|ends, _, p| {
+            let mut pixels = Vec::new();
+            halved(ends, p, &mut pixels);
+            pixels
         }),
     },
     Mistake {
@@ -253,13 +296,15 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                 "interpolates between the ends, a (1 - t) + b t, in floats of {} bits, rounded",
                 "interpolates between the ends, a (1 - t) + b t, in floats of {} bits, cut toward zero",
                 "rounds the slope to a float of {} bits and computes each step from the first end",
+                "divides by a step too many, in floats of {} bits, rounded: the line does not reach its second end",
+                "divides by a step too few, in floats of {} bits, rounded: the line runs beyond its second end",
             ][how as usize]
                 .replace("{}", bits)
         },
         repair: "count in integers, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line whose height is right at the far end",
-        parameters: Parameters::Below(36),
+        parameters: Parameters::Below(42),
         draws: Stroke::Own(floats),
     },
     Mistake {
@@ -329,13 +374,12 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     Mistake {
         name: "ends overflow",
         sentence: |p| {
-            let (bits, most) = (p % 100, 1_i64 << (p % 100 - 1));
-            match p / 100 {
-                0 => format!("keeps coordinates in {bits} bits: ends beyond {most} px wrap around"),
-                _ => format!(
-                    "keeps the sides of a line in {bits} bits: those of {most} px and more wrap around"
-                ),
-            }
+            let (what, far) = match p / 100 {
+                0 => ("coordinates", "ends beyond"),
+                _ => ("the differences of both ends", "lines of more than"),
+            };
+            let bits = p % 100;
+            format!("keeps {what} in {bits} bits: {far} {} px wrap around", 1_i64 << (bits - 1))
         },
         repair: "clip first, or use a longer word",
         page: "stability",
@@ -343,12 +387,11 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         parameters: Parameters::Fixed(&[8, 12, 16, 108, 112, 116]),
         draws: Stroke::Instead(|ends, _, p| {
             let shift = 64 - (p % 100) as u32;
-            let wrap = |v: i64| v << shift >> shift;
-            let [[x0, y0], [x1, y1]] = ends;
-            vec![match p / 100 {
-                0 => ends.map_array(|end| end.map_array(wrap)),
-                _ => [[x0, y0], [x0 + wrap(x1 - x0), y0 + wrap(y1 - y0)]],
-            }]
+            let from = if p < 100 { [0; 2] } else { ends[0] };
+            let word = |end: [i64; 2]| {
+                [0, 1].map_array(|k: usize| from[k] + ((end[k] - from[k]) << shift >> shift))
+            };
+            vec![ends.map_array(word)]
         }),
     },
     Mistake {
@@ -419,6 +462,65 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     },
 ];
 
+/// How lines run in each octant: bit 0 is whether they are steep, bit 1 whether they run to the left, and bit 2 whether they run up.
+const OCTANTS: [&str; 8] = [
+    "right and down, flat",
+    "right and down, steep",
+    "left and down, flat",
+    "left and down, steep",
+    "right and up, flat",
+    "right and up, steep",
+    "left and up, flat",
+    "left and up, steep",
+];
+
+fn octant([[x0, y0], [x1, y1]]: Ends) -> i64 {
+    i64::from(is_steep([[x0, y0], [x1, y1]])) + 2 * i64::from(x1 < x0) + 4 * i64::from(y1 < y0)
+}
+
+fn by_octant(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [[x0, y0], [x1, y1]] = ends;
+    let [dx, dy] = [x1 - x0, y1 - y0];
+    let (a, b) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+    // The same in all directions is a convention.
+    if a > MOST_STEPS || p == 0 || p == 255 {
+        return Vec::new();
+    }
+    let less = 1 - (p >> octant(ends) & 1);
+    (0..=a)
+        .map(|i| {
+            let rise = (2 * b * i + a - less).div_euclid(2 * a.max(1));
+            let [u, v] = if is_steep(ends) { [rise, i] } else { [i, rise] };
+            [x0 + dx.signum() * u, y0 + dy.signum() * v]
+        })
+        .collect()
+}
+
+/// The octants in which ties go on, as most answers have it; `of` are lines with their pictures.
+pub(super) fn octants<'a>(of: &mut dyn Iterator<Item = (Ends, PixelRect, &'a Mask)>) -> i64 {
+    let mut more = [0; 8];
+    for (ends, window, drawn) in of {
+        let on = 1 << octant(ends);
+        let is_so = |p: i64| i32::from(mask(&by_octant(ends, window, p), window) == *drawn);
+        more[octant(ends) as usize] += is_so(on) - is_so(255 - on);
+    }
+    (0..8).map(|octant| i64::from(more[octant as usize] > 0) << octant).sum()
+}
+
+/// The pixels of both halves of a line.
+fn halved([a, b]: Ends, p: i64, pixels: &mut Vec<[i64; 2]>) {
+    let middle = [0, 1].map_array(|k: usize| match p {
+        0 => (a[k] + b[k]) / 2,
+        1 => (a[k] + b[k]).div_euclid(2),
+        _ => (a[k] + b[k] + 1).div_euclid(2),
+    });
+    if middle == a || middle == b || pixels.len() as i64 > 2 * MOST_STEPS {
+        return pixels.extend([a, b]);
+    }
+    halved([a, middle], p, pixels);
+    halved([middle, b], p, pixels);
+}
+
 fn is_steep([[x0, y0], [x1, y1]]: Ends) -> bool {
     (y1 - y0).abs() > (x1 - x0).abs()
 }
@@ -479,9 +581,14 @@ fn from_left(ends: Ends, left: bool) -> Ends {
 /// is cut before y, p / 6 mod 2 is whether the first end is cut before the second, p / 12 mod 3 is from where a new end is
 /// counted, and from 36 on a line is turned round whose second end was cut.
 fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
-    if p >= 72 {
+    if (72..84).contains(&p) {
         return cut_both([a, b], window, p - 72);
     }
+    // From 84 on one axis is cut alone.
+    let (p, axes) = match p {
+        84.. => ((p - 84) % 36, [p < 120, p >= 120]),
+        _ => (p, [false; 2]),
+    };
     let last = [i64::from(window.x1) - 1, i64::from(window.y1) - 1];
     let order = if p / 3 % 2 == 0 { [1, 0] } else { [0, 1] };
     let p_order = p % 12;
@@ -490,8 +597,8 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     let (mut way, mut cut_along) = ([0; 2], 2);
     // Each end is cut at most twice.
     for _ in 0..5 {
-        let outside = |p: [i64; 2], k: usize| p[k] < 0 || p[k] > last[k];
-        let beyond = |k: usize| a[k].max(b[k]) < 0 || a[k].min(b[k]) > last[k];
+        let outside = |p: [i64; 2], k: usize| !axes[k] && (p[k] < 0 || p[k] > last[k]);
+        let beyond = |k: usize| !axes[k] && (a[k].max(b[k]) < 0 || a[k].min(b[k]) > last[k]);
         if beyond(0) || beyond(1) {
             return None;
         }
@@ -655,14 +762,15 @@ fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
     let (sx, sy) = (slope(x1 - x0), slope(y1 - y0));
     if how >= 7 {
         let at = |i: i64, a: i64, b: i64| {
-            let t = r(i as f64 / steps.max(1) as f64);
+            let of = steps + [0, 1, -1][(how - 11).max(0) as usize];
+            let t = r(i as f64 / of.max(1) as f64);
             let v = match how {
                 11 => a as f64 + r((b - a) as f64 / steps.max(1) as f64) * i as f64,
-                7 | 8 => r(a as f64 + r(r((b - a) as f64) * t)),
+                7 | 8 | 12.. => r(a as f64 + r(r((b - a) as f64) * t)),
                 _ => r(r(a as f64 * r(1.0 - t)) + r(b as f64 * t)),
             };
             match how {
-                11 => (v + 0.5).floor() as i64,
+                11.. => (v + 0.5).floor() as i64,
                 7 | 9 => v.round() as i64,
                 _ => v as i64,
             }

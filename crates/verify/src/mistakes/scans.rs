@@ -3,7 +3,7 @@
 use super::fills::{Point, points, wrap};
 use crate::convention::Mask;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
 /// In which numbers the crossing of an edge with a row is computed.
@@ -218,6 +218,12 @@ impl Scan {
 
     /// The sentence, after 'it'.
     pub(super) fn sentence(p: i64) -> String {
+        if p >= COLUMNS {
+            return format!(
+                "goes column by column, and with x and y exchanged {}",
+                Self::sentence(p - COLUMNS)
+            );
+        }
         let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least } =
             Self::of(p);
         let mut words = WHOLE[whole as usize].to_owned();
@@ -266,7 +272,7 @@ impl Scan {
 
     /// Whether crossings are rounded.
     pub(super) fn is_rounded(p: i64) -> bool {
-        p % Slope::COUNT > 0
+        p % COLUMNS % Slope::COUNT > 0
     }
 
     /// Whether they are exact, and corners are sorted by their heights.
@@ -276,7 +282,7 @@ impl Scan {
 
     /// Whether corners are sorted by whole rows.
     pub(super) fn is_sorted_by_rows(p: i64) -> bool {
-        let Self { sorted, whole, .. } = Self::of(p);
+        let Self { sorted, whole, .. } = Self::of(p % COLUMNS);
         sorted > 0 && whole == 0
     }
 
@@ -352,8 +358,26 @@ const FRAMES: usize = 10;
 
 /// The parameters whose frames (rows, heights and ends of rows) come nearest to what was drawn: with exact crossings, and with
 /// the slope and the beginning that are best in the first of these.
-pub(super) fn fitting(drawn: &[Drawn<'_>]) -> Vec<i64> {
-    let mut all = frames(drawn, 0);
+pub(super) fn fitting(rows: &[Drawn<'_>]) -> Vec<i64> {
+    let corners: Vec<_> =
+        rows.iter().map(|(corners, window, _)| turned(corners, *window)).collect();
+    let columns: Vec<Drawn<'_>> = corners
+        .iter()
+        .zip(rows)
+        .map(|((corners, window), (.., drawn))| (corners, *window, drawn.turned()))
+        .collect();
+    let (least, all) = frames(rows, 0, u32::MAX);
+    // Where crossings are rounded, both may miss as many.
+    match frames(&columns, 0, least / 4) {
+        (_, all) if !all.is_empty() => {
+            around(&columns, all).into_iter().map(|p| p + COLUMNS).collect()
+        }
+        _ => around(rows, all),
+    }
+}
+
+/// All that is near the best frames with exact crossings.
+fn around(drawn: &[Drawn<'_>], mut all: Vec<i64>) -> Vec<i64> {
     let mut best = (u32::MAX, 0);
     for p in Scan::within(all[0]) {
         let missed = Scan::of(p).missed(drawn, best.0);
@@ -363,14 +387,16 @@ pub(super) fn fitting(drawn: &[Drawn<'_>]) -> Vec<i64> {
     }
     // Too many that explain the same crowd out others.
     all.truncate(2);
-    all.extend(frames(drawn, best.1 % WITHIN).into_iter().map(|p| p - p % WITHIN));
+    let others = frames(drawn, best.1 % WITHIN, u32::MAX).1;
+    all.extend(others.into_iter().map(|p| p - p % WITHIN));
     all.sort_unstable();
     all.dedup();
     all.into_iter().flat_map(Scan::within).collect()
 }
 
-/// The best frames with a slope and where edges begin, the best first.
-fn frames(drawn: &[Drawn<'_>], slope: i64) -> Vec<i64> {
+/// The best frames with a slope and where edges begin, the best first, that miss fewer pixels than `most`; and how many the first
+/// misses.
+fn frames(drawn: &[Drawn<'_>], slope: i64, most: u32) -> (u32, Vec<i64>) {
     let mut best: Vec<(u32, i64)> = Vec::new();
     for frame in (0..DIGITS[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
         let how = Scan::of(frame);
@@ -379,7 +405,7 @@ fn frames(drawn: &[Drawn<'_>], slope: i64) -> Vec<i64> {
         if is_twice || how.whole > 0 && (how.rows > 1 || how.height > 1) {
             continue;
         }
-        let most = best.get(FRAMES - 1).map_or(u32::MAX, |(missed, _)| *missed);
+        let most = best.get(FRAMES - 1).map_or(most, |(missed, _)| *missed);
         let missed = how.missed(drawn, most);
         if missed < most {
             let at = best.partition_point(|(other, _)| *other <= missed);
@@ -387,9 +413,9 @@ fn frames(drawn: &[Drawn<'_>], slope: i64) -> Vec<i64> {
             best.truncate(FRAMES);
         }
     }
-    let least = best.first().map_or(0, |(missed, _)| *missed);
-    best.retain(|(missed, _)| *missed <= 2 * least + 4);
-    best.into_iter().map(|(_, frame)| frame).collect()
+    let least = best.first().map_or(u32::MAX, |(missed, _)| *missed);
+    best.retain(|(missed, _)| *missed <= least.saturating_mul(2).saturating_add(4));
+    (least, best.into_iter().map(|(_, frame)| frame).collect())
 }
 
 /// A crossing that is moved from row to row, in pixels.
@@ -505,9 +531,23 @@ impl Walk {
 /// Rows that are walked above the window, at most: further ones are not expected.
 const MOST_ROWS: i64 = 1 << 16;
 
-/// The picture of a way of filling row by row.
+/// Parameters from here on fill column by column.
+const COLUMNS: i64 = 1 << 40;
+
+/// The picture of a way of filling row by row, or column by column.
 pub(super) fn scanned(corners: &Corners, window: PixelRect, p: i64) -> Mask {
-    scan(corners, window, Scan::of(p))
+    match p < COLUMNS {
+        true => scan(corners, window, Scan::of(p)),
+        false => {
+            let (corners, window) = turned(corners, window);
+            scan(&corners, window, Scan::of(p - COLUMNS)).turned()
+        }
+    }
+}
+
+fn turned(corners: &Corners, window: PixelRect) -> (Corners, PixelRect) {
+    let window = PixelRect { x0: window.y0, y0: window.x0, x1: window.y1, y1: window.x1 };
+    (corners.map_array(|c| SubpixelPoint::new(c.y, c.x)), window)
 }
 
 fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {

@@ -54,7 +54,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "rule by order",
         sentence: |p| {
-            let (owned, order) = (p % 27, p / 27);
+            let (owned, order, winding) = (p % 27, p / 27 % ORDERS.len() as i64, p / OF_BOTH);
             let edges = [
                 "from the first corner to the second",
                 "from the second to the third",
@@ -80,21 +80,27 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 ),
             };
             words += &exchanged(order);
+            words +=
+                ["", " (of clockwise triangles alone)", " (of counterclockwise triangles alone)"]
+                    [winding as usize];
             words
         },
         repair: "let the direction of an edge decide, and not its place in the list",
         page: "ch02-edge-functions",
         refuted: "a triangle whose corners are rotated and that draws the same samples",
-        parameters: Parameters::Below(27 * ORDERS.len() as i64),
+        parameters: Parameters::Below(3 * OF_BOTH),
         draws: Fill::Sampled(|corners, window, base, p| {
             let (base, clockwise) = (base.with_rule(RULES[0]), area2(corners) > 0);
             // The same for all edges is no rule by order.
-            if matches!(p % 27, 0 | 13 | 26) {
+            if matches!(p % 27, 0 | 13 | 26) && p < OF_BOTH {
                 return Mask::default();
             }
+            let order = p / 27 % ORDERS.len() as i64;
+            let is_ruled = p / OF_BOTH == if clockwise { 2 } else { 1 };
             fills::by_edges(corners, window, &base, &|edge, value, owns| {
-                let edge = place_of_edge(edge, p / 27, clockwise) as u32;
+                let edge = place_of_edge(edge, order, clockwise) as u32;
                 let owns = match p / 3_i64.pow(edge) % 3 {
+                    _ if is_ruled => owns,
                     0 => false,
                     1 => true,
                     _ => owns,
@@ -339,28 +345,39 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "weights are cut",
         sentence: |p| {
-            let bits = WEIGHT_BITS[(p / 8) as usize];
+            let bits = WEIGHT_BITS[(p / 10 % 8) as usize];
             let cut = ["toward zero", "down"][(p % 2) as usize];
+            let how = match p / 80 {
+                0 => "divides the edge functions by the area into".to_owned(),
+                of => format!(
+                    "multiplies the edge functions by a reciprocal of the area of {} bits into",
+                    RECIPROCAL_BITS[of as usize - 1]
+                ),
+            };
             format!(
-                "divides the edge functions by the area into weights of {bits} bits, cut {cut}{}: a strip along edges is drawn or lost",
-                if p / 2 % 4 == 0 { "" } else { ", one of them being what is left of 1" }
+                "{how} weights of {bits} bits, cut {cut}{}: a strip along edges is drawn or lost",
+                if p / 2 % 5 == 0 { "" } else { ", one of them being what is left of 1" }
             )
         },
         repair: "test the edge functions before they are divided",
         page: "ch02-edge-functions",
         refuted: "a sample whose weight is below a step and that is drawn rightly",
-        parameters: Parameters::Below(64),
+        parameters: Parameters::Below(80 * (1 + RECIPROCAL_BITS.len() as i64)),
         draws: Fill::Sampled(|corners, window, base, p| {
-            let bits = WEIGHT_BITS[(p / 8) as usize];
+            let bits = WEIGHT_BITS[(p / 10 % 8) as usize];
             let area = area2(corners);
             let whole = area.abs().max(1);
-            let cut = |value: i128| match p % 2 {
-                0 => (value << bits) / whole,
+            let reciprocal = (p >= 80).then(|| RECIPROCAL_BITS[(p / 80 - 1) as usize]);
+            let cut = |value: i128| match (reciprocal, p % 2) {
+                (Some(more), 0) => (value * ((1 << more) / whole)) / (1 << (more - bits)),
+                (Some(more), _) => (value * ((1 << more) / whole)) >> (more - bits),
+                (_, 0) => (value << bits) / whole,
                 _ => (value << bits).div_euclid(whole),
             };
             // Which one is left over, or another one where two corners are exchanged first.
-            let rest = [None, Some(2), Some(0), Some(if area > 0 { 2 } else { 0 })];
-            let rest = rest[(p / 2 % 4) as usize];
+            let [this, other] = if area > 0 { [2, 0] } else { [0, 2] };
+            let rest = [None, Some(2), Some(0), Some(this), Some(other)];
+            let rest = rest[(p / 2 % 5) as usize];
             fills::by_all_edges(corners, window, base, &|values| {
                 let mut weights = values.map_array(cut);
                 if let Some(rest) = rest {
@@ -626,6 +643,9 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "skips tiles of {} px whose first corner lies outside",
                 "loses the last column that a triangle has in each tile of {} px",
                 "skips tiles of {} px of whose corner pixels in the window none is covered",
+                "skips tiles of {} px that do not lie in the triangle with all four corner pixels",
+                "tests each edge with the wrong corner of tiles of {} px, whose x is that of another one",
+                "tests each edge with the wrong corner of tiles of {} px, whose y is that of another one",
             ][(p / 100) as usize];
             tested.replace("{}", &format!("{side} x {side}"))
         },
@@ -953,6 +973,8 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     },
 ];
 
+/// Parameters of a rule by order of both windings; those of one follow.
+const OF_BOTH: i64 = 27 * ORDERS.len() as i64;
 /// The rules that mistakes are looked for with.
 pub(super) const RULES: [&str; 6] =
     ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
@@ -1010,6 +1032,8 @@ fn axes(p: i64) -> [(i32, usize); 2] {
 const OFFSETS: [i64; 8] = [1, 2, 8, 16, 32, 64, 128, 256];
 /// Bits of weights in whole numbers.
 const WEIGHT_BITS: [u32; 8] = [4, 7, 8, 10, 12, 14, 15, 16];
+/// Bits of reciprocals of the area, which has 16 bits of fraction.
+const RECIPROCAL_BITS: [u32; 3] = [40, 32, 24];
 
 const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
 const CLIP_STEPS: [i32; 4] = [256, 64, 16, 4];
@@ -1142,10 +1166,10 @@ fn suffix(number: i64) -> &'static str {
 }
 
 /// Sides and tests of tiles.
-const TILES: [i64; 38] = {
-    let mut all = [0; 38];
+const TILES: [i64; 53] = {
+    let mut all = [0; 53];
     let (mut i, mut n) = (0, 0);
-    while i < 40 {
+    while i < 55 {
         let side = 2 << (i % 5);
         // A tile as large as the window has its middle or first pixel beyond, or is all.
         if side < 32 || i / 5 == 0 || i / 5 > 2 {

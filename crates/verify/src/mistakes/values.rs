@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Explanation, Hypothesis, Mistakes, of_answers};
+use super::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
 use crate::cases::{self, Shape, Triangle};
 use crate::comparison::area2;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
@@ -197,30 +197,6 @@ const VALUES: &[ValueMistake] = &[
         values: |t, l| with(sum(l, t.vertices.map(|v| v.inv_w)), attributes(t, corrected(t, l))),
     },
     ValueMistake {
-        name: "another range of depth",
-        does: "turns depth round: 1 - z",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a depth near 0 that is given as such",
-        values: |t, l| with(1.0 - sum(l, depths(t)), attributes(t, corrected(t, l))),
-    },
-    ValueMistake {
-        name: "another range of depth",
-        does: "takes depth for a number between -1 and 1 and gives (z + 1) / 2",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a depth near 0 that is given as such",
-        values: |t, l| with(sum(l, depths(t)) / 2.0 + 0.5, attributes(t, corrected(t, l))),
-    },
-    ValueMistake {
-        name: "another range of depth",
-        does: "gives depth between -1 and 1: 2 z - 1",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a depth near 0 that is given as such",
-        values: |t, l| with(sum(l, depths(t)) * 2.0 - 1.0, attributes(t, corrected(t, l))),
-    },
-    ValueMistake {
         name: "weights of other corners",
         does: "gives the second corner the weight of the third and the third that of the second",
         repair: "keep a value with its corner where corners are sorted or exchanged",
@@ -356,14 +332,39 @@ const VALUES: &[ValueMistake] = &[
         },
     },
     ValueMistake {
-        name: "another value",
-        does: "gives depth with the other sign",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a pixel with its own depth",
+        name: "weights of w squared",
+        does: "divides attributes by w twice, as where 1/w is divided by w once more",
+        repair: "weight the corners by 1/w",
+        page: "ch05",
+        refuted: "a triangle with unequal w and right attributes",
         values: |t, l| {
-            let [depth, first, second] = right_values(t, l);
-            [-depth, first, second]
+            let parts = [0, 1, 2].map(|i| l[i] * t.vertices[i].inv_w * t.vertices[i].inv_w);
+            let whole: f64 = parts.iter().sum();
+            with(sum(l, depths(t)), attributes(t, parts.map(|part| part / whole)))
+        },
+    },
+    ValueMistake {
+        name: "values of one corner",
+        does: "gives every pixel the attributes of the corner with the largest weight",
+        repair: "interpolate between the corners",
+        page: "ch05",
+        refuted: "two pixels of a triangle with different values",
+        values: |t, l| {
+            let most = (0..3).rev().max_by(|a, b| l[*a].total_cmp(&l[*b])).unwrap_or(0);
+            let mut one = [0.0; 3];
+            one[most] = 1.0;
+            with(sum(l, depths(t)), attributes(t, one))
+        },
+    },
+    ValueMistake {
+        name: "values without a sign",
+        does: "loses the sign of attributes",
+        repair: "leave attributes as they are: textures may begin below 0",
+        page: "ch05",
+        refuted: "a negative attribute",
+        values: |t, l| {
+            let [depth, a, b] = right_values(t, l);
+            [depth, a.abs(), b.abs()]
         },
     },
     ValueMistake {
@@ -418,7 +419,7 @@ const CORNERS: [(Moved, &str); 5] = [
 
 /// Numbers in which something is kept, with so many bits, and how that is said.
 type Kept = (fn(f64, i32) -> f64, &'static [i32], &'static str);
-const KEPT: [Kept; 8] = [
+const KEPT: [Kept; 9] = [
     (
         |v, bits| mantissa(v, bits, f64::round),
         FLOATS,
@@ -447,6 +448,7 @@ const KEPT: [Kept; 8] = [
         "whole numbers and {} bits of fraction, rounded",
     ),
     (|v, _| v - v.floor(), &[0], "fractions alone, as they wrap around at 1"),
+    (|v, _| rounded(v, 2), &[0], "floats of 16 bits"),
 ];
 /// Bits of floats of 16 bits, of those with the exponent of one of 32 bits, and of others.
 const FLOATS: &[i32] = &[10, 7, 5, 8, 12, 16];
@@ -514,6 +516,10 @@ pub struct ValueHypothesis {
     weights: Option<(Kept, i32)>,
     /// The same of 1/w at a pixel, or of w, by which attributes are multiplied.
     divisor: Option<(Kept, i32, bool)>,
+    /// The same of 1/w at the corners, or of w.
+    of_corners: Option<(Kept, i32, bool)>,
+    /// What becomes of each right value: it is multiplied, and something is added.
+    scaled: [[f64; 2]; 3],
     /// Pixels of a block that have one value, and the place in the block.
     block: Option<(i32, f64)>,
     /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row;
@@ -550,7 +556,16 @@ impl ValueHypothesis {
                 let over_w = [0, 1, 2].map(|i| l[i] * triangle.vertices[i].inv_w * w);
                 values = with(values[0], attributes(triangle, over_w));
             }
-            values
+            if let Some(((keep, ..), bits, is_w)) = self.of_corners {
+                let inverse = triangle.vertices.map(|v| match is_w {
+                    true => 1.0 / keep(1.0 / v.inv_w, bits),
+                    false => keep(v.inv_w, bits),
+                });
+                let whole = sum(l, inverse);
+                let parts = [0, 1, 2].map(|i| l[i] * inverse[i] / whole);
+                values = with(values[0], attributes(triangle, parts));
+            }
+            [0, 1, 2].map(|i| values[i] * self.scaled[i][0] + self.scaled[i][1])
         };
         let mut values = at(x_px);
         if let Some((steps, from_first)) = self.steps {
@@ -574,6 +589,12 @@ impl ValueHypothesis {
         let right = right_at(triangle, (x_px, y_px));
         Some([0, 1, 2].map(|i| if self.parts[i] { values[i] } else { right[i] }))
     }
+}
+
+/// Right values at a pixel and given ones.
+#[must_use]
+pub fn pixel_of(triangle: &Triangle, f: &Fragment<DVec2>) -> [[f64; 3]; 2] {
+    [right_at(triangle, (f.x_px, f.y_px)), [f.depth, f.varying.x, f.varying.y]]
 }
 
 /// Right values at a pixel.
@@ -615,9 +636,9 @@ pub fn are_explained(
     off_right <= 1.0 || 2.0 * off <= off_right
 }
 
-/// Every mistake, from all corners, at all places, in all values or in some.
+/// Every mistake, from all corners, at all places, in all values or in some; and that values are scaled in such a way.
 #[must_use]
-pub fn of_values() -> Vec<ValueHypothesis> {
+pub fn of_values(scaled: [[f64; 2]; 3]) -> Vec<ValueHypothesis> {
     let mut all = Vec::new();
     let mut add = |mistake: &ValueMistake, does: String, of: ValueHypothesis| {
         let ValueMistake { name, repair, page, refuted, .. } = *mistake;
@@ -634,6 +655,8 @@ pub fn of_values() -> Vec<ValueHypothesis> {
         kept: None,
         weights: None,
         divisor: None,
+        of_corners: None,
+        scaled: [[1.0, 0.0]; 3],
         block: None,
         steps: None,
     };
@@ -667,6 +690,9 @@ pub fn of_values() -> Vec<ValueHypothesis> {
                 format!("keeps {what} at a pixel in {numbers}, and divides attributes by that");
             let divisor = Some((kept, bits, is_w));
             add(&FEW_BITS, does, ValueHypothesis { divisor, ..right([true; 3]) });
+            let does = format!("keeps {what} of corners in {numbers}");
+            let of_corners = Some((kept, bits, is_w));
+            add(&FEW_BITS, does, ValueHypothesis { of_corners, ..right([true; 3]) });
         }
     }
     for side in [2, 4, 8] {
@@ -688,6 +714,19 @@ pub fn of_values() -> Vec<ValueHypothesis> {
         );
         let steps = Some((Some(steps), from_first));
         add(&STEPS, does, ValueHypothesis { steps, ..right([true; 3]) });
+    }
+    let off: Vec<String> = ["depth", "the first attribute", "the second attribute"]
+        .into_iter()
+        .zip(scaled)
+        .filter(|(_, by)| *by != [1.0, 0.0])
+        .map(|(name, [by, plus])| match plus == 0.0 {
+            true => format!("{by} x {name}"),
+            false => format!("{by} x {name} {} {}", if plus < 0.0 { "-" } else { "+" }, plus.abs()),
+        })
+        .collect();
+    if !off.is_empty() {
+        let does = format!("gives {}", off.join(", "));
+        add(&SCALED, does, ValueHypothesis { scaled, ..right([true; 3]) });
     }
     for (parts, said) in [PARTS[0], PARTS[3], PARTS[4]] {
         let does = format!("gives the pixels of a row the values of the first one{said}");
@@ -722,6 +761,14 @@ const BLOCKS: ValueMistake = ValueMistake {
     refuted: "two pixels of a block with values of their own",
     values: right_values,
 };
+const SCALED: ValueMistake = ValueMistake {
+    name: "values are scaled",
+    does: "",
+    repair: "leave values as the corners have them",
+    page: "ch05",
+    refuted: "a value that is given as it is",
+    values: right_values,
+};
 const STEPS: ValueMistake = ValueMistake {
     name: "attributes linear in parts",
     does: "",
@@ -730,6 +777,31 @@ const STEPS: ValueMistake = ValueMistake {
     refuted: "a pixel between two of these with the attributes of its place",
     values: right_values,
 };
+
+/// What right values are multiplied by, and what is added, as most of some pixels have it: a right value and the given one each.
+#[must_use]
+pub fn scaled(pixels: &[[[f64; 3]; 2]]) -> [[f64; 2]; 3] {
+    [0, 1, 2].map(|k| {
+        let near = |v: f64| (v * 1e4).round() / 1e4;
+        let mut found: Vec<([f64; 2], usize)> = Vec::new();
+        for pair in pixels.windows(2) {
+            let [[x, y], [u, v]] = [&pair[0], &pair[1]].map(|[right, given]| [right[k], given[k]]);
+            // Where all are small or far apart, digits are lost.
+            if (x - u).abs() < 0.01 || [x, y, u, v].iter().any(|v| v.abs() > 100.0) {
+                continue;
+            }
+            let by = (y - v) / (x - u);
+            let fit = [near(by), near(y - by * x)];
+            match found.iter_mut().find(|(known, _)| *known == fit) {
+                Some((_, times)) => *times += 1,
+                None => found.push((fit, 1)),
+            }
+        }
+        let most = found.iter().max_by_key(|(_, times)| *times);
+        let is_most = |(_, times): &&([f64; 2], usize)| 2 * times > found.iter().map(|f| f.1).sum();
+        most.filter(is_most).map_or([1.0, 0.0], |(fit, _)| *fit)
+    })
+}
 
 /// The families in which the mistakes differ.
 pub const FAMILIES: &[&str] = &["w-100", "uniform", "w-extreme", "fan"];
@@ -752,6 +824,13 @@ pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mis
     }
     let is_wrong: Vec<bool> = all.iter().map(|(_, (.., is_wrong))| *is_wrong).collect();
     let all = &all;
+    let pixels: Vec<_> = chosen_by(&is_wrong)
+        .into_iter()
+        .flat_map(|i| {
+            let (triangle, (fragments, ..)) = &all[i];
+            fragments.iter().take(2).map(move |f| pixel_of(triangle, f))
+        })
+        .collect();
     let hypothesis = |known: ValueHypothesis| Hypothesis {
         says: known.says.clone(),
         predicts: Box::new(move |i| {
@@ -763,5 +842,5 @@ pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mis
             are_explained(triangle, &mut fragments.iter(), &predict, &allowed)
         }),
     };
-    of_answers(of_values().into_iter().map(hypothesis).collect(), &is_wrong)
+    of_answers(of_values(scaled(&pixels)).into_iter().map(hypothesis).collect(), &is_wrong)
 }
