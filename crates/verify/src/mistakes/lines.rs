@@ -497,7 +497,7 @@ fn by_octant(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
 }
 
 /// The octants in which ties go on, as most answers have it; `of` are lines with their pictures.
-pub(super) fn octants<'a>(of: &mut dyn Iterator<Item = (Ends, PixelRect, &'a Mask)>) -> i64 {
+pub(super) fn octants(of: &mut dyn Iterator<Item = (Ends, PixelRect, &Mask)>) -> i64 {
     let mut more = [0; 8];
     for (ends, window, drawn) in of {
         let on = 1 << octant(ends);
