@@ -860,10 +860,10 @@ fn judge_measures_how_large_triangles_are_walked() {
     };
     let declared = Declared::parse("HELLO 2 x coverage").unwrap();
     let verdict = judged(Box::new(Answering(declared, answer)), &options(3, &["huge"]));
-    let side = verdict.side.unwrap();
+    let side = verdict.more.side.unwrap();
     assert!((1 << 12..=1 << 20).contains(&side), "{side}");
     assert!(verdict.agrees());
-    assert_eq!(judged(inside("scanline"), &options(3, &["uniform"])).side, None);
+    assert_eq!(judged(inside("scanline"), &options(3, &["uniform"])).more.side, None);
 }
 
 /// What a program wrote before it ended without HELLO is shown.
