@@ -477,6 +477,14 @@ fn judge_writes_formats() {
         assert_eq!((&test["max_score"], test["output"].is_string()), (&1.into(), true));
     }
     assert_eq!(scores["score"], properties.len() - failing);
+    // Who fails sees the case as a terminal shows it.
+    let shows = |test: &serde_json::Value| {
+        let output = test["output"].as_str().unwrap();
+        ["request:", "judged   expected", "# agrees", "repeat with: "]
+            .iter()
+            .all(|part| output.contains(part))
+    };
+    assert!(tests.iter().any(shows), "{scores}");
 
     let result: serde_json::Value = serde_json::from_str(&of_it("github-classroom")).unwrap();
     assert_eq!((&result["version"], &result["status"]), (&1.into(), &"fail".into()));
