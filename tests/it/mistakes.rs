@@ -16,6 +16,7 @@ use rasterproof_judge as judge;
 use rasterproof_judge::ask::{Answer, Asked};
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_registry::engines;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Cull;
@@ -140,6 +141,13 @@ const FILLS: &[(&str, Fill)] = &[
         // 12.4 in 16 bits.
         let word = |v: i32| i32::from((v / 16) as i16) * 16 + v % 16;
         right(c.map_array(|p| SubpixelPoint::new(word(p.x), word(p.y))), w, out);
+    }),
+    ("coordinates in short floats", |c, w, out| {
+        let half = |v: i32| {
+            let bits = (v as f32).to_bits();
+            f32::from_bits((bits + 0xfff + (bits >> 13 & 1)) & !0x1fff) as i32
+        };
+        right(c.map_array(|p| SubpixelPoint::new(half(p.x), half(p.y))), w, out);
     }),
     ("each axis on a grid of its own", |c, w, out| {
         right(c.map_array(|p| SubpixelPoint::new(p.x / 64 * 64, p.y)), w, out);
@@ -703,6 +711,42 @@ const FILLS: &[(&str, Fill)] = &[
         let runs: Vec<_> = out.runs().filter(|(y, ..)| Some(*y) == first).collect();
         runs.into_iter().for_each(|(y, a, b)| out.hit(y, a, b));
     }),
+    ("blocks are drawn whole", |c, w, out| {
+        // A hierarchy that takes a block for covered if three of its corner pixels are.
+        right(c, w, out);
+        let mut around = Coverage::new(PixelRect { x1: w.x1 + 3, y1: w.y1 + 3, ..w }, 0);
+        right(c, around.bounds(), &mut around);
+        let has = |x: i32, y: i32| i32::from(around.get(x, y).unwrap_or(0) > 0);
+        for (y, x) in (w.y0..w.y1).flat_map(|y| (w.x0..w.x1).map(move |x| (y, x))) {
+            let (left, top) = (x / 4 * 4, y / 4 * 4);
+            if has(left, top) + has(left + 3, top) + has(left, top + 3) + has(left + 3, top + 3) > 2
+            {
+                light(out, x, y);
+            }
+        }
+    }),
+    ("rows end elsewhere", |c, w, out| {
+        // No sub-pixel correction: rows are counted from the one that holds a corner.
+        walked(c, w, out, &|y, from, to| {
+            let slope = f64::from(to.x - from.x) / f64::from(to.y - from.y);
+            f64::from(from.x) / 256.0 + slope * f64::from(y - from.y.div_euclid(256))
+        });
+    }),
+    ("rows end elsewhere", |mut c, w, out| {
+        // A pixel at least in each row, so that thin parts have no gaps.
+        right(c, w, out);
+        c.sort_by_key(|p| p.y);
+        let first = |p: SubpixelPoint| (p.y + 127).div_euclid(256);
+        let at = |y: i32, from: SubpixelPoint, to: SubpixelPoint| {
+            let part = f64::from(y * 256 + 128 - from.y) / f64::from(to.y - from.y);
+            (f64::from(from.x) + f64::from(to.x - from.x) * part) / 256.0
+        };
+        for y in first(c[0]).max(0)..first(c[2]).min(w.y1) {
+            let short = if y < first(c[1]) { at(y, c[0], c[1]) } else { at(y, c[1], c[2]) };
+            let x = (short.min(at(y, c[0], c[2])) - 0.5).ceil();
+            light(out, x.clamp(-1.0, 9999.0) as i32, y);
+        }
+    }),
     ("the whole box is filled", |c, w, out| {
         let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
         for y in w.y0..w.y1 {
@@ -1203,6 +1247,19 @@ const STROKES: &[(&str, Stroke)] = &[
         }
         bresenham([p, q], emit);
     }),
+    ("one step at a time", |[[mut x, mut y], [x1, y1]], _, emit| {
+        let [dx, dy] = [i64::from((x1 - x).abs()), i64::from((y1 - y).abs())];
+        let (sx, sy, mut error) = ((x1 - x).signum(), (y1 - y).signum(), dx - dy);
+        emit(x, y);
+        for _ in 0..dx + dy {
+            if 2 * error > -dy {
+                (x, error) = (x + sx, error - dy);
+            } else {
+                (y, error) = (y + sy, error + dx);
+            }
+            emit(x, y);
+        }
+    }),
     ("the sign of a step", |[[x0, y0], [x1, y1]], _, emit| {
         bresenham([[x0, y0], [x1, y0 + (y1 - y0).abs()]], emit);
     }),
@@ -1441,7 +1498,7 @@ fn judged_as(
     families: &[&str],
 ) -> String {
     let verdict = verdict(words, changed, families, &|_| None);
-    let said = verdict.causes.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
+    let said = verdict.cause.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
     said.collect::<Vec<_>>().join("\n")
 }
 
@@ -1457,7 +1514,7 @@ fn verdict(
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
     recognise: judge::Recognise<'_>,
-) -> judge::verdict::Judgement {
+) -> judge::verdict::Verdict {
     let right = Inside::new(engines::find("scanline").unwrap());
     let mut declared = judge::ask::Subject::declared(&right).clone();
     words.split_whitespace().for_each(|word| declared.hear(word));
@@ -1710,7 +1767,7 @@ fn mistakes_that_are_planted_are_named() {
         let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
-        let is_named = verdict.causes.iter().any(|cause| cause.why.is_known());
+        let is_named = verdict.cause.iter().any(|cause| cause.why.is_known());
         let is_convention = verdict.by_convention().is_some_and(|score| score.wrong == 0);
         if !is_named && !is_convention {
             unnamed.push(name);
@@ -1964,19 +2021,19 @@ fn mistakes_planted_elsewhere_are_named() {
 }
 
 /// The name of the causes, the convention, or that all answers are right.
-fn told(verdict: &judge::verdict::Judgement) -> String {
+fn told(verdict: &judge::verdict::Verdict) -> String {
     let named: Vec<_> = verdict
-        .causes
+        .cause
         .iter()
         .flat_map(|why| why.why.causes.iter().map(|cause| format!("{}, {}", why.of, cause.name)))
         .collect();
     if !named.is_empty() {
         return named.join("; ");
     }
-    match &verdict.recognised {
-        Some(said) if verdict.causes.is_empty() => said.sentences.join(" "),
+    match &verdict.more.recognised {
+        Some(said) if verdict.cause.is_empty() => said.sentences.join(" "),
         _ if verdict.agrees() => "all answers are right".to_owned(),
-        _ if verdict.causes.is_empty() => "another winding than declared".to_owned(),
+        _ if verdict.cause.is_empty() => "another winding than declared".to_owned(),
         _ => "wrong, and no cause is named".to_owned(),
     }
 }
@@ -2002,9 +2059,9 @@ fn mistakes_beyond_small_windows_are_found() {
         &|_| None,
     );
     let wrong: Vec<_> =
-        verdict.found.rows.iter().filter(|row| row.wrong_cases > 0).map(|row| row.name).collect();
+        verdict.families.iter().filter(|row| row.wrong_cases > 0).map(|row| row.name).collect();
     assert_eq!(wrong, ["wide-window"]);
-    let said: Vec<_> = verdict.causes.iter().flat_map(|cause| cause.why.sentences()).collect();
+    let said: Vec<_> = verdict.cause.iter().flat_map(|cause| cause.why.sentences()).collect();
     let said = said.join(" ");
     assert!(said.contains("triangles are wrong from column 256 on"), "{said}");
 }

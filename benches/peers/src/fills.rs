@@ -34,7 +34,7 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::Corners;
 use rasterproof_precision::ladder::area;
 use rasterproof_tiles::coverage::Tiles;
-use rasterproof_tiles::paint;
+use rasterproof_tiles::paint::{self, fill_run};
 use rasterproof_verify::oracle::Oracle;
 use serde::Serialize;
 use tiny_skia::{FillRule, Paint, PathBuilder, Pixmap, Transform};
@@ -71,7 +71,8 @@ pub enum Errors {
     Areas { rms: f64, worst: f64 },
 }
 
-pub fn measure(scene: &Scene, rounds: usize, children: &mut Children) -> Vec<Row> {
+/// Those of this process.
+fn candidates(scene: &Scene) -> Vec<Candidate<'_>> {
     let engine = |name, filler| Candidate { name: String::from(name), smooth: false, filler };
     let mut all = vec![
         engine("scanline", Box::new(Engine::new(Scanline, scene)) as Box<dyn Filler>),
@@ -94,6 +95,11 @@ pub fn measure(scene: &Scene, rounds: usize, children: &mut Children) -> Vec<Row
             add("euc", Box::new(Euc::new(scene)));
         }
     }
+    all
+}
+
+pub fn measure(scene: &Scene, rounds: usize, children: &mut Children) -> Vec<Row> {
+    let mut all = candidates(scene);
     all.extend(children.fillers(scene).into_iter().map(|(name, smooth, child)| Candidate {
         name,
         smooth,
@@ -116,6 +122,18 @@ pub fn measure(scene: &Scene, rounds: usize, children: &mut Children) -> Vec<Row
         errors,
     })
     .collect()
+}
+
+/// Fills a class so often, antialiased where there are both, by someone of this process.
+pub fn only(class: &str, name: &str, count: u32) -> Result<(), String> {
+    let scenes = common::scenes();
+    let scene = scenes.iter().find(|scene| scene.name == class);
+    let scene = scene.ok_or_else(|| format!("{class} is no class"))?;
+    let mut all = candidates(scene).into_iter().rev();
+    let found = all.find(|candidate| candidate.name == name);
+    let mut found = found.ok_or_else(|| format!("{name} does not fill in this process"))?;
+    (0..count).for_each(|_| _ = found.filler.time_ns(0..scene.triangles.len()));
+    Ok(())
 }
 
 struct Candidate<'a> {
@@ -195,8 +213,8 @@ impl Candidate<'_> {
             let drawn = self.filler.take(index, near);
             if self.smooth {
                 let mut truth = Frame::new(near, 0.0);
-                area::shares(corners, near, |x_px, y_px, share| {
-                    truth.row_mut(y_px)[(x_px - near.x0) as usize] = share;
+                area::shares(corners, near, |Range { start, end }, y_px, share| {
+                    truth.span_mut(y_px, start, end).fill(share);
                 });
                 let shares = truth.rows().flat_map(|(_, row)| row);
                 for (&share, alpha) in shares.zip(drawn) {
@@ -266,6 +284,15 @@ fn mix(pixel: &mut u32, alpha: u8) {
         0 => {}
         255 => *pixel = COLOUR,
         _ => *pixel = scaled(COLOUR, u32::from(alpha)) + scaled(*pixel, 255 - u32::from(alpha)),
+    }
+}
+
+/// Pixels beside each other: what covers them hides what was there.
+#[inline]
+fn mix_run(pixels: &mut [u32], alpha: u8) {
+    match alpha {
+        255 => fill_run(pixels, COLOUR),
+        _ => pixels.iter_mut().for_each(|pixel| mix(pixel, alpha)),
     }
 }
 
@@ -347,13 +374,37 @@ impl Sampled {
     }
 }
 
-/// Mixes the samples of a row of pixels into the target and forgets them.
-fn mix_row(row: &mut [u8], y_px: i32, [x0, x1]: [usize; 2], target: &mut Canvas) {
-    if x0 < x1 {
-        for (count, pixel) in row[x0..x1].iter_mut().zip(&mut target.0.row_mut(y_px)[x0..x1]) {
-            mix(pixel, (u32::from(*count) * 255 / 16) as u8);
-            *count = 0;
+/// The row of pixels that is counted.
+struct Counted {
+    y_px: i32,
+    /// From the first column that has a sample past the last one.
+    touched: [usize; 2],
+    /// Rows of samples so far, and the columns of which they have all.
+    rows: u32,
+    whole: [usize; 2],
+}
+
+impl Counted {
+    fn new(y_px: i32) -> Self {
+        Self { y_px, touched: [SIDE, 0], rows: 0, whole: [0, SIDE] }
+    }
+
+    /// Mixes the samples into the target and forgets them.
+    fn mix(&self, row: &mut [u8], target: &mut Canvas) {
+        let [x0, x1] = self.touched;
+        if x0 >= x1 {
+            return;
         }
+        let [from, to] = self.whole;
+        let [from, to] = if self.rows == 4 && from < to { [from, to] } else { [x1; 2] };
+        let pixels = target.0.row_mut(self.y_px);
+        mix_run(&mut pixels[from..to], 255);
+        for part in [x0..from, to..x1] {
+            for (count, pixel) in row[part.clone()].iter().zip(&mut pixels[part]) {
+                mix(pixel, (u32::from(*count) * 255 / 16) as u8);
+            }
+        }
+        row[x0..x1].fill(0);
     }
 }
 
@@ -362,20 +413,23 @@ impl Local for Sampled {
         let Self { triangles, row, target } = self;
         let bounds = PixelRect::window(4 * SIDE_PX, 4 * SIDE_PX);
         for corners in &triangles[part] {
-            let (mut current, mut touched) = (0, [SIDE, 0]);
+            let mut counted = Counted::new(0);
             Scanline.cover(*corners, bounds, |span| {
-                if span.y_px >> 2 != current {
-                    mix_row(row, current, touched, target);
-                    (current, touched) = (span.y_px >> 2, [SIDE, 0]);
+                if span.y_px >> 2 != counted.y_px {
+                    counted.mix(row, target);
+                    counted = Counted::new(span.y_px >> 2);
                 }
                 let (x0, x1) = (span.x0_px as usize, span.x1_px as usize);
                 let (first, last) = (x0 >> 2, (x1 - 1) >> 2);
-                touched = [touched[0].min(first), touched[1].max(last + 1)];
+                let Counted { touched, rows, whole, .. } = &mut counted;
+                *touched = [touched[0].min(first), touched[1].max(last + 1)];
+                *rows += 1;
+                *whole = [whole[0].max((x0 + 3) >> 2), whole[1].min(x1 >> 2)];
                 row[first..=last].iter_mut().for_each(|count| *count += 4);
                 row[first] -= (x0 & 3) as u8;
                 row[last] -= (3 - ((x1 - 1) & 3)) as u8;
             });
-            mix_row(row, current, touched, target);
+            counted.mix(row, target);
         }
     }
     on_a_canvas!();
@@ -396,9 +450,9 @@ impl Areas {
 impl Local for Areas {
     fn fill(&mut self, part: Range<usize>) {
         for corners in &self.triangles[part] {
-            area::shares(corners, common::window(), |x_px, y_px, share| {
+            area::shares(corners, common::window(), |Range { start, end }, y_px, share| {
                 let alpha = (share * 255.0 + 0.5) as u8;
-                mix(&mut self.target.0.row_mut(y_px)[x_px as usize], alpha);
+                mix_run(self.target.0.span_mut(y_px, start, end), alpha);
             });
         }
     }

@@ -239,29 +239,44 @@ pub fn tiles(
     pool: &rayon::ThreadPool,
     samples: Samples,
 ) -> impl FnMut(&mut Frame<Colour>) {
-    let engine = Tiles::default();
+    tiles_in(Tiles::default(), scene, pool, samples)
+}
+
+fn tiles_in(
+    engine: Tiles,
+    scene: &Scene,
+    pool: &rayon::ThreadPool,
+    samples: Samples,
+) -> impl FnMut(&mut Frame<Colour>) {
     move |picture| {
         let draw = || frames::render_into(engine, scene, picture, samples);
         pool.install(draw).expect("it draws");
     }
 }
 
-/// Draws frames in tiles on one thread and nothing else, for programs that count instructions.
-pub fn only(name: &str, samples: &str, side_px: u32, count: u32) -> Result<(), String> {
+/// Draws frames in tiles on one thread, and prints the median of their milliseconds.
+pub fn only(name: &str, samples: &str, side_px: u32, count: u32, set: &str) -> Result<(), String> {
     let scene = meshes::scene(name).ok_or_else(|| format!("{name} is no mesh"))?;
     let samples = match samples {
         "1" => Samples::One,
         "4" => Samples::Four,
         _ => return Err(format!("{samples} samples: there are 1 and 4")),
     };
-    if !(1..=8192).contains(&side_px) {
-        return Err(format!("a side of {side_px} px: there are 1 to 8192"));
+    if !(1..=8192).contains(&side_px) || count == 0 {
+        return Err(format!("{count} frames of {side_px} px: there are 1 to 8192 px"));
     }
+    let engine = Tiles::levels().into_iter().find(|tiles| tiles.instructions() == set);
+    let engine = engine.ok_or_else(|| format!("this machine has no {set}"))?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|error| error.to_string())?;
-    let mut draw = tiles(&scene, &pool, samples);
+    let mut draw = tiles_in(engine, &scene, &pool, samples);
     let mut picture = Frame::new(PixelRect::window(side_px, side_px), [0; 4]);
-    (0..count).for_each(|_| draw(&mut picture));
+    let times = (0..count).map(|_| {
+        let start = Instant::now();
+        draw(std::hint::black_box(&mut picture));
+        start.elapsed().as_secs_f64() * 1e3
+    });
+    println!("{}", Spread::of(&times.collect::<Vec<_>>()).median);
     Ok(())
 }
 

@@ -1,20 +1,24 @@
-//! How time and memory of a frame grow: with triangles, pixels, surfaces behind each other and texels, by
-//! the scanline, and by the tiles on one core and on two.
+//! How time and memory of a frame grow: with triangles, pixels, surfaces behind each other, lights and texels,
+//! by the scanline, and by the tiles on one core and on two.
 //!
 //! Each point alternates its engines. The memory of an engine is the peak of a process that draws one
 //! frame, less what it had before: the picture, its target and all that it keeps, without the scene.
 
+use std::f64::consts::TAU;
 use std::fs;
 use std::num::NonZeroU32;
 use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
+use rasterproof_core::angle::sin_cos;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity};
+use rasterproof_render::pipeline::physical::Physical;
+use rasterproof_render::pipeline::punctual::{Kind, PunctualLight};
 use rasterproof_render::pipeline::target::{Antialias, Colour};
 use rasterproof_render::pipeline::transform::perspective;
 use rasterproof_render::scene::{Item, Material, Scene, meshes, shapes, textures};
@@ -71,6 +75,9 @@ fn points(quick: bool) -> Vec<Box<dyn Fn() -> Option<Point>>> {
             add("surfaces, mixed", count, SIDE_PX, |at| surfaces(at, Some(at)));
         }
     }
+    for lights in up_to(&[1, 2, 4, 8, 16, 32, 64, 128]) {
+        add("lights", lights, SIDE_PX, lit);
+    }
     for side in up_to(&[8, 32, 128, 512, 2048, 8192]) {
         add("texels along a side", side, SIDE_PX, textured);
     }
@@ -90,6 +97,25 @@ fn surfaces(count: u32, layers: Option<u32>) -> Option<Scene> {
         scene.items.push(Item::new(shapes::quad(corners), material));
     }
     scene.layers = layers.and_then(NonZeroU32::new);
+    Some(scene)
+}
+
+/// Lights without a range on a ring around the eye, so that all of what is seen faces nearly all of them.
+fn lit(lights: u32) -> Option<Scene> {
+    let mut scene = meshes::sized("bumps", 4000)?;
+    let physical = Physical { roughness: 0.5, ..Physical::default() };
+    scene.items[0].material.physical = Some(Arc::new(physical));
+    let light = PunctualLight::new(
+        Kind::Point { range: f64::INFINITY },
+        DVec3::ONE,
+        60.0 / f64::from(lights),
+    );
+    scene.punctual = (0..lights)
+        .map(|i| {
+            let (sin, cos) = sin_cos(TAU * f64::from(i) / f64::from(lights));
+            light.placed(DMat4::from_translation(DVec3::new(cos, sin, 0.0)))
+        })
+        .collect();
     Some(scene)
 }
 

@@ -11,6 +11,7 @@ mod frames;
 mod growth;
 mod mesh;
 mod outside;
+mod rates;
 mod retro;
 mod spread;
 mod text;
@@ -36,6 +37,8 @@ struct Machine {
     cores: usize,
     system: String,
     instructions: &'static str,
+    day: String,
+    commit: String,
 }
 
 #[derive(Serialize)]
@@ -100,13 +103,9 @@ fn run() -> Result<(), String> {
         match word.as_str() {
             "--quick" => quick = true,
             "--growth" => grows = true,
-            "--only" => {
-                let mut next =
-                    || words.next().ok_or("--only needs a mesh, samples, a side and frames");
-                let (name, samples) = (next()?, next()?);
-                let mut number = || next()?.parse().map_err(|error| format!("--only: {error}"));
-                return frames::only(&name, &samples, number()?, number()?);
-            }
+            "--only" => return only(&words.collect::<Vec<_>>()),
+            // `limits.py` reads these.
+            "--rates" => return rates::print(&words.collect::<Vec<_>>()),
             // Growth starts itself so.
             "--memory" => {
                 let mut number = || words.next()?.parse().ok();
@@ -132,6 +131,8 @@ fn run() -> Result<(), String> {
         cores: std::thread::available_parallelism().map_or(1, usize::from),
         system: first_line("uname", &["-sr"]),
         instructions: Tiles::default().instructions(),
+        day: first_line("date", &["-u", "+%F"]),
+        commit: first_line("git", &["describe", "--always", "--dirty", "--abbrev=10"]),
     };
     let threads = machine.cores.min(2);
     let pools: Vec<_> = (1..=threads)
@@ -197,6 +198,20 @@ fn run() -> Result<(), String> {
     results.missing.retain(|missing| seen.insert(missing.name.clone()));
     print!("{}", text::text(&results));
     save(json, &results)
+}
+
+/// Draws or fills the same again and again and nothing else, for programs that count instructions.
+fn only(words: &[String]) -> Result<(), String> {
+    let number = |word: &String| word.parse().map_err(|error| format!("{word}: {error}"));
+    match words {
+        [mesh, samples, side, count, set] => {
+            frames::only(mesh, samples, number(side)?, number(count)?, set)
+        }
+        [class, name, count] => fills::only(class, name, number(count)?),
+        _ => Err("--only needs a mesh, samples, a side, frames and an instruction set, \
+                  or a class, who fills it, and how often"
+            .to_owned()),
+    }
 }
 
 fn save(file: Option<String>, results: &impl Serialize) -> Result<(), String> {

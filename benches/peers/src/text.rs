@@ -13,8 +13,8 @@ pub fn text(results: &Results) -> String {
 }
 
 pub fn machine(machine: &Machine) -> String {
-    let Machine { command, processor, cores, system, instructions } = machine;
-    format!("{command}\n{processor}, {cores} cores, {instructions}; {system}\n")
+    let Machine { command, processor, cores, system, instructions, day, commit } = machine;
+    format!("{command}\n{processor}, {cores} cores, {instructions}; {system}; {day}, {commit}\n")
 }
 
 pub fn growth(rows: &[growth::Row]) -> String {

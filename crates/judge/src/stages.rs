@@ -1192,7 +1192,7 @@ struct Edge {
 
 impl Edge {
     /// The number where the part is counted from the end that comes first.
-    fn from_first(&self, k: usize) -> f64 {
+    fn of_first(&self, k: usize) -> f64 {
         match self.is_forward {
             true => self.with(k, (self.cut)(self.t)),
             false => self.lost[k] + (self.kept[k] - self.lost[k]) * (self.cut)(1.0 - self.t),
@@ -1401,10 +1401,10 @@ fn of_near<'a>(all: &'a [Answered], is_wrong: &[bool], declared: &Declared) -> V
         let [leaves, back] = [" that leaves", " that comes back"];
         let all: [(New, &str, &str); 5] = [
             (|e, k| e.with(k, (e.cut)(e.t)), "", ""),
-            (Edge::from_first, first, ""),
+            (Edge::of_first, first, ""),
             (|e, k| e.with(k, if e.is_forward { (e.cut)(e.t) } else { e.t }), "", leaves),
             (|e, k| e.with(k, if e.is_forward { e.t } else { (e.cut)(e.t) }), "", back),
-            (|e, k| if e.is_forward { e.with(k, e.t) } else { e.from_first(k) }, first, back),
+            (|e, k| if e.is_forward { e.with(k, e.t) } else { e.of_first(k) }, first, back),
         ];
         made.extend(all.map(|(new, from, at)| (new, cut, does(from, at))));
     }

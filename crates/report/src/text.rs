@@ -23,14 +23,11 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
         Some(outcome) => format!("{} ", mark(outcome.good, colour)),
         None => String::new(),
     };
-    let answer = verdict.map_or("", |outcome| &outcome.answer);
-    for (number, part) in report.about.lines().enumerate() {
-        match answer {
-            answer if number == 0 && !answer.is_empty() => {
-                lines(&mut out, &format!("{part}: {answer}"), columns, ["", "  "]);
-            }
-            _ => lines(&mut out, part, columns, ["", "  "]),
-        }
+    let answer = verdict.map(|outcome| &outcome.answer).filter(|answer| !answer.is_empty());
+    let mut answer = answer.map(|answer| format!(": {answer}"));
+    for part in report.about.lines() {
+        let first = format!("{part}{}", answer.take().unwrap_or_default());
+        lines(&mut out, &first, columns, ["", "  "]);
     }
     if !report.answers.is_empty() {
         out += &format!("\n{}", answers(&report.answers, screen));
@@ -41,7 +38,7 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
     out.extend(report.excerpts.iter().map(|one| excerpt(one, columns)));
     let all = all || report.first_screen.is_empty();
     out += &match all {
-        true => tables(report.plan.iter().chain(&report.tables), columns, colour),
+        true => tables(&report.tables, columns, colour),
         false => tables(&report.first_screen, screen, colour),
     };
     if all {

@@ -4,6 +4,7 @@
 //! wholly inside or outside are right with any number of samples.
 
 use std::cell::RefCell;
+use std::ops::Range;
 
 use super::scene::{Scene, Size, W_PREFIX, scenes};
 use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared, Told};
@@ -60,11 +61,10 @@ fn truth(triangles: &[Corners], scene: &Scene) -> Truth {
     let (mut shares, mut on_edge) = (Frame::new(bounds, 0.0), Frame::new(bounds, false));
     let mut sum = 0.0;
     for corners in triangles {
-        area::shares(corners, bounds, |x_px, y_px, share| {
-            let x = (x_px - bounds.x0) as usize;
-            shares.row_mut(y_px)[x] += share;
-            on_edge.row_mut(y_px)[x] |= share < 1.0;
-            sum += share;
+        area::shares(corners, bounds, |Range { start, end }, y_px, share| {
+            shares.span_mut(y_px, start, end).iter_mut().for_each(|sum| *sum += share);
+            on_edge.span_mut(y_px, start, end).iter_mut().for_each(|on| *on |= share < 1.0);
+            sum += share * f64::from(end - start);
         });
     }
     Truth { shares, on_edge, pixels: sum as u64 }

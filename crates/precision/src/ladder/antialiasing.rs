@@ -114,8 +114,9 @@ impl Antialias for ExactArea {
         let bounds = target.bounds();
         target.fill(0.0);
         for corners in triangles {
-            area::shares(corners, bounds, |x_px, y_px, share| {
-                target.row_mut(y_px)[(x_px - bounds.x0) as usize] += share;
+            area::shares(corners, bounds, |columns, y_px, share| {
+                let span = target.span_mut(y_px, columns.start, columns.end);
+                span.iter_mut().for_each(|sum| *sum += share);
             });
         }
     }

@@ -12,6 +12,8 @@
 //! fractions is exact; only its quotient is rounded. It does not clip polygons, and it has no use
 //! for a rule about samples on edges, since they have no area.
 
+use std::ops::Range;
+
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -54,6 +56,12 @@ fn right_of(from: [i64; 2], to: [i64; 2]) -> (i128, i128) {
     }
     let n = |y: i64| i128::from(a[0]) * dy + i128::from(y - a[1]) * dx;
     let s = i128::from(S);
+    let (n0, n1) = (n(y0), n(y1));
+    // Edges that pass by the pixel are whole numbers, which are not rounded.
+    if n0.max(n1) <= 0 || n0.min(n1) >= s * dy {
+        let width = if n0 < s * dy { s } else { 0 };
+        return (sign * width * i128::from(y1 - y0), 1);
+    }
     // Twice dy squared times the antiderivative of g.
     let p = |n: i128| {
         if n <= 0 {
@@ -64,7 +72,7 @@ fn right_of(from: [i64; 2], to: [i64; 2]) -> (i128, i128) {
             s * s * dy * dy
         }
     };
-    let (numerator, denominator) = (p(n(y1)) - p(n(y0)), 2 * dy * dx);
+    let (numerator, denominator) = (p(n1) - p(n0), 2 * dy * dx);
     if denominator < 0 {
         (-sign * numerator, -denominator)
     } else {
@@ -72,8 +80,71 @@ fn right_of(from: [i64; 2], to: [i64; 2]) -> (i128, i128) {
     }
 }
 
-/// Emits (column, row, share) for every pixel of `bounds` that the triangle covers in part or whole.
-pub fn shares(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(i32, i32, f64)) {
+/// Whether all numbers of a [`Part`] fit 64 bits, and its denominator is below what [`share`] takes without `BigInt`.
+fn is_narrow([a, b]: [[i64; 2]; 2]) -> bool {
+    let (dx, dy) = ((a[0] - b[0]).abs(), (a[1] - b[1]).abs());
+    dx.max(dy) < 1 << 20 && 2 * dx * dy < 1 << 36
+}
+
+/// A narrow edge within a row of pixels, for [`right_of`] column by column.
+struct Part {
+    /// Of the edge within the row, with its sign.
+    height: i64,
+    /// n at the upper and the lower end, as seen from column 0.
+    ends: [i64; 2],
+    dx: i64,
+    dy: i64,
+}
+
+impl Part {
+    fn new([from, to]: [[i64; 2]; 2], y_px: i32) -> Self {
+        let (sign, a, b) = if from[1] <= to[1] { (1, from, to) } else { (-1, to, from) };
+        let top = i64::from(y_px) * S;
+        let (y0, y1) = (a[1].max(top), b[1].min(top + S));
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let n = |y: i64| a[0] * dy + (y - a[1]) * dx;
+        Self { height: sign * (y1 - y0).max(0), ends: [n(y0), n(y1)], dx, dy }
+    }
+
+    fn right_of(&self, x_px: i32) -> (i64, i64) {
+        let &Self { height, ends: [n0, n1], dx, dy } = self;
+        let (left, all) = (i64::from(x_px) * S * dy, S * dy);
+        let (n0, n1) = (n0 - left, n1 - left);
+        if height == 0 || n0.min(n1) >= all {
+            return (0, 1);
+        }
+        if n0.max(n1) <= 0 {
+            return (S * height, 1);
+        }
+        if dx == 0 {
+            return ((all - n0) / dy * height, 1);
+        }
+        let p = |n: i64| {
+            if n < all { 2 * all * n - n.max(0) * n } else { all * all }
+        };
+        let sign = height.signum() * dx.signum();
+        (sign * (p(n1) - p(n0)), 2 * dy * dx.abs())
+    }
+}
+
+/// The same bits as those of [`share`].
+fn sum(parts: &[Part; 3], x_px: i32) -> f64 {
+    let [(n0, d0), (n1, d1), (n2, d2)] = parts.each_ref().map_array(|part| part.right_of(x_px));
+    let area = S * S;
+    // Mostly one edge alone passes through a pixel, and the others are whole numbers.
+    let most = d0.max(d1).max(d2);
+    if d0 + d1 + d2 - most == 2 {
+        let share = |n: i64, d: i64| if d == 1 { n * most } else { n };
+        let n = share(n0, d0) + share(n1, d1) + share(n2, d2);
+        return n.abs() as f64 / (most * area) as f64;
+    }
+    let [d0, d1, d2] = [d0, d1, d2].map_array(i128::from);
+    let n = i128::from(n0) * d1 * d2 + i128::from(n1) * d0 * d2 + i128::from(n2) * d0 * d1;
+    n.unsigned_abs() as f64 / (d0 * d1 * d2 * i128::from(area)) as f64
+}
+
+/// Emits (columns, row, share) for the pixels of `bounds` that the triangle covers in part, one by one, and whole, as one run.
+pub fn shares(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Range<i32>, i32, f64)) {
     let range = |v: [i32; 3]| {
         let [a, b, c] = v;
         let end = i64::from(a.max(b).max(c)) + S - 1;
@@ -92,18 +163,28 @@ pub fn shares(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(i32, i3
         return;
     }
     let edges = if area > 0 { [[a, b], [b, c], [c, a]] } else { [[a, c], [c, b], [b, a]] };
+    let is_narrow = edges.into_iter().all(is_narrow);
     for y_px in rect.y0..rect.y1 {
+        let parts = is_narrow.then(|| edges.map_array(|edge| Part::new(edge, y_px)));
         let (mut touched, mut whole) = ([rect.x0, rect.x1], [rect.x0, rect.x1]);
         for edge in edges {
             cut(&mut touched, edge, y_px, false);
             cut(&mut whole, edge, y_px, true);
         }
-        for x_px in touched[0]..touched[1] {
-            let is_whole = (whole[0]..whole[1]).contains(&x_px);
-            let share = if is_whole { 1.0 } else { share(corners, x_px, y_px) };
-            if share > 0.0 {
-                emit(x_px, y_px, share);
+        let [from, to] = if whole[0] < whole[1] { whole } else { [touched[1]; 2] };
+        for columns in [touched[0]..from, to..touched[1]] {
+            for x_px in columns {
+                let share = match &parts {
+                    Some(parts) => sum(parts, x_px),
+                    None => share(corners, x_px, y_px),
+                };
+                if share > 0.0 {
+                    emit(x_px..x_px + 1, y_px, share);
+                }
             }
+        }
+        if from < to {
+            emit(from..to, y_px, 1.0);
         }
     }
 }
@@ -178,10 +259,12 @@ mod tests {
             let window = PixelRect::window(129, 129);
             let sum = |corners: &Corners, window| {
                 let mut sum = 0.0;
-                shares(corners, window, |x, y, share_here| {
+                shares(corners, window, |columns, y, share_here| {
                     assert!(share_here <= 1.0);
-                    assert_eq!(share_here, share(corners, x, y));
-                    sum += share_here;
+                    for x in columns {
+                        assert_eq!(share_here, share(corners, x, y));
+                        sum += share_here;
+                    }
                 });
                 sum
             };

@@ -2,7 +2,8 @@
 
 use super::answer::letter;
 use super::{Chapter, Exercise, Language, Solution};
-use rasterproof_report::{ascii, lettering};
+use rasterproof_report::lettering;
+use rasterproof_verify::judge::ascii;
 
 /// Columns of a page's English text; Chinese is not broken, for a line's end would show as a blank.
 const PAGE_COLUMNS: usize = 130;

@@ -9,9 +9,7 @@
 //!   (`setup::Single`). Both are stepped in i32 as long as that is wide enough, else in i64 (`wide`).
 //! - Triangles of at most 4 x 4 and 8 x 8 px are decided whole while they are set up, one a lane, in i16
 //!   (`cells`).
-//! - Tiles of a triangle that is wider than one begin at columns that are multiples of 16, since rows
-//!   of pixels are written 64 bytes, a line of the cache, at a time. All others begin at the first
-//!   pixel of the triangle's box, so that small ones are one tile.
+//! - Tiles begin at the first pixel of the triangle's box, so that there are few of them.
 //!
 //! It shares nothing with the other engines or the oracle. It does not clip, cull, depth-test or
 //! shade, and it computes no values.
@@ -23,7 +21,7 @@ mod walk;
 mod wide;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd};
 
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Frame;
@@ -142,7 +140,6 @@ impl Tiles {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         let known = [
             best.as_sse2().map(Level::Sse2),
-            best.as_sse4_2().map(Level::Sse4_2),
             best.as_avx2().map(Level::Avx2),
             best.as_avx512().map(Level::Avx512),
         ];
@@ -160,9 +157,7 @@ impl Tiles {
     pub fn instructions(&self) -> &'static str {
         match self.level {
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse2(_) => "SSE2",
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse4_2(_) => "SSE4.2",
+            Level::Sse2(_) | Level::Sse4_2(_) => "SSE2",
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Level::Avx2(_) => "AVX2",
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

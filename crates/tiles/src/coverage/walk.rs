@@ -18,7 +18,7 @@ const COUNT: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 /// Three vectors of E', one for each edge.
 type Edges<S> = [Lanes<S>; 3];
 
-/// Appends the pieces of a triangle, rows of tiles from the top down, each from left to right.
+/// Appends the pieces of a triangle, rows of tiles from the first pixel of its box on, each from left to right.
 #[inline(always)]
 pub(super) fn walk<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
     let PixelRect { x0, y0, x1, y1 } = triangle.rect;
@@ -27,9 +27,7 @@ pub(super) fn walk<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: 
         return;
     }
     if x1 - x0 > QUARTER_PX {
-        let columns = columns(simd, &triangle.right);
-        let square = Square { x_px: x0, y_px: y0, first: 0, end: x1 - x0, height: y1 - y0 };
-        tile(simd, triangle, &triangle.start, columns, &square, number, out);
+        tile(simd, triangle, columns(simd, &triangle.right), number, out);
     } else {
         half(simd, triangle, number, out);
     }
@@ -40,7 +38,7 @@ const HALF_COUNT: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7];
 /// 0 in the first half, 1 in the second.
 const SECOND: [i32; 16] = [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1];
 
-/// A triangle in one tile, of which it takes half the columns or less: two rows at a time.
+/// What of a triangle is in one tile, of which it takes half the columns or less: two rows at a time.
 #[inline(always)]
 fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
     let PixelRect { x0, y0, x1, y1 } = triangle.rect;
@@ -78,16 +76,6 @@ fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Pi
     }
 }
 
-/// A square of 16 x 16 px and what of it is looked at: columns `first..end` of its first `height`
-/// rows.
-struct Square {
-    x_px: i32,
-    y_px: i32,
-    first: i32,
-    end: i32,
-    height: i32,
-}
-
 /// What E' grows by from the first column to each.
 #[inline(always)]
 fn columns<S: Simd>(simd: S, right: &[i32; 3]) -> Edges<S> {
@@ -101,28 +89,26 @@ fn none_negative<S: Simd>([a, b, c]: Edges<S>) -> u32 {
     !((a | b | c).simd_lt(0).to_bitmask() as u32)
 }
 
-/// One square, row by row; `start` is E' at its first pixel.
+/// What of a triangle is in one tile, row by row.
 #[inline(always)]
 fn tile<S: Simd>(
     simd: S,
     triangle: &Stepped<i32>,
-    start: &[i32; 3],
     [a, b, c]: Edges<S>,
-    square: &Square,
     number: u32,
     out: &mut Vec<Piece>,
 ) {
-    let [down_a, down_b, down_c] = triangle.down;
+    let PixelRect { x0, y0, x1, y1 } = triangle.rect;
+    let (start, [down_a, down_b, down_c]) = (triangle.start, triangle.down);
     let (down_a, down_b, down_c) =
         (Lanes::splat(simd, down_a), Lanes::splat(simd, down_b), Lanes::splat(simd, down_c));
     let (mut a, mut b, mut c) = (a + start[0], b + start[1], c + start[2]);
-    let looked_at = (1u32 << square.end) - (1 << square.first);
-    let (x_px, y_px, rows) = (square.x_px, square.y_px, [0; 16]);
-    out.push(Piece::Tile(Tile { triangle: number, x_px, y_px, rows }));
+    let looked_at = (1u32 << (x1 - x0)) - 1;
+    out.push(Piece::Tile(Tile { triangle: number, x_px: x0, y_px: y0, rows: [0; 16] }));
     // In place: masks stored one by one and then moved together would wait for each other.
     let Some(Piece::Tile(Tile { rows, .. })) = out.last_mut() else { return };
     let mut any = 0;
-    for row in rows.iter_mut().take(square.height as usize) {
+    for row in rows.iter_mut().take((y1 - y0) as usize) {
         let mask = (none_negative([a, b, c]) & looked_at) as u16;
         *row = mask;
         any |= mask;
@@ -138,20 +124,14 @@ fn tile<S: Simd>(
 #[inline(always)]
 fn tiles<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
     let rect = triangle.rect;
-    // Columns of tiles are multiples of 16. Up to 15 columns before the box, which is padding.
-    let shift = rect.x0 & (SIDE_PX - 1);
-    let x_first = rect.x0 - shift;
     let columns = columns(simd, &triangle.right);
     let across = [columns[0] << 4, columns[1] << 4, columns[2] << 4];
     let (high, low) = (ends(triangle, i32::max), ends(triangle, i32::min));
     let right = triangle.right;
     let mut row = triangle.start;
-    for (start, right) in row.iter_mut().zip(right) {
-        *start -= right * shift;
-    }
     for y_px in (rect.y0..rect.y1).step_by(SIDE_PX as usize) {
         let mut start = row;
-        for x_px in (x_first..rect.x1).step_by(16 * SIDE_PX as usize) {
+        for x_px in (rect.x0..rect.x1).step_by(16 * SIDE_PX as usize) {
             let tiles = [across[0] + start[0], across[1] + start[1], across[2] + start[2]];
             let count = (rect.x1 - x_px + SIDE_PX - 1) / SIDE_PX;
             let valid = if count < 16 { (1u32 << count) - 1 } else { 0xffff };
@@ -168,7 +148,7 @@ fn tiles<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<P
                     left &= !(((1u32 << run) - 1) << at);
                     let x_end = x_tile + run as i32 * SIDE_PX;
                     let block = PixelRect {
-                        x0: x_tile.max(rect.x0),
+                        x0: x_tile,
                         y0: y_px,
                         x1: x_end.min(rect.x1),
                         y1: (y_px + SIDE_PX).min(rect.y1),
@@ -183,14 +163,18 @@ fn tiles<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<P
                     start[1] + right[1] * step,
                     start[2] + right[2] * step,
                 ];
-                let square = Square {
-                    x_px: x_tile,
-                    y_px,
-                    first: (rect.x0 - x_tile).max(0),
-                    end: (rect.x1 - x_tile).min(SIDE_PX),
-                    height: (rect.y1 - y_px).min(SIDE_PX),
+                let square = PixelRect {
+                    x0: x_tile,
+                    y0: y_px,
+                    x1: (x_tile + SIDE_PX).min(rect.x1),
+                    y1: (y_px + SIDE_PX).min(rect.y1),
                 };
-                tile(simd, triangle, &first, columns, &square, number, out);
+                let part = Stepped { rect: square, start: first, right, down: triangle.down };
+                if x_tile + QUARTER_PX < rect.x1 {
+                    tile(simd, &part, columns, number, out);
+                } else {
+                    half(simd, &part, number, out);
+                }
             }
             // The last of each leads beyond the padding and is not used.
             for (start, right) in start.iter_mut().zip(right) {

@@ -22,11 +22,11 @@ mod visible;
 
 use std::fmt;
 
+use fearless_simd::Simd;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch};
 use rayon::prelude::*;
 
-use crate::coverage::{self, CELL_PX, CoverList, Tiles};
+use crate::coverage::{CELL_PX, CoverList, Piece, QUARTER_PX, Tiles};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
@@ -34,6 +34,7 @@ use rasterproof_render::effects::geometry::{Outline, Whole};
 use rasterproof_render::effects::primitive::BadScene;
 use rasterproof_render::pipeline::multisample;
 use rasterproof_render::pipeline::target::Colour;
+use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::scene::{Item, Scene};
 
 use bins::{Bins, Placed, Tiling, reached};
@@ -223,15 +224,16 @@ fn canvases<'a>(
 ) -> Vec<Canvas<'a>> {
     let numbers = band * tiles.across..(band + 1) * tiles.across;
     let canvas = |tile| Canvas { tile, lines: Vec::with_capacity(SIDE_PX as usize) };
-    let mut canvases: Vec<Canvas<'a>> = numbers.map(canvas).collect();
+    let width = |tile| tiles.rect(tile).width() as usize;
+    let mut canvases: Vec<_> = numbers.map(|tile| (width(tile), canvas(tile))).collect();
     for mut line in lines.chunks_mut(pitch) {
-        for canvas in &mut canvases {
-            let (part, rest) = line.split_at_mut(tiles.rect(canvas.tile).width() as usize);
+        for (width, canvas) in &mut canvases {
+            let (part, rest) = line.split_at_mut(*width);
             canvas.lines.push(part);
             line = rest;
         }
     }
-    canvases
+    canvases.into_iter().map(|(_, canvas)| canvas).collect()
 }
 
 /// Pieces that are looked at together: the tile engine sets them up in one go.
@@ -256,6 +258,8 @@ struct Drawing<'a> {
 /// Of one sample a pixel: first numbers are drawn, then colours.
 struct Centres<'a> {
     pass: VisibilityPass,
+    /// What the piece covers, where it is not tiny.
+    masks: Masks<1>,
     /// What was drawn, by their numbers less 1.
     drawn: Vec<&'a Outline>,
     visible: Vec<VisibleBlock>,
@@ -263,7 +267,7 @@ struct Centres<'a> {
 
 /// Of four samples a pixel: what the piece covers, and how it looks.
 struct OfSamples<'a> {
-    masks: Masks,
+    masks: Masks<PLACES>,
     /// Nothing before the first piece.
     brush: Option<(Brush<'a>, Option<Depth>)>,
 }
@@ -279,7 +283,12 @@ impl<'a> Drawing<'a> {
             batch: Vec::with_capacity(BATCH),
             corners: Vec::with_capacity(BATCH * PLACES),
             last: u32::MAX,
-            of_centres: Centres { pass, drawn: Vec::new(), visible: Vec::new() },
+            of_centres: Centres {
+                pass,
+                masks: Masks::new(),
+                drawn: Vec::new(),
+                visible: Vec::new(),
+            },
             of_samples: OfSamples { masks: Masks::new(), brush: None },
         }
     }
@@ -341,17 +350,57 @@ impl<'a> Drawing<'a> {
 
     /// Draws the numbers of pieces at the centres of pixels.
     #[inline(always)]
-    fn centres<S: Simd>(&mut self, simd: S, run: &[coverage::Piece]) {
-        for covered in run {
+    fn centres<S: Simd>(&mut self, simd: S, run: &[Piece]) {
+        for (i, covered) in run.iter().enumerate() {
             if covered.triangle() != self.last {
+                self.finish_centres(simd);
                 self.last = covered.triangle();
                 let outline = self.batch[self.last as usize];
                 self.of_centres.drawn.push(outline);
                 let number = self.of_centres.drawn.len() as u32;
                 self.of_centres.pass = VisibilityPass { number, depth: self.depth(outline) };
             }
-            let Centres { pass, visible, .. } = &mut self.of_centres;
-            pass.piece(simd, covered, &mut self.buffer, visible);
+            let Centres { pass, masks, visible, .. } = &mut self.of_centres;
+            let PixelRect { x0, y0, .. } = self.buffer.rect;
+            match covered {
+                Piece::Cell(cell) => {
+                    let (at, mask) = ([cell.x_px - x0, cell.y_px - y0], u32::from(cell.pixels));
+                    pass.pixels::<S, CELL_PX>(simd, at, mask, &mut self.buffer, visible);
+                }
+                Piece::Quarter(quarter) => {
+                    let mut rows = [0; QUARTER_PX as usize];
+                    for (row, byte) in rows.iter_mut().zip(quarter.pixels.to_le_bytes()) {
+                        *row = byte.into();
+                    }
+                    let at = [quarter.x_px - x0, quarter.y_px - y0];
+                    pass.rows(simd, at, &rows, &mut self.buffer, visible);
+                }
+                Piece::Tile(tile)
+                    if run.get(i + 1).is_none_or(|next| next.triangle() != self.last)
+                        && masks.is_empty() =>
+                {
+                    let mut rows = [0; 16];
+                    for (row, &bits) in rows.iter_mut().zip(&tile.rows) {
+                        *row = bits.into();
+                    }
+                    let at = [tile.x_px - x0, tile.y_px - y0];
+                    pass.rows(simd, at, &rows, &mut self.buffer, visible);
+                }
+                Piece::Tile(_) | Piece::Block(_) => masks.add(covered, 0, self.buffer.rect),
+            }
+        }
+        self.finish_centres(simd);
+    }
+
+    /// Draws the number of a piece where it was collected.
+    #[inline(always)]
+    fn finish_centres<S: Simd>(&mut self, simd: S) {
+        let Centres { pass, masks, visible, .. } = &mut self.of_centres;
+        let (first, rows) = masks.used();
+        if !rows.is_empty() {
+            let at = [0, first as i32];
+            pass.rows(simd, at, rows.as_flattened(), &mut self.buffer, visible);
+            masks.clear();
         }
     }
 
@@ -396,7 +445,7 @@ impl<'a> Drawing<'a> {
 
     /// Collects pieces at the samples, and draws each triangle when the next one comes.
     #[inline(always)]
-    fn samples<S: Simd>(&mut self, simd: S, run: &[coverage::Piece]) {
+    fn samples<S: Simd>(&mut self, simd: S, run: &[Piece]) {
         for covered in run {
             let (number, place) =
                 (covered.triangle() / PLACES as u32, covered.triangle() as usize % PLACES);
@@ -452,6 +501,7 @@ impl<'a> Drawing<'a> {
             let reading = Reading { footprint, at_levels: true, is_anisotropic: true };
             (!footprint.is_magnified(inv_w, uv)).then_some(reading)
         });
-        Brush { material: surface.material, planes, fog, reading }
+        let texels = surface.material.texture.and_then(Texture::nearest_bytes);
+        Brush { material: surface.material, planes, fog, texels, reading }
     }
 }

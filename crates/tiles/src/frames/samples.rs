@@ -1,8 +1,8 @@
-//! Four samples a pixel: which of them the pieces of one triangle cover, as masks of the rows of a
-//! tile.
+//! What the pieces of one triangle cover of a tile, at the centre of each pixel or at four samples and the centre, as masks of
+//! rows. Together, pieces beside each other need fewer pairs of sixteen pixels than one by one.
 
 use super::buffer::SIDE_PX;
-use crate::coverage::Piece;
+use crate::coverage::{Block, Piece};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_render::pipeline::multisample::{SAMPLES, onto_centre};
@@ -27,63 +27,75 @@ pub(super) fn places(corners: Corners) -> [Corners; PLACES] {
     places
 }
 
-/// Of each row of a tile, of each place, bit i for column i.
-pub(super) struct Masks {
-    pub rows: [[u64; PLACES]; SIDE_PX as usize],
+/// Rows of a tile, and below it as many as a piece that begins in the last one may have.
+const ROWS: usize = SIDE_PX as usize + 16;
+
+/// Of each row of a tile, of each of `N` places, bit i for column i.
+pub(super) struct Masks<const N: usize> {
+    rows: [[u64; N]; ROWS],
     /// The rows that are not empty lie between.
-    pub first: usize,
-    pub end: usize,
+    first: usize,
+    end: usize,
 }
 
-impl Masks {
+impl<const N: usize> Masks<N> {
     pub fn new() -> Self {
-        Self { rows: [[0; PLACES]; SIDE_PX as usize], first: SIDE_PX as usize, end: 0 }
+        Self { rows: [[0; N]; ROWS], first: ROWS, end: 0 }
+    }
+
+    /// The number of the first row that is not empty, and the rows from it on to the last one.
+    pub fn used(&self) -> (usize, &[[u64; N]]) {
+        let first = self.first.min(self.end);
+        (first, &self.rows[first..self.end])
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.end == 0
     }
 
     pub fn clear(&mut self) {
-        self.rows[self.first.min(self.end)..self.end].fill([0; PLACES]);
-        (self.first, self.end) = (SIDE_PX as usize, 0);
+        self.rows[self.first.min(self.end)..self.end].fill([0; N]);
+        (self.first, self.end) = (ROWS, 0);
     }
 
     /// Adds what a triangle covers of `tile` at a place.
+    #[inline(always)]
     pub fn add(&mut self, piece: &Piece, place: usize, tile: PixelRect) {
-        let mut or = |y: usize, bits: u64| {
-            if let Some(row) = self.rows.get_mut(y) {
-                row[place] |= bits;
-            }
-        };
-        let (y, count) = match piece {
+        match piece {
             Piece::Cell(cell) => {
-                let (x, y) = ((cell.x_px - tile.x0) as u32, (cell.y_px - tile.y0) as usize);
-                for j in 0..4 {
-                    or(y + j, u64::from(cell.pixels >> (4 * j) & 0xf) << x);
-                }
-                (y, 4)
+                let row = |j: u32| cell.pixels >> (4 * j) & 0xf;
+                let at_px = [cell.x_px, cell.y_px];
+                self.or(&[row(0), row(1), row(2), row(3)], place, at_px, tile);
             }
             Piece::Quarter(quarter) => {
-                let (x, y) = ((quarter.x_px - tile.x0) as u32, (quarter.y_px - tile.y0) as usize);
-                for (j, byte) in quarter.pixels.to_le_bytes().into_iter().enumerate() {
-                    or(y + j, u64::from(byte) << x);
-                }
-                (y, 8)
+                let at_px = [quarter.x_px, quarter.y_px];
+                self.or(&quarter.pixels.to_le_bytes(), place, at_px, tile);
             }
             Piece::Tile(covered) => {
-                let (x, y) = ((covered.x_px - tile.x0) as u32, (covered.y_px - tile.y0) as usize);
-                for (j, &row) in covered.rows.iter().enumerate() {
-                    or(y + j, u64::from(row) << x);
-                }
-                (y, 16)
+                self.or(&covered.rows, place, [covered.x_px, covered.y_px], tile);
             }
-            Piece::Block(block) => {
-                let (x, y) = ((block.rect.x0 - tile.x0) as u32, (block.rect.y0 - tile.y0) as usize);
-                let (width, height) = (block.rect.width(), block.rect.height() as usize);
-                for j in 0..height {
-                    or(y + j, u64::MAX >> (64 - width) << x);
-                }
-                (y, height)
+            Piece::Block(Block { rect, .. }) => {
+                let all = [u64::MAX >> (64 - rect.width()); 16];
+                let rows = &all[..rect.height() as usize];
+                self.or(rows, place, [rect.x0, rect.y0], tile);
             }
-        };
+        }
+    }
+
+    /// Rows from a pixel of the tile on.
+    #[inline(always)]
+    fn or<T: Copy + Into<u64>>(
+        &mut self,
+        bits: &[T],
+        place: usize,
+        [x_px, y_px]: [i32; 2],
+        tile: PixelRect,
+    ) {
+        let (x, y) = (x_px - tile.x0, (y_px - tile.y0) as usize);
+        for (row, &bits) in self.rows[y..][..bits.len()].iter_mut().zip(bits) {
+            row[place] |= bits.into() << x;
+        }
         self.first = self.first.min(y);
-        self.end = self.end.max(y + count).min(SIDE_PX as usize);
+        self.end = self.end.max(y + bits.len());
     }
 }

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, store_depths};
 use super::planes::{Depth, Planes, along};
-use super::samples::{CENTRE, Masks};
+use super::samples::{CENTRE, Masks, PLACES};
 use super::visible::{PAIR, Place, beside};
 use rasterproof_render::effects::geometry::{DirectionalLight, SurfaceMaterial};
 use rasterproof_render::pipeline::fog::{Share, Veil};
@@ -25,6 +25,8 @@ pub(super) struct Brush<'a> {
     pub material: &'a SurfaceMaterial<'a>,
     pub planes: Planes,
     pub fog: Option<Foggy<'a>>,
+    /// Of [`Texture::nearest_bytes`], asked once and not for each pair: a call has to put all vectors into memory.
+    pub texels: Option<&'a [u32]>,
     /// Of a texture that is read at levels of detail or several times.
     pub reading: Option<Reading>,
 }
@@ -57,29 +59,25 @@ impl Brush<'_> {
         &self,
         simd: S,
         depth: Option<&Depth>,
-        masks: &Masks,
+        masks: &Masks<PLACES>,
         buffer: &mut Buffer,
     ) {
-        let mut columns = 0;
-        for row in &masks.rows[masks.first.min(masks.end)..masks.end] {
-            columns |= row[0] | row[1] | row[2] | row[3];
-        }
-        if columns == 0 {
-            return;
-        }
-        let (first, end) = (columns.trailing_zeros(), 64 - columns.leading_zeros());
-        // From an even row, so that the last one has a row below it in the masks.
-        for top in (masks.first & !1..masks.end).step_by(2) {
-            let [above, below] = [&masks.rows[top], &masks.rows[top + 1]];
-            for left in (first..end).step_by(PAIR_PX as usize) {
+        let (first, rows) = masks.used();
+        for (top, two) in (first as i32..).step_by(2).zip(rows.chunks(2)) {
+            let (above, below) = (two[0], two.get(1).copied().unwrap_or([0; PLACES]));
+            let any = |row: [u64; PLACES]| row[0] | row[1] | row[2] | row[3];
+            let (mut any, mut left) = (any(above) | any(below), 0);
+            while any != 0 {
+                let next = any.trailing_zeros();
+                left += next;
                 let pair = |place: usize| {
                     let run = |row: u64| (row >> left) as u32 & 0xff;
                     run(above[place]) | run(below[place]) << PAIR_PX
                 };
                 let pairs = [pair(0), pair(1), pair(2), pair(3), pair(CENTRE)];
-                if pairs[0] | pairs[1] | pairs[2] | pairs[3] != 0 {
-                    self.sample_pair(simd, depth, [left as i32, top as i32], pairs, buffer);
-                }
+                self.sample_pair(simd, depth, [left as i32, top], pairs, buffer);
+                any = any >> next >> PAIR_PX;
+                left += PAIR_PX as u32;
             }
         }
     }
@@ -151,24 +149,30 @@ impl Brush<'_> {
         if let Some(texture) = texture {
             let (u, v) = (along(&over_w(6), x, y) * w, along(&over_w(7), x, y) * w);
             let texel = match &self.reading {
-                None => texels(simd, texture, u, v, mask),
+                None => match self.texels {
+                    Some(bytes) => bytes_at(simd, bytes, texture, u, v),
+                    None => texels(simd, texture, [u, v], mask),
+                },
                 Some(reading) => texels_at_levels(simd, (texture, reading), [u, v, w], mask),
             };
             (r, g, b) = (r * texel[0], g * texel[1], b * texel[2]);
         }
-        let mut shine = [u32x16::splat(simd, 0); 3];
+        let mut shine = None;
         if let Some(light) = light {
             let normal =
                 [along(&over_w(3), x, y), along(&over_w(4), x, y), along(&over_w(5), x, y)];
             let intensity = intensity(simd, light, normal);
             (r, g, b) = (r * intensity, g * intensity, b * intensity);
             if let Some(highlight) = highlight {
-                shine = highlights(simd, highlight, normal, mask);
+                shine = Some(highlights(simd, highlight, normal, mask));
             }
         }
         let opaque = u32x16::splat(simd, 0xff00_0000);
-        let [r, g, b] = [byte(r) + shine[0], byte(g) + shine[1], byte(b) + shine[2]];
-        let colours = r.min(255) | (g.min(255) << 8) | (b.min(255) << 16) | opaque;
+        let (mut r, mut g, mut b) = (byte(r), byte(g), byte(b));
+        if let Some([shine_r, shine_g, shine_b]) = shine {
+            (r, g, b) = ((r + shine_r).min(255), (g + shine_g).min(255), (b + shine_b).min(255));
+        }
+        let colours = r | (g << 8) | (b << 16) | opaque;
         match &self.fog {
             Some(Foggy { veil, share: Share::Mixed, depth }) => {
                 fogged(simd, veil, depth.at(x, y), colours, mask)
@@ -185,16 +189,7 @@ fn from_centre((x_16th, y_16th): (i32, i32)) -> [f32; 2] {
 
 /// The texels at (u, v), where `mask` has bits.
 #[inline(always)]
-fn texels<S: Simd>(
-    simd: S,
-    texture: &Texture,
-    u: Lanes<S>,
-    v: Lanes<S>,
-    mask: u32,
-) -> [Lanes<S>; 3] {
-    if let Some(bytes) = texture.nearest_bytes() {
-        return bytes_at(simd, bytes, texture, u, v);
-    }
+fn texels<S: Simd>(simd: S, texture: &Texture, [u, v]: [Lanes<S>; 2], mask: u32) -> [Lanes<S>; 3] {
     let (u, v) = (u.to_array(), v.to_array());
     one_by_one(simd, mask, |lane| texture.at(DVec2::new(u[lane].into(), v[lane].into())))
 }
@@ -249,10 +244,11 @@ fn bytes_at<S: Simd>(
     let column = nearest(u, width as i32, texture.wrap[0]);
     let row = nearest(Lanes::splat(simd, 1.0) - v, height as i32, texture.wrap[1]);
     let at = (row * (width as i32) + column).to_array();
-    // From memory, one load each: left alone, the compiler takes them out of the vector, which is dearer.
-    let at = std::hint::black_box(&at);
     // Four by four: of sixteen numbers one by one the compiler makes sixteen masks.
     let four = |i: usize| {
+        // From memory, one load each: left alone, the compiler takes them out of the vector, which is dearer. And four at a
+        // time, since more are put into memory again.
+        let at = std::hint::black_box(&at);
         // Masks and limits leave nothing else.
         let texel = |at: i32| bytes[at as u32 as usize] as i32;
         [texel(at[i]), texel(at[i + 1]), texel(at[i + 2]), texel(at[i + 3])]

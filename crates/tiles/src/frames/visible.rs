@@ -6,7 +6,7 @@ use fearless_simd::{Simd, f32x16, mask32x16, u32x16};
 
 use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, store_depths};
 use super::planes::Depth;
-use crate::coverage::{CELL_PX, Piece, QUARTER_PX};
+use crate::coverage::CELL_PX;
 
 /// Columns and rows of the pixels of a pair.
 pub(super) const PAIR: Place = Place {
@@ -45,92 +45,61 @@ pub(super) struct VisibilityPass {
 }
 
 impl VisibilityPass {
-    /// Draws what is covered at the centres of pixels.
+    /// Draws what is covered at the centres of pixels: of a row its bits, from column `left` of the tile on, four rows at a
+    /// time: as one cell where four columns hold what is covered, else as pairs, each from the first column that is covered on.
     #[inline(always)]
-    pub fn piece<S: Simd>(
+    pub fn rows<S: Simd>(
         &self,
         simd: S,
-        covered: &Piece,
+        [left, top]: [i32; 2],
+        rows: &[u64],
         buffer: &mut Buffer,
         seen: &mut Vec<VisibleBlock>,
     ) {
-        let rect = match covered {
-            Piece::Cell(cell) => {
-                let (at_px, mask) = ([cell.x_px, cell.y_px], u32::from(cell.pixels));
-                return self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, seen);
-            }
-            Piece::Quarter(quarter) => {
-                let (at_px, rows) = ([quarter.x_px, quarter.y_px], quarter.tile().rows);
-                return self.rows(simd, at_px, &rows[..QUARTER_PX as usize], buffer, seen);
-            }
-            Piece::Tile(tile) => {
-                return self.rows(simd, [tile.x_px, tile.y_px], &tile.rows, buffer, seen);
-            }
-            Piece::Block(block) => block.rect,
-        };
-        for y_px in (rect.y0..rect.y1).step_by(2) {
-            let two = if y_px + 1 < rect.y1 { 0xffff } else { 0x00ff };
-            for x_px in (rect.x0..rect.x1).step_by(PAIR_PX as usize) {
-                let run = 0x0101 * (0xff >> (PAIR_PX - (rect.x1 - x_px).min(PAIR_PX)));
-                self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], run & two, buffer, seen);
-            }
-        }
-    }
-
-    /// Masks of rows from a pixel on, four at a time: as one cell where four columns hold what is covered, else as pairs, each
-    /// from the first column that is covered on.
-    #[inline(always)]
-    fn rows<S: Simd>(
-        &self,
-        simd: S,
-        [x0_px, y0_px]: [i32; 2],
-        rows: &[u16],
-        buffer: &mut Buffer,
-        seen: &mut Vec<VisibleBlock>,
-    ) {
-        for (y_px, rows) in (y0_px..).step_by(4).zip(rows.as_chunks::<4>().0) {
-            let [a, b, c, d] = rows.map(u32::from);
+        for (top, rows) in (top..).step_by(4).zip(rows.chunks(4)) {
+            let row = |i: usize| rows.get(i).copied().unwrap_or(0);
+            let (a, b, c, d) = (row(0), row(1), row(2), row(3));
             let any = a | b | c | d;
             if any == 0 {
                 continue;
             }
-            let left = any.trailing_zeros();
-            if any >> left < 1 << CELL_PX {
-                let mask = a >> left | b >> left << 4 | c >> left << 8 | d >> left << 12;
-                let at_px = [x0_px + left as i32, y_px];
-                self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, seen);
+            let first = any.trailing_zeros();
+            if any >> first < 1 << CELL_PX {
+                let mask = a >> first | b >> first << 4 | c >> first << 8 | d >> first << 12;
+                let at = [left + first as i32, top];
+                self.pixels::<S, CELL_PX>(simd, at, mask as u32, buffer, seen);
                 continue;
             }
-            for (y_px, mut above, mut below) in [(y_px, a, b), (y_px + 2, c, d)] {
-                let mut x_px = x0_px;
+            for (top, mut above, mut below) in [(top, a, b), (top + 2, c, d)] {
+                let mut left = left;
                 while above | below != 0 {
-                    let left = (above | below).trailing_zeros();
-                    (above, below, x_px) = (above >> left, below >> left, x_px + left as i32);
-                    let mask = above & 0xff | (below & 0xff) << PAIR_PX;
-                    self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], mask, buffer, seen);
-                    (above, below, x_px) = (above >> PAIR_PX, below >> PAIR_PX, x_px + PAIR_PX);
+                    let first = (above | below).trailing_zeros();
+                    (above, below, left) = (above >> first, below >> first, left + first as i32);
+                    let mask = (above & 0xff) as u32 | ((below & 0xff) as u32) << PAIR_PX;
+                    self.pixels::<S, PAIR_PX>(simd, [left, top], mask, buffer, seen);
+                    (above, below, left) = (above >> PAIR_PX, below >> PAIR_PX, left + PAIR_PX);
                 }
             }
         }
     }
 
-    /// Pixels of a rectangle of sixteen, `SIDE` columns wide, from the one that is given on; bit i is
+    /// Pixels of a rectangle of sixteen, `SIDE` columns wide, from the column and row of the tile that are given on; bit i is
     /// pixel i, row by row.
     #[inline(always)]
-    fn pixels<S: Simd, const SIDE: i32>(
+    pub fn pixels<S: Simd, const SIDE: i32>(
         &self,
         simd: S,
-        [x_px, y_px]: [i32; 2],
+        [left, top]: [i32; 2],
         mask: u32,
         buffer: &mut Buffer,
         seen: &mut Vec<VisibleBlock>,
     ) {
-        let (left, top) = (x_px - buffer.rect.x0, y_px - buffer.rect.y0);
+        let at_px = [left + buffer.rect.x0, top + buffer.rect.y0];
         let plane = &mut buffer.planes[0];
         let mut visible = mask32x16::from_bitmask(simd, u64::from(mask));
         if let Some(depth) = &self.depth {
             let place = if SIDE == PAIR_PX { &PAIR } else { &CELL };
-            let (x, y) = beside(simd, place, depth.first_px, [x_px, y_px]);
+            let (x, y) = beside(simd, place, depth.first_px, at_px);
             let before = load_depths::<S, SIDE>(simd, &plane.depths, left, top);
             let depth = depth.at(x, y);
             visible &= depth.simd_lt(before);

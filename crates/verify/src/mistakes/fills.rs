@@ -448,14 +448,24 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
     }
 }
 
+/// A number with so many bits after its first one; the rest is cut off, or rounded to the nearest, halves to even.
+pub(super) fn shortened(v: i32, bits: i64, is_cut: bool) -> i32 {
+    let size = v.unsigned_abs();
+    let rest = (32 - size.leading_zeros()).saturating_sub(bits as u32 + 1);
+    let (kept, left) = (i64::from(size >> rest), i64::from(size) % (1 << rest) * 2);
+    let up = !is_cut && (left > 1 << rest || (left == 1 << rest && kept % 2 == 1));
+    ((kept + i64::from(up)) << rest) as i32 * v.signum()
+}
+
 /// Blocks that are drawn wholly or not at all: p mod 5 and p / 5 mod 5 are the powers of two of their sides, and p / 25 is the
-/// place that decides: the sample of the first pixel, the middle, the sample of the last pixel, or any sample.
+/// place that decides: the sample of the first pixel, the middle, the sample of the last pixel, or any sample. With 4 they are
+/// drawn wholly where three of their corner pixels are covered, and else pixel by pixel.
 pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
     let [wide, high] = [p % 5, p / 5 % 5].map(|power| 1 << power);
     let sample = super::sample_of(base).map_array(i64::from);
     let mut mask = Mask::default();
     let sign = area2(corners).signum() as i64;
-    if sign == 0 || [wide, high] == [1, 1] {
+    if sign == 0 || [wide, high] == [1, 1] || (p / 25 == 4 && wide.min(high) == 1) {
         return mask;
     }
     let (points, owns) = (points(corners), owned(corners, base));
@@ -474,12 +484,19 @@ pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p:
                 0 => of(x, y),
                 1 => covers([x * 256 + wide * 128, y * 256 + high * 128]),
                 2 => of(x + wide - 1, y + high - 1),
-                _ => (y..y + high).any(|y| (x..x + wide).any(|x| of(x, y))),
+                3 => (y..y + high).any(|y| (x..x + wide).any(|x| of(x, y))),
+                _ => {
+                    let [right, bottom] = [x + wide - 1, y + high - 1];
+                    let corners = [[x, y], [right, y], [x, bottom], [right, bottom]];
+                    corners.iter().filter(|[x, y]| of(*x, *y)).count() >= 3
+                }
             };
             let (rows, columns) =
                 (y..(y + high).min(window.y1.into()), x..(x + wide).min(window.x1.into()));
-            for y in rows.filter(|_| is_drawn) {
-                columns.clone().for_each(|x| mask.set(x as i32, y as i32));
+            for y in rows.filter(|_| is_drawn || p / 25 == 4) {
+                for x in columns.clone().filter(|&x| is_drawn || of(x, y)) {
+                    mask.set(x as i32, y as i32);
+                }
             }
         }
     }

@@ -339,6 +339,22 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         draws: Stroke::Own(one_axis),
     },
     Mistake {
+        name: "one step at a time",
+        sentence: |p| {
+            let axes = ["x", "y"];
+            format!(
+                "steps along {} or else along {}, never along both at once, so that a slanted line is a staircase",
+                axes[(p % 2) as usize],
+                axes[(1 - p % 2) as usize]
+            )
+        },
+        repair: "test the error for each axis by itself, without an else",
+        page: "ch03",
+        refuted: "two pixels in turn that share a corner alone",
+        parameters: Parameters::Below(4),
+        draws: Stroke::Own(staircase),
+    },
+    Mistake {
         name: "the error term overflows",
         sentence: |p| {
             format!(
@@ -481,7 +497,7 @@ fn by_octant(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
 }
 
 /// The octants in which ties go on, as most answers have it; `of` are lines with their pictures.
-pub(super) fn octants<'a>(of: &mut dyn Iterator<Item = (Ends, PixelRect, &'a Mask)>) -> i64 {
+pub(super) fn octants(of: &mut dyn Iterator<Item = (Ends, PixelRect, &Mask)>) -> i64 {
     let mut more = [0; 8];
     for (ends, window, drawn) in of {
         let on = 1 << octant(ends);
@@ -812,6 +828,30 @@ const STARTS: [(Start, &str); 8] = [
     (|a, _| a, "a"),
     (|a, _| -a, "-a"),
 ];
+
+/// Steps by an error of both axes, of which one moves at a time: x is tested first, or y with p mod 2; p / 2 is whether a tie
+/// does not count.
+fn staircase([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [dx, dy] = [(x1 - x0).abs(), (y1 - y0).abs()];
+    if dx + dy > 2 * MOST_STEPS {
+        return Vec::new();
+    }
+    let (mut x, mut y, mut error) = (x0, y0, dx - dy);
+    let mut pixels = vec![[x, y]];
+    // Where it misses its end, it goes on somewhere else.
+    while [x, y] != [x1, y1] && (x - x0).abs() <= dx && (y - y0).abs() <= dy {
+        let tie = p / 2;
+        let moves = [2 * error >= tie - dy, 2 * error <= dx - tie];
+        let along_x = moves[0] && (p % 2 == 0 || !moves[1]);
+        if along_x {
+            (x, error) = (x + (x1 - x0).signum(), error - dy);
+        } else {
+            (y, error) = (y + (y1 - y0).signum(), error + dx);
+        }
+        pixels.push([x, y]);
+    }
+    pixels
+}
 
 /// p mod 8 is where the error term begins, p / 8 mod 3 what is added and taken away, p / 24 mod 2 what happens at 0, and from 48
 /// on lines are seen from the left. What is right draws nothing, as it is a convention.

@@ -150,6 +150,8 @@ pub(super) struct Scan {
     level: i64,
     /// The heights that corners are sorted by: 0, those that are drawn; or one of `SORTED`, or the exact ones where corners are cut.
     sorted: i64,
+    /// 1 where each row gets a pixel at least, the one that would be its first.
+    least: i64,
 }
 
 const WHOLE: [&str; 5] = [
@@ -165,10 +167,11 @@ const FIRSTS: [&str; 4] = [
     "the first row that begins below a corner",
     "the height of a corner, rounded,",
 ];
-const HEIGHTS: [&str; 3] = [
+const HEIGHTS: [&str; 4] = [
     "",
     ", by the crossings with the upper side of each row",
     ", beginning at the corner and not at the first row",
+    ", counting rows from the one that holds the corner, whatever part of it lies above",
 ];
 const LEFT: [&str; 5] = [
     "the first sample right of the left crossing or on it",
@@ -198,19 +201,19 @@ const LOWER: [&str; 4] = [
 ];
 
 /// How many values each digit has, in the order of the fields.
-const DIGITS: [i64; 10] = [Slope::COUNT, 4, 3, 5, 8, 3, 5, 9, 4, 4];
+const DIGITS: [i64; 11] = [Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2];
 
 impl Scan {
     fn of(p: i64) -> Self {
         let mut rest = p;
-        let [slope, lower, above, whole, rows, height, left, right, level, sorted] =
-            DIGITS.map(|many| {
+        let [slope, lower, above, whole, rows, height, left, right, level, sorted, least] = DIGITS
+            .map(|many| {
                 let digit = rest % many;
                 rest /= many;
                 digit
             });
         let slope = Slope::of(slope);
-        Self { slope, lower, above, whole, rows, height, left, right, level, sorted }
+        Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least }
     }
 
     /// The sentence, after 'it'.
@@ -221,7 +224,7 @@ impl Scan {
                 Self::sentence(p - COLUMNS)
             );
         }
-        let Self { slope, lower, above, whole, rows, height, left, right, level, sorted } =
+        let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least } =
             Self::of(p);
         let mut words = WHOLE[whole as usize].to_owned();
         if sorted > 0 && whole > 0 {
@@ -242,6 +245,7 @@ impl Scan {
             words += ", and ";
         }
         words += &format!("fills from {} to {}", LEFT[left as usize], RIGHT[right as usize]);
+        words += ["", ", but one pixel at least"][least as usize];
         words += LOWER[lower as usize];
         words += HEIGHTS[height as usize];
         words += &match (rows, whole) {
@@ -285,8 +289,9 @@ impl Scan {
     /// All of a frame: what is rounded, where edges begin, what level triangles are, and how corners are sorted.
     fn within(frame: i64) -> Vec<i64> {
         let base = Self::of(frame);
-        // The places of the last two digits.
-        let [level_at, sorted_at] = [8, 9].map(|i| DIGITS[..i].iter().product::<i64>());
+        // The places of the last three digits.
+        let [level_at, sorted_at, least_at] =
+            [8, 9, 10].map(|i| DIGITS[..i].iter().product::<i64>());
         let mut all = Vec::new();
         // Of whole corners there are level triangles, and corners that were sorted before.
         let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
@@ -311,6 +316,7 @@ impl Scan {
             }
             if base.whole == 0 {
                 all.extend((1..4).map(|sorted| frame + sorted * sorted_at));
+                all.push(frame + least_at);
             }
         }
         all
@@ -337,7 +343,8 @@ impl Scan {
         match self.height {
             0 => row * 256 + 128 - from,
             1 => row * 256 - from,
-            _ => (row - first_row) * 256,
+            2 => (row - first_row) * 256,
+            _ => (row - from.div_euclid(256)) * 256,
         }
     }
 }
@@ -394,7 +401,8 @@ fn frames(drawn: &[Drawn<'_>], slope: i64, most: u32) -> (u32, Vec<i64>) {
     for frame in (0..DIGITS[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
         let how = Scan::of(frame);
         // Of whole corners rows are with the last one or without, and edges begin at the corner.
-        if how.whole > 0 && (how.rows > 1 || how.height > 1) {
+        let is_twice = how.height == 3 && how.rows / 2 == 1;
+        if is_twice || how.whole > 0 && (how.rows > 1 || how.height > 1) {
             continue;
         }
         let most = best.get(FRAMES - 1).map_or(most, |(missed, _)| *missed);
@@ -576,7 +584,9 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
             3 | 7 => right.ceil(),
             _ => right.trunc(),
         };
-        for x in clamp(first)..clamp(end + f64::from(u8::from(how.right > 3))) {
+        let end = end + f64::from(u8::from(how.right > 3));
+        let end = if how.least == 1 { end.max(first + 1.0) } else { end };
+        for x in clamp(first)..clamp(end) {
             mask.set(x, y as i32);
         }
     };

@@ -261,6 +261,30 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         }),
     },
     Mistake {
+        name: "coordinates in short floats",
+        sentence: |p| {
+            let how = ["rounded", "cut"][(p / 100) as usize];
+            let kind = match p % 100 {
+                10 => " (as a half float)",
+                7 => " (as a bfloat16)",
+                _ => "",
+            };
+            format!(
+                "keeps coordinates in floats with {} significant bits{kind}, {how}: from {} px on they lose subpixels",
+                p % 100 + 1,
+                1_i64 << (p % 100 - 7)
+            )
+        },
+        repair: "keep corners as integers in subpixels, or in floats of 32 bits",
+        page: "stability",
+        refuted: "a corner with more significant bits whose edges pass where they should",
+        parameters: Parameters::Fixed(&[10, 7, 15, 110, 107, 115]),
+        draws: Fill::Instead(|corners, _, p| {
+            let short = |v: i32| fills::shortened(v, p % 100, p >= 100);
+            vec![corners.map_array(|c| SubpixelPoint::new(short(c.x), short(c.y)))]
+        }),
+    },
+    Mistake {
         name: "each axis on a grid of its own",
         sentence: |p| {
             let [x, y] = axes(p).map_array(|(step, rounding)| match step {
@@ -635,21 +659,22 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "blocks are drawn whole",
         sentence: |p| {
             format!(
-                "draws blocks of {} x {} px wholly or not at all, {}",
+                "draws blocks of {} x {} px wholly {}",
                 1 << (p % 5),
                 1 << (p / 5 % 5),
                 [
-                    "as their first sample is covered",
-                    "as their middle is covered",
-                    "as their last sample is covered",
-                    "wholly if any of their samples is covered"
+                    "or not at all, as their first sample is covered",
+                    "or not at all, as their middle is covered",
+                    "or not at all, as their last sample is covered",
+                    "or not at all: wholly if any of their samples is covered",
+                    "where the samples of three of their corner pixels are covered",
                 ][(p / 25) as usize]
             )
         },
         repair: "test the sample of each pixel",
         page: "speed",
         refuted: "two pixels of such a block of which one is drawn",
-        parameters: Parameters::Below(100),
+        parameters: Parameters::Below(125),
         draws: Fill::Ruled(fills::blocks),
     },
     Mistake {

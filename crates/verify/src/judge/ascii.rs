@@ -10,6 +10,7 @@ pub const MOST_COLUMNS: u32 = 96;
 pub const MOST_ROWS: u32 = 48;
 
 /// The character of a pixel with these hits.
+#[must_use]
 pub fn mark(actual: u8, target: u8) -> char {
     match (actual, target) {
         (0, 0) => '.',
@@ -23,6 +24,7 @@ pub fn mark(actual: u8, target: u8) -> char {
 }
 
 /// The grid of `actual` judged by `target`, one line for each row, without line ends.
+#[must_use]
 pub fn grid(actual: &Coverage, target: &Coverage) -> Vec<String> {
     let (x, y) = shown(actual, target);
     let rows = actual.rows().zip(target.rows()).skip(y.start).take(y.len());
@@ -65,7 +67,19 @@ fn shown(actual: &Coverage, target: &Coverage) -> (std::ops::Range<usize>, std::
     (x..width.min(x + most_x), y..height.min(y + most_y))
 }
 
+/// What was drawn by each of those named beside what is expected, with the legend.
+#[must_use]
+pub fn beside(names: &[&str], drawn: &[&Coverage], expected: &Coverage, columns: usize) -> String {
+    let drawn =
+        names.iter().zip(drawn).map(|(by, drawn)| ((*by).to_owned(), grid(drawn, expected)));
+    let blocks: Vec<_> = drawn.chain([("expected".to_owned(), grid(expected, expected))]).collect();
+    let lines = side_by_side(&blocks, columns);
+    let lines = lines.lines().map(|line| format!("  {line}").trim_end().to_owned() + "\n");
+    lines.collect::<String>() + &format!("  ({LEGEND})\n")
+}
+
 /// Puts blocks of lines beside each other under their titles, as many as fit `columns`.
+#[must_use]
 pub fn side_by_side(blocks: &[(String, Vec<String>)], columns: usize) -> String {
     let mut out = String::new();
     let width = |(title, lines): &(String, Vec<String>)| {
