@@ -477,6 +477,14 @@ fn judge_writes_formats() {
         assert_eq!((&test["max_score"], test["output"].is_string()), (&1.into(), true));
     }
     assert_eq!(scores["score"], properties.len() - failing);
+    // Who fails sees the case as a terminal shows it.
+    let shows = |test: &serde_json::Value| {
+        let output = test["output"].as_str().unwrap();
+        ["request:", "judged   expected", "# agrees", "repeat with: "]
+            .iter()
+            .all(|part| output.contains(part))
+    };
+    assert!(tests.iter().any(shows), "{scores}");
 
     let result: serde_json::Value = serde_json::from_str(&of_it("github-classroom")).unwrap();
     assert_eq!((&result["version"], &result["status"]), (&1.into(), &"fail".into()));
@@ -842,6 +850,28 @@ fn judge_measures_how_far_lines_are_walked() {
     assert!((1 << 10..=1 << 16).contains(&reach), "{reach}");
     assert!(verdict.agrees());
     assert_eq!(judged(inside("bresenham"), &options(3, &["line-octants"])).more.reach, None);
+}
+
+/// The same of triangles, whose rows outside the window are walked.
+#[test]
+fn judge_measures_how_large_triangles_are_walked() {
+    let mut engine = Inside::new(engines::find("scanline").unwrap());
+    let answer = move |questions: &[Question], most: u64| {
+        for question in questions {
+            if let Asked::Coverage(corners) = question.of {
+                let y = corners.map(|c| c.y);
+                let rows = y.iter().max().unwrap().abs_diff(*y.iter().min().unwrap()) / 256;
+                std::thread::sleep(Duration::from_nanos(100 * u64::from(rows)));
+            }
+        }
+        engine.ask(questions, most)
+    };
+    let declared = Declared::parse("HELLO 2 x coverage").unwrap();
+    let verdict = judged(Box::new(Answering(declared, answer)), &options(3, &["huge"]));
+    let side = verdict.more.side.unwrap();
+    assert!((1 << 12..=1 << 20).contains(&side), "{side}");
+    assert!(verdict.agrees());
+    assert_eq!(judged(inside("scanline"), &options(3, &["uniform"])).more.side, None);
 }
 
 /// What a program wrote before it ended without HELLO is shown.

@@ -104,7 +104,8 @@ pub fn compare(
     let [first, second] = pairs.first_mut().expect("somebody to be asked");
     let mut both = [first.declared().clone(), second.declared().clone()];
     for (side, declared) in [first, second].into_iter().zip(&mut both) {
-        declared.reach = reach::reach(&mut Timed::new(&mut **side, end));
+        let asked = &mut Timed::new(&mut **side, end);
+        (declared.reach, declared.side) = (reach::reach(asked), reach::side(asked));
     }
     let asked =
         both.each_ref().map(|one| both.iter().fold(one.clone(), |d, other| d.within(other)));
@@ -135,6 +136,7 @@ pub fn compare(
         against: Some(second),
         found,
         reach: truth.declared.reach,
+        side: truth.declared.side,
         complaints: pair.complaints(),
         ..Particulars::default()
     };

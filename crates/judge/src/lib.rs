@@ -133,6 +133,7 @@ pub fn judge(
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
     truth.declared.reach = reach::reach(&mut first);
+    truth.declared.side = reach::side(&mut first);
     let mut found_before = recognise(&mut first);
     let mut recognised = found_before.as_mut().map(|found| {
         truth.recognised = found.expect.take();
@@ -160,13 +161,15 @@ pub fn judge(
     let causes = recognise::mistakes(timed, &checks, &truth, found_before.as_ref(), patience);
     found.strays.extend(first.strays());
     first.end_at(None);
-    let (reach, complaints) = (truth.declared.reach, first.complaints());
+    let Declared { reach, side, .. } = truth.declared;
+    let complaints = first.complaints();
     let more = Particulars {
         declared,
         windings,
         recognised,
         found,
         reach,
+        side,
         complaints,
         ..Particulars::default()
     };

@@ -51,6 +51,8 @@ pub struct Particulars {
     pub found: Found,
     /// How long its lines may be, in steps, where it walks along them so slowly that longer ones were not asked for.
     pub reach: Option<i32>,
+    /// How long sides of its triangles may be, in pixels, where it walks along its rows like that.
+    pub side: Option<i32>,
     /// Failing cases that the baseline knows.
     pub known: u64,
     /// The end of what it wrote on standard error.

@@ -211,9 +211,19 @@ fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
     (zoom(best), best)
 }
 
-fn beside(shown: PixelRect) -> u32 {
+fn left_of(shown: PixelRect) -> u32 {
     let wide = |n: i32| lettering::width(&n.to_string(), Size::Small) + 6;
     wide(shown.y0).max(wide(shown.y1 - 1)).max(BESIDE)
+}
+
+/// Pictures side by side, each below its name.
+pub fn beside(title: &str, pictures: &[(&str, RgbImage)]) -> RgbImage {
+    let cell = |(name, picture): &(&str, RgbImage)| {
+        titled(&[((*name).to_owned(), Size::Small, INK)], picture, [0, 0])
+    };
+    let cells: Vec<_> = pictures.iter().map(cell).collect();
+    let columns = cells.len() as u32;
+    arranged(&[(title.to_owned(), Size::Heading, INK)], cells, columns, &[], "")
 }
 
 /// A picture below some words, with room left of it and above.
@@ -248,7 +258,7 @@ pub(super) fn panel(
     for segment in outline {
         line(*segment, bounds, |x, y| picture.put_pixel(x, y, EDGE));
     }
-    let left = beside(shown);
+    let left = left_of(shown);
     let mut image = titled(words, &picture, [left, ABOVE]);
     numbers(&mut image, [left, head(words) + ABOVE], shown, zoom);
     image
