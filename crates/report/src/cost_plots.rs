@@ -5,10 +5,10 @@
 //! dots and never overlap.
 
 use super::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
-use super::lettering;
 use super::words::{number, thousands};
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced};
 use rasterproof_study::cost::Group;
+use rasterproof_verify::judge::ascii;
 
 const WIDTH: f64 = 800.0;
 const SHELF: Ink = [233, 245, 236];
@@ -216,7 +216,7 @@ fn drawn(title: &str, legend: &str, mut panels: Vec<Panel>, in_row: usize) -> Dr
 
 /// The text in lines of at most `room` units, broken at spaces.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
-    lettering::lines(text, room, canvas::width)
+    ascii::lines(text, room, canvas::width)
 }
 
 fn legend(board: &Board) -> &'static str {

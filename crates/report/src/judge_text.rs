@@ -383,7 +383,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
 pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
     let Pictured { drawn, other, expected, .. } = picture;
     let drawn: Vec<_> = [drawn].into_iter().chain(other).collect();
-    ascii::beside(drawn_by, &drawn, expected, 98)
+    ascii::beside(drawn_by, &drawn, expected, 78)
 }
 
 /// Whether both of two compared programs answer the same.

@@ -3,6 +3,7 @@
 
 use image::{Rgb, RgbImage};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, RasterizedChar, get_raster};
+use rasterproof_verify::judge::ascii::lines;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
@@ -72,36 +73,6 @@ pub fn wrapped(text: &str, size: Size, room: u32) -> Vec<String> {
     lines(text, room, |line| width(line, size))
 }
 
-/// The text in lines that `width` finds no wider than `room`, broken at blanks, and between Chinese characters, but not before a
-/// mark such as a full stop.
-pub fn lines<T: PartialOrd>(text: &str, room: T, width: impl Fn(&str) -> T) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        let may_begin = |(_, c): &(usize, char)| is_wide(*c) && !"，。、；：？！）”".contains(*c);
-        let breaks = word.char_indices().skip(1).filter(may_begin).map(|(at, _)| at);
-        let mut from = 0;
-        for to in breaks.chain([word.len()]) {
-            let (gap, piece) = (if from == 0 { " " } else { "" }, &word[from..to]);
-            let longer = lines.last().map(|line| format!("{line}{gap}{piece}"));
-            match (longer.filter(|longer| width(longer) <= room), lines.last_mut()) {
-                (Some(longer), Some(line)) => *line = longer,
-                _ => lines.push(piece.to_owned()),
-            }
-            from = to;
-        }
-    }
-    lines
-}
-
-fn is_wide(c: char) -> bool {
-    ('\u{2e80}'..='\u{ffe6}').contains(&c)
-}
-
-/// Columns of a text in a terminal, where a Chinese character takes two.
-pub fn columns(text: &str) -> usize {
-    text.chars().map(|c| 1 + usize::from(is_wide(c))).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,7 +128,8 @@ mod tests {
     fn long_texts_are_broken_at_spaces() {
         let lines = wrapped("one two  three-and-more four", Size::Small, 7 * 9);
         assert_eq!(lines, ["one two", "three-and-more", "four"]);
-        let chinese = |text, room| super::lines(text, room, super::columns);
+        let chinese =
+            |text, room| super::lines(text, room, rasterproof_verify::judge::ascii::columns);
         assert_eq!(chinese("像素在中心。答案是 12 个", 8), ["像素在中", "心。答案", "是 12 个"]);
         assert_eq!(chinese("像素在中心，", 10), ["像素在中", "心，"]);
     }

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use super::html::{Excerpt, Outcome, Report, Statement};
-use super::lettering;
 use super::table::Table;
 use super::words::mark;
+use rasterproof_verify::judge::ascii;
 
 /// Columns of a terminal that a first screen has.
 const SCREEN: usize = 80;
@@ -135,7 +135,7 @@ fn note(out: &mut String, words: &str, width: usize, indents: [&str; 2]) {
 /// Words in lines of at most `width` columns: the first begins with one word, the others with another.
 fn lines(out: &mut String, words: &str, width: usize, [first, rest]: [&str; 2]) {
     let room = width - first.len().max(rest.len());
-    for (number, line) in lettering::lines(words, room, lettering::columns).iter().enumerate() {
+    for (number, line) in ascii::lines(words, room, ascii::columns).iter().enumerate() {
         let _ = writeln!(out, "{}{line}", if number == 0 { first } else { rest });
     }
 }

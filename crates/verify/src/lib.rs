@@ -71,7 +71,8 @@
 //!   (# agrees, - missing, + extra, 2 twice, * rightly more than once, . neither)
 //!   repeat with: Options::default().seed(1).family(FamilyName::HalfInteger).only(3)
 //!
-//! probable cause: It samples at the pixel's centre and draws nothing on an edge: neighbours leave holes.
+//! probable cause: It samples at the pixel's centre and draws nothing on an edge:
+//! neighbours leave holes.
 //! if that is meant, declare it: Options::default().convention(Convention::default().rule(Rule::Strict))
 //!
 //! wrong cases by family:

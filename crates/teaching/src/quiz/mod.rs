@@ -81,7 +81,7 @@ pub struct Exercise {
 pub struct Solution {
     pub answer: Right,
     pub figures: Vec<String>,
-    /// Pixel grids with their titles, as of [`rasterproof_report::ascii`].
+    /// Pixel grids with their titles, as of [`ascii`].
     pub grids: Vec<(String, Vec<String>)>,
 }
 

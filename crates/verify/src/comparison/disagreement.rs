@@ -113,12 +113,9 @@ impl fmt::Display for Disagreement {
             writeln!(f, ".only({index})")?;
         }
         if let Some(cause) = &self.cause {
-            match two {
-                Some(failure) => {
-                    writeln!(f, "\nof the {}: {cause}", failure.evidence.who_is_wrong())?
-                }
-                None => writeln!(f, "\n{cause}")?,
-            }
+            let of = two.map(|failure| format!("of the {}: ", failure.evidence.who_is_wrong()));
+            let cause = format!("{}{cause}", of.unwrap_or_default());
+            writeln!(f, "\n{}", ascii::broken(&cause, MOST_COLUMNS, ""))?;
         }
         if !self.families.is_empty() {
             f.write_str("\nwrong cases by family:")?;
@@ -142,7 +139,8 @@ impl fmt::Display for Disagreement {
 mod tests {
     use crate::cases::FamilyName;
     use crate::comparison::{
-        Convention, Options, Rule, Verdict, compare_coverage, compare_lines, judge_coverage,
+        Convention, NothingJudged, Options, Rule, Verdict, compare_coverage, compare_lines,
+        judge_coverage,
     };
     use rasterproof_core::contract::{DrawLine, Rasterize};
     use rasterproof_core::grid::PixelRect;
@@ -150,6 +148,10 @@ mod tests {
     use rasterproof_core::line::dda::Dda;
     use rasterproof_core::raster::scanline::Scanline;
     use rasterproof_core::triangle::{Corners, Fragment, ScreenLine, Span, Varying};
+
+    fn whole(verdict: Result<Verdict, NothingJudged>) -> String {
+        verdict.unwrap().check().unwrap_err().to_string()
+    }
 
     /// Of two engines that differ the message shows both, and with which of them the oracle agrees.
     #[test]
@@ -160,7 +162,7 @@ mod tests {
         compare_coverage(&Scanline, &right, &options).unwrap().check().unwrap();
         // Both are wrong, and the same.
         compare_coverage(&strict, &strict, &options).unwrap().check().unwrap();
-        let said = |verdict: Result<Verdict, _>| verdict.unwrap().check().unwrap_err().to_string();
+        let said = |verdict: Result<Verdict, _>| whole(verdict).replace('\n', " ");
         let message = said(compare_coverage(&right, &strict, &options));
         for part in [
             " pixels differ, in ",
@@ -210,21 +212,21 @@ mod tests {
             .cases(40)
             .family(FamilyName::HalfInteger)
             .family(FamilyName::Rectangle);
-        let message = judge_coverage(&strict, &options).unwrap().check().unwrap_err().to_string();
+        let message = whole(judge_coverage(&strict, &options));
         for part in [
             "wrong pixels, in ",
             ", shrunk)\n",
             "judged   expected",
             "-",
-            "probable cause: It samples at the pixel's centre and draws nothing on an edge: neighbours leave holes.",
+            "probable cause: It samples at the pixel's centre and draws nothing on an edge:\nneighbours leave holes.",
             "if that is meant, declare it: Options::default().convention(Convention::default().rule(Rule::Strict))",
             "repeat with: Options::default().seed(1).family(FamilyName::",
         ] {
             assert!(message.contains(part), "{part}: {message}");
         }
-        assert!(message.lines().all(|line| line.chars().count() <= 120), "{message}");
+        assert!(message.lines().all(|l| l.len() <= 80 || l.contains("::")), "{message}");
         let declared = options.clone().convention(Convention::default().rule(Rule::TopRight));
-        let message = judge_coverage(&strict, &declared).unwrap().check().unwrap_err().to_string();
+        let message = whole(judge_coverage(&strict, &declared));
         let repeat = ".convention(Convention::default().rule(Rule::TopRight)).only(";
         assert!(message.contains(repeat), "{message}");
         judge_coverage(&Scanline, &options).unwrap().check().unwrap();

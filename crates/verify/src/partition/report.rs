@@ -11,7 +11,7 @@ use super::{
     Family, Fault, FaultKind, Faults, Options, Polygon, Refused, Tessellate, Tessellation,
     Triangle, judge_partition,
 };
-use crate::judge::{self, NothingJudged, Watch, caught};
+use crate::judge::{self, NothingJudged, Watch, ascii, caught};
 use crate::mistakes::Mistakes;
 use rasterproof_core::parallel;
 
@@ -168,7 +168,8 @@ impl Verdict {
         }
         if let Some(cause) = cause {
             let what = if cause.is_known() { "probable cause" } else { "no cause was recognised" };
-            writeln!(f, "\n{what}: {}\n", cause.sentences().join("\n  "))?;
+            let said = format!("{what}: {}", cause.sentences().join("\n"));
+            writeln!(f, "\n{}\n", ascii::broken(&said, 80, "  "))?;
         }
         let wrong = families.iter().filter(|report| report.wrong > 0);
         let wrong: Vec<_> =
