@@ -15,7 +15,6 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::Options;
-use rasterproof_judge::verdict::Scores as _;
 use rasterproof_precision::cost::ExternalVariant;
 use rasterproof_report::table::Table;
 
