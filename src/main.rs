@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rasterproof::cli::wrap::USUAL;
 use rasterproof::cli::{self, Delivery, Streams};
-use rasterproof_judge::process_group::end_strays;
+use rasterproof_program::group::end_strays;
 use terminal_size::{Height, Width, terminal_size_of};
 
 #[cfg(target_env = "musl")]

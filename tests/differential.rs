@@ -44,7 +44,7 @@ fn main() -> ExitCode {
     families.sort_by_key(place);
     let all = families.len() == cases::families().count();
     let options = Options::default().cases(CASES);
-    let verdict = Verdict { options, families, failures: Vec::new(), cause: None };
+    let verdict = Verdict { options, families, failures: Vec::new(), cause: None, more: () };
     println!("{}", text::tables(&differential::tables(&verdict), text::WIDTH, false));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {

@@ -10,9 +10,10 @@ use rasterproof_core::triangle::PixelPoint;
 use rasterproof_registry::comparison::{Hits, Judged};
 use rasterproof_registry::engines::Entry;
 use rasterproof_report::words::count;
-use rasterproof_report::{ascii, drawn, panels};
+use rasterproof_report::{drawn, panels};
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::{Tally, oracle_hits, shrink};
+use rasterproof_verify::judge::ascii;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 
 /// Everybody who is judged, or a planted fault alone.
@@ -101,7 +102,7 @@ impl Shown {
 
     /// A panel for each engine that did not panic, then the oracle.
     pub fn picture(&self, title: &str, case: &Case) -> RgbImage {
-        panels::of_case(title, case, &self.drawn(), &self.target).image
+        panels::of_case(title, case, &self.drawn(), &self.target)
     }
 
     fn drawn(&self) -> Vec<panels::Drawn> {

@@ -13,11 +13,10 @@ use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
-    Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with,
+    Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with, prices,
 };
-use rasterproof_report::canvas::{self, Drawing};
 use rasterproof_report::html::Figure;
-use rasterproof_report::{board, cost_plots, picture};
+use rasterproof_report::{board, canvas, cost_plots};
 
 /// What is measured together under one word.
 const LADDERS: [(&str, &[Ladder]); 7] = [
@@ -82,16 +81,16 @@ pub struct CostArguments {
 }
 
 impl CostArguments {
-    /// Plots go into the folder of pages, as SVG and PNG.
-    fn plot_files(&self, name: &str) -> [Output; 2] {
-        ["svg", "png"].map(|ending| self.page.place.output(format!("{name}.{ending}")))
+    /// Plots go into the folder of pages.
+    fn plot_file(&self, name: &str) -> Output {
+        self.page.place.output(format!("{name}.svg"))
     }
 
     /// Refuses names of plots and pages that are the file of --from or each other's.
     fn check_files(&self, ladders: &[Ladder]) -> Result<(), InputError> {
         let page = self.page.page("cost.html");
         let names = ladders.iter().map(|&ladder| plot_name(ladder)).chain([PRICE.to_owned()]);
-        let plots: Vec<_> = names.flat_map(|name| self.plot_files(&name)).collect();
+        let plots: Vec<_> = names.map(|name| self.plot_file(&name)).collect();
         let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
         let plots = plots.iter().map(|output| written("a plot in --out", output));
         files::check(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
@@ -138,12 +137,13 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
         },
     };
     let plots = plots(&recorded.boards);
-    let mut report = board::report(&recorded, figures(&plots, &recorded.boards));
-    report.command = typed.line();
     let written = write_plots(&plots, arguments, streams).join(", ");
+    let figures = plots.into_iter().map(|(_, figure)| figure).collect();
+    let mut report = board::report(&recorded, figures);
+    report.command = typed.line();
     if !written.is_empty() {
         let folder = printable_path(&arguments.page.place.out);
-        report.notes.push(format!("drawn in {folder}, as SVG and PNG: {written}"));
+        report.notes.push(format!("drawn in {folder}, as SVG: {written}"));
     }
     let page = arguments.page.page("cost.html");
     show(report, Shown::all_or_json(arguments.json), page, streams)?;
@@ -172,46 +172,32 @@ fn plot_name(ladder: Ladder) -> String {
 /// The plot that answers what exact coverage costs.
 const PRICE: &str = "cost-price";
 
-/// The plots with their names; the one picture that answers the question comes last.
-fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
-    let mut plots: Vec<(String, Drawing)> = boards
-        .iter()
-        .map(|board| (plot_name(board.ladder), cost_plots::pareto(board, 2)))
-        .collect();
-    if boards.iter().any(|board| board.ladder == Ladder::Scanline) {
-        plots.push((PRICE.to_owned(), cost_plots::price(boards)));
-    }
-    plots
-}
-
-/// The plots as they stand on a page, what answers the question first.
-fn figures(plots: &[(String, Drawing)], boards: &[Board]) -> Vec<Figure> {
-    let figure = |(name, drawing): &(String, Drawing)| Figure {
-        caption: match name.as_str() {
-            PRICE => "What exact coverage costs over the cheapest choice".to_owned(),
-            name => format!("Time against error: {}", name.trim_start_matches("cost-")),
-        },
-        svg: canvas::svg(drawing),
-        narrow: boards
-            .iter()
-            .find(|board| *name == plot_name(board.ladder))
-            .map(|board| canvas::svg(&cost_plots::pareto(board, 1))),
+/// The plots with their names, what answers the question first.
+fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
+    let of_board = |board: &Board| {
+        let caption = format!("Time against error: {}", board.ladder.name());
+        let drawn = [2, 1].map(|in_row| cost_plots::pareto(board, in_row));
+        (plot_name(board.ladder), canvas::figure(&caption, drawn))
     };
-    plots.iter().rev().map(figure).collect()
+    let prices = prices(boards);
+    let price = || {
+        let caption = "What exact coverage costs over the cheapest choice";
+        let drawn = [800.0, 400.0].map(|width| cost_plots::price(&prices, width));
+        (PRICE.to_owned(), canvas::figure(caption, drawn))
+    };
+    let price = (!prices.is_empty()).then(price);
+    price.into_iter().chain(boards.iter().rev().map(of_board)).collect()
 }
 
 /// Writes the plots and returns the names of those that were written.
 fn write_plots(
-    plots: &[(String, Drawing)],
+    plots: &[(String, Figure)],
     arguments: &CostArguments,
     streams: &mut Streams<'_>,
 ) -> Vec<String> {
     let mut written = Vec::new();
-    for (name, drawing) in plots {
-        let [svg, png] = arguments.plot_files(name);
-        let is_written = streams.save(&svg, canvas::svg(drawing).as_bytes())
-            && streams.save(&png, &picture::png(&canvas::picture(drawing)));
-        if is_written {
+    for (name, figure) in plots {
+        if streams.save(&arguments.plot_file(name), figure.svg.as_bytes()) {
             written.push(name.clone());
         }
     }

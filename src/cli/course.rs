@@ -22,8 +22,8 @@ use rasterproof_report::picture;
 use rasterproof_report::table::Table;
 
 use crate::cli::starters::{self, Language};
-use rasterproof_judge::process::{Limits, Program};
-use rasterproof_judge::process_group;
+use rasterproof_program::group;
+use rasterproof_program::{Limits, Program};
 use rasterproof_teaching::course::examine::{self, Amount};
 use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::verdict;
@@ -219,7 +219,7 @@ fn built_and_started(
     progress: &Progress,
     build: BuildLimits,
 ) -> Result<Program, InputError> {
-    process_group::end_all_on_ctrl_c();
+    group::end_all_on_ctrl_c();
     let limits = build.bounds();
     sandbox::build(dir, &progress.build, &limits).map_err(usage)?;
     sandbox::start(dir, &progress.run, &limits, Limits::default()).map_err(usage)

@@ -18,9 +18,9 @@ use serde_json::Value;
 use super::progress::Progress as Shown;
 use super::{InputError, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
-use rasterproof_judge::process::{Limits, Program};
-use rasterproof_judge::process_group::{self, Group};
 use rasterproof_judge::text::printable;
+use rasterproof_program::group::{self, Group};
+use rasterproof_program::{Limits, Program};
 use rasterproof_report::json::pretty;
 use rasterproof_report::table::Table;
 use rasterproof_report::{formats, text};
@@ -182,7 +182,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     if let Some(row) = &arguments.row {
         return judge_row(row, submissions, arguments, streams);
     }
-    process_group::end_groups_on_ctrl_c();
+    group::end_groups_on_ctrl_c();
     let is_table = arguments.format == Format::Text && arguments.folder.is_some();
     if is_table {
         let heads = row("submission", |at| (at + 1).to_string(), "points");
@@ -277,7 +277,7 @@ fn graded_apart(submission: &Submission, arguments: &GradeArguments) -> Grade {
     let found = apart(submission, arguments, &mark);
     if found.is_err() {
         // Where the judge was killed, its program lives on.
-        process_group::end_marked(&format!("{MARK}={mark}"));
+        group::end_marked(&format!("{MARK}={mark}"));
     }
     let seconds = start.elapsed().as_secs_f64();
     found.unwrap_or_else(|error| Grade { seconds, ..Grade::failed(submission.name.clone(), error) })
@@ -393,8 +393,8 @@ fn judge_row(
     arguments: &GradeArguments,
     streams: &mut Streams<'_>,
 ) -> Status {
-    process_group::end_all_on_ctrl_c();
-    process_group::end_with_parent();
+    group::end_all_on_ctrl_c();
+    group::end_with_parent();
     let submission = submissions.into_iter().flatten().find(|one| one.id == row);
     let submission = submission.ok_or_else(|| usage("the submission is gone"))?;
     let grade = grade(&submission, arguments);
@@ -438,7 +438,7 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
         }
     }
     // What it has left behind would take time from the next one.
-    process_group::end_strays_of_ended_groups();
+    group::end_strays_of_ended_groups();
     grade.seconds = start.elapsed().as_secs_f64();
     grade
 }

@@ -25,9 +25,10 @@ use rasterproof_registry::engines::{Entry, SPECIMENS, Specimen};
 use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
-use rasterproof_report::{ascii, page_cases, picture, words as in_words};
+use rasterproof_report::{page_cases, picture, words as in_words};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
+use rasterproof_verify::judge::ascii;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("inspect"))]

@@ -6,10 +6,13 @@ use super::{Status, Streams, exit, program};
 use rasterproof_faults::planted::{self, Mutant};
 use rasterproof_invariants::implementations::Implementations;
 use rasterproof_invariants::matrix::{self, Matrix};
-use rasterproof_invariants::{CATALOGUE, Invariant, MOST_LOOKED_THROUGH, Predicate, Ruling};
+use rasterproof_invariants::{
+    CATALOGUE, Failure, Invariant, MOST_LOOKED_THROUGH, Predicate, Ruling, Trial, drawn,
+};
 use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::words::thousands;
+use rasterproof_verify::judge::caught;
 
 /// Inputs of each invariant where the command line does not say.
 const CASES: u64 = 2_000;
@@ -37,7 +40,7 @@ pub fn run(
         CATALOGUE.iter().filter(|i| all || names.iter().any(|name| name == i.name)).collect();
     let mut outcomes = Outcomes::default();
     let progress = Progress::new(streams.progress, "invariants", Some(wanted.len() as u64));
-    let mut rows = Vec::new();
+    let (mut rows, mut excerpts) = (Vec::new(), Vec::new());
     for (done, invariant) in wanted.iter().enumerate() {
         progress.at(done as u64, invariant.name);
         let planted = plant.map(|name| format!(" --plant {name}")).unwrap_or_default();
@@ -45,7 +48,13 @@ pub fn run(
             let (program, name) = (program(), invariant.name);
             format!("{program} verify --invariant {name} --seed {seed} --cases {cases}{planted}")
         };
-        rows.push(judge(invariant, &subject, (seed, cases), &repeat, &mut outcomes));
+        let report = invariant.run(&subject, seed, cases);
+        rows.push(row(invariant, &subject, seed, &report, &repeat, &mut outcomes));
+        let places = || {
+            let asks = format!("{} verify{planted}", program());
+            [("repeat with", repeat(cases)), ("a cause is looked for by", asks)]
+        };
+        excerpts.extend(report.failure.map(|failure| excerpt(&subject, &failure, places())));
     }
     drop(progress);
     let columns = "invariant 28 | >cases 8 | >left out 8 since they do not fit it | >comparisons 8 | ~outcome 1 | \
@@ -53,6 +62,7 @@ pub fn run(
     let report = Report {
         about: format!("Invariants, seed {seed}"),
         tables: vec![Table::new("", columns, rows).judged()],
+        excerpts,
         outcome: (wanted.len() > 1).then(|| outcomes.outcome()),
         ..Report::default()
     };
@@ -96,23 +106,35 @@ impl Outcomes {
     }
 }
 
-/// Judges an invariant: its row, with what was found below it.
-fn judge(
+/// The smallest input, as it is drawn, and what repeats it.
+fn excerpt(
+    subject: &Implementations,
+    Failure { family, index, what, case, .. }: &Failure,
+    places: [(&'static str, String); 2],
+) -> Excerpt {
+    let picture = caught(|| drawn(subject, case)).ok().flatten();
+    Excerpt {
+        title: format!("{family}: {what} (from case {index}, shrunk)"),
+        exchanges: vec![("input", case.to_string())],
+        grid: picture.unwrap_or_default(),
+        notes: vec!["no cause was recognised: an invariant compares and does not ask".to_owned()],
+        places: places.into(),
+    }
+}
+
+/// What came of an invariant, with what was found below it.
+fn row(
     invariant: &Invariant,
     subject: &Implementations,
-    (seed, cases): (u64, u64),
+    seed: u64,
+    report: &Trial,
     repeat: &dyn Fn(u64) -> String,
     outcomes: &mut Outcomes,
 ) -> Row {
-    let report = invariant.run(subject, seed, cases);
     let (word, found) = match (report.ruling(), &report.failure) {
         (Ruling::Holds, _) => ("holds", String::new()),
         (Ruling::Fails, None) => ("", "FAILS".to_owned()),
-        (_, Some(failure)) => {
-            let what = format!("FAILS in case {}: {}", failure.index, failure.what);
-            let repeat = repeat(cases);
-            ("", format!("{what}\nsmallest found: {}\nrepeat with: {repeat}", failure.case))
-        }
+        (_, Some(failure)) => ("", format!("FAILS in case {}", failure.index)),
         (Ruling::NotJudged, None) => {
             let why = match invariant.cases_needed(subject, seed) {
                 Some(needed) => {

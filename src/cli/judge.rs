@@ -14,10 +14,11 @@ use super::{InputError, Status, Streams, exit, league, usage};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
-use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
-use rasterproof_judge::{Options, family_names, polygons, process_group};
+use rasterproof_judge::verdict::Scores as _;
+use rasterproof_judge::{Options, family_names, polygons};
+use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
 
@@ -171,7 +172,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         Some(path) => Some(Baseline::read(path, arguments.seed).map_err(usage)?),
         None => None,
     };
-    process_group::end_all_on_ctrl_c();
+    group::end_all_on_ctrl_c();
     let start = |who: &str, command: &[String]| {
         let program = Program::start(command, &arguments.words(), limits);
         let program = program.map_err(|m| usage(format!("{who} {m}\n  {}", m.remedy())))?;
@@ -221,7 +222,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         against::compare(&mut pairs, &options, &step)
     };
     drop(progress);
-    if let Some(why) = verdict.judged_nothing(&options) {
+    if let Some(why) = verdict.judged_nothing() {
         return Err(usage(why));
     }
     if let Some(baseline) = &baseline {

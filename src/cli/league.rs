@@ -11,9 +11,9 @@ use rasterproof_host::{input, limits};
 use super::{Status, Streams, exit, usage};
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::league::{Adapter, League, Ranked, date};
-use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::{Options, Step, process_group};
+use rasterproof_judge::{Options, Step};
+use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::html::Report;
 use rasterproof_report::json::pretty;
 use rasterproof_report::league;
@@ -40,7 +40,7 @@ pub fn run(
             "{name:?} is no adapter\n  adapters/install --list shows the names"
         )));
     }
-    process_group::end_all_on_ctrl_c();
+    group::end_all_on_ctrl_c();
     let (mut rows, mut shown) = (Vec::new(), Vec::new());
     for adapter in adapters.iter().filter(|a| names.is_empty() || names.contains(&a.name)) {
         let program = match Program::start(&adapter.command, &[], limits) {

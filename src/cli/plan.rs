@@ -20,7 +20,7 @@ use rasterproof_render::scene::Scene;
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::table::Table;
 use rasterproof_report::words::thousands;
-use rasterproof_report::{frame_comparison, json};
+use rasterproof_report::{frame_comparison, json, picture};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("plan"))]
@@ -290,7 +290,7 @@ fn draw_without(
     let mut notes: Vec<String> = lines.map(reason).collect();
     for (ending, picture) in [("png", &other.picture), ("difference.png", &difference)] {
         let output = arguments.page.place.output(format!("{stem}.{ending}"));
-        if streams.save(&output, &frame_comparison::png(picture)?) {
+        if streams.save(&output, &picture::png(&picture::of_frame(picture))) {
             notes.push(format!("drawn in {}", printable_path(&output.path)));
         }
     }
@@ -420,9 +420,8 @@ fn counts([everything, planned]: [&Rendered; 2]) -> Table {
 
 /// The frames side by side.
 fn view(typed: &Typed, scene: &Scene, frames: [&Rendered; 2]) -> PictureView {
-    let layer = |(name, frame): (_, &Rendered)| {
-        PictureLayer::new(name, &frame_comparison::rgb(&frame.picture))
-    };
+    let layer =
+        |(name, frame): (_, &Rendered)| PictureLayer::new(name, &picture::of_frame(&frame.picture));
     PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),
@@ -459,8 +458,11 @@ fn report(
             _ => Outcome::of(same, sentence),
         }),
         command: typed.line(),
-        tables: [counts(frames)].into_iter().chain(savings_of_each).chain([whole]).collect(),
-        plan: Some(plan_table::table(&frames[1].plan.decisions)),
+        tables: [plan_table::table(&frames[1].plan.decisions), counts(frames)]
+            .into_iter()
+            .chain(savings_of_each)
+            .chain([whole])
+            .collect(),
         ..Report::default()
     }
 }

@@ -145,7 +145,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         return map(arguments, scene, &output, streams);
     }
     let mut drawings = draw(arguments, scene, &progress)?;
-    let picture = frame_comparison::png(&drawings[0].rendered.picture)?;
+    let picture = picture::png(&picture::of_frame(&drawings[0].rendered.picture));
     let comparison = compare(scene, &drawings, arguments.plan.is_some())?;
     let by_rounding = match arguments.wireframe {
         true => None,
@@ -157,7 +157,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let is_drawn = |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || leaves_open(c);
     let mut difference_in = None;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
-        let picture = frame_comparison::png(&comparison.picture)?;
+        let picture = picture::png(&picture::of_frame(&comparison.picture));
         difference_in = streams.save(&difference, &picture).then_some(difference.path.as_path());
     }
     let times = Times {
@@ -307,14 +307,13 @@ fn add_to_page(
     drawings: &[Drawing],
     comparison: Option<&Comparison>,
 ) {
-    let layer =
-        |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
+    let layer = |d: &Drawing| PictureLayer::new(d.name, &picture::of_frame(&d.rendered.picture));
     let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
-    let marked =
-        marked.map(|c| PictureLayer::map("what differs", &frame_comparison::rgb(&c.picture)));
+    let marked = marked.map(|c| PictureLayer::map("what differs", &picture::of_frame(&c.picture)));
     report.title = format!("The scene {}", scene.name);
     report.command = typed.line();
-    report.plan = drawings.first().map(|d| plan_table::table(&d.rendered.plan.decisions));
+    let plan = drawings.first().map(|d| plan_table::table(&d.rendered.plan.decisions));
+    report.tables.splice(0..0, plan);
     report.frames = vec![PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),
@@ -521,7 +520,7 @@ fn draw_in_tiles(
         }
     }
     let is_handed_over = handed_over.triangles() == all;
-    if streams.save(output, &frame_comparison::png(&picture)?) {
+    if streams.save(output, &picture::png(&picture::of_frame(&picture))) {
         let (side, path) = (frames::SIDE_PX, printable_path(&output.path));
         let tiles = format!("in tiles of {side} x {side} px ");
         notes.push(format!("drawn {}in {path}", if is_handed_over { "" } else { &tiles }));

@@ -23,7 +23,6 @@ use super::files::{self, Output, Use, written};
 use super::page::{self, Place};
 use super::{Status, Streams, exit, program, usage};
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report, TextDiff};
-use rasterproof_report::panels::{self, Sheet};
 use rasterproof_report::table::{Row, Table};
 
 #[derive(clap::Args, Debug)]
@@ -43,8 +42,6 @@ pub struct ReviewArguments {
 const USUAL: [&str; 2] = ["snapshots", "tests"];
 /// Snapshots that are listed, and shown where there is room on the page.
 const MOST_LISTED: usize = 500;
-/// Panels of one sheet that are named with their counts.
-const MOST_PANELS: usize = 12;
 /// Folders that are named where they cannot be read.
 const MOST_UNREAD: usize = 10;
 
@@ -267,7 +264,7 @@ fn decode(bytes: &[u8], left_px: &mut u64) -> Result<RgbImage, String> {
     Ok(reader().decode().map_err(|e| e.to_string())?.to_rgb8())
 }
 
-/// What changed: for the sheets of cases who draws how many pixels of the case otherwise.
+/// What changed, and where.
 fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, Shown) {
     let image = match decode(new, left_px) {
         Ok(image) => image,
@@ -280,36 +277,11 @@ fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, Shown
             format!("a picture; the old one is not readable: {reason}"),
             Shown::Picture(vec![new_layer]),
         ),
-        Some(Ok(before)) => {
-            let sheets = old.and_then(Sheet::from_png).zip(Sheet::from_png(new));
-            let what =
-                sheets.map_or_else(|| difference(&before, &image), |(a, b)| who_changed(&a, &b));
-            (what, Shown::Picture(vec![PictureLayer::new("old", &before), new_layer]))
-        }
+        Some(Ok(before)) => (
+            difference(&before, &image),
+            Shown::Picture(vec![PictureLayer::new("old", &before), new_layer]),
+        ),
     }
-}
-
-/// Panels of old and new sheet, compared by the pixels of the case.
-fn who_changed(old: &Sheet, new: &Sheet) -> String {
-    let changes = panels::changes(old, new);
-    let changed: Vec<_> = changes.iter().filter(|(_, count)| *count > 0).collect();
-    if changed.is_empty() {
-        return "no pixel of the case changed: the sheet itself did".to_owned();
-    }
-    let mut said: Vec<_> = changed
-        .iter()
-        .take(MOST_PANELS)
-        .map(|(name, count)| {
-            let s = if *count == 1 { "" } else { "s" };
-            format!("{} changed in {count} pixel{s}", printable_short(name, 60))
-        })
-        .collect();
-    if changed.len() > MOST_PANELS {
-        said.push(format!("and {} more panels changed", changed.len() - MOST_PANELS));
-    }
-    let windows = [old, new].map(|sheet| sheet.panels.first().map(|panel| panel.shown));
-    let moved = if windows[0] == windows[1] { "" } else { "another part of the case is shown: " };
-    format!("{moved}{}", said.join(", "))
 }
 
 fn difference(old: &RgbImage, new: &RgbImage) -> String {
@@ -317,11 +289,18 @@ fn difference(old: &RgbImage, new: &RgbImage) -> String {
         let ((a, b), (c, d)) = (old.dimensions(), new.dimensions());
         return format!("a picture of {a} x {b} px became one of {c} x {d} px");
     }
-    let count = old.pixels().zip(new.pixels()).filter(|(a, b)| a != b).count();
-    format!(
-        "{count} of {} pixels of the picture changed",
-        u64::from(old.width()) * u64::from(old.height())
-    )
+    let (mut count, mut first, mut last) = (0u64, [u32::MAX; 2], [0; 2]);
+    for ((x, y, _), _) in old.enumerate_pixels().zip(new.pixels()).filter(|((.., a), b)| a != b) {
+        count += 1;
+        first = [first[0].min(x), first[1].min(y)];
+        last = [last[0].max(x), last[1].max(y)];
+    }
+    if count == 0 {
+        return "no pixel of the picture changed".to_owned();
+    }
+    let all = u64::from(old.width()) * u64::from(old.height());
+    let ([x0, y0], [x1, y1]) = (first, last);
+    format!("{count} of {all} pixels of the picture changed, from {x0},{y0} to {x1},{y1}")
 }
 
 fn accept(one: &Pending) -> String {

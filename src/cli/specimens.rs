@@ -56,7 +56,7 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
         .collect();
     drop(progress);
     let drawn = match cards.as_slice() {
-        [card] => specimen_sheet::alone(card).image,
+        [card] => specimen_sheet::alone(card),
         _ => specimen_sheet::contact_sheet(),
     };
     let (png, unasked) = (picture::png(&drawn), arguments.page.place.output("specimens.png"));
@@ -106,7 +106,6 @@ fn report(
             let typed = typed.clone().first("cases", arguments.cases);
             typed.first("seed", arguments.seed).line()
         },
-        seed: Some(arguments.seed),
         tables: specimens::tables(reports),
         data: json::specimens(arguments.seed, arguments.cases, reports),
         cases,

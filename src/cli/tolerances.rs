@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use rasterproof_host::text::printable_path;
 use rasterproof_invariants::acceptance::rules::{RULES, Rule};
 use rasterproof_invariants::acceptance::{Acceptance, Row, report};
-use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
+use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, Ink, RED};
 use rasterproof_report::html::Report as Page;
-use rasterproof_report::json;
 use rasterproof_report::table::Table;
+use rasterproof_report::{cost_plots, json};
 
 use super::files::Output;
 use super::page::{Shown, show};
@@ -117,53 +117,26 @@ struct Data<'a> {
     found: &'a Acceptance,
 }
 
-const CAUGHT: Ink = [31, 84, 170];
-const HARD: Ink = [20, 110, 50];
-const REFUSED: Ink = [205, 30, 30];
-
 /// For each rule the share of faults that it catches, on either set, and the share of right rasterizers that it refuses.
 fn plot(report: &Acceptance) -> Drawing {
-    const LEFT: f64 = 150.0;
-    const RIGHT: f64 = 770.0;
-    const TOP: f64 = 92.0;
-    const ROW: f64 = 34.0;
-    let bottom = TOP + ROW * RULES.len() as f64;
-    let title = "What acceptance rules catch, and which right rasterizers they refuse";
-    let mut drawing = Drawing::new(title, [800.0, bottom + 40.0]);
-    drawing.text([12.0, 18.0], title, INK);
     let (faults, right) = (report.faults.len(), report.right.len());
     let legend = [
-        (CAUGHT, format!("caught of {faults} faults, scenes such as test suites draw")),
-        (HARD, format!("caught of {faults} faults, hard cases of this project")),
-        (REFUSED, format!("refused of {right} right rasterizers, in either set")),
+        (BLUE, format!("caught of {faults} faults, scenes such as test suites draw")),
+        (GREEN, format!("caught of {faults} faults, hard cases of this project")),
+        (RED, format!("refused of {right} right rasterizers, in either set")),
     ];
-    for (i, (ink, words)) in legend.iter().enumerate() {
-        let y = 38.0 + 16.0 * i as f64;
-        drawing.filled_box([14.0, y - 4.0], [18.0, 8.0], *ink);
-        drawing.text([40.0, y], words, SOFT);
-    }
-    let x = |share: f64| LEFT + (RIGHT - LEFT) * share;
-    for quarter in 0..=4 {
-        let share = f64::from(quarter) / 4.0;
-        drawing.line([x(share), TOP], [x(share), bottom], GRID);
-        let label = format!("{}%", 25 * quarter);
-        drawing.text_about([x(share), bottom + 16.0], &label, SOFT);
-    }
-    for (i, rule) in RULES.iter().enumerate() {
-        let y = TOP + ROW * i as f64 + 6.0;
-        drawing.text_before([LEFT - 8.0, y + 10.0], rule.name, INK);
-        let refused = |row: &Row| row.refused_right.len();
-        let bars = [
-            (CAUGHT, report.suites[i].caught.len(), faults),
-            (HARD, report.hard[i].caught.len(), faults),
-            (REFUSED, refused(&report.suites[i]).max(refused(&report.hard[i])), right),
-        ];
-        for (bar, (ink, part, whole)) in bars.into_iter().enumerate() {
-            let size = [(RIGHT - LEFT) * part as f64 / whole as f64, 6.0];
-            if part > 0 {
-                drawing.filled_box([LEFT, y + 8.0 * bar as f64], size, ink);
-            }
-        }
-    }
-    drawing
+    let bar = |(ink, part, whole): (Ink, usize, usize)| {
+        (part as f64 / whole as f64, ink, part.to_string())
+    };
+    let row = |(rule, rows): (&Rule, [&Row; 2])| {
+        let [suites, hard] = rows.map(|row| row.caught.len());
+        let [in_suites, in_hard] = rows.map(|row| row.refused_right.len());
+        let bars =
+            [(BLUE, suites, faults), (GREEN, hard, faults), (RED, in_suites.max(in_hard), right)];
+        (rule.name, bars.map(bar).to_vec())
+    };
+    let rows = report.suites.iter().zip(&report.hard).map(<[&Row; 2]>::from);
+    let rows: Vec<_> = RULES.iter().zip(rows).map(row).collect();
+    let title = "What acceptance rules catch, and which right rasterizers they refuse";
+    cost_plots::bars(title, &legend.each_ref().map(|(ink, words)| (*ink, &**words)), &rows, 800.0)
 }

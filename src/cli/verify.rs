@@ -17,9 +17,10 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::table::Table;
-use rasterproof_report::{ascii, differential, json, page_cases, picture, summary};
+use rasterproof_report::{differential, json, page_cases, picture, summary};
 use rasterproof_verify::cases::{self, Case, Kind, Shape};
 use rasterproof_verify::comparison::{self, FamilyReport, Options, PairReport, Shard, Verdict};
+use rasterproof_verify::judge::ascii;
 
 /// `verify` with its name, which can also judge the engines on a model.
 #[derive(clap::Args, Debug)]
@@ -296,7 +297,6 @@ impl Run<'_> {
                 .collect(),
             command: self.repeat_all().line(),
             repeat: self.repeat_all().without_output().line(),
-            seed: Some(seed),
             first_screen,
             tables: families.into_iter().chain([differential::refused()]).collect(),
             cases: cases.unwrap_or_default(),

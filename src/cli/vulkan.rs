@@ -15,6 +15,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::Options;
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_precision::cost::ExternalVariant;
 use rasterproof_report::table::Table;
 
@@ -69,10 +70,10 @@ pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
     let bar = Progress::new(streams.progress, "cases", total);
     let stand = campaign::judge(gpu, &options, &|cases| bar.done(cases));
     drop(bar);
-    if stand.verdict.found.rows.is_empty() {
+    if stand.verdict.families.is_empty() {
         return Err(usage("no case was judged: the device does not draw what these families hold"));
     }
-    let judged = stand.verdict.found.rows.iter().map(|row| row.cases).max().unwrap_or(0);
+    let judged = stand.verdict.families.iter().map(|row| row.cases).max().unwrap_or(0);
     let cases = if limited { judged } else { cases };
     print(job, &stand, cases, streams)?;
     Ok(if stand.agrees() { exit::AGREES } else { exit::DISAGREES })

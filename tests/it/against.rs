@@ -1,13 +1,13 @@
 //! Two programs compared: where they differ, and which of them the oracle agrees with.
 
 use rasterproof_judge::against::compare;
-use rasterproof_judge::verdict::Judgement;
+use rasterproof_judge::verdict::{Scores as _, Verdict};
 use serde_json::Value;
 
 use crate::judge::{inside, options};
 use crate::program::{PROGRAM, Run, shared};
 
-fn compared(first: &str, second: &str, families: &[&str]) -> Judgement {
+fn compared(first: &str, second: &str, families: &[&str]) -> Verdict {
     compare(&mut [[inside(first), inside(second)]], &options(60, families), &|_| ())
 }
 
@@ -47,10 +47,10 @@ fn who_is_right_is_told() {
                 of_right > 0 && of_wrong + sides.neither + sides.both == 0,
                 "{wrong}: {sides:?}"
             );
-            let row = verdict.found.rows.iter().find(|row| row.name == property).unwrap();
+            let row = verdict.families.iter().find(|row| row.name == property).unwrap();
             assert!(row.wrong_cases > 0, "{wrong}: {property}");
             // Where it has a cause, it is that of the wrong one.
-            assert!(verdict.causes.iter().all(|why| why.by == wrong), "{:?}", verdict.causes);
+            assert!(verdict.cause.iter().all(|why| why.by == wrong), "{:?}", verdict.cause);
         }
     }
     // Both wrong, each in its own way.

@@ -6,7 +6,7 @@
 //! too long in it, runs once more as a process of its own, and that decides.
 
 use std::fmt::Write as _;
-use std::io::{Cursor, Write as _};
+use std::io::Write as _;
 use std::ops::Range;
 use std::path::Path;
 use std::process::Command;
@@ -21,7 +21,7 @@ use rasterproof_core::angle::{cos, sin};
 use rasterproof_verify::cases::Rng;
 
 use crate::model_files::below;
-use crate::program::{Folder, PROGRAM, Run};
+use crate::program::{Folder, PROGRAM, Run, encoded};
 
 /// Runs the program with at most so many MiB of memory and 20 seconds of processor time.
 fn within(mib: u32, folder: &Path, words: &[&str]) -> Run {
@@ -72,12 +72,8 @@ fn is_well(run: &Run) -> bool {
     matches!(run.status, Some(0..=2)) && !run.errors.contains("panicked")
 }
 
-fn png<P: image::PixelWithColorType + image::Pixel<Subpixel = u8>>(
-    picture: &image::ImageBuffer<P, Vec<u8>>,
-) -> Vec<u8> {
-    let mut bytes = Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, ImageFormat::Png).unwrap();
-    bytes.into_inner()
+fn png(picture: impl Into<DynamicImage>) -> Vec<u8> {
+    encoded(picture, ImageFormat::Png).unwrap()
 }
 
 /// Pictures for materials: of all sizes, with opacities and without, and broken ones.
@@ -86,15 +82,15 @@ fn pictures() -> Vec<(&'static str, Vec<u8>)> {
         let byte = (x.wrapping_mul(97) ^ y.wrapping_mul(57)) as u8;
         Rgba([byte, byte.rotate_left(3), 90, if byte > 99 { 255 } else { byte }])
     };
-    let good = png(&RgbaImage::from_fn(13, 7, speckled));
+    let good = png(RgbaImage::from_fn(13, 7, speckled));
     let mut cut = good.clone();
     cut.truncate(good.len() / 2);
     vec![
         ("a.png", good),
-        ("wide.png", png(&GrayImage::from_pixel(4096, 1, Luma([77])))),
-        ("large.png", png(&GrayImage::from_pixel(2048, 1024, Luma([200])))),
+        ("wide.png", png(GrayImage::from_pixel(4096, 1, Luma([77])))),
+        ("large.png", png(GrayImage::from_pixel(2048, 1024, Luma([200])))),
         ("cut.png", cut),
-        ("one.png", png(&RgbaImage::from_pixel(1, 1, Rgba([255, 0, 0, 128])))),
+        ("one.png", png(RgbaImage::from_pixel(1, 1, Rgba([255, 0, 0, 128])))),
         ("text.png", b"no picture".to_vec()),
     ]
 }
@@ -121,12 +117,8 @@ fn picture(rng: &mut Rng) -> Vec<u8> {
     };
     let format =
         pick(rng, &[ImageFormat::Png, ImageFormat::Png, ImageFormat::Bmp, ImageFormat::Tiff]);
-    let mut bytes = Cursor::new(Vec::new());
     // Not every format has every kind of pixels.
-    if picture.write_to(&mut bytes, format).is_err() {
-        return Vec::new();
-    }
-    bytes.into_inner()
+    encoded(picture, format).unwrap_or_default()
 }
 
 /// The most bytes of a model.
@@ -875,7 +867,7 @@ fn textured(count: usize, names: &[&str]) -> Vec<u8> {
 #[test]
 fn a_picture_is_decoded_once_however_often_it_is_named() {
     let folder = Folder::new("hostile-models-textures");
-    let picture = png(&image::RgbImage::from_pixel(2048, 2048, image::Rgb([209, 199, 200])));
+    let picture = png(image::RgbImage::from_pixel(2048, 2048, image::Rgb([209, 199, 200])));
     for name in ["a.png", "b.png"] {
         folder.put(name, &picture);
     }

@@ -62,7 +62,7 @@ fn larger(picture: &RgbImage, zoom: u32) -> RgbImage {
 fn rendered(name: &str, effects: Effects, antialias: Antialias) -> RgbImage {
     let mut target = target_of(WIDTH, HEIGHT, antialias);
     let drawn = Drawer::Scanline.render(&still(name), &effects, &mut target);
-    frame_comparison::rgb(&drawn.unwrap().picture)
+    picture::of_frame(&drawn.unwrap().picture)
 }
 
 /// A part of the homework's scene, where both triangles have an edge: one sample a pixel, four.
@@ -142,7 +142,7 @@ fn pictures_of_what_files_ask_for() {
         let [with, without] = [Effects::PLANNED, without].map(|effects| {
             let mut target = target_of(192, 144, Antialias::None);
             let drawn = Drawer::Scanline.render(&still(scene), &effects, &mut target);
-            frame_comparison::rgb(&drawn.unwrap().picture)
+            picture::of_frame(&drawn.unwrap().picture)
         });
         assert_ne!(with, without, "{scene}");
         let name = format!("asks-{}", effect.name());

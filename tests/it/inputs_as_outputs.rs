@@ -10,6 +10,7 @@ use std::sync::LazyLock;
 
 use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
 use rasterproof_core::parallel;
+use rasterproof_report::picture;
 
 use crate::program::{Folder, PROGRAM, Run};
 
@@ -111,10 +112,7 @@ static INPUTS: LazyLock<BTreeMap<&str, Vec<u8>>> = LazyLock::new(inputs);
 fn inputs() -> BTreeMap<&'static str, Vec<u8>> {
     let made = Folder::new("inputs-as-outputs-made");
     let printed = |words: &str| made.check(words, AGREES).out.into_bytes();
-    let mut texture = std::io::Cursor::new(Vec::new());
-    image::RgbImage::from_pixel(2, 2, image::Rgb([200, 40, 10]))
-        .write_to(&mut texture, image::ImageFormat::Png)
-        .unwrap();
+    let texture = picture::png(&image::RgbImage::from_pixel(2, 2, image::Rgb([200, 40, 10])));
     let floats = [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0];
     let adapter = serde_json::json!([{
         "name": "own", "library": "own", "call": "own", "command": [PROGRAM, "engine", "scanline"]
@@ -125,7 +123,7 @@ fn inputs() -> BTreeMap<&'static str, Vec<u8>> {
     BTreeMap::from([
         ("m.obj", format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n").into()),
         ("m.mtl", b"newmtl a\nKd 1 1 1\nmap_Kd t.png\n".to_vec()),
-        ("t.png", texture.into_inner()),
+        ("t.png", texture),
         ("m.gltf", gltf().into()),
         ("m.bin", floats.iter().flat_map(|value| value.to_le_bytes()).collect()),
         ("known.txt", fs::read(made.join("known.txt")).unwrap()),

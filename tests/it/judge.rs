@@ -12,10 +12,10 @@ use rasterproof_judge::ask::{Answer, Asked, Misbehaviour, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::expected::Expect as _;
 use rasterproof_judge::in_process::Inside;
-use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::verdict::{Judgement, Outcome};
+use rasterproof_judge::verdict::{Outcome, Scores as _, Verdict};
 use rasterproof_judge::{Asking, Options, judge};
+use rasterproof_program::{Limits, Program};
 use rasterproof_registry::engines::{self, SPECIMENS};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rayon::prelude::*;
@@ -36,7 +36,7 @@ pub fn patient(cases: u64, families: &[&str]) -> Options {
     options(cases, families).terms(Asking::default())
 }
 
-pub fn judged(asker: Box<dyn Subject>, options: &Options) -> Judgement {
+pub fn judged(asker: Box<dyn Subject>, options: &Options) -> Verdict {
     judge(&mut [asker], options, &|_| None, &|_| ())
 }
 
@@ -59,8 +59,8 @@ fn misbehaving(fault: &str, limits: Limits) -> Result<Program, Misbehaviour> {
     Program::start(&misbehave::command("scanline", fault), &[], limits)
 }
 
-pub fn property(verdict: &Judgement, name: &str) -> Outcome {
-    let found = verdict.properties.iter().find(|p| p.name == name);
+pub fn property(verdict: &Verdict, name: &str) -> Outcome {
+    let found = verdict.more.properties.iter().find(|p| p.name == name);
     found.unwrap_or_else(|| panic!("{name} was not judged")).outcome
 }
 
@@ -120,10 +120,10 @@ fn judge_finds_the_same_through_a_pipe() {
         let options = options(8, &[]);
         let without = judged(inside(name), &options);
         let through = judged(Box::new(process(&[name], 20_000).unwrap()), &options);
-        assert_eq!(through.found.rows, without.found.rows, "{name}");
-        assert_eq!(through.found.failing, without.found.failing, "{name}");
+        assert_eq!(through.families, without.families, "{name}");
+        assert_eq!(through.more.found.failing, without.more.found.failing, "{name}");
         assert_eq!(through.agrees(), without.agrees(), "{name}");
-        assert_eq!(through.windings, without.windings, "{name}");
+        assert_eq!(through.more.windings, without.more.windings, "{name}");
     });
 }
 
@@ -148,27 +148,28 @@ fn judge_names_misbehaviour() {
     ] {
         let program = misbehaving(fault, limits(400)).unwrap();
         let verdict = judged(Box::new(program), &options(64, &["half-integer", "uniform"]));
-        let incidents = verdict.found.incidents.iter().map(|i| &i.what);
+        let incidents = verdict.more.found.incidents.iter().map(|i| &i.what);
         let words: Vec<_> =
-            incidents.chain(&verdict.found.strays).map(|m| m.breach.name()).collect();
+            incidents.chain(&verdict.more.found.strays).map(|m| m.breach.name()).collect();
         assert!(words.contains(&word), "{fault}: {words:?}");
         assert_eq!(property(&verdict, "protocol"), Outcome::Fail, "{fault}");
         assert_eq!(property(&verdict, "uniform"), Outcome::Pass, "{fault}");
-        let requests = verdict.found.incidents.iter().map(|i| &i.request);
+        let requests = verdict.more.found.incidents.iter().map(|i| &i.request);
         // The second answer is noticed at the next request, which is not the one it names.
         let is_late_notice = ["twice", "floods-lines"].contains(&fault);
         assert!(is_late_notice || requests.clone().all(|r| r.starts_with("T 1 16 16 ")), "{fault}");
-        let uniform = verdict.found.rows.iter().find(|row| row.name == "uniform").unwrap();
+        let uniform = verdict.families.iter().find(|row| row.name == "uniform").unwrap();
         assert_eq!((uniform.cases, uniform.wrong_cases), (64, 0), "{fault}");
         if requests.count() > 0 {
-            let stopped = verdict.found.rows.iter().find(|row| row.name == "half-integer");
+            let stopped = verdict.families.iter().find(|row| row.name == "half-integer");
             assert!(stopped.unwrap().stopped, "{fault}: a family stops at the third death");
         }
         #[cfg(target_os = "linux")]
         if fault == "forks" {
-            let pids = verdict.complaints.iter().filter_map(|line| line.strip_prefix("child "));
+            let pids =
+                verdict.more.complaints.iter().filter_map(|line| line.strip_prefix("child "));
             let pids: Vec<_> = pids.collect();
-            assert!(!pids.is_empty(), "{:?}", verdict.complaints);
+            assert!(!pids.is_empty(), "{:?}", verdict.more.complaints);
             assert!(pids.iter().all(|pid| is_gone(pid)), "{pids:?} live on");
         }
     }
@@ -210,7 +211,7 @@ fn judge_bears_with_old_and_loud_programs() {
         assert_eq!(program.declared().version, if plant == "old" { 1 } else { 2 });
         let verdict = judged(Box::new(program), &options(64, &["half-integer"]));
         assert!(verdict.agrees(), "{plant}");
-        let said = verdict.complaints.join("");
+        let said = verdict.more.complaints.join("");
         assert_eq!(said.contains("\\u{1b}[31mred"), plant == "noisy", "{said}");
         assert!(!said.contains('\u{1b}'));
     }
@@ -273,12 +274,17 @@ fn judge_goes_by_what_is_declared() {
     ] {
         let declared = Declared::parse(&format!("HELLO 2 x coverage {words}")).unwrap();
         let verdict = judged(Box::new(ByRule(declared)), &options(60, &[]));
-        let failing: Vec<_> =
-            verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
+        let failing: Vec<_> = verdict
+            .more
+            .properties
+            .iter()
+            .filter(|p| !p.outcome.is_good())
+            .map(|p| p.name)
+            .collect();
         let is_closed = ["strict", "inclusive", "none"].iter().any(|rule| words.contains(rule));
         let expected: &[&str] = if is_closed { &["watertight"] } else { &[] };
         assert_eq!(failing, expected, "{words}");
-        let row = verdict.found.rows.iter().find(|row| row.name == "watertight").unwrap();
+        let row = verdict.families.iter().find(|row| row.name == "watertight").unwrap();
         assert_eq!(row.tally.missing > 0, words.contains("strict") || words.contains("none"));
         assert_eq!(row.tally.twice > 0, words.contains("inclusive"), "{words}");
     }
@@ -292,13 +298,13 @@ fn judge_goes_by_what_is_declared() {
 
 const EVERYTHING: Scope = Scope { triangles: true, lines: true, always: false };
 
-fn recognised(asker: Box<dyn Subject>, options: &Options) -> Judgement {
+fn recognised(asker: Box<dyn Subject>, options: &Options) -> Verdict {
     judge(&mut [asker], options, &|program| recognise(program, EVERYTHING), &|_| ())
 }
 
 /// What is said of a program, and its wrong pixels as declared and by its convention.
-fn said(verdict: &Judgement) -> (String, &str, u64, Option<u64>) {
-    let said = verdict.recognised.as_ref().expect("something is recognised");
+fn said(verdict: &Verdict) -> (String, &str, u64, Option<u64>) {
+    let said = verdict.more.recognised.as_ref().expect("something is recognised");
     let score = verdict.by_convention().map(|score| score.wrong);
     (said.sentences.join(" "), said.declare.as_str(), verdict.as_declared().wrong, score)
 }
@@ -362,7 +368,7 @@ fn judge_recognises_rules() {
         let mut declared = of(says);
         words.split(' ').for_each(|word| declared.hear(word));
         let again = recognised(drawing(of(drawn), declared), &options(60, &NEAR));
-        assert!(again.recognised.is_none() && again.as_declared().wrong == 0, "{drawn}");
+        assert!(again.more.recognised.is_none() && again.as_declared().wrong == 0, "{drawn}");
     }
 }
 
@@ -471,6 +477,14 @@ fn judge_writes_formats() {
         assert_eq!((&test["max_score"], test["output"].is_string()), (&1.into(), true));
     }
     assert_eq!(scores["score"], properties.len() - failing);
+    // Who fails sees the case as a terminal shows it.
+    let shows = |test: &serde_json::Value| {
+        let output = test["output"].as_str().unwrap();
+        ["request:", "judged   expected", "# agrees", "repeat with: "]
+            .iter()
+            .all(|part| output.contains(part))
+    };
+    assert!(tests.iter().any(shows), "{scores}");
 
     let result: serde_json::Value = serde_json::from_str(&of_it("github-classroom")).unwrap();
     assert_eq!((&result["version"], &result["status"]), (&1.into(), &"fail".into()));
@@ -611,7 +625,7 @@ fn judge_tells_what_leaves_the_window() {
             });
         let mut changes: [Box<dyn Subject>; 1] = [Box::new(changes)];
         let verdict = judge(&mut changes, &options, &|program| recognise(program, scope), &|_| ());
-        let text = verdict.recognised.as_ref().unwrap().sentences.concat();
+        let text = verdict.more.recognised.as_ref().unwrap().sentences.concat();
         assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");
         (verdict, text)
     };
@@ -627,10 +641,10 @@ fn judge_tells_what_leaves_the_window() {
     assert!(text.contains("they count as wrong"), "{text}");
     let score = verdict.by_convention().unwrap();
     assert!(score.wrong > 50 && score.unscored == 0, "{score:?}");
-    let cause = &verdict.causes[0].why.causes[0];
+    let cause = &verdict.cause[0].why.causes[0];
     assert_eq!(cause.name, "ends are clamped to the window");
     let verdict = recognised(inside("line-directed-ties"), &options);
-    let text = verdict.recognised.as_ref().unwrap().sentences.concat();
+    let text = verdict.more.recognised.as_ref().unwrap().sentences.concat();
     assert!(!text.contains("leave the window") && !text.is_empty(), "{text}");
     assert_eq!(verdict.by_convention().unwrap().unscored, 0);
 }
@@ -740,7 +754,7 @@ fn judge_compares_fill_and_outline() {
         };
         let verdict =
             judged(Box::new(Answering(declared, answer)), &options(200, &["half-integer"]));
-        let row = verdict.found.rows.iter().find(|row| row.name == "fill-and-outline").unwrap();
+        let row = verdict.families.iter().find(|row| row.name == "fill-and-outline").unwrap();
         assert_eq!(row.cases, 50);
         (row.wrong_cases, row.tally.missing, row.tally.extra)
     };
@@ -786,7 +800,7 @@ fn judge_takes_a_declared_near_plane() {
     assert!(judged_as("near=zero").agrees());
     let verdict = judged_as("");
     assert!(!verdict.agrees());
-    assert!(verdict.causes[0].why.to_string().contains("clips at z = 0"), "{:?}", verdict.causes);
+    assert!(verdict.cause[0].why.to_string().contains("clips at z = 0"), "{:?}", verdict.cause);
 }
 
 /// Meshes across the border of the window show what clipping does to shared edges.
@@ -813,7 +827,7 @@ fn judge_asks_for_meshes_across_the_border() {
     assert_eq!(property(&verdict, "watertight"), Outcome::Fail);
     let verdict = judged(inside("scanline"), &options(200, &["mesh-border"]));
     assert!(verdict.agrees());
-    let row = verdict.found.rows.iter().find(|row| row.name == "watertight").unwrap();
+    let row = verdict.families.iter().find(|row| row.name == "watertight").unwrap();
     assert!(row.cases > 100, "{row:?}");
 }
 
@@ -832,10 +846,32 @@ fn judge_measures_how_far_lines_are_walked() {
     };
     let declared = Declared::parse("HELLO 2 x line").unwrap();
     let verdict = judged(Box::new(Answering(declared, answer)), &options(3, &["line-far"]));
-    let reach = verdict.reach.unwrap();
+    let reach = verdict.more.reach.unwrap();
     assert!((1 << 10..=1 << 16).contains(&reach), "{reach}");
     assert!(verdict.agrees());
-    assert_eq!(judged(inside("bresenham"), &options(3, &["line-octants"])).reach, None);
+    assert_eq!(judged(inside("bresenham"), &options(3, &["line-octants"])).more.reach, None);
+}
+
+/// The same of triangles, whose rows outside the window are walked.
+#[test]
+fn judge_measures_how_large_triangles_are_walked() {
+    let mut engine = Inside::new(engines::find("scanline").unwrap());
+    let answer = move |questions: &[Question], most: u64| {
+        for question in questions {
+            if let Asked::Coverage(corners) = question.of {
+                let y = corners.map(|c| c.y);
+                let rows = y.iter().max().unwrap().abs_diff(*y.iter().min().unwrap()) / 256;
+                std::thread::sleep(Duration::from_nanos(100 * u64::from(rows)));
+            }
+        }
+        engine.ask(questions, most)
+    };
+    let declared = Declared::parse("HELLO 2 x coverage").unwrap();
+    let verdict = judged(Box::new(Answering(declared, answer)), &options(3, &["huge"]));
+    let side = verdict.more.side.unwrap();
+    assert!((1 << 12..=1 << 20).contains(&side), "{side}");
+    assert!(verdict.agrees());
+    assert_eq!(judged(inside("scanline"), &options(3, &["uniform"])).more.side, None);
 }
 
 /// What a program wrote before it ended without HELLO is shown.

@@ -61,6 +61,7 @@ mod quiz;
 mod recorded;
 mod review;
 mod robustness;
+mod rules;
 mod same_message;
 mod scenes;
 mod schema;

@@ -16,6 +16,7 @@ use rasterproof_judge as judge;
 use rasterproof_judge::ask::{Answer, Asked};
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_registry::engines;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Cull;
@@ -27,7 +28,7 @@ use rasterproof_verify::convention::{
     Convention, Known, LineConvention, LineQuestion, Quantum, Rounding, Shape, Ties,
     TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
-use rasterproof_verify::mistakes::{self, Explanation, Mistakes};
+use rasterproof_verify::mistakes::{self, Explanation, Mistakes, values};
 use rasterproof_verify::oracle::values::ExactTriangle;
 
 type Fill = fn(Corners, PixelRect, &mut Coverage);
@@ -140,6 +141,13 @@ const FILLS: &[(&str, Fill)] = &[
         // 12.4 in 16 bits.
         let word = |v: i32| i32::from((v / 16) as i16) * 16 + v % 16;
         right(c.map_array(|p| SubpixelPoint::new(word(p.x), word(p.y))), w, out);
+    }),
+    ("coordinates in short floats", |c, w, out| {
+        let half = |v: i32| {
+            let bits = (v as f32).to_bits();
+            f32::from_bits((bits + 0xfff + (bits >> 13 & 1)) & !0x1fff) as i32
+        };
+        right(c.map_array(|p| SubpixelPoint::new(half(p.x), half(p.y))), w, out);
     }),
     ("each axis on a grid of its own", |c, w, out| {
         right(c.map_array(|p| SubpixelPoint::new(p.x / 64 * 64, p.y)), w, out);
@@ -703,6 +711,42 @@ const FILLS: &[(&str, Fill)] = &[
         let runs: Vec<_> = out.runs().filter(|(y, ..)| Some(*y) == first).collect();
         runs.into_iter().for_each(|(y, a, b)| out.hit(y, a, b));
     }),
+    ("blocks are drawn whole", |c, w, out| {
+        // A hierarchy that takes a block for covered if three of its corner pixels are.
+        right(c, w, out);
+        let mut around = Coverage::new(PixelRect { x1: w.x1 + 3, y1: w.y1 + 3, ..w }, 0);
+        right(c, around.bounds(), &mut around);
+        let has = |x: i32, y: i32| i32::from(around.get(x, y).unwrap_or(0) > 0);
+        for (y, x) in (w.y0..w.y1).flat_map(|y| (w.x0..w.x1).map(move |x| (y, x))) {
+            let (left, top) = (x / 4 * 4, y / 4 * 4);
+            if has(left, top) + has(left + 3, top) + has(left, top + 3) + has(left + 3, top + 3) > 2
+            {
+                light(out, x, y);
+            }
+        }
+    }),
+    ("rows end elsewhere", |c, w, out| {
+        // No sub-pixel correction: rows are counted from the one that holds a corner.
+        walked(c, w, out, &|y, from, to| {
+            let slope = f64::from(to.x - from.x) / f64::from(to.y - from.y);
+            f64::from(from.x) / 256.0 + slope * f64::from(y - from.y.div_euclid(256))
+        });
+    }),
+    ("rows end elsewhere", |mut c, w, out| {
+        // A pixel at least in each row, so that thin parts have no gaps.
+        right(c, w, out);
+        c.sort_by_key(|p| p.y);
+        let first = |p: SubpixelPoint| (p.y + 127).div_euclid(256);
+        let at = |y: i32, from: SubpixelPoint, to: SubpixelPoint| {
+            let part = f64::from(y * 256 + 128 - from.y) / f64::from(to.y - from.y);
+            (f64::from(from.x) + f64::from(to.x - from.x) * part) / 256.0
+        };
+        for y in first(c[0]).max(0)..first(c[2]).min(w.y1) {
+            let short = if y < first(c[1]) { at(y, c[0], c[1]) } else { at(y, c[1], c[2]) };
+            let x = (short.min(at(y, c[0], c[2])) - 0.5).ceil();
+            light(out, x.clamp(-1.0, 9999.0) as i32, y);
+        }
+    }),
     ("the whole box is filled", |c, w, out| {
         let ([x0, x1], [y0, y1]) = (extent(c, 0), extent(c, 1));
         for y in w.y0..w.y1 {
@@ -712,6 +756,139 @@ const FILLS: &[(&str, Fill)] = &[
                     light(out, x, y);
                 }
             }
+        }
+    }),
+    ("two halves from their tips", |mut c, w, out| {
+        // In floats of 64 bits, between whole corners; only the lower half draws the row between.
+        c = c.map_array(|p| {
+            let whole = |v: i32| (v + 128).div_euclid(256) * 256;
+            SubpixelPoint::new(whole(p.x), whole(p.y))
+        });
+        c.sort_by_key(|p| p.y);
+        let [top, middle, bottom] = c.map_array(|p| [p.x, p.y].map(|v| f64::from(v) / 256.0));
+        let mut row = |y: f64, a: f64, b: f64| {
+            let [first, last] = [a.min(b), a.max(b)].map(|v| v.floor().clamp(-1.0, 40.0) as i32);
+            if y >= 0.0 && y < f64::from(w.y1) {
+                (first..=last).for_each(|x| light(out, x, y as i32));
+            }
+        };
+        let mut half = |tip: [f64; 2], a: [f64; 2], b: [f64; 2], step: f64, rows: f64| {
+            let [da, db] = [a, b].map(|p| (p[0] - tip[0]) / (p[1] - tip[1]) * step);
+            let (mut y, mut at) = (tip[1], [tip[0]; 2]);
+            for _ in 0..rows.min(1e5) as i32 {
+                row(y, at[0], at[1]);
+                (y, at) = (y + step, [at[0] + da, at[1] + db]);
+            }
+        };
+        if middle[1] == bottom[1] {
+            return half(top, middle, bottom, 1.0, middle[1] - top[1]);
+        }
+        if top[1] == middle[1] {
+            return half(bottom, top, middle, -1.0, bottom[1] - middle[1] + 1.0);
+        }
+        let part = (middle[1] - top[1]) / (bottom[1] - top[1]);
+        let cut = [top[0] + part * (bottom[0] - top[0]), middle[1]];
+        half(top, middle, cut, 1.0, middle[1] - top[1]);
+        half(bottom, middle, cut, -1.0, bottom[1] - middle[1] + 1.0);
+    }),
+    ("all that edges touch", |c, w, out| {
+        // Column by column, whatever the sides pass there; by the bottom-right rule inside.
+        tested(c, out, exactly, |_, e, along| e > 0 || (e == 0 && !owns(along)));
+        let points = c.map_array(|p| [p.x, p.y].map(|v| f64::from(v) / 256.0));
+        for i in 0..3 {
+            let [mut a, mut b] = [points[i], points[(i + 1) % 3]];
+            if a[0] > b[0] {
+                (a, b) = (b, a);
+            }
+            let mut column = |x: f64, from: f64, to: f64| {
+                let rows = from.max(0.0) as i32..=to.clamp(-1.0, 40.0) as i32;
+                (to >= 0.0).then(|| rows.for_each(|y| light(out, x as i32, y)));
+            };
+            if a[1].floor() == b[1].floor() {
+                let columns = a[0].floor().max(0.0) as i32..=b[0].floor().min(40.0) as i32;
+                columns.for_each(|x| light(out, x, a[1].floor() as i32));
+                continue;
+            }
+            if a[0].floor() == b[0].floor() {
+                column(a[0].floor(), a[1].min(b[1]).floor(), a[1].max(b[1]).floor());
+                continue;
+            }
+            // From side to side of pixels, at least a little in each step.
+            let slope = (b[1] - a[1]) / (b[0] - a[0]);
+            let [mut x, mut y] = a;
+            if x < 0.0 {
+                (x, y) = (0.0, y - x * slope);
+            }
+            while x < b[0].min(f64::from(w.x1)) {
+                light(out, x as i32, y.floor() as i32);
+                let (dx, row) = ((x + 1.0).floor() - x, y.floor());
+                let dy = match (y + dx * slope).floor() == row {
+                    true => dx * slope,
+                    false if slope < 0.0 => (row - y).min(-1e-9),
+                    false => (row + 1.0 - y).max(1e-9),
+                };
+                (x, y) = if dy == dx * slope { (x + dx, y + dy) } else { (x + dy / slope, y + dy) };
+            }
+        }
+    }),
+    ("triangles are left out by size", |c, w, out| {
+        if (0..2).all(|axis| extent(c, axis)[1].abs_diff(extent(c, axis)[0]) >= 384) {
+            right(c, w, out);
+        }
+    }),
+    ("rule by order", |c, _, out| {
+        // All ties of the second edge, of clockwise triangles alone.
+        let all = area(c) > 0;
+        tested(c, out, exactly, |i, e, along| {
+            e > 0 || (e == 0 && (owns(along) || (all && i == 1)))
+        });
+    }),
+    ("weights are cut", |c, _, out| {
+        // By a reciprocal of 32 bits, to 12 bits.
+        let whole = area(c).abs();
+        tested(c, out, exactly, |_, e, _| whole > 0 && (e * ((1_i64 << 32) / whole)) >> 20 >= 0);
+    }),
+    ("rounding of floats", |c, _, out| {
+        // The products of the corners are exact, and rounded once.
+        let edge = |a: [i64; 2], b: [i64; 2], p: [i64; 2]| {
+            let [du, dv] = [a[1] - b[1], b[0] - a[0]].map(|v| v as f32);
+            let rest = (a[0] * b[1] - a[1] * b[0]) as f32;
+            ((du * p[0] as f32 + dv * p[1] as f32) + rest) as i64
+        };
+        tested(c, out, edge, |_, e, along| e > 0 || (e == 0 && owns(along)));
+    }),
+    ("tiles are skipped", |c, w, out| {
+        // What does not lie in the triangle with all four corners.
+        right(c, w, out);
+        let p = c.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+        let sign = area(c).signum();
+        only(out, |x, y| {
+            let [x, y] = [x & !3, y & !3].map(i64::from);
+            [(0, 0), (3, 0), (0, 3), (3, 3)].iter().all(|(dx, dy)| {
+                let at = [(x + dx) * 256 + 128, (y + dy) * 256 + 128];
+                (0..3).all(|i| sign * exactly(p[i], p[(i + 1) % 3], at) >= 0)
+            })
+        });
+    }),
+    ("rows end elsewhere", |c, w, out| {
+        // Column by column, from the pixel of one crossing to that of the other.
+        let mut turned = c.map_array(|p| SubpixelPoint::new(p.y, p.x));
+        turned.sort_by_key(|p| p.y);
+        let first = |p: SubpixelPoint| (p.y + 127).div_euclid(256);
+        for x in first(turned[0]).max(0)..first(turned[2]).min(w.x1) {
+            let at = |a: SubpixelPoint, b: SubpixelPoint| {
+                let part = f64::from(x * 256 + 128 - a.y) / f64::from(b.y - a.y);
+                (f64::from(a.x) + part * f64::from(b.x - a.x)) / 256.0
+            };
+            let short = if x < first(turned[1]) {
+                at(turned[0], turned[1])
+            } else {
+                at(turned[1], turned[2])
+            };
+            let long = at(turned[0], turned[2]);
+            let [low, high] =
+                [long.min(short), long.max(short)].map(|v| v.floor().clamp(-1.0, 40.0) as i32);
+            (low..=high).for_each(|y| light(out, x, y));
         }
     }),
 ];
@@ -980,6 +1157,79 @@ const STROKES: &[(&str, Stroke)] = &[
         }
     }),
     ("lines are cut in whole numbers", |[a, b], last, emit| {
+        // By the parts of the way at which the window begins and ends, one pixel after it; their distances are cut down.
+        let way = [0, 1].map(|k| f64::from(b[k] - a[k]));
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for k in [0, 1] {
+            let ends = [0, last[k] + 1].map(|side| f64::from(side - a[k]) / way[k]);
+            if way[k] != 0.0 {
+                (from, to) = (from.max(ends[0].min(ends[1])), to.min(ends[0].max(ends[1])));
+            } else if a[k] < 0 || a[k] > last[k] + 1 {
+                return;
+            }
+        }
+        let at = |t: f64| [0, 1].map(|k| a[k] + (way[k] * t).floor() as i32);
+        if from <= to {
+            bresenham([at(from), at(to)], emit);
+        }
+    }),
+    ("lines are cut in whole numbers", |[mut a, mut b], last, emit| {
+        // Where x leaves the window, whatever becomes of y.
+        let (first, second) = (a, b);
+        if (a[0] < 0 && b[0] < 0) || (a[0] > last[0] && b[0] > last[0]) {
+            return;
+        }
+        for (end, other) in [(&mut a, second), (&mut b, first)] {
+            let side = end[0].clamp(0, last[0]);
+            if side != end[0] {
+                let part = f64::from(other[1] - end[1]) * f64::from(side - end[0])
+                    / f64::from(other[0] - end[0]);
+                *end = [side, end[1] + part as i32];
+            }
+        }
+        bresenham([a, b], emit);
+    }),
+    ("ties by direction", |[a, b], _, emit| {
+        // On where lines run up or are steep and run to the left.
+        let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+        let (long, short) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+        let steep = dy.abs() > dx.abs();
+        let on = dy < 0 || (steep && dx < 0);
+        let (mut error, [mut x, mut y]) = (2 * short - long, a);
+        for _ in 0..=long {
+            emit(x, y);
+            let across = error > 0 || (on && error == 0);
+            error += 2 * short - if across { 2 * long } else { 0 };
+            x += if !steep || across { dx.signum() } else { 0 };
+            y += if steep || across { dy.signum() } else { 0 };
+        }
+    }),
+    ("halved again and again", |[a, b], _, emit| {
+        fn halves(a: [i32; 2], b: [i32; 2], emit: &mut dyn FnMut(i32, i32)) {
+            let middle = [0, 1].map(|k| (a[k] + b[k]) >> 1);
+            if middle == a || middle == b {
+                emit(a[0], a[1]);
+                return emit(b[0], b[1]);
+            }
+            halves(a, middle, emit);
+            halves(middle, b, emit);
+        }
+        halves(a, b, emit);
+    }),
+    ("steps are added up in floats", |[a, b], _, emit| {
+        // One step too many.
+        let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs());
+        for i in 0..=steps {
+            let at = |k: usize| {
+                f64::from(a[k]) + f64::from(b[k] - a[k]) * (f64::from(i) / f64::from(steps + 1))
+            };
+            emit((at(0) + 0.5).floor() as i32, (at(1) + 0.5).floor() as i32);
+        }
+    }),
+    ("ends overflow", |[a, b], _, emit| {
+        bresenham([a, [0, 1].map(|k| a[k] + i32::from((b[k] - a[k]) as i8))], emit);
+    }),
+    ("lines are cut in whole numbers", |[a, b], last, emit| {
         // As gd does: each end is moved by a part that is cut, from itself.
         let (mut p, mut q) = (a, b);
         for k in [0, 1] {
@@ -996,6 +1246,19 @@ const STROKES: &[(&str, Stroke)] = &[
             }
         }
         bresenham([p, q], emit);
+    }),
+    ("one step at a time", |[[mut x, mut y], [x1, y1]], _, emit| {
+        let [dx, dy] = [i64::from((x1 - x).abs()), i64::from((y1 - y).abs())];
+        let (sx, sy, mut error) = ((x1 - x).signum(), (y1 - y).signum(), dx - dy);
+        emit(x, y);
+        for _ in 0..dx + dy {
+            if 2 * error > -dy {
+                (x, error) = (x + sx, error - dy);
+            } else {
+                (y, error) = (y + sy, error + dx);
+            }
+            emit(x, y);
+        }
     }),
     ("the sign of a step", |[[x0, y0], [x1, y1]], _, emit| {
         bresenham([[x0, y0], [x1, y0 + (y1 - y0).abs()]], emit);
@@ -1080,7 +1343,8 @@ fn mistakes_in_lines_are_named() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Every mistake of the table has a program in this file, but for those that need a window or a declaration of their own.
+/// Every mistake of the table has a program in this file, but for those that need a window or a declaration of their own, and areas,
+/// which are compared with exact ones where they are computed.
 #[test]
 fn mistakes_of_the_table_are_tried() {
     let tried = |name: &str| {
@@ -1088,7 +1352,12 @@ fn mistakes_of_the_table_are_tried() {
     };
     let untried: Vec<_> =
         mistakes::table().into_iter().map(|m| m.name).filter(|name| !tried(name)).collect();
-    let elsewhere = ["corners made by clipping are rounded", "small ones are drawn from behind"];
+    let elsewhere = [
+        "corners made by clipping are rounded",
+        "small ones are drawn from behind",
+        "coverage by area",
+        "a stroke of area",
+    ];
     assert_eq!(untried, elsewhere);
 }
 
@@ -1229,7 +1498,7 @@ fn judged_as(
     families: &[&str],
 ) -> String {
     let verdict = verdict(words, changed, families, &|_| None);
-    let said = verdict.causes.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
+    let said = verdict.cause.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
     said.collect::<Vec<_>>().join("\n")
 }
 
@@ -1245,7 +1514,7 @@ fn verdict(
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
     recognise: judge::Recognise<'_>,
-) -> judge::verdict::Judgement {
+) -> judge::verdict::Verdict {
     let right = Inside::new(engines::find("scanline").unwrap());
     let mut declared = judge::ask::Subject::declared(&right).clone();
     words.split_whitespace().for_each(|word| declared.hear(word));
@@ -1330,6 +1599,30 @@ fn mistakes_of_stages_are_named() {
     };
     let said = judged(biased, &["depth-order"]);
     assert!(said.contains("depths: It takes 2e-3 off the depth of a triangle"), "{said}");
+    // A pixel keeps the depth of its first triangle.
+    let said = judged(
+        |question, answer| {
+            let (Asked::Depth(list), Answer::Seen(_)) = (&question.of, &answer) else {
+                return answer;
+            };
+            let window = PixelRect::window(question.width, question.height);
+            let mut seen = std::collections::BTreeMap::new();
+            for (number, t) in (0..).zip(list) {
+                let mut show = |f: Fragment<DVec2>| {
+                    let at = [f.x_px, f.y_px].map(|v| f64::from(v) + 0.5);
+                    let depths = t.vertices.map(|v| v.depth);
+                    let depth = values::sum(values::weights(&t.corners(), at), depths);
+                    let kept = seen.entry((f.y_px, f.x_px)).or_insert((depth, number));
+                    kept.1 = if depth < kept.0 { number } else { kept.1 };
+                };
+                Scanline.fragments(t, window, &mut show);
+            }
+            let run = |((y_px, x0_px), (_, n))| (Span { y_px, x0_px, x1_px: x0_px + 1 }, n);
+            Answer::Seen(seen.into_iter().map(run).collect())
+        },
+        &["depth-order"],
+    );
+    assert!(said.contains("depths: It tests depths and does not write them"), "{said}");
     // A quadrilateral loses its last corner.
     let said = judged(
         |_, answer| match answer {
@@ -1363,8 +1656,12 @@ fn mistakes_of_stages_are_named() {
         ),
         (|_, lost, _| lost[4], "keeps attributes of the corner that is cut off"),
         (
+            |kept, lost, t| kept[4] + (lost[4] - kept[4]) * (t * 256.0).floor() / 256.0,
+            "divides attributes of an edge by a part that is cut to 1/256",
+        ),
+        (
             |kept, lost, t| t * kept[4] + (1.0 - t) * lost[4],
-            "divides attributes of an edge from the wrong end",
+            "divides attributes of an edge by a part that is counted from the wrong end",
         ),
     ] {
         let said = judged(
@@ -1470,7 +1767,7 @@ fn mistakes_that_are_planted_are_named() {
         let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
-        let is_named = verdict.causes.iter().any(|cause| cause.why.is_known());
+        let is_named = verdict.cause.iter().any(|cause| cause.why.is_known());
         let is_convention = verdict.by_convention().is_some_and(|score| score.wrong == 0);
         if !is_named && !is_convention {
             unnamed.push(name);
@@ -1511,7 +1808,16 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
             ExactTriangle::new(&t.corners(), t.vertices.map(|v| v.inv_w), [1.0; 3], [[0.0; 2]; 3]);
         f.depth = exact.map_or(f.depth, |exact| exact.at(f.x_px, f.y_px).0.to_f64());
     };
+    let turned: Change = |_, f| f.varying.x = 1.5 - 2.0 * f.varying.x;
+    let coarse: Change = |t, f| {
+        let exact =
+            ExactTriangle::new(&t.corners(), t.vertices.map(|v| v.inv_w), [1.0; 3], [[0.0; 2]; 3]);
+        let inverse = exact.map_or(1.0, |exact| exact.at(f.x_px, f.y_px).0.to_f64());
+        f.varying *= inverse / ((inverse * 1024.0).floor() / 1024.0);
+    };
     for (change, wanted) in [
+        (turned, "It gives -2 x the first attribute + 1.5"),
+        (coarse, "It keeps 1/w at a pixel in whole numbers and 10 bits of fraction, cut down"),
         (halves, "It keeps values in floats with 10 bits after the first one, rounded"),
         (
             flat,
@@ -1538,8 +1844,14 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     let elsewhere = |mask: u8| mask & 15;
     let whole = |mask: u8| if mask & 15 == 0 { 0 } else { 15 };
     let lost = |mask: u8| mask & 11;
+    let filled = |mask: u8| if mask & 15 == 13 { 15 } else { mask & 15 };
     type Gate = fn(u8) -> u8;
-    let cases: [(_, Gate, _); 3] = [
+    let cases: [(_, Gate, _); 4] = [
+        (
+            SAMPLES,
+            filled,
+            "It draws samples 0 and 1 and 2 and 3 for 0 and 2 and 3, whatever the place",
+        ),
         (
             places,
             elsewhere as Gate,
@@ -1709,19 +2021,19 @@ fn mistakes_planted_elsewhere_are_named() {
 }
 
 /// The name of the causes, the convention, or that all answers are right.
-fn told(verdict: &judge::verdict::Judgement) -> String {
+fn told(verdict: &judge::verdict::Verdict) -> String {
     let named: Vec<_> = verdict
-        .causes
+        .cause
         .iter()
         .flat_map(|why| why.why.causes.iter().map(|cause| format!("{}, {}", why.of, cause.name)))
         .collect();
     if !named.is_empty() {
         return named.join("; ");
     }
-    match &verdict.recognised {
-        Some(said) if verdict.causes.is_empty() => said.sentences.join(" "),
+    match &verdict.more.recognised {
+        Some(said) if verdict.cause.is_empty() => said.sentences.join(" "),
         _ if verdict.agrees() => "all answers are right".to_owned(),
-        _ if verdict.causes.is_empty() => "another winding than declared".to_owned(),
+        _ if verdict.cause.is_empty() => "another winding than declared".to_owned(),
         _ => "wrong, and no cause is named".to_owned(),
     }
 }
@@ -1747,9 +2059,9 @@ fn mistakes_beyond_small_windows_are_found() {
         &|_| None,
     );
     let wrong: Vec<_> =
-        verdict.found.rows.iter().filter(|row| row.wrong_cases > 0).map(|row| row.name).collect();
+        verdict.families.iter().filter(|row| row.wrong_cases > 0).map(|row| row.name).collect();
     assert_eq!(wrong, ["wide-window"]);
-    let said: Vec<_> = verdict.causes.iter().flat_map(|cause| cause.why.sentences()).collect();
+    let said: Vec<_> = verdict.cause.iter().flat_map(|cause| cause.why.sentences()).collect();
     let said = said.join(" ");
     assert!(said.contains("triangles are wrong from column 256 on"), "{said}");
 }

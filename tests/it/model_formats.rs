@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use crate::model_files::{below, is_read};
 use crate::models::warning;
-use crate::program::Folder;
+use crate::program::{Folder, encoded};
 
 const POSITIONS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
@@ -286,9 +286,15 @@ fn a_ply_has_polygons_strips_and_texture_coordinates() {
 
 /// A document of the tetrahedron, changed by a function, with its bytes: positions, then indices.
 fn document(change: impl FnOnce(&mut Value)) -> (String, Vec<u8>) {
+    let (mut document, bytes) = tetrahedron();
+    change(&mut document);
+    (document.to_string(), bytes)
+}
+
+fn tetrahedron() -> (Value, Vec<u8>) {
     let mut bytes: Vec<u8> = POSITIONS.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
     bytes.extend(FACES.iter().flatten().flat_map(|&at| (at as u16).to_le_bytes()));
-    let mut document = json!({
+    let document = json!({
         "asset": { "version": "2.0" },
         "buffers": [{ "byteLength": bytes.len() }],
         "bufferViews": [
@@ -304,8 +310,7 @@ fn document(change: impl FnOnce(&mut Value)) -> (String, Vec<u8>) {
         "nodes": [{ "mesh": 0, "name": "body" }],
         "scenes": [{ "nodes": [0] }],
     });
-    change(&mut document);
-    (document.to_string(), bytes)
+    (document, bytes)
 }
 
 fn glb((json, bytes): (String, Vec<u8>)) -> Vec<u8> {
@@ -443,10 +448,8 @@ fn picture() -> Vec<u8> {
 }
 
 fn picture_of(texels: [[u8; 4]; 2]) -> Vec<u8> {
-    let mut bytes = std::io::Cursor::new(Vec::new());
     let picture = image::RgbaImage::from_fn(2, 1, |x, _| image::Rgba(texels[x as usize]));
-    picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
-    bytes.into_inner()
+    encoded(picture, image::ImageFormat::Png).unwrap()
 }
 
 #[test]

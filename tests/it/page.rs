@@ -17,7 +17,7 @@ use rasterproof_host::limits::PAGE_BYTES;
 use rasterproof_report::html::{
     Figure, Outcome, PictureLayer, PictureView, Report, Statement, TextDiff, page,
 };
-use rasterproof_report::panels::Sheet;
+use rasterproof_report::picture;
 use rasterproof_report::table::{Column, Row, Table};
 use serde_json::{Value, json};
 
@@ -740,13 +740,6 @@ pub fn every_section() -> Report {
             svg: "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned(),
             narrow: None,
         }],
-        plan: Some(Table {
-            // Regions of a page have names of their own.
-            caption: format!("plan {}", hostile()),
-            columns: ["effect", "reason"].map(Column::words).to_vec(),
-            rows: vec![vec![hostile(), hostile()].into()],
-            ..Table::default()
-        }),
         diffs: vec![TextDiff {
             name: hostile(),
             about: hostile(),
@@ -776,7 +769,6 @@ fn page_takes_every_section_and_any_text() {
         assert_eq!(browser.text(selector), HOSTILE, "{selector}");
     }
     assert_eq!(browser.eval("document.title"), json!(HOSTILE));
-    assert_eq!(browser.text("#plan tbody td"), HOSTILE);
     assert_eq!(browser.eval("document.querySelector('#plots img').naturalWidth"), json!(60));
     assert_eq!(browser.text(".diff .added pre"), HOSTILE);
     assert_eq!(browser.text(".diff .removed pre"), "old");
@@ -817,21 +809,16 @@ fn page_leaves_out_what_does_not_fit_and_says_so() {
     assert!(text.contains("\"name\":\"first\"") && text.contains("\"name\":\"small\""));
 }
 
-/// A folder whose `snapshots` hold one picture of the project with one pixel of a panel changed.
+/// A folder whose `snapshots` hold one picture of the project with one pixel changed.
 fn spoilt_snapshots(name: &str) -> PathBuf {
     let folder = folder(name);
     let (from, to) =
         (Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots"), folder.join("snapshots"));
     std::fs::create_dir_all(&to).unwrap();
     std::fs::copy(from.join("verdict.snap"), to.join("verdict.snap")).unwrap();
-    let bytes = std::fs::read(from.join("verdict.snap.png")).unwrap();
-    let mut sheet = Sheet::from_png(&bytes).unwrap();
-    let panel = &sheet.panels[2];
-    for (x, y) in (1..panel.zoom).flat_map(|x| (1..panel.zoom).map(move |y| (x, y))) {
-        let (left, top) = (panel.at[0] + 3 * panel.zoom, panel.at[1] + 2 * panel.zoom);
-        sheet.image.put_pixel(left + x, top + y, Rgb([214, 60, 60]));
-    }
-    std::fs::write(to.join("verdict.snap.png"), sheet.png()).unwrap();
+    let mut image = image::open(from.join("verdict.snap.png")).unwrap().to_rgb8();
+    image.put_pixel(20, 30, Rgb([214, 60, 60]));
+    std::fs::write(to.join("verdict.snap.png"), picture::png(&image)).unwrap();
     folder
 }
 
@@ -865,7 +852,7 @@ fn page_reviews_a_changed_snapshot() {
     let (status, said) = review(&folder);
     assert_eq!(status, 1, "{said}");
     for line in [
-        "snapshots/verdict.snap: scanline changed in 1 pixel\n",
+        "snapshots/verdict.snap: 1 of 559989 pixels of the picture changed, from 20,30 to 20,30\n",
         "  accept: cargo insta accept --snapshot snapshots/verdict.snap",
         "INSTA_UPDATE=always cargo test --test it snapshots::",
         "1 changed snapshot waits for review in snapshots.",
@@ -876,7 +863,10 @@ fn page_reviews_a_changed_snapshot() {
         browser.open(&folder.join("target/rasterproof/review.html"), "");
         assert!(browser.text("#verdict").contains("PENDING"));
         assert_eq!(browser.text("#case-title"), "snapshots/verdict.snap");
-        assert_eq!(browser.text("#case-about"), "scanline changed in 1 pixel");
+        assert_eq!(
+            browser.text("#case-about"),
+            "1 of 559989 pixels of the picture changed, from 20,30 to 20,30"
+        );
         browser.press("3");
         assert_eq!(browser.eval("document.querySelectorAll('.port canvas').length"), json!(3));
     }

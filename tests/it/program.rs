@@ -5,6 +5,7 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use image::{DynamicImage, ImageFormat};
 use serde_json::Value;
 
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
@@ -129,6 +130,15 @@ pub fn check(words: impl Words, status: u8) -> Run {
 pub fn shared() -> &'static Folder {
     static SHARED: std::sync::LazyLock<Folder> = std::sync::LazyLock::new(|| Folder::new("shared"));
     &SHARED
+}
+
+/// The bytes of a file with this picture; none where the format has no such pixels. It is written to a file, because
+/// encoders for a writer in memory would be compiled with the tests: 100,000 lines of LLVM code.
+pub fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Option<Vec<u8>> {
+    let folder = Folder::new(&format!("picture-{:?}", std::thread::current().id()));
+    let path = folder.join("picture");
+    picture.into().save_with_format(&path, format).ok()?;
+    Some(std::fs::read(path).unwrap())
 }
 
 #[derive(Debug)]

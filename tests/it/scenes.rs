@@ -33,6 +33,7 @@ use rasterproof_render::scene::{
     textures,
 };
 use rasterproof_report::frame_comparison::{self, Comparison};
+use rasterproof_report::picture;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -127,7 +128,7 @@ fn scenes_look_as_kept() {
         });
         assert!(scanline == edges, "{}", entry.name);
         let head = format!("{}, by scanline and by edge-function: the same", entry.name);
-        let picture = headed(&head, &frame_comparison::rgb(&scanline));
+        let picture = headed(&head, &picture::of_frame(&scanline));
         check_picture(&format!("scene-{}", entry.name), &picture);
     });
 }

@@ -26,13 +26,14 @@ use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_render::scene::named::{find, named};
-use rasterproof_report::panels::{self, Sheet};
-use rasterproof_report::{ascii, picture};
+use rasterproof_report::panels;
+use rasterproof_report::picture;
 use rasterproof_verify::cases::named::{Input, NamedCase};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{
     Tally, engine_coverage, line_coverage, oracle_coverage, oracle_hits, oracle_pixels_each,
 };
+use rasterproof_verify::judge::ascii;
 
 /// Largest sheet of a case that is kept, and picture of anything else.
 const MOST_BYTES: usize = 32 << 10;
@@ -168,22 +169,12 @@ fn named_meshes_hit_each_pixel_once() {
     }
 }
 
-/// A picture of enlarged panels side by side, four pixels apart, of one size.
-fn enlarged(image: RgbImage, names: &[&str], (width, height): (u32, u32), zoom: u32) -> Sheet {
-    let shown = PixelRect::window(width, height);
-    let panel = |(i, name): (u32, &&str)| {
-        let at = [i * (width + 4) * zoom, 0];
-        panels::Panel { name: (*name).to_owned(), at, zoom, shown }
-    };
-    Sheet { image, panels: (0..).zip(names).map(panel).collect() }
-}
-
 pub fn check_picture(name: &str, image: &RgbImage) {
     check_png(name, picture::png(image), MOST_BYTES_OF_SCENES);
 }
 
-pub fn check_sheet(name: &str, sheet: &Sheet) {
-    check_png(name, sheet.png(), MOST_BYTES);
+pub fn check_sheet(name: &str, sheet: &RgbImage) {
+    check_png(name, picture::png(sheet), MOST_BYTES);
 }
 
 #[derive(Clone)]
@@ -249,7 +240,7 @@ fn picture_of_barycentric_interpolation() {
         let colour = Rgb((f.varying * 255.0).round().to_array().map(|c| c as u8));
         square(&mut image, f.x_px as u32, f.y_px as u32, 8, colour);
     });
-    check_sheet("barycentric", &enlarged(image, &["values"], (30, 31), 8));
+    check_sheet("barycentric", &image);
 }
 
 /// For chapter 5: a receding square, perspective-correct, affine, and the size of the difference
@@ -302,8 +293,7 @@ fn picture_of_the_affine_error() {
     }
     // (sqrt 4 - 1) / (sqrt 4 + 1) = 1/3 bounds the error, and the edges come close to it.
     assert!(worst <= 1.0 / 3.0 && worst > 0.32, "{worst}");
-    let names = ["perspective-correct", "affine", "difference"];
-    check_sheet("affine-error", &enlarged(image, &names, (96, 96), 3));
+    check_sheet("affine-error", &image);
 }
 
 /// For the README: a closed fan by the strict rule (holes), by the inclusive one (twice), by both

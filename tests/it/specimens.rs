@@ -10,11 +10,11 @@ use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_registry::published_check::{
     SpecimenReport, exposing_name, judge_recorded, survey, wrong,
 };
-use rasterproof_report::specimen_sheet::{SHEETS, alone, sheet};
+use rasterproof_report::specimen_sheet::{alone, contact_sheet};
 use rasterproof_report::specimens::tables;
 use rasterproof_report::text::{self, WIDTH};
 
-use crate::snapshots::{check_sheet, each, settings};
+use crate::snapshots::{check_picture, check_sheet, each, settings};
 
 /// Cases of each family: enough for the ties of every family that has them.
 const CASES: u64 = 60;
@@ -89,18 +89,7 @@ fn specimens_repair_of_the_depth_trades_one_error_for_the_other() {
 #[test]
 fn specimens_are_drawn() {
     each(CARDS, |card| check_sheet(&format!("specimen-{}", card.name), &alone(card)));
-}
-
-/// Every card is on one sheet, and what is written on its strip fits.
-#[test]
-fn specimens_sheets() {
-    for card in CARDS {
-        let on = SHEETS.iter().filter(|s| s.cards().any(|c| c.name == card.name)).count();
-        assert_eq!(on, 1, "{}", card.name);
-        let fits = card.fault.len() <= 62 && card.cure.len() + "cure: ".len() <= 62;
-        assert!(fits && 2 * card.name.len() + card.source.len() < 62, "{}", card.name);
-    }
-    each(&SHEETS, |of| check_sheet(&format!("specimens-{}", of.name), &sheet(of)));
+    check_picture("specimens", &contact_sheet());
 }
 
 /// Every recorded input is wrong, or refused since it overflows.

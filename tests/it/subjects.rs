@@ -1,8 +1,12 @@
 //! Whoever is judged, a message has the smallest case, what was drawn beside what is expected, a cause or that none is known, and
-//! what repeats it. Devices are in `tests/devices.rs`, browsers in `your_gpu`.
+//! what repeats it. Devices are in `planted_faults_are_caught` of the crate `vulkan`, browsers in `a_finding_is_shown` of `your_gpu`.
 
+use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_verify::comparison::{Options, judge_coverage, judge_lines};
+use rasterproof_verify::comparison::tolerance;
+use rasterproof_verify::comparison::{
+    Options, judge_coverage, judge_exact, judge_lines, judge_values,
+};
 use rasterproof_verify::partition::{self, Polygon, Triangle, judge_partitions};
 
 use crate::program::{Folder, PROGRAM, Run};
@@ -24,13 +28,18 @@ fn is_whole(message: &str, [case, picture, repeat]: [&str; 3]) {
 
 #[test]
 fn messages_about_engines_and_tessellators_are_whole() {
-    let parts = ["the smallest case", "drawn", "repeat the case with: Options"];
+    let parts = [", shrunk)\n", "  judged ", "repeat with: Options"];
     let options = Options::default().cases(40);
     for mutant in [TriangleMutant::InclusiveEdges, TriangleMutant::HoleInLongRows] {
         let verdict = judge_coverage(&mutant, &options).unwrap();
         is_whole(&verdict.check().unwrap_err().to_string(), parts);
     }
     let verdict = judge_lines(&LineMutant::DirectedTies, &options).unwrap();
+    is_whole(&verdict.check().unwrap_err().to_string(), parts);
+    let verdict = judge_exact(&ExactMutant::ALL[0], &options).unwrap();
+    is_whole(&verdict.check().unwrap_err().to_string(), parts);
+    let verdict =
+        judge_values(&TriangleMutant::AffineAttributes, tolerance::SCANLINE, &options).unwrap();
     is_whole(&verdict.check().unwrap_err().to_string(), parts);
 
     let first = |polygon: &Polygon| -> Vec<Triangle> {
@@ -54,4 +63,16 @@ fn messages_about_programs_and_steps_are_whole() {
     let words = [&words[..], &[PROGRAM, "engine", "inclusive-edges"]].concat();
     let Run { out, .. } = folder.check(words, 1);
     is_whole(&out, ["smallest found", "yours", "repeat with: "]);
+}
+
+#[test]
+fn messages_about_invariants_are_whole() {
+    let folder = Folder::new("subjects-invariants");
+    for (plant, invariant) in
+        [("inclusive-edges", "engines-agree"), ("line-misses-end", "one-per-step")]
+    {
+        let words = ["verify", "--invariant", invariant, "--cases", "200", "--plant", plant];
+        let Run { out, .. } = folder.check(words, 1);
+        is_whole(&out, [", shrunk)\n", "  expected\n", "repeat with: "]);
+    }
 }

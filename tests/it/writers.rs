@@ -4,8 +4,7 @@
 use crate::pages::{files, root};
 
 /// The writers, and the pictures, which are no text.
-const WRITERS: [&str; 8] = [
-    "crates/report/src/ascii.rs",
+const WRITERS: [&str; 7] = [
     "crates/report/src/canvas.rs",
     "crates/report/src/formats.rs",
     "crates/report/src/html.rs",

@@ -207,7 +207,9 @@ fn a_finding_is_shown(browser: &mut Browser, page: &std::path::Path) {
         "exactly one of the polygons",
         "It samples at",
         "gl_VertexID",
-        "Drawn",
+        "Expected:",
+        "Drawn:",
+        "Page: ",
         "planted",
     ] {
         assert!(report.contains(part), "{part}: {report}");
@@ -243,7 +245,6 @@ fn a_finding_is_shown(browser: &mut Browser, page: &std::path::Path) {
     browser.open(page, "#lang=en");
     assert_eq!(browser.text("#judge"), "Judge my GPU");
     let keys = "['en', 'zh'].map(l => JSON.stringify([WORDS[l], WORDS[l].checks, WORDS[l].details].map(Object.keys)))
-        .concat([RULES, RULES_ZH].map(r => JSON.stringify(Object.values(r).map(Object.keys))))
         .every((keys, i, all) => keys === all[i - i % 2])";
     assert_eq!(browser.eval(keys), true, "both languages have the same words");
 }

@@ -21,9 +21,11 @@ mod meta;
 pub mod source;
 mod values;
 
-use implementations::{Component, Implementations};
+use implementations::{Component, Drawer, Implementations, hits};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
-use rasterproof_verify::judge::{self, caught};
+use rasterproof_verify::judge::{self, ascii, caught};
+use rasterproof_verify::oracle::Oracle;
 use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
 
 /// What a check compared (0 where the input does not fit it), or the first thing that is wrong.
@@ -189,6 +191,35 @@ impl Invariant {
         let message = self.judge(subject, &input).err().unwrap_or(message);
         Failure::new(self.name, index, seed, message, input, ())
     }
+}
+
+/// What each of them draws of a triangle or a line, beside what the oracle expects; there is no picture of other inputs.
+pub fn drawn(subject: &Implementations, input: &Input) -> Option<String> {
+    let hits_of = |window, pixels: Vec<(i32, i32)>| {
+        let mut hits = Coverage::new(window, 0);
+        pixels.iter().for_each(|&(x, y)| hits.hit(y, x, x + 1));
+        hits
+    };
+    let (drawn, expected): (Vec<_>, _) = match input {
+        Input::Triangle(TriangleInput { triangle, window, .. }) => {
+            let corners = triangle.corners();
+            let drawn = subject.engines.iter().map(|e| (e.name, e.hits(corners, *window)));
+            (drawn.collect(), hits(&*subject.oracle, [corners], *window))
+        }
+        Input::Line(LineInput { line, window }) => {
+            let mut right = Vec::new();
+            Oracle.steps(line, *window, &mut |pixel, _| right.push((pixel.x, pixel.y)));
+            let of = |drawer: &Drawer| {
+                let fragments = drawer.fragments(line, *window);
+                let pixels = fragments.iter().map(|f| (f.x_px, f.y_px)).collect();
+                (drawer.name, hits_of(*window, pixels))
+            };
+            (subject.drawers.iter().map(of).collect(), hits_of(*window, right))
+        }
+        _ => return None,
+    };
+    let (names, drawn): (Vec<_>, Vec<_>) = drawn.iter().map(|(name, hits)| (*name, hits)).unzip();
+    Some(ascii::beside(&names, &drawn, &expected, 78))
 }
 
 pub fn find(name: &str) -> Option<&'static Invariant> {

@@ -49,7 +49,7 @@ pub fn put(mut case: Case, declared: &Declared) -> Case {
     }
     match &mut case.shape {
         Shape::Triangles { list, disjoint } => {
-            declared.convention.put(list, declared.range);
+            declared.convention.put(list, range(declared));
             let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
             *disjoint = list.len() > 1 && super::mesh::is_disjoint(&corners);
         }
@@ -69,6 +69,12 @@ pub fn put(mut case: Case, declared: &Declared) -> Case {
     case
 }
 
+/// How far corners may lie from the origin: two of them are at most twice as far from each other.
+fn range(declared: &Declared) -> Option<i32> {
+    let half = declared.side.map(|side| (side / 2).max(1));
+    declared.range.into_iter().chain(half).min()
+}
+
 /// Whether a case, shrunk perhaps, is one that the program says it draws.
 #[must_use]
 pub fn holds(case: &Case, declared: &Declared) -> bool {
@@ -78,7 +84,7 @@ pub fn holds(case: &Case, declared: &Declared) -> bool {
         return false;
     }
     match &case.shape {
-        Shape::Triangles { list, .. } => declared.convention.takes(list, declared.range),
+        Shape::Triangles { list, .. } => declared.convention.takes(list, range(declared)),
         Shape::Lines(_) => put(case.clone(), declared) == *case,
         Shape::Unsnapped { .. } => false,
     }

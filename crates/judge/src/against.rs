@@ -12,8 +12,7 @@ use super::failures;
 use super::recognise::{self, Why};
 use super::run::{self, Sides};
 use super::timed::Timed;
-use super::verdict::Judgement;
-use super::windings::Windings;
+use super::verdict::{self, Particulars, Verdict};
 use super::{Options, Step, for_families, reach};
 
 /// Two programs behind one [`Subject`]: each answer is [`Answer::Two`].
@@ -94,19 +93,19 @@ fn said_by(name: &str, what: Misbehaviour) -> Misbehaviour {
 ///
 /// # Panics
 /// If `pairs` is empty.
-#[must_use]
 pub fn compare(
     pairs: &mut [[Box<dyn Subject>; 2]],
     options: &Options,
     progress: &(dyn Fn(Step) + Sync),
-) -> Judgement {
+) -> Verdict {
     let start = Instant::now();
     let end = options.time_limit.map(|limit| start + limit);
     progress(Step::Rule);
     let [first, second] = pairs.first_mut().expect("somebody to be asked");
     let mut both = [first.declared().clone(), second.declared().clone()];
     for (side, declared) in [first, second].into_iter().zip(&mut both) {
-        declared.reach = reach::reach(&mut Timed::new(&mut **side, end));
+        let asked = &mut Timed::new(&mut **side, end);
+        (declared.reach, declared.side) = (reach::reach(asked), reach::side(asked));
     }
     let asked =
         both.each_ref().map(|one| both.iter().fold(one.clone(), |d, other| d.within(other)));
@@ -122,23 +121,26 @@ pub fn compare(
     pairs.iter_mut().for_each(|pair| pair.end_at(end));
     let mut askers: Vec<&mut dyn Subject> =
         pairs.iter_mut().map(|pair| pair as &mut dyn Subject).collect();
-    let options = &for_families(options, start);
-    let mut found = run::run(&mut askers, options, &truth, &|cases| progress(Step::Judged(cases)));
+    let limited = &for_families(options, start);
+    let mut found = run::run(&mut askers, limited, &truth, &|cases| progress(Step::Judged(cases)));
     progress(Step::Smaller);
     let pair = &mut pairs[0];
-    let failures = failures::failures(&mut Timed::new(pair, end), &found, options, &truth);
+    let failures = failures::failures(&mut Timed::new(pair, end), &found, limited, &truth);
     progress(Step::Cause);
-    let causes = causes(pair, &found, options, &truth, end);
+    let causes = causes(pair, &found, limited, &truth, end);
     found.strays.extend(pair.strays());
     pair.end_at(None);
-    let complaints = pair.complaints();
-    let [first, second] = both;
-    let windings = Windings::default();
-    let mut verdict = Judgement::new(first, options, windings, None, found, failures, complaints);
-    verdict.causes = causes;
-    verdict.reach = truth.declared.reach;
-    verdict.compared_with(second);
-    verdict
+    let [declared, second] = both;
+    let more = Particulars {
+        declared,
+        against: Some(second),
+        found,
+        reach: truth.declared.reach,
+        side: truth.declared.side,
+        complaints: pair.complaints(),
+        ..Particulars::default()
+    };
+    verdict::verdict(options, more, failures, causes)
 }
 
 /// Why each of them is wrong where the answers differ.

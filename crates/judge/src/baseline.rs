@@ -13,7 +13,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::run::Failing;
-use super::verdict::{Judgement, Outcome};
+use super::verdict::{Outcome, Verdict};
 
 const HEADER: &str = "# rasterproof baseline 1, seed ";
 
@@ -77,12 +77,12 @@ impl Baseline {
     }
 
     /// Sorts the outcomes of a verdict into known and new.
-    pub fn apply(&self, verdict: &mut Judgement) {
+    pub fn apply(&self, verdict: &mut Verdict) {
         let is_known = |f: &&Failing| self.known.get(&f.name()) == Some(&f.fingerprint);
-        verdict.known = verdict.found.failing.iter().filter(is_known).count() as u64;
+        verdict.more.known = verdict.more.found.failing.iter().filter(is_known).count() as u64;
         let failing = failing(verdict);
         let judged = judged(verdict);
-        for property in &mut verdict.properties {
+        for property in &mut verdict.more.properties {
             let of_it = |case: &&String| case.split(' ').next() == Some(property.name);
             let all: Vec<&String> = failing.keys().filter(of_it).collect();
             let new = all.iter().filter(|c| self.known.get(**c) != failing.get(**c)).count();
@@ -106,8 +106,8 @@ impl Baseline {
     ///
     /// # Errors
     /// More fails than is worth remembering.
-    pub fn updated(&self, verdict: &Judgement) -> Result<String, String> {
-        if verdict.found.forgot {
+    pub fn updated(&self, verdict: &Verdict) -> Result<String, String> {
+        if verdict.more.found.forgot {
             let most = super::run::MOST_REMEMBERED;
             return Err(format!("more than {most} cases fail: ask fewer with --cases"));
         }
@@ -126,17 +126,17 @@ impl Baseline {
 }
 
 /// The cases that were judged, as in the file.
-fn judged(verdict: &Judgement) -> HashSet<String> {
-    verdict.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect()
+fn judged(verdict: &Verdict) -> HashSet<String> {
+    verdict.more.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect()
 }
 
 /// What fails, as in the file. What the whole run shows has one case.
-fn failing(verdict: &Judgement) -> BTreeMap<String, u64> {
-    let cases = verdict.found.failing.iter();
+fn failing(verdict: &Verdict) -> BTreeMap<String, u64> {
+    let cases = verdict.more.found.failing.iter();
     let mut all: BTreeMap<_, _> = cases.map(|f| (f.name(), f.fingerprint)).collect();
     // That the program draws, in which winding, and by the protocol.
-    let whole = verdict.properties.iter().filter(|p| p.outcome == Outcome::Fail);
-    let rows: HashSet<&str> = verdict.found.rows.iter().map(|row| row.name).collect();
+    let whole = verdict.more.properties.iter().filter(|p| p.outcome == Outcome::Fail);
+    let rows: HashSet<&str> = verdict.families.iter().map(|row| row.name).collect();
     all.extend(whole.filter(|p| !rows.contains(p.name)).map(|p| (format!("{} run#0", p.name), 0)));
     all
 }

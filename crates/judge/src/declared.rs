@@ -56,6 +56,8 @@ pub struct Declared {
     pub tessellation: Tessellation,
     /// How long its lines may be, in steps; measured and not declared. None means any length.
     pub reach: Option<i32>,
+    /// How long sides of its triangles may be, in pixels, measured like that.
+    pub side: Option<i32>,
     /// Words that are not known or cannot be used, printable.
     pub unknown: Vec<String>,
 }
@@ -128,6 +130,7 @@ impl Default for Declared {
             partition: false,
             tessellation: Tessellation::default(),
             reach: None,
+            side: None,
             unknown: Vec::new(),
         }
     }
@@ -235,6 +238,7 @@ impl Declared {
                 .subpixel_bits(self.convention.subpixel_bits.min(other.convention.subpixel_bits)),
             range: least(self.range, other.range),
             reach: least(self.reach, other.reach),
+            side: least(self.side, other.side),
             window,
             mask: self.mask || other.mask,
             line_set: self.line_set || other.line_set,

@@ -29,11 +29,12 @@ pub struct Exchanged {
 }
 
 /// A request, its answer, and the answer that was expected; as lines of the protocol.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Exchange {
     pub request: String,
     pub answer: String,
     /// What the other of two compared programs answered, or nothing.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub other: String,
     /// What was expected instead, or nothing.
     pub expected: String,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::verdict::{Judgement, Score};
+use super::verdict::{Score, Scores as _, Verdict};
 
 /// An adapter, as `adapters/league.json` names it.
 #[derive(Clone, Debug, Deserialize)]
@@ -58,33 +58,33 @@ pub struct League {
 
 impl Ranked {
     #[must_use]
-    pub fn new(adapter: &Adapter, date: String, verdict: &Judgement) -> Self {
-        let row = |name: &str| verdict.found.rows.iter().find(|row| row.name == name);
+    pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
+        let row = |name: &str| verdict.families.iter().find(|row| row.name == name);
         let kind = |lines: bool, about: &str| {
             let as_declared = verdict.score(Some(lines), |r| (r.tally.total(), r.pixels, 0));
             let found = verdict
                 .score(Some(lines), |r| (r.recognised.total(), r.recognised_pixels, r.unscored));
-            let said = verdict.recognised.as_ref();
+            let said = verdict.more.recognised.as_ref();
             let sentence =
                 said.and_then(|said| said.sentences.iter().find_map(|s| s.strip_prefix(about)));
             let sentence = sentence.unwrap_or_default().to_owned();
             let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
             let by_convention = is_explained.then_some(found);
             let of = if lines { "lines" } else { "triangles" };
-            let why = verdict.causes.iter().find(|why| why.of == of);
+            let why = verdict.cause.iter().find(|why| why.of == of);
             let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
             let kind = Kind { sentence, as_declared, by_convention, mistake };
             (as_declared.pixels > 0).then_some(kind)
         };
         let changed = |name| row(name).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
-        let sum = |of: fn(&super::run::Row) -> u64| verdict.found.rows.iter().map(of).sum();
+        let sum = |of: fn(&super::run::Row) -> u64| verdict.families.iter().map(of).sum();
         Self {
             name: adapter.name.clone(),
             library: adapter.library.clone(),
-            version: verdict.declared.name.clone(),
+            version: verdict.more.declared.name.clone(),
             date,
             call: adapter.call.clone(),
-            declares: verdict.declared.to_string(),
+            declares: verdict.more.declared.to_string(),
             triangles: kind(false, "Triangles: "),
             lines: kind(true, "Lines: "),
             meshes: row("watertight").map_or([0; 3], |r| [r.cases, r.tally.missing, r.tally.twice]),

@@ -1,7 +1,7 @@
 //! The judge of other people's programs: anybody who answers questions is asked the cases of the
 //! families and judged as our own engines are.
 //!
-//! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`in_process`] an
+//! [`ask`] is what is asked and answered; the crate `program` asks a program through pipes, and [`in_process`] an
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
 //! wrong with a case ([`judged`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
@@ -29,8 +29,6 @@ mod outline;
 pub mod pictured;
 pub mod pixels;
 pub mod polygons;
-pub mod process;
-pub mod process_group;
 mod reach;
 pub mod recognise;
 pub mod run;
@@ -53,7 +51,7 @@ use rasterproof_verify::partition;
 use recognise::{Recognised, Said};
 use run::Incident;
 use timed::Timed;
-use verdict::Judgement;
+use verdict::{Particulars, Verdict};
 
 /// The time limit is that of all questions. An answer that is still missing at its end is awaited a short while longer.
 pub type Options = rasterproof_verify::judge::Options<String, Asking>;
@@ -116,13 +114,12 @@ pub type Recognise<'a> = &'a dyn Fn(&mut dyn Subject) -> Option<Recognised>;
 ///
 /// # Panics
 /// If nobody is there to be asked.
-#[must_use]
 pub fn judge(
     askers: &mut [Box<dyn Subject>],
     options: &Options,
     recognise: Recognise<'_>,
     progress: &(dyn Fn(Step) + Sync),
-) -> Judgement {
+) -> Verdict {
     let start = Instant::now();
     let end = options.time_limit.map(|limit| start + limit);
     askers.iter_mut().for_each(|asker| asker.end_at(end));
@@ -136,6 +133,7 @@ pub fn judge(
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
     truth.declared.reach = reach::reach(&mut first);
+    truth.declared.side = reach::side(&mut first);
     let mut found_before = recognise(&mut first);
     let mut recognised = found_before.as_mut().map(|found| {
         truth.recognised = found.expect.take();
@@ -147,34 +145,35 @@ pub fn judge(
             (Some(Said { sentences: vec![late], ..Said::default() }), None);
     }
     let before = first.incidents;
-    let options = &for_families(options, start);
+    let asked = &for_families(options, start);
     let mut all: Vec<&mut dyn Subject> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
-    let mut found = run::run(&mut all, options, &truth, &|cases| progress(Step::Judged(cases)));
+    let mut found = run::run(&mut all, asked, &truth, &|cases| progress(Step::Judged(cases)));
     found.incidents.splice(0..0, before);
     found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];
     progress(Step::Smaller);
-    let failures = failures::failures(&mut Timed::new(first, end), &found, options, &truth);
+    let failures = failures::failures(&mut Timed::new(first, end), &found, asked, &truth);
     let checks = found.unexplained();
     if !checks.is_empty() {
         progress(Step::Cause);
     }
-    let (asked, patience) = (&mut Timed::new(first, end), options.terms.patience);
-    let causes = recognise::mistakes(asked, &checks, &truth, found_before.as_ref(), patience);
+    let (timed, patience) = (&mut Timed::new(first, end), asked.terms.patience);
+    let causes = recognise::mistakes(timed, &checks, &truth, found_before.as_ref(), patience);
     found.strays.extend(first.strays());
     first.end_at(None);
-    let mut verdict = Judgement::new(
+    let Declared { reach, side, .. } = truth.declared;
+    let complaints = first.complaints();
+    let more = Particulars {
         declared,
-        options,
         windings,
         recognised,
         found,
-        failures,
-        first.complaints(),
-    );
-    verdict.causes = causes;
-    verdict.reach = truth.declared.reach;
-    verdict
+        reach,
+        side,
+        complaints,
+        ..Particulars::default()
+    };
+    verdict::verdict(options, more, failures, causes)
 }
 
 /// Somebody who is asked before the families, and what came instead of answers.

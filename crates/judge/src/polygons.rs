@@ -7,8 +7,7 @@ use super::Options;
 use super::ask::{Answer, Asked, Question, Subject};
 use super::declared::Declared;
 use super::run::{Found, MOST_DEATHS, Row};
-use super::verdict::Judgement;
-use super::windings::Windings;
+use super::verdict::{self, Particulars, Verdict};
 use rasterproof_verify::partition::{self, Family, Polygon, Refused, Triangle};
 
 /// The options of partitions for a program that declares this.
@@ -64,8 +63,7 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
 }
 
 /// The report as a verdict with a property for each family, for what is written for machines.
-#[must_use]
-pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdict) -> Judgement {
+pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdict) -> Verdict {
     let row = |family: &partition::Polygons| Row {
         name: family.family.name(),
         cases: family.polygons,
@@ -76,11 +74,11 @@ pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdi
     };
     let rows = report.families.iter().map(row).collect();
     let found = Found { rows, answered: report.sum().polygons, ..Found::default() };
-    let (windings, none) = (Windings::default(), Vec::new());
-    let declared = declared.clone();
-    let mut verdict = Judgement::new(declared, options, windings, None, found, none, Vec::new());
+    let more = Particulars { declared: declared.clone(), found, ..Particulars::default() };
+    let mut verdict = verdict::verdict(options, more, Vec::new(), Vec::new());
     // The families of cases have a text of their own.
-    for property in verdict.properties.iter_mut().filter(|property| property.about.is_empty()) {
+    for property in verdict.more.properties.iter_mut().filter(|property| property.about.is_empty())
+    {
         "every polygon is covered exactly once".clone_into(&mut property.about);
     }
     verdict

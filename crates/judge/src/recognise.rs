@@ -191,8 +191,12 @@ impl Expect for Found {
 
 fn known(declared: &Declared) -> Known {
     let known = Known::from(&declared.convention);
+    let measured = [declared.reach, declared.side.map(|side| side / 2)];
     Known {
-        range_px: declared.range.unwrap_or(known.range_px).min(declared.reach.unwrap_or(i32::MAX)),
+        range_px: measured
+            .into_iter()
+            .flatten()
+            .fold(declared.range.unwrap_or(known.range_px), i32::min),
         window_px: declared.window.map_or(known.window_px, |[width, height]| (width, height)),
         mask: declared.mask,
         ..known

@@ -380,10 +380,7 @@ fn copy(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Found {
     let mut found = Found::default();
-    let cases = match shared.options.only {
-        Some(index) => index..index.saturating_add(1),
-        None => 0..shared.options.cases,
-    };
+    let cases = shared.options.numbers();
     let mut asker = Timed::new(asker, None);
     for pass in PASSES {
         asker.end = shared.ends[usize::from(pass)];

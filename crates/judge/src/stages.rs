@@ -22,6 +22,7 @@ use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::pixels::few;
+use rasterproof_verify::convention::{Convention, Shape, Ties};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
 use rasterproof_verify::oracle::Oracle;
@@ -129,7 +130,7 @@ fn hypotheses<'a>(
         return Vec::new();
     }
     match check {
-        Check::Values => of_values(all, truth.declared.tolerance),
+        Check::Values => of_values(all, is_wrong, truth.declared.tolerance),
         Check::Samples => of_samples(all, is_wrong),
         Check::Depth => of_depth(all, is_wrong),
         Check::Near | Check::Carried => of_near(all, is_wrong, &truth.declared),
@@ -191,17 +192,25 @@ fn are_near(
     values::are_explained(triangle, &mut few(answer), predict, &allowed)
 }
 
-fn of_values(all: &[Answered], tolerance: f64) -> Vec<Hypothesis<'_>> {
+fn of_values<'a>(all: &'a [Answered], is_wrong: &[bool], tolerance: f64) -> Vec<Hypothesis<'a>> {
+    let mut pixels = Vec::new();
+    for answered in chosen_by(is_wrong).into_iter().map(|i| &all[i]) {
+        for (question, answer) in answered.questions.iter().zip(&answered.answers) {
+            if let (Asked::Values(triangle), Answer::Values(fragments)) = (&question.of, answer) {
+                pixels.extend(fragments.iter().take(2).map(|f| values::pixel_of(triangle, f)));
+            }
+        }
+    }
     let of = |known: ValueHypothesis| {
         hypothesis(all, known.says.clone(), move |question, answer| match (&question.of, answer) {
             (Asked::Values(triangle), Answer::Values(fragments)) => {
-                let predict = |pixel| Some(known.predict(triangle, pixel));
+                let predict = |pixel| known.predict(triangle, pixel);
                 are_near(triangle, fragments, &predict, tolerance)
             }
             _ => true,
         })
     };
-    values::of_values().into_iter().map(of).collect()
+    values::of_values(values::scaled(&pixels)).into_iter().map(of).collect()
 }
 
 /// Places of the four samples in 1/16 px, in the order of their bits.
@@ -361,6 +370,11 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
         (pattern, does, (same, 0))
     });
     let patterns = patterns().into_iter().map(|(pattern, does)| (pattern, does, (same, 0)));
+    let pairs = (0..RULES.len() * RULES.len()).map(|p| (p, None));
+    let alone = (0..4).flat_map(|bit| (0..RULES.len()).map(move |r| (7 * r, Some(bit))));
+    let rules = pairs.chain(alone).filter(|(p, _)| *p > 0);
+    let rules = rules.filter_map(|(p, bit)| sample_rule(all, p, bit));
+    let table = found_masks(all, is_wrong).map(|masks| of_masks(all, masks));
     let gates = gates().into_iter().map(|(gate, number, does)| (SAMPLES, does, (gate, number)));
     patterns
         .chain(gates)
@@ -389,7 +403,118 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
                 })
             })
         })
+        .chain(rules)
+        .chain(table)
         .collect()
+}
+
+/// The mask that is drawn for each right one, and the mask of which none was seen as it is.
+fn found_masks(all: &[Answered], is_wrong: &[bool]) -> Option<[u8; 16]> {
+    let mut table: [Option<u8>; 16] = [None; 16];
+    for i in chosen_by(is_wrong) {
+        let (Some(question), Some(Answer::Samples(runs))) =
+            (all[i].questions.first(), all[i].answers.first())
+        else {
+            continue;
+        };
+        let Asked::Samples(corners) = &question.of else { continue };
+        let window = window_of(question);
+        let right = masks_at(&Oracle, *corners, window, &SAMPLES)?;
+        for ((_, right), (_, drawn)) in right.rows().zip(masks_of(runs, window).rows()) {
+            for (right, drawn) in right.iter().zip(drawn) {
+                if *table[usize::from(right & 15)].get_or_insert(*drawn) != *drawn {
+                    return None;
+                }
+            }
+        }
+    }
+    let mut masks = [0; 16];
+    for (right, mask) in (0..).zip(&mut masks) {
+        *mask = table[usize::from(right)].unwrap_or(right);
+    }
+    Some(masks)
+}
+
+/// That masks are turned into others.
+fn of_masks(all: &[Answered], masks: [u8; 16]) -> Hypothesis<'_> {
+    let samples = |mask: u8| -> String {
+        let of = (0..4).filter(|bit| mask >> bit & 1 == 1).map(|bit| bit.to_string());
+        let of: Vec<String> = of.collect();
+        if of.is_empty() { "none".to_owned() } else { of.join(" and ") }
+    };
+    let changed: Vec<(u8, u8)> = (0..).zip(masks).filter(|(right, mask)| right != mask).collect();
+    let said: Vec<String> = changed
+        .iter()
+        .take(3)
+        .map(|(right, mask)| format!("{} for {}", samples(*mask), samples(*right)))
+        .collect();
+    let more = match changed.len().saturating_sub(3) {
+        0 => String::new(),
+        more => format!(", and {more} others"),
+    };
+    let says = Explanation::new(
+        "masks of samples",
+        format!("draws samples {}{more}, whatever the place", said.join(", ")),
+        "draw the samples that are covered",
+        "games101",
+        "a pixel with such samples that is drawn rightly",
+    );
+    hypothesis(all, says, move |question, answer| {
+        let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
+            return true;
+        };
+        let window = window_of(question);
+        let Some(right) = masks_at(&Oracle, *corners, window, &SAMPLES) else { return true };
+        let drawn = masks_of(runs, window);
+        right.rows().zip(drawn.rows()).all(|((_, right), (_, drawn))| {
+            right.iter().zip(drawn).all(|(mask, drawn)| masks[usize::from(mask & 15)] == *drawn)
+        })
+    })
+}
+
+/// Rules that samples may follow, the right one first.
+const RULES: [&str; 6] =
+    ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
+
+/// Another rule for the samples of clockwise triangles, or of the others, or of both; or for one sample alone.
+fn sample_rule(all: &[Answered], p: usize, alone: Option<usize>) -> Option<Hypothesis<'_>> {
+    let rules = [p / RULES.len(), p % RULES.len()].map(|rule| RULES[rule]);
+    let [clockwise, other] = [Ties::named(rules[0])?, Ties::named(rules[1])?];
+    let of = alone.map_or("samples".to_owned(), |bit| format!("the sample with the number {bit}"));
+    let does = match rules[0] == rules[1] {
+        true => format!("follows the {} rule for {of} on edges", rules[0]),
+        false => format!(
+            "follows the {} rule for samples on edges of clockwise triangles and the {} rule for those of others",
+            rules[0], rules[1]
+        ),
+    };
+    let says = Explanation::new(
+        "rule for samples",
+        does,
+        "test each sample by the rule that pixels follow",
+        "ch02",
+        "a sample on an edge that the top-left rule decides",
+    );
+    Some(hypothesis(all, says, move |question, answer| {
+        let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
+            return true;
+        };
+        let window = window_of(question);
+        let drawn = masks_of(runs, window);
+        let ties = if area2(corners) > 0 { clockwise } else { other };
+        let usual = Convention::default().ties;
+        SAMPLES.iter().enumerate().all(|(bit, (x, y))| {
+            let shape = Shape::Point { x: 16 * x, y: 16 * y };
+            let ties = if alone.is_none_or(|alone| alone == bit) { ties } else { usual };
+            let rule = Convention { shape, ties, ..Convention::default() };
+            let Some(covered) = rule.cover(corners, window) else { return true };
+            drawn.rows().all(|(y, row)| {
+                (window.x0..).zip(row).all(|(x, mask)| {
+                    (mask >> bit & 1 == 1) == covered.get(x, y).is_some_and(|hits| hits > 0)
+                })
+            })
+        })
+    }))
 }
 
 fn window_of(question: &Question) -> PixelRect {
@@ -526,6 +651,22 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
+        does: "keeps depth in floats of 16 bits",
+        repair: "keep more bits of depth, or move the near plane away from the eye",
+        refuted: "two depths that differ by less and are told apart",
+        key: |a| values::rounded(a.depth, 2),
+        last: None,
+        place: CENTRE,
+    },
+    DepthMistake {
+        does: "compares how far depths lie from 1/2, as where the sign of depths from -1 to 1 is lost",
+        repair: "compare the depths themselves",
+        refuted: "a pixel that shows the nearest of two triangles before 1/2",
+        key: |a| (a.depth - 0.5).abs(),
+        last: None,
+        place: CENTRE,
+    },
+    DepthMistake {
         does: "sorts whole triangles by their middle corner",
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
@@ -549,6 +690,11 @@ fn at_another_place(place: [f64; 2], at: &str) -> (String, DepthMistake) {
         place,
     };
     (format!("computes depth{at}"), mistake)
+}
+
+/// The depth, with something added where a triangle is counterclockwise.
+fn behind_by(a: &Layer<'_>, by: f64) -> f64 {
+    a.depth + if area2(&a.triangle.corners()) < 0 { by } else { 0.0 }
 }
 
 /// Differences of depth that are tried, times a power of ten.
@@ -577,7 +723,7 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
     // All at the same place, so the depths are computed once.
     let piles: Rc<Vec<_>> = Rc::new(all.iter().map(pile).collect());
     type Replaces = fn(&Layer<'_>, &Layer<'_>, f64) -> bool;
-    let biased: [(Replaces, &str); 4] = [
+    let biased: [(Replaces, &str); 6] = [
         (
             |a, b, by| b.depth - a.depth < by * (b.number as f64 - a.number as f64),
             "takes {} off the depth of a triangle for each one before it",
@@ -588,6 +734,14 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
         ),
         (|a, b, by| b.depth <= a.depth + by, "shows a later triangle that lies up to {} farther"),
         (|a, b, by| b.depth < a.depth - by, "shows a later triangle only where it is nearer by {}"),
+        (
+            |a, b, by| behind_by(b, by) < behind_by(a, by),
+            "adds {} to the depth of counterclockwise triangles",
+        ),
+        (
+            |a, b, by| behind_by(b, -by) < behind_by(a, -by),
+            "takes {} off the depth of counterclockwise triangles",
+        ),
     ];
     for (replaces, does) in biased {
         for by in (-7..0).flat_map(|power| DIGITS.map(|digit| digit * f64::from(10).powi(power))) {
@@ -603,6 +757,25 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
             }));
         }
     }
+    for (buffer, does, repair) in BUFFERS {
+        for (is_last, which) in [(false, ""), (true, ", a tie going to the later one")] {
+            let says = Explanation::new(
+                "the buffer of depths",
+                format!("{does}{which}"),
+                repair,
+                "ch06",
+                "a pixel of three triangles that shows the nearest one",
+            );
+            hypotheses.push(of_piles(&piles, says, move |layers, answer| {
+                let passes = |new: f64, kept: f64| new < kept || (is_last && new == kept);
+                layers.of_pixels.iter().zip(shown(layers, answer)).all(|(here, shown)| {
+                    let seen = (0..here.len())
+                        .rfind(|&i| i == 0 || passes(here[i].depth, buffer(&here[..i])));
+                    seen.map_or(0, |i| here[i].number as u8 + 1) == shown
+                })
+            }));
+        }
+    }
     // What is nearer than a depth, or farther, is cut away.
     let seen: Vec<(f64, bool)> = chosen_by(is_wrong)
         .iter()
@@ -615,7 +788,7 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
     let (least, most) = (of(true).reduce(f64::min), of(true).reduce(f64::max));
     let nearer = of(false).filter(|lost| least.is_some_and(|least| *lost < least));
     let farther = of(false).filter(|lost| most.is_some_and(|most| *lost > most));
-    let middle = |lost: Option<f64>, seen: Option<f64>| Some((lost? + seen?) / 2.0);
+    let middle = |lost: Option<f64>, seen: Option<f64>| Some(simplest(lost?, seen?));
     let low = middle(nearer.reduce(f64::max), least);
     let high = middle(farther.reduce(f64::min), most);
     let ranges = [
@@ -631,7 +804,7 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
             "a triangle beyond that depth that is seen",
         );
         hypotheses.push(of_piles(&piles, says, move |layers, answer| {
-            let kept = |layer: &&Layer<'_>| layer.depth > low && layer.depth < high;
+            let kept = |layer: &&Layer<'_>| layer.depth >= low && layer.depth < high;
             let of_pixels =
                 layers.of_pixels.iter().map(|here| here.iter().filter(kept).copied().collect());
             let layers = Layers { window: layers.window, of_pixels: of_pixels.collect() };
@@ -661,6 +834,31 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
         }
     }
     hypotheses
+}
+
+/// What a new triangle is compared with, from the layers before it, of which there is one at least.
+type Buffer = fn(&[Layer<'_>]) -> f64;
+const BUFFERS: [(Buffer, &str, &str); 2] = [
+    (
+        |before| before[0].depth,
+        "tests depths and does not write them: a pixel keeps the depth of its first triangle",
+        "write the depth of each triangle that passes the test",
+    ),
+    (
+        |before| before[before.len() - 1].depth,
+        "writes the depth of a triangle also where the test fails",
+        "write depths where the test passes, and nowhere else",
+    ),
+];
+
+/// The number with the fewest digits between two.
+fn simplest(a: f64, b: f64) -> f64 {
+    let rounded = (0..9).map(|digits| {
+        let unit = f64::from(10).powi(digits);
+        ((a + b) / 2.0 * unit).round() / unit
+    });
+    let mut between = rounded.filter(|v| (a - v) * (b - v) <= 0.0);
+    between.next().unwrap_or((a + b) / 2.0)
 }
 
 /// A hypothesis about what is shown of piles.
@@ -988,9 +1186,19 @@ struct Edge {
     lost: ClipCorner,
     t: f64,
     is_forward: bool,
+    /// What becomes of the part of the way, where that is a mistake.
+    cut: Part,
 }
 
 impl Edge {
+    /// The number where the part is counted from the end that comes first.
+    fn of_first(&self, k: usize) -> f64 {
+        match self.is_forward {
+            true => self.with(k, (self.cut)(self.t)),
+            false => self.lost[k] + (self.kept[k] - self.lost[k]) * (self.cut)(1.0 - self.t),
+        }
+    }
+
     /// The number where the edge is divided by other distances of its ends.
     fn divided(&self, k: usize, distance: fn(ClipCorner) -> f64) -> f64 {
         let [a, b] = [distance(self.kept), distance(self.lost)];
@@ -1010,7 +1218,7 @@ impl Edge {
 
 /// What a new corner gets in place of a number.
 type New = fn(&Edge, usize) -> f64;
-const NEW: [(New, &str); 18] = [
+const NEW: [(New, &str); 22] = [
     (|e, k| e.kept[k], "keeps {} of the corner that stays at a new corner"),
     (|e, k| e.lost[k], "keeps {} of the corner that is cut off at a new corner"),
     (
@@ -1021,7 +1229,6 @@ const NEW: [(New, &str); 18] = [
         |e, k| if e.is_forward { e.lost[k] } else { e.kept[k] },
         "keeps {} of the second end of an edge at a new corner",
     ),
-    (|e, k| e.with(k, 1.0 - e.t), "divides {} of an edge from the wrong end: t is 1 - t"),
     (|e, k| e.with(k, 0.5), "gives a new corner the mean of both ends for {}"),
     (
         |e, k| {
@@ -1053,18 +1260,37 @@ const NEW: [(New, &str); 18] = [
         |e, k| e.divided(k, |p| p[2] / p[3] + 1.0),
         "divides {} of an edge by distances after the division by w",
     ),
+    (|e, k| e.with(k, e.t).abs(), "loses the sign of {} of a new corner"),
+    (|e, k| e.with(k, e.t) / e.with(3, e.t), "divides {} of a new corner by its w"),
+    (|e, k| e.with(k, e.t) * e.with(3, e.t), "multiplies {} of a new corner by its w"),
     (
-        |e, k| e.with(k, if e.is_forward { 1.0 - e.t } else { e.t }),
-        "divides {} of an edge from the wrong end where it leaves",
+        |e, k| (e.with(k, e.t) * 255.0).round() / 255.0,
+        "keeps {} of a new corner in steps of 1/255, rounded",
     ),
     (
-        |e, k| e.with(k, if e.is_forward { e.t } else { 1.0 - e.t }),
-        "divides {} of an edge from the wrong end where it comes back",
+        |e, k| (e.with(k, e.t) * 255.0 + 0.5).floor() / 255.0,
+        "keeps {} of a new corner in steps of 1/255, rounded, halves up",
     ),
-    (
-        |e, k| e.with(k, f64::from(e.t as f32 * 1024.0).round() / 1024.0),
-        "divides {} of an edge by a part that is rounded to 1/1024",
-    ),
+    (|e, k| values::rounded(e.with(k, e.t), 2), "keeps {} of a new corner in floats of 16 bits"),
+    (|e, k| values::rounded(e.with(k, e.t), 0), "keeps {} of a new corner in floats of 32 bits"),
+    (|e, k| e.with([1, 0, 2, 3, 4][k], e.t), "exchanges {} of a new corner"),
+];
+
+/// What becomes of the part of the way between two corners.
+type Part = fn(f64) -> f64;
+const CUT: [(Part, &str); 12] = [
+    (|t| 1.0 - t, "that is counted from the wrong end (t is 1 - t)"),
+    (|t| t * t, "that is squared"),
+    (|t| values::rounded(t, 2), "that is a float of 16 bits"),
+    (|t| values::rounded(t, 0), "that is a float of 32 bits"),
+    (|t| (t * 256.0).round() / 256.0, "that is rounded to 1/256"),
+    (|t| (t * 256.0).floor() / 256.0, "that is cut to 1/256"),
+    (|t| (t * 1024.0).round() / 1024.0, "that is rounded to 1/1024"),
+    (|t| (t * 65536.0).round() / 65536.0, "that is rounded to 1/65536"),
+    (|t| (t * 65536.0).floor() / 65536.0, "that is cut to 1/65536"),
+    (|t| t.min(0.5), "that is 1/2 at most"),
+    (|t| t.max(0.5), "that is 1/2 at least"),
+    (|t| t / (2.0 * t - 1.0), "of the sum of the distances, where their difference is right"),
 ];
 
 /// Another plane, on which all new corners lie, and how it is said.
@@ -1137,6 +1363,20 @@ fn of_near<'a>(all: &'a [Answered], is_wrong: &[bool], declared: &Declared) -> V
         .iter()
         .map(|m| of(m.does.to_owned(), m.repair, m.refuted, Box::new(move |c| (m.clip)(c, near))))
         .collect();
+    for lost in 0..3 {
+        let does =
+            format!("loses the {} corner of a quadrilateral", ["first", "second", "third"][lost]);
+        let clip = move |c| {
+            let mut left = clip(c, near, between);
+            if left.len() > 3 {
+                left.remove(lost);
+            }
+            left
+        };
+        let (repair, refuted) =
+            ("a triangle that is cut can have four corners", "an answer with four corners");
+        hypotheses.push(of(does, repair, refuted, Box::new(clip)));
+    }
     if let Some((kind, at, said)) = found_plane(all, is_wrong, tolerance) {
         let clip = move |corners| {
             clip(
@@ -1152,16 +1392,33 @@ fn of_near<'a>(all: &'a [Answered], is_wrong: &[bool], declared: &Declared) -> V
         let refuted = "a new corner that lies elsewhere";
         hypotheses.push(of(format!("clips at {said}"), repair, refuted, Box::new(clip)));
     }
+    let whole: Part = |t| t;
+    let mut made: Vec<(New, Part, String)> =
+        NEW.into_iter().map(|(new, does)| (new, whole, does.to_owned())).collect();
+    for (cut, said) in CUT {
+        let does = |from, at| format!("divides {{}} of an edge{at} by a part{from} {said}");
+        let first = ", counted from its first end,";
+        let [leaves, back] = [" that leaves", " that comes back"];
+        let all: [(New, &str, &str); 5] = [
+            (|e, k| e.with(k, (e.cut)(e.t)), "", ""),
+            (Edge::of_first, first, ""),
+            (|e, k| e.with(k, if e.is_forward { (e.cut)(e.t) } else { e.t }), "", leaves),
+            (|e, k| e.with(k, if e.is_forward { e.t } else { (e.cut)(e.t) }), "", back),
+            (|e, k| if e.is_forward { e.with(k, e.t) } else { e.of_first(k) }, first, back),
+        ];
+        made.extend(all.map(|(new, from, at)| (new, cut, does(from, at))));
+    }
     for (numbers, said) in NUMBERS {
         // A corner in the plane may be given once more as a new one, or not.
-        for ((new, does), again) in NEW.into_iter().flat_map(|new| [(new, true), (new, false)]) {
+        for ((new, cut, does), again) in made.iter().flat_map(|new| [(new, true), (new, false)]) {
+            let (new, cut) = (*new, *cut);
             let repair = "a new corner divides the edge as the distances of its ends to the plane do, in all of x, y, z, w and attributes";
             let clip = move |corners| {
                 clip(corners, near, |kept, lost, t| {
                     let mut made = between(kept, lost, t);
                     let is_forward =
                         (0..3).any(|i| corners[i] == kept && corners[(i + 1) % 3] == lost);
-                    let edge = Edge { kept, lost, t, is_forward };
+                    let edge = Edge { kept, lost, t, is_forward, cut };
                     for &k in numbers.iter().filter(|_| again || t > 0.0) {
                         made[k] = new(&edge, k);
                     }

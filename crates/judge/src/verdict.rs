@@ -7,6 +7,7 @@ use super::failures::Failure;
 use super::recognise::{Said, Why};
 use super::run::{Found, Row, Sides};
 use super::windings::Windings;
+use rasterproof_verify::judge;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -34,24 +35,24 @@ pub struct Property {
     pub detail: String,
 }
 
-#[derive(Clone, Debug)]
-pub struct Judgement {
+/// What came of a program; rows in the order of the catalogue, the failing cases without those that a baseline knows.
+pub type Verdict = judge::Verdict<Options, Row, Failure, Vec<Why>, Particulars>;
+
+/// What is said of a program beside its rows, failing cases and causes.
+#[derive(Clone, Debug, Default)]
+pub struct Particulars {
     pub declared: Declared,
     /// What the second of two compared programs says of itself; the rows then count cases in which both differ.
     pub against: Option<Declared>,
-    pub seed: u64,
-    pub cases: u64,
     pub windings: Windings,
     /// What was recognised, if it does not draw as it declares.
     pub recognised: Option<Said>,
-    /// Everything that was found; rows in the order of the catalogue.
+    /// Everything else that was found; its rows are those of the verdict.
     pub found: Found,
-    /// Failing cases that are shown; those that a baseline knows are not.
-    pub failures: Vec<Failure>,
-    /// Why it is wrong, where no convention explains it.
-    pub causes: Vec<Why>,
     /// How long its lines may be, in steps, where it walks along them so slowly that longer ones were not asked for.
     pub reach: Option<i32>,
+    /// How long sides of its triangles may be, in pixels, where it walks along its rows like that.
+    pub side: Option<i32>,
     /// Failing cases that the baseline knows.
     pub known: u64,
     /// The end of what it wrote on standard error.
@@ -83,125 +84,107 @@ const CHECKS: [(&str, &str); 7] = [
     ("fill-and-outline", "the fill of a triangle is what its outline encloses"),
 ];
 
-impl Judgement {
-    #[must_use]
-    pub fn new(
-        declared: Declared,
-        options: &Options,
-        windings: Windings,
-        recognised: Option<Said>,
-        mut found: Found,
-        failures: Vec<Failure>,
-        complaints: Vec<String>,
-    ) -> Self {
-        let families = adapt_case::families(&[]);
-        let rank = |row: &Row| {
-            let family = families.iter().position(|f| f.name == row.name);
-            family.unwrap_or_else(|| {
-                families.len() + CHECKS.iter().position(|(name, _)| *name == row.name).unwrap_or(0)
-            })
-        };
-        found.rows.sort_by_key(rank);
-        let mut verdict = Self {
-            declared,
-            against: None,
-            seed: options.seed,
-            cases: options.cases,
-            windings,
-            recognised,
-            found,
-            failures,
-            causes: Vec::new(),
-            reach: None,
-            known: 0,
-            complaints,
-            properties: Vec::new(),
-        };
-        verdict.properties = verdict.judge();
-        verdict
-    }
+/// The verdict on a program, from everything that was found.
+pub fn verdict(
+    options: &Options,
+    mut of: Particulars,
+    failures: Vec<Failure>,
+    cause: Vec<Why>,
+) -> Verdict {
+    let families = adapt_case::families(&[]);
+    let rank = |row: &Row| {
+        let family = families.iter().position(|f| f.name == row.name);
+        family.unwrap_or_else(|| {
+            families.len() + CHECKS.iter().position(|(name, _)| *name == row.name).unwrap_or(0)
+        })
+    };
+    let mut rows = std::mem::take(&mut of.found.rows);
+    rows.sort_by_key(rank);
+    of.properties = properties(&of, &rows);
+    Verdict { options: options.clone(), families: rows, failures, cause, more: of }
+}
 
-    pub(super) fn compared_with(&mut self, second: Declared) {
-        self.against = Some(second);
-        self.properties = self.judge();
+fn properties(of: &Particulars, rows: &[Row]) -> Vec<Property> {
+    let property = |name, about: &str, holds: bool, detail: String| Property {
+        name,
+        about: about.to_owned(),
+        outcome: if holds { Outcome::Pass } else { Outcome::Fail },
+        detail,
+    };
+    let mut all = vec![property(
+        "protocol",
+        "every request is answered in time, once and in order",
+        keeps_protocol(&of.found),
+        manners(&of.found),
+    )];
+    if of.windings.is_known() {
+        let w = &of.windings;
+        let counts = format!(
+            "{} of {} clockwise and {} of {} counter-clockwise plain triangles, seen with y down",
+            w.clockwise[0], w.clockwise[1], w.counter_clockwise[0], w.counter_clockwise[1]
+        );
+        let is_declared = w.seen() == Some(of.declared.convention.seen_winding());
+        let declared = of.declared.convention.winding.word();
+        all.push(property("draws", "it draws at all", w.any(), counts.clone()));
+        let about = format!("it draws the declared winding ({declared})");
+        all.push(property("winding", &about, is_declared, counts));
     }
+    for row in rows {
+        let about = match &of.against {
+            Some(_) => format!("both answer the same: {}", row.name),
+            None => about(row.name),
+        };
+        all.push(property(row.name, &about, row.wrong_cases == 0, sentence(row)));
+    }
+    all
+}
+
+/// Whether every request was answered as the protocol says.
+fn keeps_protocol(found: &Found) -> bool {
+    found.incidents.is_empty() && found.strays.is_empty() && !found.gave_up
+}
+
+fn manners(found: &Found) -> String {
+    let whats = found.incidents.iter().map(|i| &i.what).chain(&found.strays);
+    let mut words: Vec<&str> = whats.map(|what| what.breach.name()).collect();
+    words.sort_unstable();
+    words.dedup();
+    if words.is_empty() {
+        format!("{} answers", found.answered)
+    } else {
+        format!("it {}; {} answers", words.join(", "), found.answered)
+    }
+}
+
+/// What is counted in a verdict on a program.
+pub trait Scores {
+    fn verdict(&self) -> &Verdict;
 
     /// How often each of two programs is right, summed over all rows.
     #[must_use]
-    pub fn sides(&self) -> Sides {
-        let sides = self.found.rows.iter().filter_map(|row| row.sides);
+    fn sides(&self) -> Sides {
+        let sides = self.verdict().families.iter().filter_map(|row| row.sides);
         sides.fold(Sides::default(), |mut sum, sides| {
             sum += sides;
             sum
         })
     }
 
-    fn judge(&self) -> Vec<Property> {
-        let property = |name, about: &str, holds: bool, detail: String| Property {
-            name,
-            about: about.to_owned(),
-            outcome: if holds { Outcome::Pass } else { Outcome::Fail },
-            detail,
-        };
-        let mut all = vec![property(
-            "protocol",
-            "every request is answered in time, once and in order",
-            self.keeps_protocol(),
-            self.manners(),
-        )];
-        if self.windings.is_known() {
-            let w = &self.windings;
-            let counts = format!(
-                "{} of {} clockwise and {} of {} counter-clockwise plain triangles, seen with y down",
-                w.clockwise[0], w.clockwise[1], w.counter_clockwise[0], w.counter_clockwise[1]
-            );
-            let is_declared = w.seen() == Some(self.declared.convention.seen_winding());
-            let declared = self.declared.convention.winding.word();
-            all.push(property("draws", "it draws at all", w.any(), counts.clone()));
-            let about = format!("it draws the declared winding ({declared})");
-            all.push(property("winding", &about, is_declared, counts));
-        }
-        for row in &self.found.rows {
-            let about = match &self.against {
-                Some(_) => format!("both answer the same: {}", row.name),
-                None => about(row.name),
-            };
-            all.push(property(row.name, &about, row.wrong_cases == 0, sentence(row)));
-        }
-        all
-    }
-
-    /// Whether every request was answered as the protocol says.
-    #[must_use]
-    pub fn keeps_protocol(&self) -> bool {
-        self.found.incidents.is_empty() && self.found.strays.is_empty() && !self.found.gave_up
-    }
-
-    fn manners(&self) -> String {
-        let whats = self.found.incidents.iter().map(|i| &i.what).chain(&self.found.strays);
-        let mut words: Vec<&str> = whats.map(|what| what.breach.name()).collect();
-        words.sort_unstable();
-        words.dedup();
-        if words.is_empty() {
-            format!("{} answers", self.found.answered)
-        } else {
-            format!("it {}; {} answers", words.join(", "), self.found.answered)
-        }
-    }
-
     /// Whether nothing is to be done. Where nothing could be asked, nothing agrees.
     #[must_use]
-    pub fn agrees(&self) -> bool {
-        !self.found.rows.is_empty() && self.properties.iter().all(|p| p.outcome.is_good())
+    fn agrees(&self) -> bool {
+        let Verdict { families, more, .. } = self.verdict();
+        !families.is_empty() && more.properties.iter().all(|p| p.outcome.is_good())
     }
 
     /// Why it says nothing, where no case was judged or nothing was expected: whoever draws nothing would agree.
     #[must_use]
-    pub fn judged_nothing(&self, options: &Options) -> Option<String> {
-        let expects = self.windings.is_known() || self.found.rows.iter().any(|r| r.pixels > 0);
+    fn judged_nothing(&self) -> Option<String> {
+        let Verdict { families, options, more, .. } = self.verdict();
+        let expects = more.windings.is_known() || families.iter().any(|r| r.pixels > 0);
         let is_blank = self.agrees() && !expects;
-        let is_empty = self.found.rows.is_empty();
-        let limit = options.time_limit.filter(|_| self.found.out_of_time);
+        let is_empty = families.is_empty();
+        let limit = options.time_limit.filter(|_| more.found.out_of_time);
         match limit {
             Some(limit) if is_empty || is_blank => Some(format!(
                 "nothing was judged within --seconds {}: the answers take too long; allow more seconds",
@@ -219,42 +202,42 @@ impl Judgement {
     }
 
     /// Triangles or lines that were judged against an expected picture.
-    pub fn shapes(&self, lines: bool) -> u64 {
+    fn shapes(&self, lines: bool) -> u64 {
         let is_lines = |row: &&Row| row.name.starts_with("line-") == lines;
         self.pictures().filter(is_lines).map(|row| row.shapes).sum()
     }
 
     /// Rows that compare with an expected picture; not those that compare answers.
-    pub fn pictures(&self) -> impl Iterator<Item = &Row> {
+    fn pictures(&self) -> impl Iterator<Item = &Row> {
         let compares = |name: &str| {
             ["watertight", "vertex-order", "line-direction", "fill-and-outline"].contains(&name)
         };
-        self.found.rows.iter().filter(move |row| !compares(row.name))
+        self.verdict().families.iter().filter(move |row| !compares(row.name))
     }
 
     #[must_use]
-    pub fn as_declared(&self) -> Score {
+    fn as_declared(&self) -> Score {
         self.score(None, |row| (row.tally.total(), row.pixels, 0))
     }
 
     /// The score by the convention that was recognised; nothing where nothing was, or is explained.
     #[must_use]
-    pub fn by_convention(&self) -> Option<Score> {
+    fn by_convention(&self) -> Option<Score> {
         let score = || {
             self.score(None, |row| (row.recognised.total(), row.recognised_pixels, row.unscored))
         };
-        self.recognised.as_ref().filter(|said| said.is_explained).map(|_| score())
+        self.verdict().more.recognised.as_ref().filter(|said| said.is_explained).map(|_| score())
     }
 
     /// Pixels that are wrong as declared, of the shapes of which the recognised convention says nothing.
     #[must_use]
-    pub fn left_out_wrong(&self) -> u64 {
+    fn left_out_wrong(&self) -> u64 {
         self.pictures().map(|row| row.unscored_wrong).sum()
     }
 
     /// Sums over the rows, those of lines or of triangles alone where that is asked.
     #[must_use]
-    pub fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
+    fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
         let is_asked = |row: &&Row| lines.is_none_or(|l| row.name.starts_with("line-") == l);
         // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
         let others = ["samples4", "depth-order", "depth-near-tie", "near-plane", "clip-attributes"];
@@ -264,6 +247,12 @@ impl Judgement {
             pixels: sum.pixels + pixels,
             unscored: sum.unscored + unscored,
         })
+    }
+}
+
+impl Scores for Verdict {
+    fn verdict(&self) -> &Verdict {
+        self
     }
 }
 

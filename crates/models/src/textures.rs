@@ -53,7 +53,7 @@ pub(crate) fn opacity(factor: f64, map: Option<Arc<OpacityMap>>) -> Option<Opaci
 /// [`BadFile`] where it cannot be read or decoded, or a side exceeds the largest one.
 pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
     let bytes = read_bytes(path, limits::TEXTURE_BYTES)?;
-    let decoded = decode(path, bytes, &mut 0).map_err(|cause| bad(path, None, cause))?;
+    let decoded = decode(path, &bytes, &mut 0).map_err(|cause| bad(path, None, cause))?;
     Ok(decoded.texture)
 }
 
@@ -90,7 +90,7 @@ impl Pictures {
         self.read_bytes += bytes.len() as u64;
         let key = (Sha256::digest(&bytes).into(), is_tga(path));
         let Self { decoded, taken_bytes, .. } = self;
-        let decoded = decoded.entry(key).or_insert_with(|| decode(path, bytes, taken_bytes));
+        let decoded = decoded.entry(key).or_insert_with(|| decode(path, &bytes, taken_bytes));
         decoded.as_ref().map_err(String::clone)
     }
 }
@@ -100,8 +100,9 @@ fn is_tga(path: &Path) -> bool {
 }
 
 /// Decodes a picture, and adds what it takes to what all pictures took before.
-fn decode(path: &Path, bytes: Vec<u8>, taken_bytes: &mut u64) -> Result<Decoded, String> {
+fn decode(path: &Path, bytes: &[u8], taken_bytes: &mut u64) -> Result<Decoded, String> {
     let failed = |error| format!("{UNREADABLE}: {error}");
+    // Of a slice, as `image` itself reads, so that decoders are not compiled once more.
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| error.to_string())?;

@@ -3,6 +3,8 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use rasterproof_verify::specification::{OPENGL_ES, Source, WEBGPU};
+use serde_json::{Map, Value, json};
 
 pub struct Parts {
     template: &'static str,
@@ -63,6 +65,7 @@ pub fn page(parts: &Parts, module: &[u8]) -> Result<String, String> {
     let filled = [
         ("{{style}}", &parts.styles.concat()),
         ("{{script}}", &parts.scripts.join("\n")),
+        ("{{clauses}}", &clauses()),
         ("{{module}}", &STANDARD.encode(module)),
     ];
     let page = filled
@@ -75,6 +78,24 @@ pub fn page(parts: &Parts, module: &[u8]) -> Result<String, String> {
         ));
     }
     Ok(page)
+}
+
+/// What each interface promises, by the checks of the page.
+fn clauses() -> String {
+    let of = |source: Source| -> Map<String, Value> {
+        let rules = source.clauses().map(|clause| {
+            let [_, says, open] = clause.chinese;
+            let section = [source.title, clause.section].join(", ");
+            let rule = json!({
+                "section": section.trim_end_matches(", "),
+                "says": [clause.says, says], "open": [clause.open, open],
+                "quote": Some(clause.quote).filter(|[words, _]| !words.is_empty()),
+            });
+            (clause.key.to_owned(), rule)
+        });
+        rules.collect()
+    };
+    json!({ "webgl2": of(OPENGL_ES), "webgpu": of(WEBGPU) }).to_string()
 }
 
 #[cfg(test)]

@@ -297,16 +297,19 @@ pub fn specimen_coverage(
 /// Hits of a line specimen.
 pub fn specimen_line_coverage(
     specimen: &dyn PublishedLine,
-    line: &Line,
+    lines: &[Line],
     window: PixelRect,
 ) -> Result<Coverage, String> {
     // The centre of a pixel is its position.
-    let ends = line.ends.map_array(|e| [f64::from(e.pixel.x) + 0.5, f64::from(e.pixel.y) + 0.5]);
+    let centre = |end: PixelPoint| [f64::from(end.x) + 0.5, f64::from(end.y) + 0.5];
     caught(|| {
         let mut hits = Coverage::new(window, 0);
-        specimen
-            .draw(ends, window, &mut |x, y| hits.hit(y, x, x + 1))
-            .map_err(|refused| refused.to_string())?;
+        for line in lines {
+            let ends = line.ends.map_array(|end| centre(end.pixel));
+            specimen
+                .draw(ends, window, &mut |x, y| hits.hit(y, x, x + 1))
+                .map_err(|refused| refused.to_string())?;
+        }
         Ok(hits)
     })?
 }
@@ -411,7 +414,7 @@ fn lines(specimen: &dyn PublishedLine, case: &Case) -> Counts {
         let mut truth = Coverage::new(case.window, 0);
         Oracle.draw(line, case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
         let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
-        match specimen_line_coverage(specimen, line, case.window) {
+        match specimen_line_coverage(specimen, std::slice::from_ref(line), case.window) {
             Ok(hits) => counts.tally = Tally::between(&hits, &truth),
             Err(_) => counts.refused = 1,
         }

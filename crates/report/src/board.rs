@@ -28,20 +28,15 @@ struct Mark {
 /// A table for each measure of the error, for each kind of time and for each count of work.
 #[must_use]
 pub fn tables(board: &Board) -> Vec<Table> {
-    let mut tables = Vec::new();
-    let columns: Vec<usize> = board.columns_run().collect();
-    for (number, measure) in board.measures.iter().enumerate() {
-        let applies =
-            |&c: &usize| (0..board.choices.len()).any(|r| board.error(r, c, number).is_some());
-        let shown: Vec<usize> = columns.iter().copied().filter(applies).collect();
-        tables.push(block(board, &shown, title(measure), &|choice, column| {
-            error_cell(board, choice, column, number)
-        }));
-    }
+    let of_measure = |(number, measure)| {
+        block(board, title(measure), &|choice, column| error_cell(board, choice, column, number))
+    };
+    let mut tables: Vec<Table> = board.measures.iter().enumerate().map(of_measure).collect();
     if board.rounds > 0 {
-        times(&mut tables, board, &columns);
+        tables.extend(times(board));
     }
-    work(&mut tables, board, &columns);
+    tables.extend(work(board));
+    tables.retain(|table| !table.rows.is_empty());
     if let (Some(first), title) = (tables.first_mut(), board.ladder.title()) {
         first.caption = format!("{title}: {}", first.caption);
     }
@@ -77,7 +72,7 @@ fn error_cell(board: &Board, choice: usize, column: usize, measure: usize) -> Op
     Some(Mark { text: number(error, cell_width(board)), mark, good })
 }
 
-fn times(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
+fn times(board: &Board) -> [Table; 2] {
     let cell = |choice: usize, column: usize, value: fn(&Time) -> f64| {
         let time = board.time(choice, column)?;
         let fastest = (0..board.choices.len())
@@ -88,16 +83,12 @@ fn times(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
     };
     let title =
         format!("ns for each covered pixel, median of {} rounds (< the fastest)", board.rounds);
-    tables.push(block(board, columns, title, &|r, c| cell(r, c, |t| t.pixel_ns.median)));
+    let pixels = block(board, title, &|r, c| cell(r, c, |t| t.pixel_ns.median));
     let title = "ns for each triangle or line".to_owned();
-    let mut items = block(board, columns, title, &|r, c| cell(r, c, |t| t.item_ns.median));
-    let mut spreads: Vec<f64> = board
-        .cells
-        .iter()
-        .flatten()
-        .filter_map(|cell| cell.run()?.time)
-        .map(|t| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median)
-        .collect();
+    let mut items = block(board, title, &|r, c| cell(r, c, |t| t.item_ns.median));
+    let timed = board.cells.iter().flatten().filter_map(|cell| cell.run()?.time);
+    let spread = |t: Time| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median;
+    let mut spreads: Vec<f64> = timed.map(spread).collect();
     spreads.sort_by(f64::total_cmp);
     if let (Some(middle), Some(worst)) = (spreads.get(spreads.len() / 2), spreads.last()) {
         items.notes.push(format!(
@@ -106,10 +97,10 @@ fn times(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
             worst * 100.0
         ));
     }
-    tables.push(items);
+    [pixels, items]
 }
 
-fn work(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
+fn work(board: &Board) -> [Table; 3] {
     type Count = fn(&Run) -> Option<u64>;
     let counts: [(&str, Count); 3] = [
         ("edges asked, or crossings computed, for each covered pixel", |r| {
@@ -118,20 +109,16 @@ fn work(tables: &mut Vec<Table>, board: &Board, columns: &[usize]) {
         ("divisions for each covered pixel", |r| Some(r.work?.divisions)),
         ("exact decisions after a filter, for each covered pixel", |r| Some(r.work?.fallbacks)),
     ];
-    for (title, count) in counts {
-        let any =
-            board.cells.iter().flatten().any(|c| c.run().and_then(count).is_some_and(|n| n > 0));
-        if any {
-            tables.push(block(board, columns, title.to_owned(), &|choice, column| {
-                let pixels = board.columns[column].pixels.max(1) as f64;
-                // Choices that do none of it have no row.
-                let any =
-                    board.cells[choice].iter().any(|c| c.run().and_then(count).unwrap_or(0) > 0);
-                let each = any.then_some(count(board.run(choice, column)?)? as f64 / pixels)?;
-                Some(Mark { text: number(each, cell_width(board)), mark: ' ', good: false })
-            }));
-        }
-    }
+    counts.map(|(title, count)| {
+        block(board, title.to_owned(), &|choice, column| {
+            let pixels = board.columns[column].pixels.max(1) as f64;
+            // Choices that do none of it have no row.
+            let does = |cell: &Cell| cell.run().and_then(count).is_some_and(|n| n > 0);
+            let any = board.cells[choice].iter().any(does);
+            let each = any.then_some(count(board.run(choice, column)?)? as f64 / pixels)?;
+            Some(Mark { text: number(each, cell_width(board)), mark: ' ', good: false })
+        })
+    })
 }
 
 fn cell_width(board: &Board) -> usize {
@@ -139,16 +126,14 @@ fn cell_width(board: &Board) -> usize {
     ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10) - 1
 }
 
-/// A row for each choice that has a cell to show.
-fn block(
-    board: &Board,
-    columns: &[usize],
-    caption: String,
-    cell: &dyn Fn(usize, usize) -> Option<Mark>,
-) -> Table {
+/// A row for each choice that has a cell to show, and a column for each class of scenes in which one has.
+fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<Mark>) -> Table {
+    let choices = 0..board.choices.len();
+    let applies = |&column: &usize| choices.clone().any(|choice| cell(choice, column).is_some());
+    let columns: Vec<usize> = board.columns_run().filter(applies).collect();
     let row = |choice: usize| {
         let mut row = Row::from(vec![board.choices[choice].name.to_string()]);
-        for (place, &column) in (1..).zip(columns) {
+        for (place, &column) in (1..).zip(&columns) {
             row.cells.push(match cell(choice, column) {
                 Some(Mark { text, mark, good }) => {
                     row.good.extend(good.then_some(place));
@@ -172,7 +157,7 @@ fn block(
     Table {
         caption,
         columns: [first].into_iter().chain(columns.iter().map(head)).collect(),
-        rows: (0..board.choices.len()).filter(has_cell).map(row).collect(),
+        rows: choices.clone().filter(has_cell).map(row).collect(),
         ..Table::default()
     }
 }
@@ -240,7 +225,6 @@ pub fn report(recorded: &Recorded, figures: Vec<Figure>) -> Report {
         title: "What accuracy costs in time".to_owned(),
         about: format!("rasterproof {version} cost, seed {seed}{quick}"),
         repeat: printable(repeat).into_owned(),
-        seed: Some(*seed),
         tables: boards.iter().flat_map(tables).chain(price(boards)).collect(),
         figures,
         data: json::cost(recorded),

@@ -1,21 +1,17 @@
-//! Plots of what accuracy costs: error against time, and the price of exactness.
+//! Plots: error against time, and bars.
 //!
 //! A panel is a class of scenes, or a part of the work on a model. Both axes are logarithmic; the shelf below holds the
 //! choices without any error, each in a row of its own. A line joins what is best at each price. Labels stand beside their
 //! dots and never overlap.
 
-use super::canvas::{self, Drawing, GRID, INK, Ink, SOFT};
-use super::lettering;
+use super::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
 use super::words::{number, thousands};
-use rasterproof_precision::cost::{Board, Ladder, Price, Priced, prices};
+use rasterproof_precision::cost::{Board, Ladder, Price, Priced};
 use rasterproof_study::cost::Group;
+use rasterproof_verify::judge::ascii;
 
 const WIDTH: f64 = 800.0;
 const SHELF: Ink = [233, 245, 236];
-const GOOD: Ink = [20, 110, 50];
-const OTHER: Ink = [31, 84, 170];
-const CRACKED: Ink = [205, 30, 30];
-const FRONTIER: Ink = [190, 160, 90];
 
 const ROW: f64 = 13.0;
 /// Height of the part of a panel where errors are not zero.
@@ -99,39 +95,99 @@ pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
     drawn("Error against time", legend, groups.iter().map(panel).collect(), in_row)
 }
 
-/// Bars of effects: the milliseconds that each takes, or saves where it is left out, and the pixels that are wrong without
-/// it.
-pub fn effects(rows: &[(&str, Option<f64>, bool, u64)], width: f64) -> Drawing {
-    let title = "Effects: time, and pixels that are wrong without";
-    let legend = "left: ms, blue taken by what is paid for, green saved by what is left out";
-    let lines: Vec<_> =
-        [title, legend].iter().flat_map(|line| wrapped(line, width - 24.0)).collect();
-    let head = 26.0 + 16.0 * lines.len() as f64;
-    let mut drawing = Drawing::new(title, [width, head + 20.0 * rows.len() as f64 + 12.0]);
-    for (line, text) in lines.iter().enumerate() {
-        drawing.text([12.0, 16.0 + 16.0 * line as f64], text, if line == 0 { INK } else { SOFT });
+/// A bar: its share of the longest, its colour, and what stands behind it.
+pub type Bar = (f64, Ink, String);
+
+/// Rows of bars below each other, each row with its name, under a legend of their colours.
+pub fn bars(title: &str, legend: &[(Ink, &str)], rows: &[(&str, Vec<Bar>)], width: f64) -> Drawing {
+    let titles = wrapped(title, width - 24.0);
+    let wrap = |(ink, words): &(Ink, &str)| {
+        let lines = wrapped(words, width - 52.0).into_iter().enumerate();
+        // The colour stands before the first line.
+        lines.map(|(line, text)| ((line == 0).then_some(*ink), text)).collect::<Vec<_>>()
+    };
+    let legend: Vec<_> = legend.iter().flat_map(wrap).collect();
+    let head = 24.0 + 16.0 * (titles.len() + legend.len()) as f64;
+    let widest = |of: &mut dyn Iterator<Item = &str>| of.map(canvas::width).fold(0.0, f64::max);
+    let labels = widest(&mut rows.iter().flat_map(|row| row.1.iter().map(|bar| &*bar.2)));
+    // On a narrow page names stand over their bars.
+    let (left, down) = match width < WIDTH {
+        true => (12.0, 14.0),
+        false => (widest(&mut rows.iter().map(|row| row.0)) + 28.0, 0.0),
+    };
+    let room = width - left - labels - 18.0;
+    let heights = rows.iter().map(|row| down + ROW * row.1.len() as f64 + 6.0);
+    let mut drawing = Drawing::new(title, [width, head + heights.sum::<f64>() + 6.0]);
+    let mut y = 16.0;
+    for text in &titles {
+        drawing.text([12.0, y], text, INK);
+        y += 16.0;
     }
-    let names = rows.iter().map(|(name, ..)| canvas::width(name)).fold(0.0, f64::max) + 24.0;
-    let room = (width - names) / 2.0;
-    let bar = room - canvas::width("1,234,567 px") - 8.0;
-    let most_ms = rows.iter().filter_map(|row| row.1).fold(1e-9, f64::max);
-    let most_px = rows.iter().map(|row| row.3).max().unwrap_or(1).max(1) as f64;
-    for (place, (name, ms, is_saved, wrong)) in rows.iter().enumerate() {
-        let y = head + 20.0 * place as f64;
+    for (ink, text) in &legend {
+        ink.iter().for_each(|ink| drawing.filled_box([14.0, y - 4.0], [18.0, 8.0], *ink));
+        drawing.text([40.0, y], text, SOFT);
+        y += 16.0;
+    }
+    y = head + 6.0;
+    for (name, bars) in rows {
         drawing.text([12.0, y], name, INK);
-        let mut draw = |x: f64, length: f64, text: &str, ink: Ink| {
-            drawing.filled_box([x, y - 6.0], [length.max(1.0), 12.0], ink);
-            drawing.text([x + length + 6.0, y], text, SOFT);
-        };
-        let ink = if *is_saved { GOOD } else { OTHER };
-        match ms {
-            Some(ms) => draw(names, bar * ms / most_ms, &number(*ms, 8), ink),
-            None => draw(names, 0.0, "noise", SOFT),
+        y += down;
+        for (share, ink, label) in bars {
+            let length = (room * share).max(1.0);
+            drawing.filled_box([left, y - 5.0], [length, 10.0], *ink);
+            drawing.text([left + length + 6.0, y], label, SOFT);
+            y += ROW;
         }
-        let pixels = *wrong as f64;
-        draw(names + room, bar * pixels / most_px, &format!("{} px", thousands(*wrong)), CRACKED);
+        y += 6.0;
     }
     drawing
+}
+
+/// The milliseconds that each effect takes, or saves where it is left out, and the pixels that are wrong without it.
+pub fn effects(rows: &[(&str, Option<f64>, bool, u64)], width: f64) -> Drawing {
+    let legend = [
+        (BLUE, "ms that it takes, where it is paid for"),
+        (GREEN, "ms that are saved, where it is left out"),
+        (RED, "pixels that are wrong without it"),
+    ];
+    let most_ms = rows.iter().filter_map(|row| row.1).fold(1e-9, f64::max);
+    let most_px = rows.iter().map(|row| row.3).fold(1, u64::max) as f64;
+    let row = |&(name, ms, is_saved, wrong): &(_, Option<f64>, bool, u64)| {
+        let ink = if is_saved { GREEN } else { BLUE };
+        let time = match ms {
+            Some(ms) => (ms / most_ms, ink, format!("{} ms", number(ms, 8))),
+            None => (0.0, SOFT, "noise".to_owned()),
+        };
+        let pixels = (wrong as f64 / most_px, RED, format!("{} px", thousands(wrong)));
+        (name, vec![time, pixels])
+    };
+    let rows: Vec<_> = rows.iter().map(row).collect();
+    bars("Effects: time, and pixels that are wrong without", &legend, &rows, width)
+}
+
+/// What exact coverage costs over the cheapest choice, for each class of scenes: the one picture.
+pub fn price(prices: &[Price], width: f64) -> Drawing {
+    let kinds = |price: &Price| [&price.unpromised, &price.snapped, &price.given].map(Clone::clone);
+    let legend = [
+        (BLUE, "the cheapest choice that promises nothing (floats)"),
+        (GREEN, "the cheapest that is exact on the 1/256-px lattice (snaps)"),
+        (SAND, "the cheapest that is exact for the vertices as given"),
+    ];
+    let most = prices.iter().flat_map(kinds).flatten().map(|one| one.ratio).fold(1.0, f64::max);
+    let bar = |(priced, ink): (Option<Priced>, Ink)| {
+        let Priced { name, ratio, pixel_ns } = priced?;
+        let label = match ratio {
+            1.0 => format!("{name} {} ns/px", number(pixel_ns, 8)),
+            _ => format!("{name} {ratio:.2}x"),
+        };
+        Some((ratio / most, ink, label))
+    };
+    let row = |price: &'_ Price| {
+        kinds(price).into_iter().zip(legend.map(|one| one.0)).filter_map(bar).collect()
+    };
+    let rows: Vec<_> = prices.iter().map(|price| (&*price.column, row(price))).collect();
+    let title = "Time of exact coverage over that of the cheapest choice of any accuracy, by class of scenes";
+    bars(title, &legend, &rows, width)
 }
 
 fn drawn(title: &str, legend: &str, mut panels: Vec<Panel>, in_row: usize) -> Drawing {
@@ -160,7 +216,7 @@ fn drawn(title: &str, legend: &str, mut panels: Vec<Panel>, in_row: usize) -> Dr
 
 /// The text in lines of at most `room` units, broken at spaces.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
-    lettering::lines(text, room, canvas::width)
+    ascii::lines(text, room, canvas::width)
 }
 
 fn legend(board: &Board) -> &'static str {
@@ -278,22 +334,34 @@ fn draw_panel(drawing: &mut Drawing, [left, top]: [f64; 2], shelf: f64, panel: &
         }
     }
     if shelf > 0.0 {
-        drawing.text_before([x0 - 4.0, y1 + shelf / 2.0], "0", GOOD);
+        drawing.text_before([x0 - 4.0, y1 + shelf / 2.0], "0", GREEN);
     }
     drawing.line([x0, y1], [x1, y1], SOFT);
     drawing.line([x0, bottom], [x1, bottom], SOFT);
     drawing.line([x0, y0], [x0, bottom], SOFT);
-    frontier(drawing, dots, [&time, &error], y1);
-    shelved(drawing, dots, &time, [x0, x1], y1);
+    let placed = places(dots, [&time, &error], y1);
+    frontier(drawing, &placed);
     let mut taken = Vec::new();
     if let Some(value) = snapping {
         let (y, text) = (error.place(value), "error of snapping");
-        drawing.line([x0, y], [x1, y], GOOD);
+        drawing.line([x0, y], [x1, y], GREEN);
         let left = x1 - canvas::width(text) - 4.0;
-        drawing.text([left, y - 8.0], text, GOOD);
+        drawing.text([left, y - 8.0], text, GREEN);
         taken.extend([[left, y - 14.0, x1, y - 2.0], [x0, y - 1.0, x1, y + 1.0]]);
     }
-    scattered(drawing, dots, [&time, &error], [[x0, y0], [x1, y1]], taken);
+    labelled(drawing, placed, &time, [[x0, y0], [x1, y1]], taken);
+}
+
+/// The choices with their places, the fastest first: those without an error stand on the shelf, one below the other.
+fn places<'a>(dots: &'a [Dot], [time, error]: [&Axis; 2], shelf: f64) -> Vec<(&'a Dot, [f64; 2])> {
+    let mut all: Vec<&Dot> = dots.iter().collect();
+    all.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let mut rows = (0..).map(|row| shelf + 10.0 + ROW * f64::from(row));
+    let place = |dot: &'a Dot| {
+        let y = dot.error.map_or_else(|| rows.next(), |error_of| Some(error.place(error_of)));
+        Some((dot, [time.place(dot.time), y?]))
+    };
+    all.into_iter().filter_map(place).collect()
 }
 
 /// The error that snapping alone makes, which choices exact on the lattice share.
@@ -306,14 +374,8 @@ fn ends(dot: &Dot, time: &Axis) -> [f64; 2] {
     dot.quartiles.map(|t| if t > 0.0 { time.place(t) } else { time.place(dot.time) })
 }
 
-/// A line from the first to the last quartile of a dot's time.
-fn spread(drawing: &mut Drawing, dot: &Dot, time: &Axis, y: f64) {
-    let [from, to] = ends(dot, time).map(|x| [x, y]);
-    drawing.wide_line(from, to, SOFT);
-}
-
 fn mark(drawing: &mut Drawing, at: [f64; 2], dot: &Dot) -> Ink {
-    let ink = if dot.good { GOOD } else { OTHER };
+    let ink = if dot.good { GREEN } else { BLUE };
     match dot.hollow {
         true => drawing.ring(at, RADIUS - 0.5, ink),
         false => drawing.disc(at, RADIUS, ink),
@@ -322,52 +384,26 @@ fn mark(drawing: &mut Drawing, at: [f64; 2], dot: &Dot) -> Ink {
         drawing.ring(at, RADIUS + 3.0, ink);
     }
     if dot.cracked {
-        drawing.ring(at, RADIUS + 3.0, CRACKED);
-        return CRACKED;
+        drawing.ring(at, RADIUS + 3.0, RED);
+        return RED;
     }
     ink
 }
 
 /// Joins the choices to which none is as fast and more accurate: from each there is a step to the next.
-fn frontier(drawing: &mut Drawing, dots: &[Dot], [time, error]: [&Axis; 2], shelf: f64) {
-    let mut all: Vec<&Dot> = dots.iter().filter(|dot| dot.time > 0.0).collect();
-    all.sort_by(|a, b| a.time.total_cmp(&b.time));
-    let mut before: Option<&Dot> = None;
-    for dot in all {
-        let of = |dot: &Dot| dot.error.unwrap_or(0.0);
-        if before.is_some_and(|before| of(dot) >= of(before)) {
+fn frontier(drawing: &mut Drawing, placed: &[(&Dot, [f64; 2])]) {
+    let of = |dot: &Dot| dot.error.unwrap_or(0.0);
+    let mut before: Option<&(&Dot, [f64; 2])> = None;
+    for next in placed.iter().filter(|(dot, _)| dot.time > 0.0) {
+        if before.is_some_and(|before| of(next.0) >= of(before.0)) {
             continue;
         }
-        if let Some(from) =
-            before.and_then(|before| Some([time.place(before.time), error.place(before.error?)]))
-        {
-            // The first on the shelf is the fastest there.
-            let y = dot.error.map_or(shelf + 10.0, |value| error.place(value));
-            let corner = [time.place(dot.time), from[1]];
-            drawing.wide_line(from, corner, FRONTIER);
-            drawing.wide_line(corner, [corner[0], y], FRONTIER);
+        if let Some((_, from)) = before.filter(|(dot, _)| dot.error.is_some()) {
+            let corner = [next.1[0], from[1]];
+            drawing.wide_line(*from, corner, SAND);
+            drawing.wide_line(corner, next.1, SAND);
         }
-        before = Some(dot);
-    }
-}
-
-/// The choices without error, one below the other, the fastest first.
-fn shelved(drawing: &mut Drawing, dots: &[Dot], time: &Axis, [x0, x1]: [f64; 2], top: f64) {
-    let mut shelved: Vec<&Dot> = dots.iter().filter(|d| d.error.is_none()).collect();
-    shelved.sort_by(|a, b| a.time.total_cmp(&b.time));
-    for (i, dot) in shelved.into_iter().enumerate() {
-        let at = [time.place(dot.time), top + 10.0 + ROW * i as f64];
-        spread(drawing, dot, time, at[1]);
-        let ink = mark(drawing, at, dot);
-        let room = canvas::width(&dot.label) + 10.0;
-        let [low, high] = ends(dot, time);
-        if high + room <= x1 || low - room < x0 {
-            // Where the quartiles leave no room on either side, across them.
-            let left = (high + 9.0).min(x1 - canvas::width(&dot.label));
-            drawing.text([left, at[1]], &dot.label, ink);
-        } else {
-            drawing.text_before([low - 9.0, at[1]], &dot.label, ink);
-        }
+        before = Some(next);
     }
 }
 
@@ -378,18 +414,15 @@ fn overlap(a: &Area, b: &Area) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
-/// The choices with errors. Each label takes the nearest free place beside its dot.
-fn scattered(
+/// Each choice with its label, which takes the nearest free place beside its dot, and a line from the first to the last
+/// quartile of its time. What has no error stands below the others.
+fn labelled(
     drawing: &mut Drawing,
-    dots: &[Dot],
-    [time, error]: [&Axis; 2],
+    mut placed: Vec<(&Dot, [f64; 2])>,
+    time: &Axis,
     [[x0, y0], [x1, y1]]: [[f64; 2]; 2],
     mut taken: Vec<Area>,
 ) {
-    let mut placed: Vec<(&Dot, [f64; 2])> = dots
-        .iter()
-        .filter_map(|dot| Some((dot, [time.place(dot.time), error.place(dot.error?)])))
-        .collect();
     placed.sort_by(|a, b| a.1[1].total_cmp(&b.1[1]));
     let around = |[x, y]: [f64; 2]| [x - 6.0, y - 6.0, x + 6.0, y + 6.0];
     taken.extend(placed.iter().map(|(_, at)| around(*at)));
@@ -417,26 +450,27 @@ fn scattered(
         };
         let is_free = |place: [f64; 2], strict: bool| {
             let area = area(place);
-            let inside = area[0] >= x0 && area[2] <= x1 && area[1] >= y0 && area[3] <= y1;
+            let is_high = area[1] >= y0 && area[3] <= y1;
+            let inside = area[0] >= x0 && area[2] <= x1 && is_high == dot.error.is_some();
             let inside = inside && !overlap(&area, &around(*at));
             let clear =
                 |other: &Area| !(overlap(&area, other) || strict && crosses(leader(place), other));
             inside && taken.iter().filter(|other| **other != around(*at)).all(clear)
         };
-        spread(drawing, dot, time, at[1]);
+        let [low, high] = ends(dot, time);
+        drawing.wide_line([low, at[1]], [high, at[1]], SOFT);
         let ink = mark(drawing, *at, dot);
-        // Better a line across something than no label.
+        // Better a line across something than no label, and better across the quartiles.
         let found = [true, false]
             .into_iter()
             .find_map(|strict| shifts.clone().find(|&place| is_free(place, strict)));
-        if let Some(place) = found {
-            if (place[1] - at[1]).abs() > 1.0 {
-                let [from, to] = leader(place);
-                drawing.line(from, to, SOFT);
-            }
-            drawing.text(place, &dot.label, ink);
-            taken.push(area(place));
+        let place = found.unwrap_or([(high + 10.0).min(x1 - room), at[1]]);
+        if (place[1] - at[1]).abs() > 1.0 {
+            let [from, to] = leader(place);
+            drawing.line(from, to, SOFT);
         }
+        drawing.text(place, &dot.label, ink);
+        taken.push(area(place));
     }
 }
 
@@ -446,95 +480,4 @@ fn crosses([from, to]: [[f64; 2]; 2], area: &Area) -> bool {
         let [x, y] = [0, 1].map(|k| from[k] + (to[k] - from[k]) * t);
         overlap(&[x, y, x + 0.1, y + 0.1], area)
     })
-}
-
-/// What exact coverage costs over the cheapest choice, for each class of scenes: the one picture.
-pub fn price(boards: &[Board]) -> Drawing {
-    const BAND: f64 = 48.0;
-    let prices = prices(boards);
-    let (x0, x1, head) = (84.0, WIDTH - 24.0, 104.0);
-    let bottom = head + BAND * prices.len() as f64;
-    let title = "What exact coverage costs over the cheapest choice";
-    let mut drawing = Drawing::new(title, [WIDTH, bottom + 44.0]);
-    drawing.text([12.0, 16.0], title, INK);
-    let legend = "time over that of the cheapest choice of any accuracy, by class of scenes";
-    drawing.text([12.0, 32.0], legend, SOFT);
-    for (row, kind) in KINDS.iter().enumerate() {
-        let y = 50.0 + 15.0 * row as f64;
-        kind.mark(&mut drawing, [17.0, y]);
-        drawing.text([28.0, y], kind.about, kind.ink);
-    }
-    let all = prices.iter().flat_map(|p| KINDS.each_ref().map(|kind| (kind.of)(p)));
-    let ratios = all.flatten().map(|p| p.ratio);
-    // Room for a label right of the last mark.
-    let axis = Axis::new(ratios.chain([1.0, 4.0]), 0.0, [x0 + 8.0, x1 - 210.0]);
-    for value in [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0] {
-        if axis.place(value) <= x1 {
-            let x = axis.place(value);
-            drawing.line([x, head - 6.0], [x, bottom], GRID);
-            let text = format!("{value}x");
-            drawing.text_about([x, bottom + 12.0], &text, SOFT);
-        }
-    }
-    drawing.line([x0, bottom], [x1, bottom], SOFT);
-    for (i, price) in prices.iter().enumerate() {
-        band(&mut drawing, &axis, x1, head + BAND * i as f64, price);
-    }
-    drawing
-}
-
-/// What a mark of the picture stands for.
-struct Kind {
-    about: &'static str,
-    of: fn(&Price) -> Option<&Priced>,
-    ink: Ink,
-    is_ring: bool,
-}
-
-const KINDS: [Kind; 3] = [
-    Kind {
-        about: "the cheapest choice that promises nothing (floats)",
-        of: |price| price.unpromised.as_ref(),
-        ink: OTHER,
-        is_ring: false,
-    },
-    Kind {
-        about: "the cheapest that is exact on the 1/256-px lattice (snaps)",
-        of: |price| price.snapped.as_ref(),
-        ink: GOOD,
-        is_ring: true,
-    },
-    Kind {
-        about: "the cheapest that is exact for the vertices as given",
-        of: |price| price.given.as_ref(),
-        ink: GOOD,
-        is_ring: false,
-    },
-];
-
-impl Kind {
-    fn mark(&self, drawing: &mut Drawing, at: [f64; 2]) {
-        match self.is_ring {
-            true => drawing.ring(at, RADIUS, self.ink),
-            false => drawing.disc(at, RADIUS + 1.0, self.ink),
-        }
-    }
-}
-
-fn band(drawing: &mut Drawing, axis: &Axis, x1: f64, top: f64, price: &Price) {
-    drawing.line([12.0, top - 6.0], [x1, top - 6.0], GRID);
-    drawing.text([12.0, top + 15.0], &price.column, INK);
-    let start = axis.place(1.0);
-    for (row, kind) in KINDS.iter().enumerate() {
-        let Some(Priced { name, ratio, pixel_ns }) = (kind.of)(price) else { continue };
-        let at = [axis.place(*ratio), top + 3.0 + ROW * row as f64];
-        drawing.wide_line([start, at[1]], at, [200, 214, 206]);
-        kind.mark(drawing, at);
-        let label = if *ratio == 1.0 {
-            format!("{name} {} ns/px", number(*pixel_ns, 8))
-        } else {
-            format!("{name} {ratio:.2}x")
-        };
-        drawing.text([at[0] + 10.0, at[1]], &label, kind.ink);
-    }
 }

@@ -1,6 +1,5 @@
 //! What the specimens draw of a case, by hits.
 
-use rasterproof_core::frame::Coverage;
 use rasterproof_faults::published::from_screen;
 use rasterproof_registry::comparison::Hits;
 use rasterproof_registry::engines::{Entry, Specimen};
@@ -16,22 +15,8 @@ pub fn by_specimen(entry: &Entry, case: &Case) -> Option<Hits> {
             Some(specimen_coverage(specimen, &list, case.window))
         }
         (Shape::Lines(list), Some(Specimen::Line(specimen))) => {
-            let drawn = list.iter().map(|l| specimen_line_coverage(specimen, l, case.window));
-            Some(
-                drawn
-                    .reduce(|sum, more| Ok(added(sum?, &more?)))
-                    .unwrap_or_else(|| Ok(Coverage::new(case.window, 0))),
-            )
+            Some(specimen_line_coverage(specimen, list, case.window))
         }
         _ => None,
     }
-}
-
-fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
-    for (y_px, row) in more.rows() {
-        for (sum, more) in sum.row_mut(y_px).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*more);
-        }
-    }
-    sum
 }

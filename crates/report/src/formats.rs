@@ -8,10 +8,10 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::html;
-use super::json::{self as json_text, pretty};
-use rasterproof_judge::verdict::{Judgement, Outcome, Property};
-use rasterproof_verify::comparison::shrink;
+use super::judge_text::excerpts;
+use super::{html, json as json_text, text};
+use json_text::pretty;
+use rasterproof_judge::verdict::{Outcome, Property, Scores as _, Verdict};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -44,115 +44,31 @@ impl Format {
 
 /// The verdict in a format other than text; `repeat` gives the command that repeats a case.
 pub fn write(
-    verdict: &Judgement,
+    verdict: &Verdict,
     format: Format,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> String {
     match format {
         Format::Text => String::new(),
-        Format::Json => json_text::text(&everything(verdict, repeat_all, repeat)),
+        Format::Json => json_text::text(&json_text::judgement(verdict, repeat_all, repeat)),
         Format::Junit => junit(verdict, repeat),
         Format::Tap => tap(verdict, repeat),
         Format::Gradescope => {
-            let tests = verdict.properties.iter();
+            let tests = verdict.more.properties.iter();
             let tests = tests.map(|p| (p.name, p.outcome.is_good(), message(verdict, p, repeat)));
             let tests: Vec<_> = tests.collect();
-            pretty(&gradescope(&tests, "properties hold", verdict.found.seconds))
+            pretty(&gradescope(&tests, "properties hold", verdict.more.found.seconds))
         }
         Format::GithubClassroom => pretty(&classroom(verdict, repeat_all, repeat)),
     }
 }
 
-/// What was found, and where it fails the smallest case.
-fn message(
-    verdict: &Judgement,
-    property: &Property,
-    repeat: &dyn Fn(&str, u64) -> String,
-) -> String {
-    let mut out = format!("{}: {}", property.about, property.detail);
-    for failure in verdict.failures.iter().filter(|f| f.evidence.property == property.name) {
-        let _ = write!(out, "\n{}", failure.what);
-        for e in failure.evidence.exchanges.iter().take(3) {
-            let _ = write!(out, "\nrequest:  {}\nanswer:   {}", e.request, e.answer);
-            if !e.other.is_empty() {
-                let _ = write!(out, "\nother:    {}", e.other);
-            }
-            if !e.expected.is_empty() {
-                let _ = write!(out, "\nexpected: {}", e.expected);
-            }
-        }
-        let _ = write!(out, "\nrepeat with: {}", repeat(failure.family, failure.index));
-    }
-    if property.name == "protocol" {
-        for incident in verdict.found.incidents.iter().take(3) {
-            let _ = write!(out, "\nit {}\nrequest:  {}", incident.what, incident.request);
-            if !incident.family.is_empty() {
-                let _ = write!(out, "\nrepeat with: {}", repeat(incident.family, incident.index));
-            }
-        }
-    }
-    out
-}
-
-/// Everything that was found, as JSON.
-#[must_use]
-pub fn everything(
-    verdict: &Judgement,
-    repeat_all: &str,
-    repeat: &dyn Fn(&str, u64) -> String,
-) -> Value {
-    let d = &verdict.declared;
-    let failures: Vec<Value> = verdict
-        .failures
-        .iter()
-        .map(|f| {
-            let exchanges: Vec<Value> = f
-                .evidence
-                .exchanges
-                .iter()
-                .map(|e| {
-                    let mut exchange =
-                        json!({"request": e.request, "answer": e.answer, "expected": e.expected});
-                    if !e.other.is_empty() {
-                        exchange["other"] = e.other.clone().into();
-                    }
-                    exchange
-                })
-                .collect();
-            json!({
-                "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
-                "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
-                "exchanges": exchanges, "repeat": repeat(f.family, f.index),
-            })
-        })
-        .collect();
-    let incidents = verdict.found.incidents.iter().map(|i| {
-        let of_family = Some(i).filter(|i| !i.family.is_empty());
-        json!({
-            "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
-            "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
-        })
-    });
-    let mut all = json!({
-        "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
-        "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.seed,
-        "cases": verdict.cases, "judged_cases": verdict.found.cases,
-        "all_cases": verdict.found.of_cases, "out_of_time": verdict.found.out_of_time,
-        "known_failures": verdict.known, "agrees": verdict.agrees(), "windings": verdict.windings,
-        "recognised": verdict.recognised, "score_as_declared": verdict.as_declared(),
-        "score_by_convention": verdict.by_convention(), "answers": verdict.found.answered,
-        "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures,
-        "incidents": incidents.collect::<Vec<_>>(),
-        "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "causes": verdict.causes, "line_reach": verdict.reach, "stderr": verdict.complaints, "repeat": repeat_all,
-    });
-    if let Some(second) = &verdict.against {
-        all["against"] = json!({
-            "program": second.name, "declared": second.to_string(), "sides": verdict.sides(),
-        });
-    }
-    all
+/// What was found, and the cases that a terminal shows of it.
+fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
+    let shown = excerpts(verdict, repeat, Some(property.name));
+    let shown: String = shown.iter().map(|one| text::excerpt(one, text::WIDTH)).collect();
+    format!("{}: {}\n{shown}", property.about, property.detail).trim_end().to_owned()
 }
 
 /// Text between tags and in quoted attributes, where the ends of lines are kept.
@@ -160,21 +76,21 @@ fn xml(text: &str) -> String {
     html::escape(text).replace('\n', "&#10;")
 }
 
-fn junit(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
+fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let count = |wanted: &dyn Fn(Outcome) -> bool| {
-        verdict.properties.iter().filter(|p| wanted(p.outcome)).count()
+        verdict.more.properties.iter().filter(|p| wanted(p.outcome)).count()
     };
-    let (tests, failures) = (verdict.properties.len(), count(&|o| !o.is_good()));
+    let (tests, failures) = (verdict.more.properties.len(), count(&|o| !o.is_good()));
     let skipped = count(&|o| o == Outcome::ExpectedFailure);
-    let name = xml(&verdict.declared.name);
-    let seconds = verdict.found.seconds;
+    let name = xml(&verdict.more.declared.name);
+    let seconds = verdict.more.found.seconds;
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let counts = format!(
         "tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" skipped=\"{skipped}\" time=\"{seconds:.3}\""
     );
     let _ = writeln!(out, "<testsuites name=\"rasterproof judge\" {counts}>");
     let _ = writeln!(out, "  <testsuite name=\"{name}\" {counts}>");
-    for p in &verdict.properties {
+    for p in &verdict.more.properties {
         let case = format!("<testcase classname=\"{name}\" name=\"{}\" time=\"0\"", xml(p.name));
         let text = xml(&message(verdict, p, repeat));
         let about = xml(&p.detail);
@@ -193,16 +109,16 @@ fn junit(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
             ),
         };
     }
-    if !verdict.complaints.is_empty() {
-        let text = xml(&verdict.complaints.join("\n"));
+    if !verdict.more.complaints.is_empty() {
+        let text = xml(&verdict.more.complaints.join("\n"));
         let _ = writeln!(out, "    <system-err>{text}</system-err>");
     }
     out + "  </testsuite>\n</testsuites>\n"
 }
 
-fn tap(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> String {
-    let mut out = format!("TAP version 14\n1..{}\n", verdict.properties.len());
-    for (p, number) in verdict.properties.iter().zip(1..) {
+fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
+    let mut out = format!("TAP version 14\n1..{}\n", verdict.more.properties.len());
+    for (p, number) in verdict.more.properties.iter().zip(1..) {
         let (word, mark) = match p.outcome {
             Outcome::Pass => ("ok", ""),
             Outcome::ExpectedFailure => ("not ok", " # TODO known failure"),
@@ -237,8 +153,8 @@ pub fn gradescope(tests: &[(&str, bool, String)], about: &str, seconds: f64) -> 
     })
 }
 
-fn classroom(verdict: &Judgement, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
-    let tests = verdict.properties.iter().map(|p| {
+fn classroom(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+    let tests = verdict.more.properties.iter().map(|p| {
         let good = p.outcome.is_good();
         json!({
             "name": p.name, "status": if good { "pass" } else { "fail" }, "score": i32::from(good),
@@ -248,6 +164,6 @@ fn classroom(verdict: &Judgement, repeat_all: &str, repeat: &dyn Fn(&str, u64) -
     });
     json!({
         "version": 1, "status": if verdict.agrees() { "pass" } else { "fail" },
-        "max_score": verdict.properties.len(), "tests": tests.collect::<Vec<_>>(),
+        "max_score": verdict.more.properties.len(), "tests": tests.collect::<Vec<_>>(),
     })
 }

@@ -1,11 +1,9 @@
-//! Rendered frames: as PNG, and two of them compared pixel for pixel and depth for depth.
+//! Two rendered frames compared pixel for pixel and depth for depth, and what the pixels of one pay for.
 
-use std::io;
+use image::{Rgb, RgbImage, imageops};
 
-use image::RgbImage;
-use image::codecs::png::PngEncoder;
-
-use super::lettering::{Size, write};
+use super::lettering::Size;
+use super::panels;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -15,21 +13,6 @@ use rasterproof_render::effects::render::PaidMap;
 use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
-
-pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
-    let bounds = picture.bounds();
-    RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
-        let [r, g, b, _] = picture.row(bounds.y0 + y as i32)[x as usize];
-        image::Rgb([r, g, b])
-    })
-}
-
-/// The encoder is named: `write_to`, which takes a format, would compile those of all formats into this crate.
-pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    rgb(picture).write_with_encoder(PngEncoder::new(&mut bytes)).map_err(io::Error::other)?;
-    Ok(bytes)
-}
 
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Comparison {
@@ -173,21 +156,9 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     (count, wrong)
 }
 
-/// The effects of the book, which have a place in every map, in the order of its panels.
-const OF_EVERY_MAP: [Effect; 6] = [
-    Effect::Samples,
-    Effect::Perspective,
-    Effect::Depth,
-    Effect::Colour,
-    Effect::Light,
-    Effect::Texture,
-];
-
-/// The effects of a map, in the order of its panels.
+/// The effects of a map.
 pub fn mapped() -> impl Iterator<Item = Effect> {
-    let is_other =
-        |effect: &Effect| effect.map_colour().is_some() && !OF_EVERY_MAP.contains(effect);
-    OF_EVERY_MAP.into_iter().chain(Effect::ALL.into_iter().filter(is_other))
+    Effect::ALL.into_iter().filter(|effect| effect.map_colour().is_some())
 }
 
 pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
@@ -247,113 +218,54 @@ fn heat(count: f64, most: u32) -> [u8; 3] {
     [0, 1, 2].map_array(|i| (STOPS[low][i] * (1.0 - part) + STOPS[low + 1][i] * part) as u8)
 }
 
-/// Draws how often something occurs in each pixel, with its scale, into a panel.
-fn amount_panel(
-    sheet: &mut RgbImage,
-    (name, counts): (&str, &Frame<u32>),
-    ([left, top], [width, height]): ([u32; 2], [u32; 2]),
-    shrunk: u32,
-) {
-    const BAR: [u32; 2] = [64, 10];
-    let (ink, faint) = (image::Rgb([30, 30, 30]), image::Rgb([95, 95, 95]));
-    let amount = Amount::of(counts);
-    let at = |x: u32, y: u32| (i64::from(left + x), i64::from(top + y));
-    write(sheet, at(0, 0), name, Size::Heading, ink);
-    let words = format!("mean {:.2}", amount.mean);
-    write(sheet, at(0, 20), &words, Size::Small, faint);
-    let bar = Size::Small.cell()[0] * words.len() as u32 + 22;
-    write(sheet, at(bar - 10, 20), "1", Size::Small, faint);
-    for (y, x) in (0..BAR[1]).flat_map(|y| (0..BAR[0]).map(move |x| (y, x))) {
-        let share = f64::from(x) / f64::from(BAR[0] - 1);
-        let count = 1.0 + share * f64::from(amount.most.saturating_sub(1));
-        sheet.put_pixel(left + bar + x, top + 22 + y, image::Rgb(heat(count, amount.most)));
-    }
-    write(sheet, at(bar + BAR[0] + 4, 20), &amount.most.to_string(), Size::Small, faint);
-    let bounds = counts.bounds();
-    for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
-        // The most of a block, so that no expensive pixel gets lost.
-        let block = (0..shrunk).flat_map(|dy| (0..shrunk).map(move |dx| (dx, dy)));
-        let counts = block.filter_map(|(dx, dy)| {
-            counts.get(bounds.x0 + (x * shrunk + dx) as i32, bounds.y0 + (y * shrunk + dy) as i32)
-        });
-        let colour = heat(counts.max().unwrap_or(0).into(), amount.most);
-        sheet.put_pixel(left + x, top + 38 + y, image::Rgb(colour));
-    }
-}
-
-/// What pixels pay as small pictures: how many fragments, what all of these pay for, and for each effect the frame,
-/// dimmed, and in colour the pixels that pay for it.
+/// What pixels pay as small pictures: how many fragments, what all of these pay for, and for each effect that is paid for
+/// the frame, dimmed, and in colour the pixels that pay for it.
 pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> RgbImage {
-    const GAP: u32 = 12;
     let map = &paid_map.effects;
     let bounds = map.bounds();
-    let shrunk = (bounds.width() * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
-    let (width, height) = (bounds.width().div_ceil(shrunk), bounds.height().div_ceil(shrunk));
-    let cell = [width.max(210) + GAP, height + 42 + GAP];
-    let is_shown = |effect: &Effect| OF_EVERY_MAP.contains(effect) || paid(map, *effect) > 0;
-    let with_colour = |effect: Effect| Some((effect, effect.map_colour()?));
-    let shown: Vec<_> = mapped().filter(is_shown).filter_map(with_colour).collect();
+    let (width, height) = (bounds.width(), bounds.height());
+    let shrunk = (width * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
+    let cell = |name: &str, ink: [u8; 3], words: String, colour: &dyn Fn(i32, i32) -> [u8; 3]| {
+        let colour = |x, y| Rgb(colour(bounds.x0 + x as i32, bounds.y0 + y as i32));
+        let whole = RgbImage::from_fn(width, height, colour);
+        let [width, height] = [width, height].map(|side| side.div_ceil(shrunk));
+        let name = (name.to_owned(), Size::Heading, Rgb(ink));
+        let words = [name, (words, Size::Small, panels::FAINT)];
+        panels::titled(&words, &imageops::thumbnail(&whole, width, height), [0, 0])
+    };
     let amounts =
         [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)];
-    let rows = (amounts.len() as u32 + shown.len() as u32).div_ceil(MAP_COLUMNS);
-    let size = [GAP + MAP_COLUMNS * cell[0], 40 + rows * cell[1] + 24];
-    let mut sheet = RgbImage::from_pixel(size[0], size[1], image::Rgb([255, 255, 255]));
-    let (ink, faint) = (image::Rgb([30, 30, 30]), image::Rgb([95, 95, 95]));
-    write(&mut sheet, (GAP.into(), 10), title, Size::Heading, ink);
-    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
-    let place = |i: u32| [GAP + i % MAP_COLUMNS * cell[0], 40 + i / MAP_COLUMNS * cell[1]];
-    for (i, amount) in (0u32..).zip(amounts) {
-        amount_panel(&mut sheet, amount, (place(i), [width, height]), shrunk);
-    }
-    for (i, (effect, colour)) in (amounts.len() as u32..).zip(shown) {
-        let [left, top] = place(i);
-        let at = |down: i64| (i64::from(left), i64::from(top) + down);
-        let count = paid(map, effect);
-        write(
-            &mut sheet,
-            at(0),
-            effect.name(),
-            Size::Heading,
-            image::Rgb(colour.map_array(|c| c / 2)),
-        );
-        let share = 100.0 * count as f64 / pixels.max(1) as f64;
-        write(&mut sheet, at(20), &format!("{count} px, {share:.1}%"), Size::Small, faint);
-        for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
-            let mean = block_mean(picture, map, (effect, colour), [x * shrunk, y * shrunk], shrunk);
-            sheet.put_pixel(left + x, top + 38 + y, mean);
-        }
-    }
-    let words = "in colour: pixels that pay for the effect; behind it the frame, dimmed";
-    write(&mut sheet, (GAP.into(), i64::from(size[1]) - 24), words, Size::Small, faint);
-    sheet
-}
-
-/// The mean of a block of the frame, in the effect's colour where it is paid for, else dimmed.
-fn block_mean(
-    picture: &Frame<Colour>,
-    map: &Frame<u32>,
-    (effect, colour): (Effect, [u8; 3]),
-    [x, y]: [u32; 2],
-    side: u32,
-) -> image::Rgb<u8> {
-    let bounds = map.bounds();
-    let (mut sum, mut count) = ([0u32; 3], 0);
-    for (dx, dy) in (0..side).flat_map(|dy| (0..side).map(move |dx| (dx, dy))) {
-        let (x_px, y_px) = (bounds.x0 + (x + dx) as i32, bounds.y0 + (y + dy) as i32);
-        let (Some(paid), Some([r, g, b, _])) = (map.get(x_px, y_px), picture.get(x_px, y_px))
-        else {
-            continue;
-        };
-        let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
-        let shown = match paid & (1 << effect as u32) {
-            0 => [40 + grey / 5; 3],
-            // The frame shows through.
-            _ => colour.map_array(|c| u32::from(c) * (160 + grey * 3 / 8) / 256),
-        };
-        (0..3).for_each(|i| sum[i] += shown[i]);
-        count += 1;
-    }
-    image::Rgb(sum.map_array(|sum| (sum / count.max(1)).min(255) as u8))
+    let amounts = amounts.map(|(name, counts)| {
+        let Amount { mean, most, .. } = Amount::of(counts);
+        cell(name, panels::INK.0, format!("mean {mean:.2}, at most {most}"), &|x, y| {
+            heat(counts.get(x, y).unwrap_or(0).into(), most)
+        })
+    });
+    let pixels = u64::from(width) * u64::from(height);
+    let effects = mapped().filter(|effect| paid(map, *effect) > 0).filter_map(|effect| {
+        let (count, paint) = (paid(map, effect), effect.map_colour()?);
+        let words = format!("{count} px, {:.1}%", 100.0 * count as f64 / pixels.max(1) as f64);
+        Some(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
+            let [r, g, b, _] = picture.get(x, y).unwrap_or_default();
+            let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
+            match map.get(x, y).unwrap_or(0) & (1 << effect as u32) {
+                0 => [(40 + grey / 5) as u8; 3],
+                // The frame shows through.
+                _ => {
+                    paint.map_array(|c| (u32::from(c) * (160 + grey * 3 / 8) / 256).min(255) as u8)
+                }
+            }
+        }))
+    });
+    let cells = amounts.into_iter().chain(effects).collect();
+    let scale = (1..=9).map(|count| Rgb(heat(count.into(), 9))).collect();
+    let entries = [
+        (vec![Rgb(heat(0.0, 1))], "none".to_owned()),
+        (scale, "from one a pixel to the most".to_owned()),
+    ];
+    let note = "effects: in colour the pixels that pay; behind it the frame, dimmed";
+    let title = (title.to_owned(), Size::Heading, panels::INK);
+    panels::arranged(&[title], cells, MAP_COLUMNS, &entries, note)
 }
 
 /// How long a picture took, in seconds.

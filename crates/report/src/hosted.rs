@@ -15,6 +15,7 @@ use rasterproof_judge::ask::{Answer, Breach, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::text::Words;
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_judge::{Options, family_names, judge, polygons};
 
 /// The program that started this one. Several share its streams: while one waits for answers, another judges those that it has.
@@ -69,45 +70,43 @@ impl Job {
                 return Ok((job, declared));
             }
             let (option, value) = line.split_once(' ').unwrap_or((line, ""));
-            job.hear(option, value).ok_or_else(|| match option {
-                "cases" => {
-                    format!("no case would be judged: cases is {value}; expected at least 1")
-                }
-                "seed" | "case" => {
-                    format!("{option} is {value}; expected a whole number from 0 on")
-                }
-                "seconds" => format!("seconds is {value}; expected a number above 0"),
-                "family" => {
-                    format!("no family is {value}; expected {}", family_names().join(", "))
-                }
-                _ => format!(
-                    "no option is {option}; expected cases, seed, case, seconds, family or declare"
-                ),
-            })?;
+            job.hear(option, value)?;
         }
         Err("no line with HELLO was read".to_owned())
     }
 
-    fn hear(&mut self, option: &str, value: &str) -> Option<()> {
+    fn hear(&mut self, option: &str, value: &str) -> Result<(), String> {
+        let is_not = |expected: &str| format!("{option} is {value}; expected {expected}");
+        let number = || value.parse().map_err(|_| is_not("a whole number from 0 on"));
         match option {
-            "cases" => self.options.cases = value.parse().ok().filter(|cases| *cases > 0)?,
-            "seed" => self.options.seed = value.parse().ok()?,
-            "case" => self.options.only = Some(value.parse().ok()?),
-            "seconds" => {
-                let seconds = Duration::try_from_secs_f64(value.parse().ok()?).ok()?;
-                self.options.time_limit = Some(seconds).filter(|seconds| !seconds.is_zero());
-                self.options.time_limit?;
+            "cases" => {
+                let none = || format!("no case would be judged: {}", is_not("at least 1"));
+                let cases = value.parse().ok().filter(|cases| *cases > 0);
+                self.options.cases = cases.ok_or_else(none)?;
             }
-            "family" => {
-                family_names().into_iter().find(|name| *name == value)?;
+            "seed" => self.options.seed = number()?,
+            "case" => self.options.only = Some(number()?),
+            "seconds" => {
+                let seconds = value.parse().ok().map(Duration::try_from_secs_f64);
+                let seconds = seconds.and_then(Result::ok).filter(|seconds| !seconds.is_zero());
+                self.options.time_limit = Some(seconds.ok_or_else(|| is_not("a number above 0"))?);
+            }
+            "family" if family_names().contains(&value) => {
                 self.options.families.push(value.to_owned());
             }
             "language" => self.is_python = value == "python",
             "call" => self.call = value.to_owned(),
             "declare" => self.declare = value.to_owned(),
-            _ => return None,
+            "family" => {
+                let names = family_names().join(", ");
+                return Err(format!("no family is {value}; expected {names}"));
+            }
+            _ => {
+                let known = "cases, seed, case, seconds, family or declare";
+                return Err(format!("no option is {option}; expected {known}"));
+            }
         }
-        Some(())
+        Ok(())
     }
 
     /// What stands between the name of an argument and its value.
@@ -148,7 +147,7 @@ impl Job {
         let host = |_| Box::new(Host(declared.clone())) as Box<dyn Subject>;
         let mut askers: Vec<_> = (0..hosts).map(host).collect();
         let verdict = judge(&mut askers, &self.options, &|asked| recognise(asked, scope), &|_| ());
-        if let Some(why) = verdict.judged_nothing(&self.options) {
+        if let Some(why) = verdict.judged_nothing() {
             return Err(why);
         }
         let text =

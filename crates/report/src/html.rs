@@ -46,8 +46,6 @@ pub struct Report {
     pub command: String,
     /// The command that repeats it without pages, where that is another one.
     pub repeat: String,
-    /// Decides the generated cases, where there are any.
-    pub seed: Option<u64>,
     pub notes: Vec<String>,
     /// Counts and other tables, worst row first.
     pub tables: Vec<Table>,
@@ -59,8 +57,6 @@ pub struct Report {
     pub figures: Vec<Figure>,
     /// The same for machines, where it is made of this value.
     pub data: serde_json::Value,
-    /// The effects of a plan, and why each is paid for or not.
-    pub plan: Option<Table>,
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
@@ -223,8 +219,7 @@ pub fn page(report: &Report) -> String {
     let mut left_out = Vec::new();
     let head = head(report);
     let tables: String = report.tables.iter().map(table).collect();
-    let plan: String = report.plan.iter().map(table).collect();
-    room = room.saturating_sub(head.len() + tables.len() + plan.len() + report.command.len());
+    room = room.saturating_sub(head.len() + tables.len() + report.command.len());
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
             room -= text.len() + 1;
@@ -255,13 +250,8 @@ pub fn page(report: &Report) -> String {
         frames.join(",")
     );
     let run = run(report, left_out);
-    let sections = [
-        ("Plan", plan),
-        ("Plots", figures.concat()),
-        ("Summary", tables),
-        ("Texts", diffs.concat()),
-        ("Run", run),
-    ];
+    let sections =
+        [("Plots", figures.concat()), ("Summary", tables), ("Texts", diffs.concat()), ("Run", run)];
     let has_cases = !cases.is_empty() || !frames.is_empty();
     let titles = sections.iter().filter(|(_, inside)| !inside.is_empty()).map(|(title, _)| *title);
     let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
@@ -346,11 +336,7 @@ fn head(report: &Report) -> String {
 }
 
 fn run(report: &Report, left_out: Vec<String>) -> String {
-    let mut out = command(&report.command);
-    if let Some(seed) = report.seed {
-        let _ = writeln!(out, "<p class=\"quiet\">seed {seed}</p>");
-    }
-    out + &notes(&report.notes, &left_out)
+    command(&report.command) + &notes(&report.notes, &left_out)
 }
 
 /// What an index says of a page stands in its head.

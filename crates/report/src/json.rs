@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::study::{Found, Places};
+use rasterproof_judge::verdict::{Scores as _, Verdict as Judgement};
 use rasterproof_precision::cost::{Recorded, prices};
 use rasterproof_registry::digest::DigestRow;
 use rasterproof_registry::published_check::SpecimenReport;
@@ -12,7 +13,7 @@ use rasterproof_study::effects::{Need, Needs, State};
 use rasterproof_study::hard::HardCases;
 use rasterproof_study::{face_of, triangle_of};
 use rasterproof_verify::cases::Kind;
-use rasterproof_verify::comparison::{Comparisons, FamilyReport, Verdict, shrink};
+use rasterproof_verify::comparison::{Verdict, shrink};
 
 /// What `--json` prints: lines that can be read, or one line for what is as long as the plan of a large model.
 #[must_use]
@@ -39,60 +40,68 @@ pub fn value(of: &impl Serialize) -> Value {
     serde_json::to_value(of).unwrap_or_default()
 }
 
-#[derive(Serialize)]
-struct Json<'a> {
-    version: &'static str,
-    seed: u64,
-    cases: u64,
-    shard: String,
-    agrees: bool,
-    /// Wrong pixels against the oracle, on and off the lattice.
-    mismatches: u64,
-    comparisons: Comparisons,
-    triangles: u64,
-    lines: u64,
-    families: &'a [FamilyReport],
-    failures: Vec<FailureJson<'a>>,
-    off_grid_triangles: u64,
-}
-
-#[derive(Serialize)]
-struct FailureJson<'a> {
-    family: &'a str,
-    index: u64,
-    pair: [&'a str; 2],
-    what: &'a str,
-    shrunk: String,
-    window: rasterproof_core::grid::PixelRect,
-    repeat: String,
-}
-
 /// The verdict as JSON; `repeat` gives the command that repeats a failing case.
 pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value {
-    let failures = verdict.failures.iter().map(|f| FailureJson {
-        family: f.family,
-        index: f.index,
-        pair: f.evidence.pair.each_ref().map(String::as_str),
-        what: &f.what,
-        shrunk: shrink::describe(&f.case),
-        window: f.case.window,
-        repeat: repeat(f.family, f.index),
+    let failures = verdict.failures.iter().map(|f| {
+        json!({
+            "family": f.family, "index": f.index, "pair": f.evidence.pair, "what": f.what,
+            "shrunk": shrink::describe(&f.case), "window": f.case.window,
+            "repeat": repeat(f.family, f.index),
+        })
     });
+    let shapes = Kind::ALL.map(|(kind, _)| verdict.sum(kind, |family| family.shapes));
     let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
-    value(&Json {
-        version: env!("CARGO_PKG_VERSION"),
-        seed: verdict.options.seed,
-        cases: verdict.options.cases,
-        shard: format!("{part}/{parts}"),
-        agrees: verdict.agrees(),
-        mismatches: verdict.mismatches(),
-        comparisons: verdict.comparisons(),
-        triangles: verdict.sum(Kind::Triangles, |f| f.shapes),
-        lines: verdict.sum(Kind::Lines, |f| f.shapes),
-        families: &verdict.families,
-        failures: failures.collect(),
-        off_grid_triangles: verdict.sum(Kind::Unsnapped, |f| f.shapes),
+    json!({
+        "version": env!("CARGO_PKG_VERSION"), "seed": verdict.options.seed,
+        "cases": verdict.options.cases, "shard": format!("{part}/{parts}"),
+        "agrees": verdict.agrees(), "mismatches": verdict.mismatches(),
+        "comparisons": verdict.comparisons(), "triangles": shapes[0], "lines": shapes[1],
+        "off_grid_triangles": shapes[2], "families": verdict.families,
+        "failures": failures.collect::<Vec<_>>(),
     })
+}
+
+/// Everything that was found of a program.
+#[must_use]
+pub fn judgement(
+    verdict: &Judgement,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> Value {
+    let d = &verdict.more.declared;
+    let failures = verdict.failures.iter().map(|f| {
+        json!({
+            "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
+            "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
+            "exchanges": f.evidence.exchanges, "repeat": repeat(f.family, f.index),
+        })
+    });
+    let incidents = verdict.more.found.incidents.iter().map(|i| {
+        let of_family = Some(i).filter(|i| !i.family.is_empty());
+        json!({
+            "family": i.family, "index": i.index, "word": i.what.breach.name(), "what": i.what.to_string(),
+            "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
+        })
+    });
+    let mut all = json!({
+        "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
+        "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.options.seed,
+        "cases": verdict.options.cases, "judged_cases": verdict.more.found.cases,
+        "all_cases": verdict.more.found.of_cases, "out_of_time": verdict.more.found.out_of_time,
+        "known_failures": verdict.more.known, "agrees": verdict.agrees(), "windings": verdict.more.windings,
+        "recognised": verdict.more.recognised, "score_as_declared": verdict.as_declared(),
+        "score_by_convention": verdict.by_convention(), "answers": verdict.more.found.answered,
+        "properties": verdict.more.properties, "rows": verdict.families, "failures": failures.collect::<Vec<_>>(),
+        "incidents": incidents.collect::<Vec<_>>(),
+        "strays": verdict.more.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "causes": verdict.cause, "line_reach": verdict.more.reach, "triangle_side": verdict.more.side, "stderr": verdict.more.complaints, "repeat": repeat_all,
+    });
+    if let Some(second) = &verdict.more.against {
+        all["against"] = json!({
+            "program": second.name, "declared": second.to_string(), "sides": verdict.sides(),
+        });
+    }
+    all
 }
 
 /// The survey of the specimens as JSON; an infinite error is `null`.

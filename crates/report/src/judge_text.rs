@@ -1,10 +1,10 @@
 //! The verdict on a program that was judged through the line protocol, on two that were compared, and on a tessellator.
 
-use super::formats;
 use super::html::{Chapter, Excerpt, Outcome, Report};
+use super::json;
 use super::table::{Mark, Row, Table};
 use super::words::{of_bound, same, thousands};
-use super::{ascii, page_cases, summary};
+use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::check::Check;
 use rasterproof_judge::declared::Declared;
@@ -12,7 +12,8 @@ use rasterproof_judge::failures::Failure;
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow, Sides};
-use rasterproof_judge::verdict::{self, Judgement, Score, per_million};
+use rasterproof_judge::verdict::{self, Score, Scores as _, Verdict, per_million};
+use rasterproof_verify::judge::ascii;
 use rasterproof_verify::partition::{self, Polygon};
 
 const MOST_EXCHANGES: usize = 3;
@@ -22,25 +23,25 @@ const MOST_INCIDENTS: usize = 2;
 /// danger, both scores, and the table of families where something is wrong or it is asked for.
 #[must_use]
 pub fn report(
-    verdict: &Judgement,
+    verdict: &Verdict,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
     with_table: bool,
 ) -> Report {
-    let (d, agrees) = (&verdict.declared, verdict.agrees());
-    let names = verdict.against.as_ref().map(|second| against::names([d, second]));
-    let mut about = vec![by(verdict.seed)];
-    if let (Some([first, second]), Some(other)) = (&names, &verdict.against) {
+    let (d, agrees) = (&verdict.more.declared, verdict.agrees());
+    let names = verdict.more.against.as_ref().map(|second| against::names([d, second]));
+    let mut about = vec![by(verdict.options.seed)];
+    if let (Some([first, second]), Some(other)) = (&names, &verdict.more.against) {
         about.extend([speaks(first, d), speaks(second, other)]);
         about.push("asked is what both can answer; each is judged by what it declares".to_owned());
     } else {
         about.push(speaks(&d.name, d));
     }
-    about.extend(verdict.reach.map(|reach| {
+    about.extend(verdict.more.reach.map(|reach| {
         let most = thousands(reach.unsigned_abs().into());
         format!("it walks along its lines, so lines of at most {most} steps are asked for")
     }));
-    let mut first_screen: Vec<Table> = verdict.causes.iter().map(cause).collect();
+    let mut first_screen: Vec<Table> = verdict.cause.iter().map(cause).collect();
     match &names {
         Some(names) => first_screen.extend([who_is_right(&verdict.sides(), names), sides(verdict)]),
         None => {
@@ -52,16 +53,11 @@ pub fn report(
             }
         }
     }
-    if verdict.known > 0 {
-        let known = thousands(verdict.known);
+    if verdict.more.known > 0 {
+        let known = thousands(verdict.more.known);
         let note = format!("not shown: {known} failing cases that the baseline knows");
         first_screen.push(Table::of_notes("", vec![note]));
     }
-    let drawn_by =
-        names.as_ref().map_or(vec!["judged"], |names| names.iter().map(|n| &**n).collect());
-    let failures = verdict.failures.iter();
-    let failures =
-        failures.map(|failure| excerpt(failure, &drawn_by, repeat(failure.family, failure.index)));
     let title = match &names {
         Some([first, second]) => format!("{first} against {second}"),
         None => format!("Verdict on {}", d.name),
@@ -70,15 +66,10 @@ pub fn report(
         title,
         about: about.join("\n"),
         outcome: Some(outcome(verdict, names.as_ref())),
-        excerpts: incidents(verdict, repeat)
-            .into_iter()
-            .chain(failures)
-            .chain(complaints(verdict))
-            .collect(),
+        excerpts: excerpts(verdict, repeat, None).into_iter().chain(complaints(verdict)).collect(),
         tables: first_screen.iter().cloned().chain([properties(verdict)]).collect(),
         first_screen,
         repeat: repeat_all.to_owned(),
-        seed: Some(verdict.seed),
         ..Report::default()
     }
 }
@@ -86,15 +77,19 @@ pub fn report(
 /// The same with what JSON and a page hold beside it: everything that was found, and each failing case as it is drawn.
 #[must_use]
 pub fn whole(
-    verdict: &Judgement,
+    verdict: &Verdict,
     repeat_all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
     with_table: bool,
 ) -> Report {
-    let names = verdict.against.as_ref().map(|second| against::names([&verdict.declared, second]));
+    let names = verdict
+        .more
+        .against
+        .as_ref()
+        .map(|second| against::names([&verdict.more.declared, second]));
     Report {
         cases: views(verdict, names.as_ref(), repeat),
-        data: formats::everything(verdict, repeat_all, repeat),
+        data: json::judgement(verdict, repeat_all, repeat),
         ..report(verdict, repeat_all, repeat, with_table)
     }
 }
@@ -104,8 +99,8 @@ fn by(seed: u64) -> String {
     format!("rasterproof {}, seed {seed}", env!("CARGO_PKG_VERSION"))
 }
 
-fn outcome(verdict: &Judgement, names: Option<&[String; 2]>) -> Outcome {
-    let (good, name) = (verdict.agrees(), &verdict.declared.name);
+fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
+    let (good, name) = (verdict.agrees(), &verdict.more.declared.name);
     if let Some(names) = names {
         let answer = difference(verdict, names);
         return Outcome { answer: answer.clone(), ..Outcome::new(good, same(good), answer) };
@@ -118,9 +113,9 @@ fn outcome(verdict: &Judgement, names: Option<&[String; 2]>) -> Outcome {
 }
 
 /// The first mistake that is known, or what the convention is, after a colon.
-fn why_in_short(verdict: &Judgement) -> String {
-    let mistake = verdict.causes.iter().find_map(|Why { why, .. }| why.causes.first());
-    let convention = verdict.recognised.as_ref().filter(|found| found.is_explained);
+fn why_in_short(verdict: &Verdict) -> String {
+    let mistake = verdict.cause.iter().find_map(|Why { why, .. }| why.causes.first());
+    let convention = verdict.more.recognised.as_ref().filter(|found| found.is_explained);
     match (mistake, convention) {
         (Some(mistake), _) => format!(": it {}", mistake.does),
         (None, Some(found)) => format!(". {}", found.sentences.join(" ")),
@@ -170,9 +165,9 @@ fn speaks(name: &str, declared: &Declared) -> String {
 }
 
 /// The end of what it said on standard error.
-fn complaints(verdict: &Judgement) -> Option<Excerpt> {
-    let lines = verdict.complaints.iter().map(|line| format!("  | {line}"));
-    (!verdict.complaints.is_empty()).then(|| Excerpt {
+fn complaints(verdict: &Verdict) -> Option<Excerpt> {
+    let lines = verdict.more.complaints.iter().map(|line| format!("  | {line}"));
+    (!verdict.more.complaints.is_empty()).then(|| Excerpt {
         title: "the end of its standard error:".to_owned(),
         grid: lines.collect::<Vec<_>>().join("\n"),
         ..Excerpt::default()
@@ -180,20 +175,20 @@ fn complaints(verdict: &Judgement) -> Option<Excerpt> {
 }
 
 /// A row for how it keeps the protocol, for its winding, for each danger and for each other check.
-fn dangers(verdict: &Judgement) -> Table {
+fn dangers(verdict: &Verdict) -> Table {
     let is_good =
-        |name: &str| verdict.properties.iter().all(|p| p.name != name || p.outcome.is_good());
+        |name: &str| verdict.more.properties.iter().all(|p| p.name != name || p.outcome.is_good());
     let mut out = Vec::new();
-    for p in verdict.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
+    for p in verdict.more.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
         let what = match (p.name, p.outcome.is_good()) {
             ("winding", true) => {
-                format!("{}, as it declares", verdict.declared.convention.winding.word())
+                format!("{}, as it declares", verdict.more.declared.convention.winding.word())
             }
             _ => p.detail.clone(),
         };
         out.push(summary::row(p.outcome.is_good(), p.name, &what));
     }
-    let rows = &verdict.found.rows;
+    let rows = &verdict.families;
     for danger in summary::DANGERS {
         let of = || rows.iter().filter(|row| danger.families.contains(&row.name));
         let mut sum = summary::Sum::default();
@@ -230,18 +225,18 @@ fn score(of: Score, left_out_wrong: u64) -> String {
     format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
 }
 
-fn scores(verdict: &Judgement) -> Table {
-    let found = match (&verdict.recognised, verdict.by_convention()) {
+fn scores(verdict: &Verdict) -> Table {
+    let found = match (&verdict.more.recognised, verdict.by_convention()) {
         (None, _) => "the same: no other one was recognised".to_owned(),
         (Some(_), Some(found)) => score(found, verdict.left_out_wrong()),
         (Some(_), None) => "unexplained, so there is no score".to_owned(),
     };
     let mut notes = Vec::new();
-    if let Some(recognised) = &verdict.recognised {
+    if let Some(recognised) = &verdict.more.recognised {
         notes.extend(recognised.sentences.iter().chain(&recognised.compass).cloned());
         if !recognised.declare.is_empty() {
             let turned =
-                if verdict.declared.convention.y_up { " (in its words, y up)" } else { "" };
+                if verdict.more.declared.convention.y_up { " (in its words, y up)" } else { "" };
             let declare = &recognised.declare;
             notes.push(format!("to be judged by it: --declare '{declare}'{turned}"));
         }
@@ -258,7 +253,7 @@ fn cause(why: &Why) -> Table {
 }
 
 /// Every family, with what was wrong.
-fn families(verdict: &Judgement) -> Table {
+fn families(verdict: &Verdict) -> Table {
     let columns = "property 18 | >cases 8 | >shapes 8 | >pixels 8 | >missing 8 | >extra 8 | >twice 8 | >order 8 | \
                    >refused 8 | >wrong 7";
     let row = |row: &FamilyRow| {
@@ -273,21 +268,21 @@ fn families(verdict: &Judgement) -> Table {
     let mut notes = vec![
         "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
     ];
-    for row in verdict.found.rows.iter().filter(|row| row.values > 0) {
+    for row in verdict.families.iter().filter(|row| row.values > 0) {
         notes.push(format!(
             "{}: {} compared, {}, which is {:e}",
             row.name,
             row.values,
             of_bound(row.worst).replace("bound", "tolerance"),
-            verdict.declared.tolerance
+            verdict.more.declared.tolerance
         ));
     }
-    let stopped = verdict.found.rows.iter().filter(|row| row.stopped);
+    let stopped = verdict.families.iter().filter(|row| row.stopped);
     notes.extend(
         stopped
             .map(|r| format!("{}: given up after {MOST_DEATHS} times without an answer", r.name)),
     );
-    if verdict.found.gave_up {
+    if verdict.more.found.gave_up {
         let most = run::MOST_DEATHS_IN_ALL;
         notes.push(format!(
             "given up for good: {most} times without an answer, or no answer at all"
@@ -296,11 +291,28 @@ fn families(verdict: &Judgement) -> Table {
     Table::new("", columns, by_share(verdict).into_iter().map(row).collect()).noted(notes)
 }
 
+/// What broke the protocol and the cases that fail: of one property, or of all.
+pub(super) fn excerpts(
+    verdict: &Verdict,
+    repeat: &dyn Fn(&str, u64) -> String,
+    property: Option<&str>,
+) -> Vec<Excerpt> {
+    let is_asked = |name: &str| property.is_none_or(|one| one == name);
+    let more = &verdict.more;
+    let names = more.against.as_ref().map(|second| against::names([&more.declared, second]));
+    let drawn_by =
+        names.as_ref().map_or(vec!["judged"], |names| names.iter().map(|name| &**name).collect());
+    let broken = if is_asked("protocol") { incidents(verdict, repeat) } else { Vec::new() };
+    let failures = verdict.failures.iter().filter(|f| is_asked(f.evidence.property));
+    let failures = failures.map(|f| excerpt(f, &drawn_by, repeat(f.family, f.index)));
+    broken.into_iter().chain(failures).collect()
+}
+
 /// What broke the protocol: the first of each kind.
-fn incidents(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
+fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Excerpt> {
     let mut shown: Vec<&str> = Vec::new();
     let mut out = Vec::new();
-    for incident in &verdict.found.incidents {
+    for incident in &verdict.more.found.incidents {
         let word = incident.what.breach.name();
         if shown.iter().filter(|w| **w == word).count() == MOST_INCIDENTS {
             continue;
@@ -320,7 +332,7 @@ fn incidents(verdict: &Judgement, repeat: &dyn Fn(&str, u64) -> String) -> Vec<E
         });
     }
     let flight = "with several requests in flight it";
-    let strays = verdict.found.strays.iter();
+    let strays = verdict.more.found.strays.iter();
     out.extend(strays.map(|stray| Excerpt {
         title: format!("{flight} {stray}; each alone was answered"),
         ..Excerpt::default()
@@ -370,21 +382,16 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
 /// What was drawn beside what was expected, as characters.
 pub fn grid(drawn_by: &[&str], picture: &Pictured) -> String {
     let Pictured { drawn, other, expected, .. } = picture;
-    let drawn = drawn_by.iter().zip([drawn].into_iter().chain(other));
-    let judged = drawn.map(|(by, drawn)| ((*by).to_owned(), ascii::grid(drawn, expected)));
-    let exact = ("expected".to_owned(), ascii::grid(expected, expected));
-    let blocks: Vec<_> = judged.chain([exact]).collect();
-    let lines = ascii::side_by_side(&blocks, 98);
-    let lines = lines.lines().map(|line| format!("  {line}").trim_end().to_owned() + "\n");
-    lines.collect::<String>() + &format!("  ({})\n", ascii::LEGEND)
+    let drawn: Vec<_> = [drawn].into_iter().chain(other).collect();
+    ascii::beside(drawn_by, &drawn, expected, 78)
 }
 
 /// Whether both of two compared programs answer the same.
-fn difference(verdict: &Judgement, [first, second]: &[String; 2]) -> String {
-    let rows = &verdict.found.rows;
+fn difference(verdict: &Verdict, [first, second]: &[String; 2]) -> String {
+    let rows = &verdict.families;
     let sum = |of: fn(&FamilyRow) -> u64| rows.iter().map(of).sum::<u64>();
     let cases = thousands(sum(|row| row.cases));
-    let until = if verdict.found.out_of_time { " until the time was up" } else { "" };
+    let until = if verdict.more.found.out_of_time { " until the time was up" } else { "" };
     match sum(|row| row.wrong_cases) {
         0 => format!("{first} and {second} answer the same in {cases} cases{until}"),
         n => format!("{first} and {second} differ in {} of {cases} cases{until}", thousands(n)),
@@ -406,7 +413,7 @@ fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
 }
 
 /// For each family which of two programs is right.
-fn sides(verdict: &Judgement) -> Table {
+fn sides(verdict: &Verdict) -> Table {
     let columns =
         "property 18 | >cases 7 | >differ 7 | >1st right 7 | >2nd right 7 | >neither 7 | >both 7";
     let row = |row: &FamilyRow| {
@@ -421,17 +428,17 @@ fn sides(verdict: &Judgement) -> Table {
 }
 
 /// The families, those with the largest share of wrong cases first.
-fn by_share(verdict: &Judgement) -> Vec<&FamilyRow> {
-    let mut rows: Vec<_> = verdict.found.rows.iter().collect();
+fn by_share(verdict: &Verdict) -> Vec<&FamilyRow> {
+    let mut rows: Vec<_> = verdict.families.iter().collect();
     rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
     rows
 }
 
-fn closing(verdict: &Judgement) -> String {
+fn closing(verdict: &Verdict) -> String {
     let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
-        verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
-    let Found { cases, of_cases, out_of_time, .. } = verdict.found;
+        verdict.more.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
+    let Found { cases, of_cases, out_of_time, .. } = verdict.more.found;
     let until = match out_of_time {
         true => format!(", {cases} of {of_cases} cases in full when the time was up"),
         false => String::new(),
@@ -442,7 +449,7 @@ fn closing(verdict: &Judgement) -> String {
         verdict.shapes(true)
     );
     let known =
-        verdict.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
+        verdict.more.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
     let known = match known.count() {
         0 => String::new(),
         n => format!(", {n} properties fail as the baseline says"),
@@ -452,7 +459,7 @@ fn closing(verdict: &Judgement) -> String {
         names => format!(
             "{what}{known}; {} of {} properties fail: {}",
             names.len(),
-            verdict.properties.len(),
+            verdict.more.properties.len(),
             names.join(", ")
         ),
     }
@@ -460,13 +467,13 @@ fn closing(verdict: &Judgement) -> String {
 
 /// What each program draws of each failing case.
 fn views(
-    verdict: &Judgement,
+    verdict: &Verdict,
     names: Option<&[String; 2]>,
     repeat: &dyn Fn(&str, u64) -> String,
 ) -> Vec<page_cases::CaseView> {
     let programs = match names {
         Some([first, second]) => vec![first.as_str(), second],
-        None => vec![verdict.declared.name.as_str()],
+        None => vec![verdict.more.declared.name.as_str()],
     };
     let view = |f: &Failure| {
         let name = format!("{}#{}", f.family, f.index);
@@ -492,7 +499,7 @@ fn views(
     verdict.failures.iter().map(view).collect()
 }
 
-fn properties(verdict: &Judgement) -> Table {
+fn properties(verdict: &Verdict) -> Table {
     let row = |p: &verdict::Property| Row {
         cells: vec![
             p.name.to_owned(),
@@ -509,7 +516,7 @@ fn properties(verdict: &Judgement) -> Table {
         ..Row::default()
     };
     let (bad, good): (Vec<_>, Vec<_>) =
-        verdict.properties.iter().partition(|p| !p.outcome.is_good());
+        verdict.more.properties.iter().partition(|p| !p.outcome.is_good());
     let columns = "property 18 | holds 6 | what it says | found";
     let rows = bad.into_iter().chain(good).map(row).collect();
     Table::new("Properties, those that fail first", columns, rows)

@@ -1,6 +1,5 @@
 //! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
 
-pub mod ascii;
 pub mod board;
 pub mod canvas;
 pub mod chapter;

@@ -20,7 +20,7 @@ use rasterproof_registry::engines::SPECIMENS;
 use rasterproof_registry::published_check::{line_case, real_triangles};
 use rasterproof_render::scene::named;
 use rasterproof_verify::cases::named::Input;
-use rasterproof_verify::cases::{self, Case, Shape};
+use rasterproof_verify::cases::{self, Case, Family, Shape};
 use rasterproof_verify::comparison::{Tally, Verdict, oracle_hits};
 
 #[derive(Clone, Debug, Serialize)]
@@ -127,17 +127,14 @@ fn closest(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
     worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
     let views = worst.into_iter().filter_map(|(report, pair)| {
         let family = cases::families().find(|f| f.name == report.family)?;
-        let name = format!("{}#{}", family.name, pair.worst_case);
-        let case = family.case(seed, pair.worst_case);
-        let view = of_case(name.clone(), family.about.to_owned(), Kind::Closest, &case, judged);
+        let view = of_family(family, seed, pair.worst_case, Kind::Closest, judged);
         // Wrong pixels are the news of such a case, and stand among the failing ones.
         let is_wrong = |l: &Layer| l.role != Role::Specimen && l.tally.total() > 0;
         if view.layers.iter().any(is_wrong) {
             return None;
         }
         let found = format!("a value of {} at {:.2} of its bound", pair.actual, pair.worst());
-        let command = format!("rasterproof inspect {name} --seed {seed}");
-        Some(CaseView { found, command, ..view })
+        Some(CaseView { found, ..view })
     });
     views.collect()
 }
@@ -147,13 +144,14 @@ fn unsnapped_samples(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
     let seed = verdict.options.seed;
     let families = cases::unsnapped::FAMILIES.iter();
     let families = families.filter(|f| verdict.families.iter().any(|r| r.family == f.name));
-    let views = families.map(|family| {
-        let name = format!("{}#0", family.name);
-        let case = family.case(seed, 0);
-        let view = of_case(name.clone(), family.about.to_owned(), Kind::OffGrid, &case, judged);
-        CaseView { command: format!("rasterproof inspect {name} --seed {seed}"), ..view }
-    });
-    views.collect()
+    families.map(|family| of_family(family, seed, 0, Kind::OffGrid, judged)).collect()
+}
+
+fn of_family(family: &Family, seed: u64, index: u64, kind: Kind, judged: &Judged) -> CaseView {
+    let name = format!("{}#{index}", family.name);
+    let command = format!("rasterproof inspect {name} --seed {seed}");
+    let view = of_case(name, family.about.to_owned(), kind, &family.case(seed, index), judged);
+    CaseView { command, ..view }
 }
 
 fn every_named(judged: &Judged) -> Vec<CaseView> {
@@ -184,7 +182,8 @@ pub fn of_specimens() -> Vec<CaseView> {
         }
         view.start = [place, view.place("oracle", 1)];
         let found = format!("{}; cure: {}", card.fault, card.cure);
-        let (command, chapter) = (request(card.name, &case), chapter_of_source(card.source));
+        let command = format!("rasterproof specimens --specimen {}", card.name);
+        let chapter = chapter_of_source(card.source);
         Some(CaseView { found, command, chapter, ..view })
     });
     views.collect()
@@ -202,28 +201,6 @@ fn snapped(case: &TriangleCase) -> Option<Case> {
     let list = real_triangles(case).iter().map(triangle).collect::<Option<Vec<_>>>()?;
     let window = PixelRect::window(case.side_px, case.side_px);
     Some(Case { window, shape: Shape::Triangles { list, disjoint: false } })
-}
-
-/// The command that has an engine draw a case, in the line protocol.
-fn request(engine: &str, case: &Case) -> String {
-    let (width, height) = (case.window.width(), case.window.height());
-    let px = |(x, y): (f64, f64)| format!("{x} {y}");
-    let requests: Vec<String> = match &case.shape {
-        Shape::Triangles { list, .. } => {
-            let corners = list.iter().map(|t| t.corners().map_array(|p| px(p.to_px())).join(" "));
-            corners.map(|corners| format!("T 1 {width} {height} {corners}")).collect()
-        }
-        Shape::Lines(list) => {
-            let centre = |v: i32| f64::from(v) + 0.5;
-            let ends = list.iter().map(|l| {
-                l.ends.map_array(|e| px((centre(e.pixel.x), centre(e.pixel.y)))).join(" ")
-            });
-            ends.map(|ends| format!("L 1 {width} {height} {ends}")).collect()
-        }
-        Shape::Unsnapped { .. } => Vec::new(),
-    };
-    let quoted: Vec<_> = requests.iter().map(|request| format!("'{request}'")).collect();
-    format!("printf '%s\\n' {} | rasterproof engine {engine}", quoted.join(" "))
 }
 
 /// A failing case of a program that was judged, or of two that were compared, beside what the engines and the specimens draw. Where

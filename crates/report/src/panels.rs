@@ -1,17 +1,14 @@
 //! The sheet of a case: a panel for each engine with its name and its counts, rows and columns
 //! numbered, cropped to what matters, and a legend of what occurs.
-//!
-//! The PNG of a sheet remembers where its panels are, so that two sheets can be compared pixel for
-//! pixel of the cases instead of picture pixel for picture pixel.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use image::{Rgb, RgbImage, imageops};
 
 use super::lettering::{self, Size, write};
 use super::picture::{
-    AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE,
-    encoded, line, segments,
+    AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE, line,
+    outline, scaled,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
@@ -25,48 +22,109 @@ const MOST_PX: [u32; 2] = [1400, 1000];
 /// Larger cases are cropped to the pixels that differ.
 const MOST_CROPPED_PX: u32 = 48;
 /// Picture pixels of a pixel's side from which the dot of its sample is shown.
-pub(super) const SAMPLED: u32 = 8;
+const SAMPLED: u32 = 8;
 /// Room around everything and between panels.
 const GAP: u32 = 12;
 /// Room for the numbers of the columns, and the least for those of the rows.
-pub(super) const ABOVE: u32 = 16;
+const ABOVE: u32 = 16;
 const BESIDE: u32 = 34;
-/// Lines of text over a panel.
-const HEAD: u32 = 38;
-const INK: Rgb<u8> = Rgb([30, 30, 30]);
-const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
+pub(super) const INK: Rgb<u8> = Rgb([30, 30, 30]);
+pub(super) const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
-const KEY: &str = "rasterproof-panels";
 
 pub type Drawn = (String, Coverage);
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Panel {
-    pub name: String,
-    /// Left and top in picture pixels.
-    pub at: [u32; 2],
-    /// Picture pixels of a pixel's side.
-    pub zoom: u32,
-    pub shown: PixelRect,
-}
-
-#[derive(Clone, Debug)]
-pub struct Sheet {
-    pub image: RgbImage,
-    pub panels: Vec<Panel>,
-}
 
 /// What each engine draws, judged by `target`; then the target, as `oracle`.
 ///
 /// All coverages show the case's window.
-pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> Sheet {
-    let outline = match &case.shape {
-        Shape::Lines(_) => "the line itself",
-        _ => "edges",
+pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> RgbImage {
+    let (window, owners, segments) = (case.window, owners(case, target), outline(case));
+    let oracle = [("oracle".to_owned(), target.clone())];
+    let all: Vec<&Drawn> = actual.iter().chain(&oracle).collect();
+    let shown = crop(window, &all, target, &scaled(&segments, window, 1));
+    let (zoom, columns) = layout(shown, all.len() as u32);
+    let outlines = scaled(&segments, shown, zoom);
+    let is_line = matches!(case.shape, Shape::Lines(_));
+    let mut occurring = BTreeSet::new();
+    let panels = all.iter().map(|(name, hits)| {
+        let colour = |x_px, y_px| {
+            let of = |hits: &Coverage| hits.get(x_px, y_px).unwrap_or(0);
+            colour(of(hits), of(target), owners.as_ref().map_or(0, of))
+        };
+        occurring.extend(pixels(shown).map(|(x, y)| colour(x, y).0));
+        let counts = (counts(hits, target), Size::Small, FAINT);
+        let words = [(name.clone(), Size::Heading, INK), counts];
+        panel(&words, (shown, zoom, true), &outlines, &colour)
+    });
+    let panels = panels.collect();
+    let owned =
+        (1..).zip(OWNERS).map(|(number, colour)| (colour, format!("right: triangle {number}")));
+    let words = [
+        (AGREES, "as the oracle"),
+        (MISSING, "missing"),
+        (EXTRA, "extra"),
+        (TWICE, "hit too often"),
+        (OVERLAP, "rightly more than once"),
+    ];
+    let words = words.map(|(colour, text)| (colour, text.to_owned()));
+    let samples = (zoom >= SAMPLED).then_some((SAMPLE, "samples"));
+    let others =
+        [(EDGE, if is_line { "the line itself" } else { "edges" })].into_iter().chain(samples);
+    let others = others.map(|(colour, text)| (colour, text.to_owned()));
+    let entries = owned.chain(words).filter(|(c, _)| occurring.contains(&c.0)).chain(others);
+    let entries: Vec<Entry> = entries.map(|(colour, text)| (vec![colour], text)).collect();
+    let note = if shown == window {
+        String::new()
+    } else {
+        format!(
+            "columns {} to {}, rows {} to {} of {} x {} px",
+            shown.x0,
+            shown.x1 - 1,
+            shown.y0,
+            shown.y1 - 1,
+            window.width(),
+            window.height()
+        )
     };
-    let owners = owners(case, target);
-    let judged = (actual, target, owners.as_ref());
-    sheet((title, outline), case.window, judged, |window, zoom| segments(case, window, zoom))
+    arranged(&[(title.to_owned(), Size::Heading, INK)], panels, columns, &entries, &note)
+}
+
+/// Words of one size and colour.
+pub(super) type Words = (String, Size, Rgb<u8>);
+
+/// Words, below them pictures in so many columns, below these what the colours mean, and a note.
+pub(super) fn arranged(
+    words: &[Words],
+    cells: Vec<RgbImage>,
+    columns: u32,
+    entries: &[Entry],
+    note: &str,
+) -> RgbImage {
+    let wide = cells.iter().map(|cell| cell.width()).max().unwrap_or(1);
+    let high = cells.iter().map(|cell| cell.height()).max().unwrap_or(1);
+    let rows = (cells.len() as u32).div_ceil(columns);
+    let width = (GAP + columns * (wide + GAP)).max(420);
+    let mut heading = Vec::new();
+    let mut top = GAP;
+    for (text, size, ink) in words {
+        for line in lettering::wrapped(text, *size, width - 2 * GAP) {
+            heading.push((line, top, *size, *ink));
+            top += size.cell()[1];
+        }
+    }
+    top += GAP / 2;
+    let foot = foot(width, entries, note);
+    let height = top + rows * (high + GAP) + foot.height();
+    let mut image = RgbImage::from_pixel(width, height, WHITE);
+    for (text, y, size, ink) in heading {
+        write(&mut image, (GAP.into(), y.into()), &text, size, ink);
+    }
+    for (i, cell) in (0u32..).zip(cells) {
+        let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
+        imageops::replace(&mut image, &cell, left.into(), top.into());
+    }
+    imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
+    image
 }
 
 /// The number of the triangle that the oracle gives each pixel to, from 1, where a few triangles lie side by side and no
@@ -86,47 +144,6 @@ fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
         }
     }
     Some(owners)
-}
-
-/// The title, and what the outline is. Segments are asked for in picture pixels of a panel, once the
-/// zoom is known.
-fn sheet(
-    (title, outline): (&str, &str),
-    window: PixelRect,
-    (actual, target, owners): (&[Drawn], &Coverage, Option<&Coverage>),
-    segments: impl Fn(PixelRect, u32) -> Vec<[PixelPoint; 2]>,
-) -> Sheet {
-    let oracle = [("oracle".to_owned(), target.clone())];
-    let all: Vec<&Drawn> = actual.iter().chain(&oracle).collect();
-    let shown = crop(window, &all, target, &segments(window, 1));
-    let (zoom, columns) = layout(shown, all.len() as u32);
-    let panels: Vec<RgbImage> = all
-        .iter()
-        .map(|(name, hits)| {
-            panel(name, (hits, target, owners), (shown, zoom), &segments(shown, zoom))
-        })
-        .collect();
-    let wide = panels.iter().map(RgbImage::width).max().unwrap_or(1);
-    let high = panels.iter().map(RgbImage::height).max().unwrap_or(1);
-    let rows = (all.len() as u32).div_ceil(columns);
-    let width = (GAP + columns * (wide + GAP)).max(420);
-    let heading = lettering::wrapped(title, Size::Heading, width - 2 * GAP);
-    let top = GAP + heading.len() as u32 * Size::Heading.cell()[1] + GAP / 2;
-    let foot = foot(width, window, (shown, zoom), &all, (target, owners), outline);
-    let height = top + rows * (high + GAP) + foot.height();
-    let mut image = RgbImage::from_pixel(width, height, WHITE);
-    for (text, y) in heading.iter().zip((GAP..).step_by(Size::Heading.cell()[1] as usize)) {
-        write(&mut image, (GAP.into(), y.into()), text, Size::Heading, INK);
-    }
-    let mut places = Vec::new();
-    for (i, (picture, (name, _))) in (0u32..).zip(panels.iter().zip(&all)) {
-        let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
-        imageops::replace(&mut image, picture, left.into(), top.into());
-        let at = [left + beside(shown), top + HEAD + ABOVE];
-        places.push(Panel { name: name.clone(), at, zoom, shown });
-    }
-    imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
-    Sheet { image, panels: places }
 }
 
 /// The part of the window that is worth seeing: the shape and what is hit, a pixel to spare. Of a
@@ -160,15 +177,13 @@ fn union(a: PixelRect, b: PixelRect) -> PixelRect {
 
 /// The box around the pixels of a kind, some to spare, within the window.
 fn around(window: PixelRect, is_in: impl Fn(i32, i32) -> bool, spare: i32) -> Option<PixelRect> {
-    let pixels = (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)));
-    let boxes = pixels.filter(|&(x, y)| is_in(x, y)).map(|(x, y)| PixelRect {
+    let boxes = pixels(window).filter(|&(x, y)| is_in(x, y)).map(|(x, y)| PixelRect {
         x0: x,
         y0: y,
         x1: x + 1,
         y1: y + 1,
     });
-    let PixelRect { x0, y0, x1, y1 } = boxes.reduce(union)?;
-    Some(wider(PixelRect { x0, y0, x1, y1 }, spare, window))
+    Some(wider(boxes.reduce(union)?, spare, window))
 }
 
 /// A box with some to spare, within the window.
@@ -196,39 +211,56 @@ fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
     (zoom(best), best)
 }
 
-fn beside(shown: PixelRect) -> u32 {
+fn left_of(shown: PixelRect) -> u32 {
     let wide = |n: i32| lettering::width(&n.to_string(), Size::Small) + 6;
     wide(shown.y0).max(wide(shown.y1 - 1)).max(BESIDE)
 }
 
-/// Name and counts, numbered rows and columns, squares and outline.
-fn panel(
-    name: &str,
-    (hits, target, owners): (&Coverage, &Coverage, Option<&Coverage>),
-    (shown, zoom): (PixelRect, u32),
-    segments: &[[PixelPoint; 2]],
-) -> RgbImage {
-    let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
-    let counts = counts(hits, target);
-    let text = lettering::width(name, Size::Heading).max(lettering::width(&counts, Size::Small));
-    let mut image =
-        RgbImage::from_pixel(beside(shown) + width.max(text), HEAD + ABOVE + height, WHITE);
-    let left = beside(shown);
-    write(&mut image, (left.into(), 0), name, Size::Heading, INK);
-    write(&mut image, (left.into(), 20), &counts, Size::Small, FAINT);
-    let at = [left, HEAD + ABOVE];
-    numbers(&mut image, at, shown, zoom);
-    let colour = |x_px, y_px| {
-        let of = |hits: &Coverage| hits.get(x_px, y_px).unwrap_or(0);
-        colour(of(hits), of(target), owners.map_or(0, of))
+/// Pictures side by side, each below its name.
+pub fn beside(title: &str, pictures: &[(&str, RgbImage)]) -> RgbImage {
+    let cell = |(name, picture): &(&str, RgbImage)| {
+        titled(&[((*name).to_owned(), Size::Small, INK)], picture, [0, 0])
     };
-    let squares = squares((shown, zoom), (4, Some(zoom / 32)), colour);
-    imageops::replace(&mut image, &squares, at[0].into(), at[1].into());
-    for segment in segments {
-        line(*segment, PixelRect::window(width, height), |x, y| {
-            image.put_pixel(at[0] + x, at[1] + y, EDGE);
-        });
+    let cells: Vec<_> = pictures.iter().map(cell).collect();
+    let columns = cells.len() as u32;
+    arranged(&[(title.to_owned(), Size::Heading, INK)], cells, columns, &[], "")
+}
+
+/// A picture below some words, with room left of it and above.
+pub(super) fn titled(words: &[Words], picture: &RgbImage, [left, above]: [u32; 2]) -> RgbImage {
+    let text = words.iter().map(|(text, size, _)| lettering::width(text, *size)).max();
+    let wide = left + picture.width().max(text.unwrap_or(0));
+    let top = head(words) + above;
+    let mut image = RgbImage::from_pixel(wide, top + picture.height(), WHITE);
+    let mut y = 0;
+    for (text, size, ink) in words {
+        write(&mut image, (left.into(), y.into()), text, *size, *ink);
+        y += size.cell()[1];
     }
+    imageops::replace(&mut image, picture, left.into(), top.into());
+    image
+}
+
+fn head(words: &[Words]) -> u32 {
+    words.iter().map(|(_, size, _)| size.cell()[1]).sum::<u32>() + 2
+}
+
+/// Each pixel as a square of its colour, with an outline over them, numbered rows and columns, and a dot for each sample where
+/// these are shown.
+pub(super) fn panel(
+    words: &[Words],
+    (shown, zoom, has_samples): (PixelRect, u32, bool),
+    outline: &[[PixelPoint; 2]],
+    colour: &dyn Fn(i32, i32) -> Rgb<u8>,
+) -> RgbImage {
+    let mut picture = squares(shown, zoom, has_samples, colour);
+    let bounds = PixelRect::window(picture.width(), picture.height());
+    for segment in outline {
+        line(*segment, bounds, |x, y| picture.put_pixel(x, y, EDGE));
+    }
+    let left = left_of(shown);
+    let mut image = titled(words, &picture, [left, ABOVE]);
+    numbers(&mut image, [left, head(words) + ABOVE], shown, zoom);
     image
 }
 
@@ -243,7 +275,7 @@ fn counts(hits: &Coverage, target: &Coverage) -> String {
 }
 
 /// Numbers of columns over the squares, of rows left of them, as many as fit. The squares begin at `left` and `top`.
-pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
+fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
     let widest = [shown.x0, shown.x1 - 1].map_array(|n| n.to_string().len() as u32);
     let [cell_width, cell_height] = Size::Small.cell();
     let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
@@ -270,20 +302,21 @@ pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelR
     }
 }
 
-/// Each pixel as a square of its colour, with a border; from so many picture pixels of a side on with a grid between
-/// them; and with a dot for each sample, where samples are shown, that reaches so far from its middle.
-pub(super) fn squares(
-    (shown, zoom): (PixelRect, u32),
-    (least_grid, dot): (u32, Option<u32>),
-    colour: impl Fn(i32, i32) -> Rgb<u8>,
+/// With a border, and where there is room a grid between them.
+fn squares(
+    shown: PixelRect,
+    zoom: u32,
+    has_samples: bool,
+    colour: &dyn Fn(i32, i32) -> Rgb<u8>,
 ) -> RgbImage {
     let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
-    let dot = dot.filter(|_| zoom >= SAMPLED);
-    let is_dot = |offset: u32| dot.is_some_and(|reach| offset.abs_diff(zoom / 2) <= reach);
+    let has_grid = zoom >= if has_samples { 4 } else { 6 };
+    let has_samples = has_samples && zoom >= SAMPLED;
+    let is_dot = |offset: u32| has_samples && offset.abs_diff(zoom / 2) <= zoom / 32;
     RgbImage::from_fn(width, height, |x, y| {
         if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
             BORDER
-        } else if zoom >= least_grid && (x % zoom == 0 || y % zoom == 0) {
+        } else if has_grid && (x % zoom == 0 || y % zoom == 0) {
             GRID
         } else if is_dot(x % zoom) && is_dot(y % zoom) {
             SAMPLE
@@ -305,168 +338,42 @@ fn colour(actual: u8, target: u8, owner: u8) -> Rgb<u8> {
     }
 }
 
-/// What the colours mean that occur, and what part of the window is shown.
-fn foot(
-    width: u32,
-    window: PixelRect,
-    (shown, zoom): (PixelRect, u32),
-    all: &[&Drawn],
-    (target, owners): (&Coverage, Option<&Coverage>),
-    outline: &str,
-) -> RgbImage {
-    let of_panel = |(_, hits): &&Drawn| {
-        let pixels = (shown.y0..shown.y1).flat_map(|y| (shown.x0..shown.x1).map(move |x| (x, y)));
-        let at = |c: &Coverage, (x, y)| c.get(x, y).unwrap_or(0);
-        let shade =
-            |pixel| colour(at(hits, pixel), at(target, pixel), owners.map_or(0, |c| at(c, pixel)));
-        pixels.map(|pixel| shade(pixel).0).collect::<Vec<_>>()
-    };
-    let occurring: BTreeSet<[u8; 3]> = all.iter().flat_map(of_panel).collect();
-    let owned =
-        (1..).zip(OWNERS).map(|(number, colour)| (colour, format!("right: triangle {number}")));
-    let words = [
-        (AGREES, "as the oracle"),
-        (MISSING, "missing"),
-        (EXTRA, "extra"),
-        (TWICE, "hit too often"),
-        (OVERLAP, "rightly more than once"),
-    ];
-    let words = words.map(|(colour, text)| (colour, text.to_owned()));
-    let mut entries: Vec<_> =
-        owned.chain(words).filter(|(c, _)| occurring.contains(&c.0)).collect();
-    entries.push((EDGE, outline.to_owned()));
-    if zoom >= SAMPLED {
-        entries.push((SAMPLE, "samples".to_owned()));
-    }
-    let mut image = RgbImage::from_pixel(width, 3 * 18 + GAP / 2, WHITE);
+/// Colours with what they mean.
+pub(super) type Entry = (Vec<Rgb<u8>>, String);
+
+/// What the colours mean, in rows that fit a width, and a note below them.
+fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
+    const ROW: u32 = 18;
     let (mut left, mut top) = (GAP, 0);
-    for (colour, text) in entries {
-        let wide = 18 + lettering::width(&text, Size::Small);
+    let mut places = Vec::new();
+    for (colours, text) in entries {
+        let wide = 6 + 12 * colours.len() as u32 + lettering::width(text, Size::Small);
         if left + wide > width - GAP && left > GAP {
-            (left, top) = (GAP, top + 18);
+            (left, top) = (GAP, top + ROW);
         }
-        let (wide_mark, high) = match colour {
-            EDGE => (0..12, 6..8),
-            SAMPLE => (4..7, 5..8),
-            _ => (0..12, 1..13),
-        };
-        for (x, y) in wide_mark.flat_map(|x| high.clone().map(move |y| (x, y))) {
-            image.put_pixel(left + x, top + y, colour);
-        }
-        write(&mut image, (i64::from(left) + 18, i64::from(top) - 1), &text, Size::Small, INK);
+        places.push([left, top]);
         left += wide + 16;
     }
-    top += 18;
-    if shown != window {
-        let text = format!(
-            "columns {} to {}, rows {} to {} of {} x {} px",
-            shown.x0,
-            shown.x1 - 1,
-            shown.y0,
-            shown.y1 - 1,
-            window.width(),
-            window.height()
-        );
-        write(&mut image, (GAP.into(), i64::from(top) - 1), &text, Size::Small, FAINT);
-        top += 18;
-    }
-    imageops::crop_imm(&image, 0, 0, width, (top + GAP / 2).min(image.height())).to_image()
-}
-
-impl Sheet {
-    /// The sheet as a PNG that remembers its panels.
-    pub fn png(&self) -> Vec<u8> {
-        let row = |p: &Panel| {
-            let ([left, top], PixelRect { x0, y0, x1, y1 }) = (p.at, p.shown);
-            format!("{left} {top} {} {x0} {y0} {x1} {y1} {}", p.zoom, p.name)
-        };
-        let rows: Vec<_> = self.panels.iter().map(row).collect();
-        encoded(&self.image, Some((KEY, &rows.join("\n"))))
-    }
-
-    /// The sheet that a PNG remembers; nothing where it is no such PNG, or where its panels claim more
-    /// pixels than the picture has, so that to compare them takes no longer than to read the picture.
-    #[must_use]
-    pub fn from_png(bytes: &[u8]) -> Option<Self> {
-        let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().ok()?;
-        let texts = &reader.info().uncompressed_latin1_text;
-        let text = &texts.iter().find(|chunk| chunk.keyword == KEY)?.text;
-        let size = [reader.info().width, reader.info().height].map_array(u64::from);
-        let (mut panels, mut claimed) = (Vec::new(), 0);
-        for row in text.lines() {
-            let panel = parsed(row)?;
-            let sides = [panel.shown.width(), panel.shown.height()]
-                .map_array(|side| u64::from(side) * u64::from(panel.zoom));
-            let fits = |i: usize| u64::from(panel.at[i]) + sides[i] <= size[i];
-            claimed += sides[0] * sides[1];
-            if !fits(0) || !fits(1) || claimed > size[0] * size[1] {
-                return None;
+    let rows = if entries.is_empty() { 0 } else { top + ROW };
+    let note_rows = if note.is_empty() { 0 } else { ROW };
+    let end = if rows + note_rows > 0 { GAP / 2 } else { 0 };
+    let mut image = RgbImage::from_pixel(width, rows + note_rows + end, WHITE);
+    for ([mut left, top], (colours, text)) in places.into_iter().zip(entries) {
+        for &colour in colours {
+            let (wide, high) = match colour {
+                EDGE => (0..12, 6..8),
+                SAMPLE => (4..7, 5..8),
+                _ => (0..12, 1..13),
+            };
+            for (x, y) in wide.flat_map(|x| high.clone().map(move |y| (x, y))) {
+                image.put_pixel(left + x, top + y, colour);
             }
-            panels.push(panel);
+            left += 12;
         }
-        Some(Self { image: image::load_from_memory(bytes).ok()?.to_rgb8(), panels })
+        write(&mut image, (i64::from(left) + 6, i64::from(top) - 1), text, Size::Small, INK);
     }
-
-    /// The colour of a pixel of the case in a panel: the most frequent in its square.
-    fn colour(&self, panel: &Panel, x_px: i32, y_px: i32, square: &mut Vec<[u8; 3]>) -> [u8; 3] {
-        let PixelRect { x0, y0, x1, y1 } = panel.shown;
-        if !(x0..x1).contains(&x_px) || !(y0..y1).contains(&y_px) {
-            return BACKGROUND.0;
-        }
-        let offset = |v: i32, from: i32| v.abs_diff(from) * panel.zoom;
-        let (left, top) = (panel.at[0] + offset(x_px, x0), panel.at[1] + offset(y_px, y0));
-        square.clear();
-        for (x, y) in (0..panel.zoom).flat_map(|y| (0..panel.zoom).map(move |x| (x, y))) {
-            square.extend(self.image.get_pixel_checked(left + x, top + y).map(|pixel| pixel.0));
-        }
-        // Sorted, since a square may have as many colours as it has picture pixels.
-        square.sort_unstable();
-        let runs = square.chunk_by(|a, b| a == b);
-        runs.max_by_key(|run| run.len()).map_or(BACKGROUND.0, |run| run[0])
-    }
-}
-
-fn parsed(row: &str) -> Option<Panel> {
-    let mut words = row.splitn(8, ' ');
-    let mut number = || words.next()?.parse::<i32>().ok();
-    let [left, top, zoom] = [number()?, number()?, number()?].map_array(u32::try_from);
-    let [x0, y0, x1, y1] = [number()?, number()?, number()?, number()?];
-    let sides = [x1.checked_sub(x0)?, y1.checked_sub(y0)?];
-    if !sides.iter().all(|side| (1..=4096).contains(side)) || !(1..=64).contains(&zoom.ok()?) {
-        return None;
-    }
-    Some(Panel {
-        name: words.next()?.to_owned(),
-        at: [left.ok()?, top.ok()?],
-        zoom: zoom.ok()?,
-        shown: PixelRect { x0, y0, x1, y1 },
-    })
-}
-
-/// For each panel of both sheets its name, and in how many pixels of the case they differ.
-///
-/// Only the pixels that a panel shows are compared. The two windows may lie far apart, so that the
-/// rectangle around both can be many times larger than the pictures.
-pub fn changes(old: &Sheet, new: &Sheet) -> Vec<(String, u64)> {
-    let mut by_name = HashMap::new();
-    for panel in &old.panels {
-        by_name.entry(panel.name.as_str()).or_insert(panel);
-    }
-    let squares = &mut [Vec::new(), Vec::new()];
-    let mut changed = |before: &Panel, after: &Panel| {
-        let is_new = |&(x, y): &(i32, i32)| {
-            let PixelRect { x0, y0, x1, y1 } = before.shown;
-            !(x0..x1).contains(&x) || !(y0..y1).contains(&y)
-        };
-        let pixels = pixels(before.shown).chain(pixels(after.shown).filter(is_new));
-        let [a, b] = &mut *squares;
-        let differ = pixels
-            .filter(|&(x, y)| old.colour(before, x, y, a) != new.colour(after, x, y, b))
-            .count();
-        (after.name.clone(), differ as u64)
-    };
-    let pairs = new.panels.iter().filter_map(|after| Some((*by_name.get(&*after.name)?, after)));
-    pairs.map(|(before, after)| changed(before, after)).collect()
+    write(&mut image, (GAP.into(), i64::from(rows) - 1), note, Size::Small, FAINT);
+    image
 }
 
 fn pixels(PixelRect { x0, y0, x1, y1 }: PixelRect) -> impl Iterator<Item = (i32, i32)> {
@@ -495,77 +402,15 @@ mod tests {
     }
 
     #[test]
-    fn a_png_remembers_its_panels_and_tells_who_changed() {
-        let (case, engines, target) = drawn("T2");
-        let old =
-            of_case("T2", &case, &[engines[0].clone(), ("x".to_owned(), target.clone())], &target);
-        let new = of_case(
-            "T2",
-            &case,
-            &[engines[0].clone(), ("x".to_owned(), engines[1].1.clone())],
-            &target,
-        );
-        let again = Sheet::from_png(&new.png()).unwrap();
-        assert_eq!((&again.panels, again.image), (&new.panels, new.image.clone()));
-        let counts = |name: &str, n| (name.to_owned(), n);
-        let expected = [counts("right", 0), counts("x", 1), counts("oracle", 0)];
-        assert_eq!(changes(&old, &new), expected);
-        assert!(Sheet::from_png(&super::super::picture::png(&new.image)).is_none());
-    }
-
-    #[test]
     fn a_large_window_is_cropped_to_what_differs() {
         let (case, engines, target) = drawn("T4");
         assert!(case.window.width() > MOST_CROPPED_PX, "{:?}", case.window);
-        let shown = of_case("T4", &case, &engines, &target).panels[0].shown;
+        let shown = |engines: &[Drawn]| {
+            let all: Vec<_> = engines.iter().collect();
+            crop(case.window, &all, &target, &scaled(&outline(&case), case.window, 1))
+        };
+        let (shown, whole) = (shown(&engines), shown(&engines[..1]));
         assert!(shown.width() <= 9 && shown.height() <= 9, "{shown:?}");
-        let whole = of_case("T4", &case, &engines[..1], &target).panels[0].shown;
         assert!(whole.width() > 9 && whole.width() <= case.window.width(), "{whole:?}");
-    }
-
-    /// A sheet whose panels are as given, as a PNG that says so.
-    fn claiming(side: u32, panels: Vec<Panel>) -> Sheet {
-        Sheet { image: RgbImage::from_pixel(side, side, WHITE), panels }
-    }
-
-    fn far_panel(name: &str, x0: i32, side: i32, zoom: u32) -> Panel {
-        let shown = PixelRect { x0, y0: -x0, x1: x0 + side, y1: side - x0 };
-        Panel { name: name.to_owned(), at: [0, 0], zoom, shown }
-    }
-
-    /// The rectangle around both windows has 16,000,000 x 16,000,000 pixels.
-    #[test]
-    fn windows_far_apart_are_compared_alone() {
-        let old = claiming(64, vec![far_panel("x", -8_000_000, 8, 8)]);
-        let mut new = claiming(64, vec![far_panel("x", 8_000_000, 8, 8)]);
-        assert_eq!(changes(&old, &new), [("x".to_owned(), 128)]);
-        new.panels[0].shown = old.panels[0].shown;
-        assert_eq!(changes(&old, &new), [("x".to_owned(), 0)]);
-        // A window that grew: old pixels are compared with old ones, new ones with the background.
-        new = claiming(96, vec![far_panel("x", -8_000_000, 12, 8)]);
-        assert_eq!(changes(&old, &new), [("x".to_owned(), 144 - 64)]);
-    }
-
-    #[test]
-    fn panels_claim_no_more_than_the_picture_has() {
-        let huge = claiming(64, vec![far_panel("x", 0, 4096, 64)]);
-        assert!(Sheet::from_png(&huge.png()).is_none());
-        let whole = far_panel("x", 0, 8, 8);
-        assert!(Sheet::from_png(&claiming(64, vec![whole.clone()]).png()).is_some());
-        assert!(Sheet::from_png(&claiming(64, vec![whole; 1000]).png()).is_none());
-        let apart = |i: u32| Panel { at: [i % 64, i / 64], ..far_panel(&format!("{i}"), 0, 1, 1) };
-        let many = claiming(64, (0..1000).map(apart).collect());
-        let again = Sheet::from_png(&many.png()).unwrap();
-        assert_eq!(changes(&many, &again).len(), 1000);
-    }
-
-    #[test]
-    fn broken_memories_are_none() {
-        for row in
-            ["", "1 2 3", "1 2 99999 0 0 4 4 x", "1 2 8 0 0 -4 4 x", "1 2 8 0 0 2147483647 4 x"]
-        {
-            assert_eq!(parsed(row), None, "{row}");
-        }
-        assert_eq!(parsed("1 2 8 -1 0 4 4 a b").unwrap().name, "a b");
     }
 }

@@ -4,13 +4,12 @@
 //! twice, green is hit more than once and rightly so. A dark dot is a sample; a blue line is an edge.
 
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 use image::{Rgb, RgbImage};
 
 use rasterproof_core::contract::DrawLine;
 use rasterproof_core::frame::Frame;
-use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_verify::cases::{Case, Shape};
@@ -41,52 +40,48 @@ pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(
     Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
 }
 
-/// The pixels of a frame as a picture of the same size.
+/// The pixels of a frame as a picture of the same size, of their first three channels.
 #[must_use]
-pub fn of_frame(frame: &Frame<[u8; 3]>) -> RgbImage {
+pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
     let bounds = frame.bounds();
     RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
-        Rgb(frame.get(bounds.x0 + x as i32, bounds.y0 + y as i32).unwrap_or_default())
+        let pixel = &frame.row(bounds.y0 + y as i32)[x as usize];
+        Rgb([pixel[0], pixel[1], pixel[2]])
     })
 }
 
-/// Edges of triangles through their corners, lines through the centres of their end pixels.
-///
-/// In picture pixels from the corner of the part that is shown.
-pub(super) fn segments(case: &Case, shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
-    let to_picture = |x_sub: i64, y_sub: i64| {
-        let at = |sub: i64, origin: i32| {
-            let from_origin = sub - i64::from(origin) * i64::from(SUBPIXELS);
-            (from_origin * i64::from(zoom)).div_euclid(i64::from(SUBPIXELS))
-        };
-        let limit = |v: i64| v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
-        PixelPoint::new(limit(at(x_sub, shown.x0)), limit(at(y_sub, shown.y0)))
-    };
-    match &case.shape {
-        Shape::Triangles { list, .. } => list
-            .iter()
-            .flat_map(|t| edges(t.corners().map(|p| to_picture(p.x.into(), p.y.into()))))
-            .collect(),
-        Shape::Lines(lines) => {
-            let centre = |px: i32| i64::from(px) * i64::from(SUBPIXELS) + i64::from(SUBPIXELS / 2);
-            let end = |e: PixelPoint| to_picture(centre(e.x), centre(e.y));
-            lines.iter().map(|l| [end(l.ends[0].pixel), end(l.ends[1].pixel)]).collect()
-        }
-        Shape::Unsnapped { list, .. } => {
-            let at =
-                |px: f64, origin: i32| ((px - f64::from(origin)) * f64::from(zoom)).floor() as i32;
-            let to_picture = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
-            list.iter().flat_map(|t| edges(t.px().map(to_picture))).collect()
-        }
-    }
-}
+/// A line from one position to another, in pixels.
+pub(super) type Segment = [[f64; 2]; 2];
 
-fn edges([a, b, c]: [PixelPoint; 3]) -> [[PixelPoint; 2]; 3] {
+/// The edges of a triangle.
+pub(super) fn edges([a, b, c]: [[f64; 2]; 3]) -> [Segment; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
+/// Edges of triangles through their corners, lines through the centres of their end pixels.
+pub(super) fn outline(case: &Case) -> Vec<Segment> {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            list.iter().flat_map(|t| edges(t.corners().map(|p| p.to_px().into()))).collect()
+        }
+        Shape::Lines(lines) => {
+            let centre = |at: PixelPoint| [at.x, at.y].map(|v| f64::from(v) + 0.5);
+            lines.iter().map(|l| l.ends.each_ref().map(|end| centre(end.pixel))).collect()
+        }
+        Shape::Unsnapped { list, .. } => list.iter().flat_map(|t| edges(t.px())).collect(),
+    }
+}
+
+/// Segments in picture pixels from the corner of the part that is shown.
+pub(super) fn scaled(segments: &[Segment], shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
+    // Saturating: a corner far outside stays far outside.
+    let at = |v: f64, origin: i32| ((v - f64::from(origin)) * f64::from(zoom)).floor() as i32;
+    let place = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
+    segments.iter().map(|ends| ends.map(place)).collect()
+}
+
 /// Room between two pictures of a stack.
-pub const STACK_GAP: u32 = 12;
+const STACK_GAP: u32 = 12;
 
 /// Stacks pictures under each other on white, with a gap between.
 pub fn stack(pictures: &[RgbImage]) -> RgbImage {
@@ -108,16 +103,12 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 
 /// The picture as a PNG file's bytes, with a palette where it has at most 256 colours.
 pub fn png(image: &RgbImage) -> Vec<u8> {
-    encoded(image, None)
-}
-
-pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
-    encoder.set_compression(png::Compression::High);
     let data = match indexed(image) {
         Some((palette, indices)) => {
             encoder.set_color(png::ColorType::Indexed);
+            encoder.set_compression(png::Compression::High);
             encoder.set_palette(palette);
             encoder.set_filter(png::Filter::NoFilter);
             indices
@@ -127,10 +118,8 @@ pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
             image.as_raw().clone()
         }
     };
-    let noted =
-        text.map_or(Ok(()), |(key, text)| encoder.add_text_chunk(key.to_owned(), text.to_owned()));
-    noted
-        .and_then(|()| encoder.write_header())
+    encoder
+        .write_header()
         .and_then(|mut writer| writer.write_image_data(&data))
         .expect("writing to memory does not fail");
     bytes
@@ -138,27 +127,20 @@ pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
 
 /// The colours in the order of their first pixels, and the number of each pixel's; none beyond 256.
 fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
-    let mut numbers: HashMap<[u8; 3], u8> = HashMap::new();
+    let mut numbers = HashMap::new();
     let (mut palette, mut indices) = (Vec::new(), Vec::new());
     let mut last = None;
     for pixel in image.pixels() {
         // Most pixels have the colour of the one before.
-        if let Some((colour, number)) = last
-            && colour == pixel.0
-        {
-            indices.push(number);
-            continue;
-        }
-        let next = numbers.len();
-        let number = match numbers.entry(pixel.0) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(new) => {
+        if last.is_none_or(|(colour, _)| colour != pixel.0) {
+            let next = numbers.len();
+            let number = *numbers.entry(pixel.0).or_insert_with(|| {
                 palette.extend(pixel.0);
-                *new.insert(u8::try_from(next).ok()?)
-            }
-        };
-        indices.push(number);
-        last = Some((pixel.0, number));
+                next
+            });
+            last = Some((pixel.0, u8::try_from(number).ok()?));
+        }
+        indices.extend(last.map(|(_, number)| number));
     }
     Some((palette, indices))
 }

@@ -1,24 +1,27 @@
 //! The contact sheet of the specimens: for each a strip of three panels, published, repaired,
-//! difference, with its name, its fault and its cure; sheets by source, with a legend.
+//! difference, with its name, its fault and its cure.
 //!
 //! Panels show the exposing case alone, each pixel a square. A strip refuses nothing: what the
 //! published code leaves undefined stays empty.
 
 use glam::DVec2;
-use image::{Rgb, RgbImage, imageops};
+use std::collections::BTreeSet;
+
+use image::{Rgb, RgbImage};
 
 use super::chapter::chapter_of_source;
 use super::html::{PictureLayer, PictureView};
-use super::lettering::{self, Size, write};
-use super::panels::{self, SAMPLED, squares};
-use super::picture;
-use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, MISSING, SAMPLE, TWICE, line};
+use super::lettering::Size;
+use super::panels::{self, Entry, FAINT, INK};
+use super::picture::{
+    self, AGREES, BACKGROUND, EDGE, EXTRA, MISSING, SAMPLE, Segment, TWICE, edges, outline, scaled,
+};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function::EdgeFunction;
-use rasterproof_core::triangle::{Fragment, LineEnd, PixelPoint};
+use rasterproof_core::triangle::Fragment;
 use rasterproof_faults::published::catalogue::{CARDS, Card, Exhibit, TriangleCase};
 use rasterproof_faults::published::scene::{BLACK, Colour, Image, Setting, Version};
 use rasterproof_faults::published::{Published, PublishedLine, RealTriangle};
@@ -29,95 +32,36 @@ use rasterproof_registry::published_check::{
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::oracle::Oracle;
 
-const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
-const INK: Rgb<u8> = Rgb([30, 30, 30]);
-const FAINT: Rgb<u8> = Rgb([110, 110, 110]);
 /// Drawn by both, but not alike.
 const WRONG: Rgb<u8> = Rgb([60, 120, 220]);
 /// A value beyond the range of its corners.
 const BEYOND: Colour = [40, 170, 60];
 
-/// Largest side of a panel, and the space between panels and around them.
+/// Largest side of a panel.
 const PANEL: u32 = 161;
-const GAP: u32 = 8;
-const STRIP: u32 = 3 * (BESIDE + PANEL) + 4 * GAP;
-/// Space for the numbers of the rows, left of each panel.
-const BESIDE: u32 = 22;
-
-/// A sheet: the cards of one source, or of some of its chapters.
-pub struct SourceSheet {
-    pub name: &'static str,
-    title: &'static str,
-    sources: &'static [&'static str],
-}
-
-/// The sheets in their order; each card is on one.
-pub const SHEETS: [SourceSheet; 4] = [
-    SourceSheet {
-        name: "book-1",
-        title: "The book, chapters 2 to 5: lines, triangles, values",
-        sources: &["book 2", "book 3", "book 5"],
-    },
-    SourceSheet {
-        name: "book-2",
-        title: "The book, chapters 6 to 11: depth, clipping, viewport, turns",
-        sources: &["book 6", "book 7", "book 8", "book 10", "book 11"],
-    },
-    SourceSheet {
-        name: "games101",
-        title: "GAMES101, homework 2: triangles and the depth buffer",
-        sources: &["GAMES101"],
-    },
-    SourceSheet {
-        name: "sysu",
-        title: "SYSU, assignment 2: lines, clipping, triangles",
-        sources: &["SYSU"],
-    },
-];
-
-impl SourceSheet {
-    pub fn cards(&self) -> impl Iterator<Item = &'static Card> {
-        let is_here = |card: &&Card| self.sources.iter().any(|s| card.source.starts_with(s));
-        CARDS.iter().filter(is_here)
-    }
-}
 
 struct Panels {
     published: Image,
     repaired: Image,
     background: Colour,
-    /// Segments in window pixels.
-    outline: Vec<[DVec2; 2]>,
+    outline: Vec<Segment>,
     has_samples: bool,
     /// Whether the colours are those of [`shade`].
     has_values: bool,
 }
 
-/// All cards of a sheet, two strips to a row, under a title and over a legend.
-pub fn sheet(sheet: &SourceSheet) -> panels::Sheet {
-    let strips: Vec<panels::Sheet> = sheet.cards().map(strip).collect();
-    let mut title = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
-    write(&mut title, (i64::from(GAP), 12), sheet.title, Size::Heading, INK);
-    let mut top = title.height() + picture::STACK_GAP;
-    let (mut all, mut panels) = (vec![title], Vec::new());
-    for pair in strips.chunks(2) {
-        for (left, strip) in (0..).step_by(STRIP as usize).zip(pair) {
-            panels.extend(strip.panels.iter().cloned().map(|panel| panels::Panel {
-                at: [panel.at[0] + left, panel.at[1] + top],
-                ..panel
-            }));
-        }
-        let row = beside(pair);
-        top += row.height() + picture::STACK_GAP;
-        all.push(row);
-    }
-    let shown: Vec<_> = sheet.cards().filter_map(versions).collect();
-    all.push(legend(2 * STRIP, &shown));
-    panels::Sheet { image: picture::stack(&all), panels }
+/// All cards, two strips to a row, over what their colours mean.
+pub fn contact_sheet() -> RgbImage {
+    let shown: Vec<_> = CARDS.iter().filter_map(versions).collect();
+    let strips = CARDS.iter().map(|card| strip(card, &[])).collect();
+    let title = ("Published algorithms and their faults".to_owned(), Size::Heading, INK);
+    panels::arranged(&[title], strips, 2, &legend(&shown), "")
 }
 
-pub fn contact_sheet() -> RgbImage {
-    picture::stack(&SHEETS.each_ref().map_array(|s| sheet(s).image))
+/// The strip of a card, with what its colours mean.
+pub fn alone(card: &Card) -> RgbImage {
+    let shown: Vec<_> = versions(card).into_iter().collect();
+    strip(card, &legend(&shown))
 }
 
 /// The exposing pictures of every card, for the page, named apart from the cases that are `taken`.
@@ -139,151 +83,59 @@ pub fn views(taken: &[String]) -> Vec<PictureView> {
     CARDS.iter().filter_map(view).collect()
 }
 
-fn beside(strips: &[panels::Sheet]) -> RgbImage {
-    let height = strips.iter().map(|strip| strip.image.height()).max().unwrap_or(1);
-    let mut row = RgbImage::from_pixel(2 * STRIP, height, WHITE);
-    for (i, strip) in (0..).zip(strips) {
-        imageops::replace(&mut row, &strip.image, i * i64::from(STRIP), 0);
-    }
-    row
-}
-
-/// Picture pixels of a pixel's side.
-fn zoom(panels: &Panels) -> u32 {
-    let bounds = panels.published.bounds();
-    ((PANEL - 1) / bounds.width().max(bounds.height())).max(1)
-}
-
-/// What the colours of the panels mean that occur, in rows that fit a width.
-fn legend(width: u32, shown: &[Panels]) -> RgbImage {
-    let values = || shown.iter().filter(|panels| panels.has_values);
-    let has = |image: &Image, colour: Colour| image.rows().any(|(_, row)| row.contains(&colour));
-    let occurs = |colour: Colour| {
-        values().any(|panels| has(&panels.published, colour) || has(&panels.repaired, colour))
-    };
-    let differences: Vec<_> = shown.iter().map(difference).collect();
-    let differs = |colour: Rgb<u8>| differences.iter().any(|image| has(image, colour.0));
-    let samples = |panels: &Panels| panels.has_samples && zoom(panels) >= SAMPLED;
-    let hits = [
+/// What the colours mean that occur.
+fn legend(shown: &[Panels]) -> Vec<Entry> {
+    let colours =
+        |image: &Image| image.rows().flat_map(|(_, row)| row.to_vec()).collect::<Vec<_>>();
+    let differences: BTreeSet<_> = shown.iter().flat_map(|one| colours(&difference(one))).collect();
+    let of_values = shown.iter().filter(|one| one.has_values);
+    let of_values = of_values.flat_map(|one| [&one.published, &one.repaired]);
+    let values: BTreeSet<_> = of_values.flat_map(colours).collect();
+    let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
+    let differs = |colour: Rgb<u8>| differences.contains(&colour.0);
+    let has_outline = shown.iter().any(|one| !one.outline.is_empty());
+    let entries = [
         (differs(AGREES), vec![AGREES], "right"),
         (differs(MISSING), vec![MISSING], "missing"),
         (differs(EXTRA), vec![EXTRA], "extra"),
         (differs(TWICE), vec![TWICE], "drawn twice"),
         (differs(WRONG), vec![WRONG], "drawn, but not alike"),
-        (shown.iter().any(|panels| !panels.outline.is_empty()), vec![EDGE], "outline"),
-        (shown.iter().any(samples), vec![SAMPLE], "sample"),
+        (has_outline, vec![EDGE], "outline"),
+        (shown.iter().any(|one| one.has_samples), vec![SAMPLE], "sample"),
+        (!values.is_empty(), shades.to_vec(), "values from 0 to 1"),
+        (values.contains(&BEYOND), vec![Rgb(BEYOND)], "beyond the corners' values"),
+        (values.contains(&BLACK), vec![Rgb(BLACK)], "not a number"),
     ];
-    let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
-    let values = [
-        (values().next().is_some(), shades.to_vec(), "values from 0 to 1"),
-        (occurs(BEYOND), vec![Rgb(BEYOND)], "beyond the corners' values"),
-        (occurs(BLACK), vec![Rgb(BLACK)], "not a number"),
-    ];
-    let only = |(occurs, colours, text): (bool, Vec<_>, _)| occurs.then_some((colours, text));
-    let hits: Vec<_> = hits.into_iter().filter_map(only).collect();
-    let values: Vec<_> = values.into_iter().filter_map(only).collect();
-    // Each entry of a row: where it begins, its colours, its words.
-    type Entry<'a> = (u32, Vec<Rgb<u8>>, &'a str);
-    let mut rows: Vec<Vec<Entry>> = Vec::new();
-    for entries in [hits, values] {
-        let mut left = width;
-        for (colours, text) in entries {
-            let wide = 16 * colours.len() as u32 + lettering::width(text, Size::Small);
-            if left + wide + GAP > width {
-                rows.push(Vec::new());
-                left = GAP;
-            }
-            rows.last_mut().into_iter().for_each(|row| row.push((left, colours.clone(), text)));
-            left += wide + 24;
-        }
-    }
-    let mut image = RgbImage::from_pixel(width, 4 + 20 * rows.len() as u32, WHITE);
-    for (top, row) in (4..).step_by(20).zip(rows) {
-        for (left, colours, text) in row {
-            let words = left + 16 * colours.len() as u32;
-            for (left, colour) in (left..).step_by(16).zip(colours) {
-                for (x, y) in (0..12).flat_map(|x| (0..12).map(move |y| (x, y))) {
-                    let is_border = x % 11 == 0 || y % 11 == 0;
-                    let shown = match colour {
-                        // A line, and a dot.
-                        EDGE if y != 6 => WHITE,
-                        SAMPLE if !(5..7).contains(&x) || !(5..7).contains(&y) => WHITE,
-                        EDGE | SAMPLE => colour,
-                        _ if is_border => BORDER,
-                        _ => colour,
-                    };
-                    image.put_pixel(left + x, top + y, shown);
-                }
-            }
-            write(&mut image, (i64::from(words), i64::from(top) - 2), text, Size::Small, INK);
-        }
-    }
-    image
+    let occurring = entries.into_iter().filter(|(occurs, ..)| *occurs);
+    occurring.map(|(_, colours, text)| (colours, text.to_owned())).collect()
 }
 
-pub fn alone(card: &Card) -> panels::Sheet {
-    let panels::Sheet { image, panels } = strip(card);
-    let shown: Vec<_> = versions(card).into_iter().collect();
-    panels::Sheet { image: picture::stack(&[image, legend(STRIP, &shown)]), panels }
-}
-
-fn strip(card: &Card) -> panels::Sheet {
+/// Published, repaired and their difference, below the name, the fault and its cure.
+fn strip(card: &Card, legend: &[Entry]) -> RgbImage {
     let Some(panels) = versions(card) else {
-        return panels::Sheet { image: RgbImage::new(1, 1), panels: Vec::new() };
+        return RgbImage::new(1, 1);
     };
     let bounds = panels.published.bounds();
-    let zoom = zoom(&panels);
-    let height = bounds.height() * zoom + 1;
-    // The fault and its cure, as many lines as they need.
-    let room = STRIP - 2 * GAP;
-    let mut words: Vec<_> =
-        lettering::wrapped(card.fault, Size::Small, room).into_iter().map(|l| (l, INK)).collect();
-    let cure = format!("cure: {}", card.cure);
-    words.extend(lettering::wrapped(&cure, Size::Small, room).into_iter().map(|l| (l, FAINT)));
-    let head = 26 + 16 * (words.len() as u32 + 1) + 4 + panels::ABOVE;
-    let mut image = RgbImage::from_pixel(STRIP, head + height + 2 * GAP, WHITE);
-    let left = i64::from(GAP);
-    let name = write(&mut image, (left, 4), card.name, Size::Heading, INK);
-    write(&mut image, (left + i64::from(name + GAP), 6), card.source, Size::Small, FAINT);
-    for ((text, ink), top) in words.iter().zip((26..).step_by(16)) {
-        write(&mut image, (left, top), text, Size::Small, *ink);
-    }
+    let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
+    let outline = scaled(&panels.outline, bounds, zoom);
     let difference = difference(&panels);
     let all = [
         ("published", &panels.published),
         ("repaired", &panels.repaired),
         ("difference", &difference),
     ];
-    let mut places = Vec::new();
-    for (i, (title, picture)) in (0u32..).zip(all) {
-        let left = GAP + BESIDE + i * (BESIDE + PANEL + GAP);
-        let above = i64::from(head) - 17 - i64::from(panels::ABOVE);
-        write(&mut image, (i64::from(left), above), title, Size::Small, FAINT);
-        panels::numbers(&mut image, [left, head], bounds, zoom);
-        let panel = enlarged(picture, zoom, &panels);
-        imageops::replace(&mut image, &panel, left.into(), head.into());
-        let name = format!("{}, {title}", card.name);
-        places.push(panels::Panel { name, at: [left, head], zoom, shown: bounds });
-    }
-    panels::Sheet { image, panels: places }
-}
-
-/// Each pixel a square, the outline and the samples over it.
-fn enlarged(picture: &Image, zoom: u32, panels: &Panels) -> RgbImage {
-    let bounds = picture.bounds();
-    let dot = panels.has_samples.then_some(0);
-    let mut image = squares((bounds, zoom), (6, dot), |x_px, y_px| {
-        Rgb(picture.get(x_px, y_px).unwrap_or_default())
+    let cells = all.map(|(title, picture)| {
+        let colour = |x_px, y_px| Rgb(picture.get(x_px, y_px).unwrap_or_default());
+        let shown = (bounds, zoom, panels.has_samples);
+        let words = [(title.to_owned(), Size::Small, FAINT)];
+        panels::panel(&words, shown, &outline, &colour)
     });
-    let origin = DVec2::new(bounds.x0.into(), bounds.y0.into());
-    for segment in &panels.outline {
-        // Saturating: a corner far outside stays far outside.
-        let ends = segment.map_array(|p| ((p - origin) * f64::from(zoom)).floor());
-        let ends = ends.map_array(|p| PixelPoint::new(p.x as i32, p.y as i32));
-        let panel = PixelRect::window(image.width(), image.height());
-        line(ends, panel, |x, y| image.put_pixel(x, y, EDGE));
-    }
-    image
+    let words = [
+        (format!("{} ({})", card.name, card.source), Size::Heading, INK),
+        (card.fault.to_owned(), Size::Small, INK),
+        (format!("cure: {}", card.cure), Size::Small, FAINT),
+    ];
+    panels::arranged(&words, cells.into(), 3, legend, "")
 }
 
 /// Red missing, orange extra, violet twice, blue drawn by both but not alike, grey the same.
@@ -345,13 +197,12 @@ fn line_panels(specimen: &dyn PublishedLine, case: &Case) -> Option<Panels> {
     let Shape::Lines(lines) = &case.shape else { return None };
     let mut truth = Coverage::new(case.window, 0);
     Oracle.draw(&lines[0], case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
-    let hits = specimen_line_coverage(specimen, &lines[0], case.window);
-    let centre = |end: &LineEnd<DVec2>| DVec2::new(end.pixel.x.into(), end.pixel.y.into()) + 0.5;
+    let hits = specimen_line_coverage(specimen, lines, case.window);
     Some(Panels {
         published: hits_image(&hits.unwrap_or_else(|_| Coverage::new(case.window, 0))),
         repaired: hits_image(&truth),
         background: BACKGROUND.0,
-        outline: vec![[centre(&lines[0].ends[0]), centre(&lines[0].ends[1])]],
+        outline: outline(case),
         has_samples: false,
         has_values: false,
     })
@@ -371,12 +222,8 @@ fn triangle_panels(name: &str, specimen: &dyn Published, case: &TriangleCase) ->
         let hits = hits.unwrap_or_else(|_| Coverage::new(window, 0));
         (hits_image(&hits), hits_image(&free_truth(&triangles, window)))
     };
-    let outline = triangles
-        .iter()
-        .flat_map(|t| {
-            [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map_array(|s| s.map_array(|v| v.position_px))
-        })
-        .collect();
+    let corners = |t: &RealTriangle| edges(t.each_ref().map(|v| v.position_px.to_array()));
+    let outline = triangles.iter().flat_map(corners).collect();
     Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true, has_values }
 }
 

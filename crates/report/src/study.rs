@@ -13,7 +13,7 @@ use rasterproof_study::hard::{HardCase, HardCases, Kind};
 use rasterproof_study::ties::{Class, Classes, TiedPair};
 use rasterproof_study::{face_of, triangle_of};
 
-use super::canvas::{self, Drawing};
+use super::canvas;
 use super::chapter::Chapter;
 use super::cost_plots;
 use super::html::{Figure, Outcome, PictureLayer, PictureView, Report, Statement};
@@ -485,17 +485,12 @@ fn figures(found: &Found<'_>) -> Vec<Figure> {
     };
     let bars: Vec<_> = found.needs.needs.iter().map(bar).collect();
     let bars: Vec<_> = bars.into_iter().filter(|(_, ms, _, px)| ms.is_some() || *px > 0).collect();
-    let figure = |caption: &str, [wide, narrow]: [Drawing; 2]| Figure {
-        caption: caption.to_owned(),
-        svg: canvas::svg(&wide),
-        narrow: Some(canvas::svg(&narrow)),
-    };
     vec![
-        figure(
+        canvas::figure(
             "Error against time of each choice on the triangles of this view",
             [2, 1].map(|in_row| cost_plots::pareto_of_model(found.costs, in_row)),
         ),
-        figure(
+        canvas::figure(
             "What each effect takes or saves, and the pixels that are wrong without it",
             [800.0, 400.0].map(|width| cost_plots::effects(&bars, width)),
         ),
@@ -565,7 +560,7 @@ pub fn report(
     }
     tables.extend(costs(subject, found.costs));
     let answers = answers(subject, found, commands);
-    let picture = super::frame_comparison::rgb(&found.hard.picture);
+    let picture = super::picture::of_frame(&found.hard.picture);
     let marked = marked(found.hard, &picture);
     let decided = RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
         match classes.map.get(x as i32, y as i32).unwrap_or_default() {

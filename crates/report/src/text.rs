@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use super::html::{Excerpt, Outcome, Report, Statement};
-use super::lettering;
 use super::table::Table;
 use super::words::mark;
+use rasterproof_verify::judge::ascii;
 
 /// Columns of a terminal that a first screen has.
 const SCREEN: usize = 80;
@@ -23,14 +23,11 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
         Some(outcome) => format!("{} ", mark(outcome.good, colour)),
         None => String::new(),
     };
-    let answer = verdict.map_or("", |outcome| &outcome.answer);
-    for (number, part) in report.about.lines().enumerate() {
-        match answer {
-            answer if number == 0 && !answer.is_empty() => {
-                lines(&mut out, &format!("{part}: {answer}"), columns, ["", "  "]);
-            }
-            _ => lines(&mut out, part, columns, ["", "  "]),
-        }
+    let answer = verdict.map(|outcome| &outcome.answer).filter(|answer| !answer.is_empty());
+    let mut answer = answer.map(|answer| format!(": {answer}"));
+    for part in report.about.lines() {
+        let first = format!("{part}{}", answer.take().unwrap_or_default());
+        lines(&mut out, &first, columns, ["", "  "]);
     }
     if !report.answers.is_empty() {
         out += &format!("\n{}", answers(&report.answers, screen));
@@ -41,7 +38,7 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
     out.extend(report.excerpts.iter().map(|one| excerpt(one, columns)));
     let all = all || report.first_screen.is_empty();
     out += &match all {
-        true => tables(report.plan.iter().chain(&report.tables), columns, colour),
+        true => tables(&report.tables, columns, colour),
         false => tables(&report.first_screen, screen, colour),
     };
     if all {
@@ -138,7 +135,7 @@ fn note(out: &mut String, words: &str, width: usize, indents: [&str; 2]) {
 /// Words in lines of at most `width` columns: the first begins with one word, the others with another.
 fn lines(out: &mut String, words: &str, width: usize, [first, rest]: [&str; 2]) {
     let room = width - first.len().max(rest.len());
-    for (number, line) in lettering::lines(words, room, lettering::columns).iter().enumerate() {
+    for (number, line) in ascii::lines(words, room, ascii::columns).iter().enumerate() {
         let _ = writeln!(out, "{}{line}", if number == 0 { first } else { rest });
     }
 }

@@ -61,24 +61,24 @@
 //! ```text
 //! 60972 wrong pixels, in 9893 of 44000 cases
 //!
-//! the smallest case, in pixels: triangle 1,1 0.5,0.5 1,0.5
-//!   1 missing in a window of 4 x 4 px
+//! half-integer: 1 missing (from half-integer #3, shrunk)
+//!   triangle 1,1 0.5,0.5 1,0.5 in a window of 4 x 4 px
+//!   judged   expected
+//!   ....     ....
+//!   .-..     .#..
+//!   ....     ....
+//!   ....     ....
+//!   (# agrees, - missing, + extra, 2 twice, * rightly more than once, . neither)
+//!   repeat with: Options::default().seed(1).family(FamilyName::HalfInteger).only(3)
 //!
-//!   drawn   expected
-//!   ....    ....
-//!   .-..    .#..
-//!   ....    ....
-//!   ....    ....
-//!   # drawn once, - missing, + extra, 2 to 9 drawn so often, 9 also more often, . neither
-//!
-//! probable cause: It samples at the pixel's centre and draws nothing on an edge: neighbours leave holes.
+//! probable cause: It samples at the pixel's centre and draws nothing on an edge:
+//! neighbours leave holes.
 //! if that is meant, declare it: Options::default().convention(Convention::default().rule(Rule::Strict))
 //!
 //! wrong cases by family:
 //!   half-integer (1348) rectangle (1757) fan (1545) strip (982)
 //!   near-horizontal (21) near-vertical (28) flat (660) near-tie (111) far (677)
 //!   w-equal (454) w-4 (467) w-100 (465) w-1e4 (466) w-1e6 (445) w-extreme (467)
-//! repeat the case with: Options::default().seed(1).family(FamilyName::HalfInteger).only(3)
 //! ```
 //!
 //! The repair is a rule for edges. With y down and the corners in clockwise order, keep a centre on an edge
@@ -89,13 +89,12 @@
 //! The message is that of a [`Disagreement`](comparison::Disagreement), in this order:
 //!
 //! 1. How much is wrong.
-//! 2. The smallest case that was found, in pixels, and what is wrong with it: pixels *missing*, *extra*, or drawn *twice*.
-//! 3. What was drawn beside what is expected. `-` is a missing pixel, `+` one too many.
+//! 2. What is wrong with the smallest case that was found: pixels *missing*, *extra*, or drawn *twice*. Below it the case, in pixels.
+//! 3. What was drawn beside what is expected: `-` is a missing pixel, `+` one too many. Below it the options that repeat the case.
 //! 4. The probable cause, where a convention explains some hundred further triangles or lines, and how to declare that
 //!    convention if it is meant; or that none was recognised, with the nearest one and how much it explains.
 //! 5. The families with wrong cases. A single family says much: only `huge` points to integers that overflow, only
 //!    `half-integer` and `rectangle` to the rule for edges.
-//! 6. The options that repeat the case.
 //!
 //! # Conventions
 //!

@@ -18,6 +18,7 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_judge::Options;
 use rasterproof_judge::ask::runs_of;
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_precision::cost::ExternalVariant as _;
 use rasterproof_report::html::Report;
 use rasterproof_report::text as terminal;
@@ -121,9 +122,11 @@ fn planted_faults_are_caught() {
             let failure = failure.unwrap_or_else(|| panic!("{plant}: {text}"));
             if property == family {
                 assert!(failure.evidence.picture.is_some(), "{plant}: {text}");
-                assert!(text.contains("judged"), "{text}");
+                for part in ["shrunk)\n", "judged   expected\n", "repeat with: "] {
+                    assert!(text.contains(part), "{part}: {text}");
+                }
                 let is_explained =
-                    stand.verdict.recognised.is_some() || !stand.verdict.causes.is_empty();
+                    stand.verdict.more.recognised.is_some() || !stand.verdict.cause.is_empty();
                 assert!(
                     is_explained && (text.contains("it draws as") || text.contains("cause")),
                     "{text}"

@@ -232,7 +232,7 @@ function restore() {
   drawAll();
   if (text === null) return;
   try {
-    if (!Object.hasOwn(APIS, name ?? '') || !Object.hasOwn(RULES.webgl2, check ?? '')) throw new Error(`${name}, ${check}`);
+    if (!Object.hasOwn(APIS, name ?? '') || !Object.hasOwn(WORDS.en.checks, check ?? '')) throw new Error(`${name}, ${check}`);
     judgeOne({ name, check, subject: JSON.parse(text) });
   } catch (error) {
     state.one = { error: error.message };

@@ -14,9 +14,9 @@ use std::time::{Duration, Instant};
 
 use rasterproof_host::limits;
 use rasterproof_host::text::printable_path;
-use rasterproof_judge::process::{Limits, Program};
-use rasterproof_judge::process_group::{Group, end_strays_of_ended_groups};
 use rasterproof_judge::text::printable;
+use rasterproof_program::group::{Group, end_strays_of_ended_groups};
+use rasterproof_program::{Limits, Program};
 
 /// What a program may use.
 #[derive(Clone, Copy, Debug)]

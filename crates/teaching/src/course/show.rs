@@ -20,7 +20,7 @@ use rasterproof_render::effects::geometry::{Surface, SurfaceMaterial, Whole};
 use rasterproof_render::effects::primitive::BadScene;
 use rasterproof_render::pipeline::target::to_colour;
 use rasterproof_render::scene::Scene;
-use rasterproof_report::lettering::{self, Size};
+use rasterproof_report::panels;
 use rasterproof_verify::cases::Triangle;
 
 use super::Step;
@@ -400,26 +400,15 @@ impl Shown {
 
     /// The three pictures side by side with their names, enlarged.
     pub fn sheet(&self) -> RgbImage {
-        let difference = self.difference();
         let zoom = (320 / self.right.width()).max(1);
         let (wide, high) = (self.right.width() * zoom, self.right.height() * zoom);
-        let mut sheet = RgbImage::from_pixel(3 * wide + 2 * GAP, high + HEAD, Rgb([255; 3]));
-        let ink = Rgb([40; 3]);
-        lettering::write(&mut sheet, (0, 0), self.title, Size::Heading, ink);
-        for (i, (name, image)) in
-            (0..).zip([("yours", &self.yours), ("right", &self.right), ("difference", &difference)])
-        {
-            let left = i64::from(i * (wide + GAP));
-            lettering::write(&mut sheet, (left, 20), name, Size::Small, ink);
-            let large = imageops::resize(image, wide, high, imageops::FilterType::Nearest);
-            imageops::replace(&mut sheet, &large, left, i64::from(HEAD));
-        }
-        sheet
+        let large =
+            |image: &RgbImage| imageops::resize(image, wide, high, imageops::FilterType::Nearest);
+        let [yours, right, difference] = [&self.yours, &self.right, &self.difference()].map(large);
+        let pictures = [("yours", yours), ("right", right), ("difference", difference)];
+        panels::beside(self.title, &pictures)
     }
 }
-
-const GAP: u32 = 8;
-const HEAD: u32 = 38;
 
 fn put(image: &mut RgbImage, x: i32, y: i32, colour: Rgb<u8>) {
     if let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y))

@@ -40,8 +40,8 @@ pub use answer::{Given, Right};
 use std::sync::LazyLock;
 
 use rasterproof_core::frame::Coverage;
-use rasterproof_report::ascii;
 use rasterproof_verify::cases::Rng;
+use rasterproof_verify::judge::ascii;
 use serde::Deserialize;
 
 pub type Text = [String; 2];
@@ -81,7 +81,7 @@ pub struct Exercise {
 pub struct Solution {
     pub answer: Right,
     pub figures: Vec<String>,
-    /// Pixel grids with their titles, as of [`rasterproof_report::ascii`].
+    /// Pixel grids with their titles, as of [`ascii`].
     pub grids: Vec<(String, Vec<String>)>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::answer::letter;
 use super::{Chapter, Exercise, Language, Solution};
-use rasterproof_report::{ascii, lettering};
+use rasterproof_verify::judge::ascii;
 
 /// Columns of a page's English text; Chinese is not broken, for a line's end would show as a blank.
 const PAGE_COLUMNS: usize = 130;
@@ -53,7 +53,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
 
 fn wrapped(text: &str, language: Language) -> String {
     match language {
-        Language::English => lettering::lines(text, PAGE_COLUMNS, lettering::columns).join("\n"),
+        Language::English => ascii::lines(text, PAGE_COLUMNS, ascii::columns).join("\n"),
         Language::Chinese => text.to_owned(),
     }
 }

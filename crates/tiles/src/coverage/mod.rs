@@ -21,7 +21,7 @@ mod walk;
 mod wide;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd};
 
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Frame;
@@ -140,7 +140,6 @@ impl Tiles {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         let known = [
             best.as_sse2().map(Level::Sse2),
-            best.as_sse4_2().map(Level::Sse4_2),
             best.as_avx2().map(Level::Avx2),
             best.as_avx512().map(Level::Avx512),
         ];
@@ -158,9 +157,7 @@ impl Tiles {
     pub fn instructions(&self) -> &'static str {
         match self.level {
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse2(_) => "SSE2",
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse4_2(_) => "SSE4.2",
+            Level::Sse2(_) | Level::Sse4_2(_) => "SSE2",
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Level::Avx2(_) => "AVX2",
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

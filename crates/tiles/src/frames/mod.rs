@@ -22,8 +22,8 @@ mod visible;
 
 use std::fmt;
 
+use fearless_simd::Simd;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch};
 use rayon::prelude::*;
 
 use crate::coverage::{CELL_PX, CoverList, Piece, Tiles};

@@ -27,7 +27,7 @@
 //! roundings of its own, 2 u |n / q|. `SECOND_ORDER` is for products of errors.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x16, f64x8};
+use fearless_simd::{Simd, f32x16, f64x8};
 
 use crate::coverage::Tiles;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};

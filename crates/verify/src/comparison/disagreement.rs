@@ -1,11 +1,11 @@
 //! What a test prints when it fails: the smallest case, what was drawn and expected, and what rule would explain it.
 
 use std::error::Error;
-use std::fmt::{self, Write as _};
+use std::fmt;
 
-use super::{Cause, Compared, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
-use crate::cases::{Case, FamilyName, Shape};
-use rasterproof_core::frame::Coverage;
+use super::{Cause, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
+use crate::cases::{FamilyName, Shape};
+use crate::judge::ascii;
 
 /// Lines of the list of families are no longer.
 const MOST_COLUMNS: usize = 80;
@@ -76,20 +76,19 @@ impl fmt::Display for Disagreement {
             writeln!(f, "it panics in {panics} cases; only the first of these panics was shown")?;
         }
         if let Some(failure) = &self.smallest {
-            let Case { window, .. } = failure.case;
-            let described = shrink::describe(&failure.case);
-            let kind =
-                if matches!(failure.case.shape, Shape::Lines(_)) { "line" } else { "triangle" };
-            writeln!(
-                f,
-                "\nthe smallest case, in pixels: {kind} {described}\n  {} in a window of {} x {} px",
-                failure.what,
-                window.width(),
-                window.height()
-            )?;
-            let fits = window.width().max(window.height()) <= MOST_SIDE_PX;
-            match &failure.evidence.drawn {
-                Some(drawn) if fits => f.write_str(&grids(drawn, &failure.evidence))?,
+            let Failure { family, index, what, case, evidence, .. } = failure;
+            let kind = if matches!(case.shape, Shape::Lines(_)) { "line" } else { "triangle" };
+            let (described, window) = (shrink::describe(case), case.window);
+            let [width, height] = [window.width(), window.height()];
+            writeln!(f, "\n{family}: {what} (from {family} #{index}, shrunk)")?;
+            writeln!(f, "  {kind} {described} in a window of {width} x {height} px")?;
+            let names: &[&str] = if two.is_some() { &["first", "second"] } else { &["judged"] };
+            match &evidence.drawn {
+                Some(drawn) if width.max(height) <= MOST_SIDE_PX => {
+                    let drawn: Vec<_> = [drawn].into_iter().chain(&evidence.other).collect();
+                    let expected = &evidence.expected;
+                    f.write_str(&ascii::beside(names, &drawn, expected, MOST_COLUMNS))?;
+                }
                 Some(_) => {}
                 None => writeln!(f, "  the engine panics on it")?,
             }
@@ -104,14 +103,19 @@ impl fmt::Display for Disagreement {
                 };
                 writeln!(f, "  {who}, by the oracle")?;
             }
+            write!(f, "  repeat with: Options::default().seed({})", failure.seed)?;
+            if let Ok(family) = family.parse::<FamilyName>() {
+                write!(f, ".family(FamilyName::{family:?})")?;
+            }
+            if self.declared != Convention::default() {
+                write!(f, ".convention({})", self.declared)?;
+            }
+            writeln!(f, ".only({index})")?;
         }
         if let Some(cause) = &self.cause {
-            match two {
-                Some(failure) => {
-                    writeln!(f, "\nof the {}: {cause}", failure.evidence.who_is_wrong())?
-                }
-                None => writeln!(f, "\n{cause}")?,
-            }
+            let of = two.map(|failure| format!("of the {}: ", failure.evidence.who_is_wrong()));
+            let cause = format!("{}{cause}", of.unwrap_or_default());
+            writeln!(f, "\n{}", ascii::broken(&cause, MOST_COLUMNS, ""))?;
         }
         if !self.families.is_empty() {
             f.write_str("\nwrong cases by family:")?;
@@ -127,58 +131,16 @@ impl fmt::Display for Disagreement {
             }
             writeln!(f)?;
         }
-        if let Some(Failure { family, index, seed, .. }) = &self.smallest {
-            write!(f, "repeat the case with: Options::default().seed({seed})")?;
-            if let Ok(family) = family.parse::<FamilyName>() {
-                write!(f, ".family(FamilyName::{family:?})")?;
-            }
-            if self.declared != Convention::default() {
-                write!(f, ".convention({})", self.declared)?;
-            }
-            writeln!(f, ".only({index})")?;
-        }
         Ok(())
     }
-}
-
-/// What was drawn, of two engines by each, and what is expected beside each other; pixels that differ from it are marked.
-fn grids(drawn: &Coverage, compared: &Compared) -> String {
-    let expected = &compared.expected;
-    let drawn: Vec<&Coverage> = [drawn].into_iter().chain(&compared.other).collect();
-    let titles: &[&str] = if drawn.len() == 2 { &["first", "second"] } else { &["drawn"] };
-    let title = titles.iter().map(|title| title.len()).max().unwrap_or(0);
-    let width = (expected.bounds().width() as usize).max(title);
-    let mut text = String::from("\n");
-    let mut line = |cells: &mut dyn Iterator<Item = String>, last: &str| {
-        let cells: String = cells.map(|cell| format!("  {cell:<width$} ")).collect();
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "{cells}  {last}");
-    };
-    line(&mut titles.iter().map(|title| (*title).to_owned()), "expected");
-    let digit = |hits: u8| match hits {
-        0 => '.',
-        1 => '#',
-        hits => char::from_digit(u32::from(hits.min(9)), 10).unwrap_or('9'),
-    };
-    let mark = |(&d, &e): (&u8, &u8)| match (d, e) {
-        (d, e) if d == e => digit(d),
-        (d, e) if d < e => '-',
-        (1, 0) => '+',
-        (d, _) => digit(d),
-    };
-    for (y, expected) in expected.rows() {
-        let row = |drawn: &&Coverage| drawn.row(y).iter().zip(expected).map(mark).collect();
-        let right: String = expected.iter().map(|&hits| digit(hits)).collect();
-        line(&mut drawn.iter().map(row), &right);
-    }
-    text + "  # drawn once, - missing, + extra, 2 to 9 drawn so often, 9 also more often, . neither\n"
 }
 
 #[cfg(test)]
 mod tests {
     use crate::cases::FamilyName;
     use crate::comparison::{
-        Convention, Options, Rule, Verdict, compare_coverage, compare_lines, judge_coverage,
+        Convention, NothingJudged, Options, Rule, Verdict, compare_coverage, compare_lines,
+        judge_coverage,
     };
     use rasterproof_core::contract::{DrawLine, Rasterize};
     use rasterproof_core::grid::PixelRect;
@@ -186,6 +148,10 @@ mod tests {
     use rasterproof_core::line::dda::Dda;
     use rasterproof_core::raster::scanline::Scanline;
     use rasterproof_core::triangle::{Corners, Fragment, ScreenLine, Span, Varying};
+
+    fn whole(verdict: Result<Verdict, NothingJudged>) -> String {
+        verdict.unwrap().check().unwrap_err().to_string()
+    }
 
     /// Of two engines that differ the message shows both, and with which of them the oracle agrees.
     #[test]
@@ -196,11 +162,11 @@ mod tests {
         compare_coverage(&Scanline, &right, &options).unwrap().check().unwrap();
         // Both are wrong, and the same.
         compare_coverage(&strict, &strict, &options).unwrap().check().unwrap();
-        let said = |verdict: Result<Verdict, _>| verdict.unwrap().check().unwrap_err().to_string();
+        let said = |verdict: Result<Verdict, _>| whole(verdict).replace('\n', " ");
         let message = said(compare_coverage(&right, &strict, &options));
         for part in [
             " pixels differ, in ",
-            "first    second   expected",
+            "first   second   expected",
             "the first is right here, by the oracle",
             "of the second: probable cause: It samples at the pixel's centre and draws nothing on an edge",
         ] {
@@ -246,22 +212,21 @@ mod tests {
             .cases(40)
             .family(FamilyName::HalfInteger)
             .family(FamilyName::Rectangle);
-        let message = judge_coverage(&strict, &options).unwrap().check().unwrap_err().to_string();
+        let message = whole(judge_coverage(&strict, &options));
         for part in [
             "wrong pixels, in ",
-            "the smallest case",
-            "drawn",
-            "expected",
+            ", shrunk)\n",
+            "judged   expected",
             "-",
-            "probable cause: It samples at the pixel's centre and draws nothing on an edge: neighbours leave holes.",
+            "probable cause: It samples at the pixel's centre and draws nothing on an edge:\nneighbours leave holes.",
             "if that is meant, declare it: Options::default().convention(Convention::default().rule(Rule::Strict))",
-            "repeat the case with: Options::default().seed(1).family(FamilyName::",
+            "repeat with: Options::default().seed(1).family(FamilyName::",
         ] {
             assert!(message.contains(part), "{part}: {message}");
         }
-        assert!(message.lines().all(|line| line.chars().count() <= 120), "{message}");
+        assert!(message.lines().all(|l| l.len() <= 80 || l.contains("::")), "{message}");
         let declared = options.clone().convention(Convention::default().rule(Rule::TopRight));
-        let message = judge_coverage(&strict, &declared).unwrap().check().unwrap_err().to_string();
+        let message = whole(judge_coverage(&strict, &declared));
         let repeat = ".convention(Convention::default().rule(Rule::TopRight)).only(";
         assert!(message.contains(repeat), "{message}");
         judge_coverage(&Scanline, &options).unwrap().check().unwrap();

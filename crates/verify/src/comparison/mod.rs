@@ -183,7 +183,7 @@ impl fmt::Display for Failure {
 
 /// The outcome of a run. Its failures are the smallest of each family and pair, smallest first; its cause is looked for where one
 /// engine alone is judged and is wrong.
-pub type Verdict = judge::Verdict<Options, FamilyReport, Failure, Cause>;
+pub type Verdict = judge::Verdict<Options, FamilyReport, Failure, Option<Cause>>;
 
 impl Verdict {
     /// Nothing, or what a failing test has to print.
@@ -514,12 +514,8 @@ fn drive(
     };
     let partials = judge::in_blocks(chosen.len(), options, progress, &block, Partial::merge);
     let failures = shrink_failures(&partials, &chosen, options, watch);
-    Verdict {
-        cause: None,
-        options: options.clone(),
-        families: partials.into_iter().map(|partial| partial.report).collect(),
-        failures,
-    }
+    let families = partials.into_iter().map(|partial| partial.report).collect();
+    Verdict { options: options.clone(), families, failures, cause: None, more: () }
 }
 
 fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Partial {

@@ -83,6 +83,17 @@ impl Mask {
         mask
     }
 
+    /// The picture with x and y exchanged.
+    pub(crate) fn turned(&self) -> Self {
+        let mut turned = Self::default();
+        for (y, row) in self.0.iter().enumerate() {
+            for (x, other) in turned.0.iter_mut().enumerate() {
+                *other |= (row >> x & 1) << y;
+            }
+        }
+        turned
+    }
+
     /// The picture taken back from a mirror.
     pub(crate) fn mirrored(&self, mirror: Mirror, window: PixelRect) -> Self {
         if mirror == Mirror::None {

@@ -3,9 +3,12 @@
 //! A judge says what it takes and finds by the parameters of these types: [`comparison`](crate::comparison) of rasterizers and line
 //! drawers, [`partition`](crate::partition) of tessellators, and the crate `judge` of programs.
 
+#[doc(hidden)]
+pub mod ascii;
 mod nothing;
 mod panics;
 
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 pub use nothing::{NoSuchShard, NothingJudged};
@@ -151,6 +154,13 @@ impl<F, T> Options<F, T> {
         Self { terms, ..self }
     }
 
+    /// The numbers of the cases of each family.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn numbers(&self) -> Range<u64> {
+        self.only.map_or(0..self.cases, |index| index..index.saturating_add(1))
+    }
+
     /// Whether there is a case to judge in any family.
     pub(crate) fn check(&self) -> Result<(), NothingJudged> {
         let Shard { part, parts } = self.shard;
@@ -200,7 +210,7 @@ impl<C, E> Failure<C, E> {
 /// What came of all cases.
 #[derive(Clone, Debug)]
 #[must_use = "a verdict may be that something is wrong: call `check`"]
-pub struct Verdict<O, R, F, W> {
+pub struct Verdict<O, R, F, W, M = ()> {
     /// The options it was run with.
     pub options: O,
     /// One for each family, in the order of the catalogue.
@@ -208,7 +218,9 @@ pub struct Verdict<O, R, F, W> {
     /// The smallest failing cases that were found, those to look at first in front.
     pub failures: Vec<F>,
     /// Why it is wrong, where it was looked for.
-    pub cause: Option<W>,
+    pub cause: W,
+    /// What one kind of judge alone says beside it.
+    pub more: M,
 }
 
 /// Cases that a thread judges in one go.
@@ -231,10 +243,7 @@ pub(crate) fn in_blocks<P: Send, F: Sync, T: Sync>(
     let mut found: Vec<Option<P>> = (0..families).map(|_| None).collect();
     // With a time limit, families advance together, a few blocks at a time.
     let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
-    let all = match options.only {
-        Some(index) => index..index.saturating_add(1),
-        None => 0..options.cases,
-    };
+    let all = options.numbers();
     let Shard { part, parts } = options.shard;
     let mut done = all.start;
     while done < all.end && !(done > all.start && expired()) {

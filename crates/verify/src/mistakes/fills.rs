@@ -1,5 +1,6 @@
 //! The wrong fills that the table names, as functions of the corners in subpixels (1/256 px).
 
+use super::values::rounded;
 use crate::comparison::area2;
 use crate::convention::{Convention, Mask, facing};
 use rasterproof_core::arrays::MapArray as _;
@@ -256,17 +257,18 @@ pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
 type Metric = fn(&Corners) -> i64;
 
 /// What may be measured, in which unit that is said, and how much it is.
-pub(super) const METRICS: [(&str, &str, Metric); 7] = [
+pub(super) const METRICS: [(&str, &str, Metric); 8] = [
     ("area", "square px", |corners| i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32)),
     ("width", "px", |corners| extent(xs(corners))),
     ("height", "px", |corners| extent(ys(corners))),
     ("longer side", "px", |corners| extent(xs(corners)).max(extent(ys(corners)))),
+    ("shorter side", "px", |corners| extent(xs(corners)).min(extent(ys(corners)))),
     ("farthest coordinate", "px", |corners| farthest(xs(corners)).max(farthest(ys(corners)))),
     ("farthest x", "px", |corners| farthest(xs(corners))),
     ("farthest y", "px", |corners| farthest(ys(corners))),
 ];
 /// The first of the metrics that are coordinates; those before it are sizes.
-pub(super) const FARTHEST: usize = 4;
+pub(super) const FARTHEST: usize = 5;
 
 pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
     METRICS[which].2(corners)
@@ -398,6 +400,17 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
             sign * (dx * py - dy * px) >= -most_px * 256.0 * (dx * dx + dy * dy).sqrt()
         })
     };
+    // Whether no edge has outside the corner pixel that lies farthest in, or in x or y farthest out.
+    let is_inside = |x: i32, y: i32, is_out: [bool; 2]| {
+        (0..3).all(|i| {
+            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
+            let [dx, dy] = [bx - ax, by - ay].map_array(|v| i128::from(v) * sign as i128);
+            let far = |is_last: bool| i32::from(is_last) * (side - 1);
+            let at = [x + far((dy < 0) != is_out[0]), y + far((dx > 0) != is_out[1])];
+            let at = at.map_array(|v| i64::from(v) * 256 + 128);
+            dx * i128::from(at[1] - ay) - dy * i128::from(at[0] - ax) >= 0
+        })
+    };
     let last = side - 1;
     let corners_of = |x: i32, y: i32, side: i32| {
         [(x, y), (x + side, y), (x, y + side), (x + side, y + side)].into_iter()
@@ -408,6 +421,9 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
         3 => corners_of(x, y, side).any(|(x, y)| holds(x, y, 0.0)),
         4 => holds(x + side / 2, y + side / 2, f64::from(side) / 2.0),
         5 => holds(x, y, 0.0),
+        8 => is_inside(x, y, [true, true]),
+        9 => is_inside(x, y, [true, false]),
+        10 => is_inside(x, y, [false, true]),
         7 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
         _ => has(x, y),
     };
@@ -432,14 +448,24 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
     }
 }
 
+/// A number with so many bits after its first one; the rest is cut off, or rounded to the nearest, halves to even.
+pub(super) fn shortened(v: i32, bits: i64, is_cut: bool) -> i32 {
+    let size = v.unsigned_abs();
+    let rest = (32 - size.leading_zeros()).saturating_sub(bits as u32 + 1);
+    let (kept, left) = (i64::from(size >> rest), i64::from(size) % (1 << rest) * 2);
+    let up = !is_cut && (left > 1 << rest || (left == 1 << rest && kept % 2 == 1));
+    ((kept + i64::from(up)) << rest) as i32 * v.signum()
+}
+
 /// Blocks that are drawn wholly or not at all: p mod 5 and p / 5 mod 5 are the powers of two of their sides, and p / 25 is the
-/// place that decides: the sample of the first pixel, the middle, the sample of the last pixel, or any sample.
+/// place that decides: the sample of the first pixel, the middle, the sample of the last pixel, or any sample. With 4 they are
+/// drawn wholly where three of their corner pixels are covered, and else pixel by pixel.
 pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
     let [wide, high] = [p % 5, p / 5 % 5].map(|power| 1 << power);
     let sample = super::sample_of(base).map_array(i64::from);
     let mut mask = Mask::default();
     let sign = area2(corners).signum() as i64;
-    if sign == 0 || [wide, high] == [1, 1] {
+    if sign == 0 || [wide, high] == [1, 1] || (p / 25 == 4 && wide.min(high) == 1) {
         return mask;
     }
     let (points, owns) = (points(corners), owned(corners, base));
@@ -458,12 +484,19 @@ pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p:
                 0 => of(x, y),
                 1 => covers([x * 256 + wide * 128, y * 256 + high * 128]),
                 2 => of(x + wide - 1, y + high - 1),
-                _ => (y..y + high).any(|y| (x..x + wide).any(|x| of(x, y))),
+                3 => (y..y + high).any(|y| (x..x + wide).any(|x| of(x, y))),
+                _ => {
+                    let [right, bottom] = [x + wide - 1, y + high - 1];
+                    let corners = [[x, y], [right, y], [x, bottom], [right, bottom]];
+                    corners.iter().filter(|[x, y]| of(*x, *y)).count() >= 3
+                }
             };
             let (rows, columns) =
                 (y..(y + high).min(window.y1.into()), x..(x + wide).min(window.x1.into()));
-            for y in rows.filter(|_| is_drawn) {
-                columns.clone().for_each(|x| mask.set(x as i32, y as i32));
+            for y in rows.filter(|_| is_drawn || p / 25 == 4) {
+                for x in columns.clone().filter(|&x| is_drawn || of(x, y)) {
+                    mask.set(x as i32, y as i32);
+                }
             }
         }
     }
@@ -592,7 +625,7 @@ pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention,
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 24] = [
+pub(super) const FORMULAS: [&str; 25] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -617,22 +650,8 @@ pub(super) const FORMULAS: [&str; 24] = [
     "two barycentric weights from differences to the first corner, whose sum may be 1 at most",
     "two barycentric weights from differences to the last corner, whose sum may be 1 at most",
     "two barycentric weights from dot products of the edges, whose sum may be 1 at most",
+    "the edge function as a x + b y + c with an exact c that is rounded once",
 ];
-
-/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
-pub(super) fn rounded(v: f64, precision: i64) -> f64 {
-    match precision {
-        0 => f64::from(v as f32),
-        1 => v,
-        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
-        _ => {
-            // 10 bits after the first one, down to 2^-24; adding and subtracting rounds halves to even.
-            let exponent = (v.to_bits() >> 52 & 2047) as i32 - 1023;
-            let unit = f64::from(2).powi(exponent.max(-14) - 10);
-            (v / unit).round_ties_even() * unit
-        }
-    }
-}
 
 /// One of `FORMULAS`, rounded after every operation. Of corners that turn the other way, two are
 /// exchanged, or the sign of every value is.
@@ -650,7 +669,7 @@ pub(super) fn float(
         return Mask::default();
     }
     let points = points(corners);
-    let is_exact = formula == 7;
+    let is_exact = matches!(formula, 7 | 24);
     let px =
         |p: Point| p.map_array(|v| if is_exact { v as f64 / 256.0 } else { r(v as f64 / 256.0) });
     let mut ordered = points;
@@ -727,14 +746,18 @@ pub(super) fn float(
         let at = px(at);
         let values = match formula {
             0 | 7 | 8 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
-            1 | 19 => sides.map_array(|[i, j]| {
+            1 | 19 | 24 => sides.map_array(|[i, j]| {
                 let [mut p, mut q] = [corners[i], corners[j]];
                 let turns = formula == 19 && p[1] > q[1];
                 if turns {
                     (p, q) = (q, p);
                 }
                 let [a, b] = [r(p[1] - q[1]), r(q[0] - p[0])];
-                let c = r(-r(r(a * p[0]) + r(b * p[1])));
+                let c = match formula {
+                    // Of coordinates that floats of 64 bits hold with their products.
+                    24 => r(p[0] * q[1] - p[1] * q[0]),
+                    _ => r(-r(r(a * p[0]) + r(b * p[1]))),
+                };
                 let value = r(r(r(a * at[0]) + r(b * at[1])) + c);
                 if turns { -value } else { value }
             }),
@@ -783,6 +806,98 @@ pub(super) fn float(
         (0..3).all(|i| passes(values[i], owns[i]))
     })
 }
+
+/// Two halves with a level side each, row by row from the corner opposite to it, the lower one upwards. The digits of p are the
+/// precision, how corners are cut, how crossings and heights become pixels, and whether the row of the level side belongs to the
+/// upper half and to the lower one.
+pub(super) fn halves(corners: &Corners, window: PixelRect, p: i64) -> Mask {
+    let [precision, whole, ends, rows, upper, lower] = HALVES.digits(p);
+    let r = |v: f64| rounded(v, precision);
+    let sorted = sorted(&corners.map_array(|c| {
+        let cut = |v: i32| match whole {
+            0 => v,
+            1 => v / 256 * 256,
+            _ => v.saturating_add(128).div_euclid(256) * 256,
+        };
+        SubpixelPoint::new(cut(c.x), cut(c.y))
+    }));
+    let [top, middle, bottom] = sorted.map_array(|p| p.map_array(|v| r(v as f64 / 256.0)));
+    let pixel = |v: f64, how: i64| match how {
+        0 => v.trunc(),
+        1 => v.floor(),
+        2 => (v + 0.5).floor(),
+        _ => (v - 0.5).ceil(),
+    };
+    let mut mask = Mask::default();
+    let mut fill = |y: i64, a: f64, b: f64| {
+        let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
+        let end = pixel(a.max(b), ends) + f64::from(u8::from(ends < 3));
+        for x in clamp(pixel(a.min(b), ends))..clamp(end) {
+            mask.set(x, y as i32);
+        }
+    };
+    // From the row of a corner on to that of a level side.
+    let mut half = |tip: [f64; 2], a: [f64; 2], b: [f64; 2], with_last: bool| {
+        let [from, to] = [tip, a].map_array(|p| pixel(p[1], rows) as i64);
+        let down = a[1] >= tip[1];
+        let count = (to - from).abs() + i64::from(with_last);
+        let seen = if down { from + count > 0 } else { from - count < window.y1.into() };
+        if count > MOST_ROWS || !seen {
+            return;
+        }
+        let slope =
+            |p: [f64; 2]| r(r(p[0] - tip[0]) / r(p[1] - tip[1])) * if down { 1.0 } else { -1.0 };
+        let steps = [slope(a), slope(b)];
+        let mut at = [tip[0]; 2];
+        for i in 0..count {
+            let y = if down { from + i } else { from - i };
+            if (0..i64::from(window.y1)).contains(&y) {
+                fill(y, at[0], at[1]);
+            }
+            at = [0, 1].map_array(|k: usize| r(at[k] + steps[k]));
+        }
+    };
+    if middle[1] == bottom[1] {
+        half(top, middle, bottom, upper == 1);
+    } else if top[1] == middle[1] {
+        half(bottom, top, middle, lower == 1);
+    } else {
+        let part = r(r(middle[1] - top[1]) / r(bottom[1] - top[1]));
+        let cut = [r(top[0] + r(part * r(bottom[0] - top[0]))), middle[1]];
+        half(top, middle, cut, upper == 1);
+        half(bottom, middle, cut, lower == 1);
+    }
+    mask
+}
+
+/// Longer triangles are not expected: their rows are walked one by one.
+const MOST_ROWS: i64 = 1 << 16;
+
+/// A number whose digits are choices, of so many each.
+pub(super) struct Digits<const N: usize>(pub(super) [i64; N]);
+
+impl<const N: usize> Digits<N> {
+    pub(super) const fn count(&self) -> i64 {
+        let (mut all, mut i) = (1, 0);
+        while i < N {
+            all *= self.0[i];
+            i += 1;
+        }
+        all
+    }
+
+    pub(super) fn digits(&self, mut p: i64) -> [i64; N] {
+        let mut digits = self.0;
+        for digit in &mut digits {
+            let many = *digit;
+            *digit = p % many;
+            p /= many;
+        }
+        digits
+    }
+}
+
+pub(super) const HALVES: Digits<6> = Digits([2, 3, 4, 4, 2, 2]);
 
 /// The loop over whole pixels: bit 0 rounds corners, bit 1 divides down, bit 2 wraps products in 16 bits, bits 3 and 4 are
 /// what goes wrong at the ends, bit 5 wraps corners in 16 bits, and bit 6 cuts corners toward zero.

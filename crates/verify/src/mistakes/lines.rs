@@ -1,6 +1,8 @@
 //! The table of mistakes in drawing lines. To add one, add an entry: everything else follows from it.
 
-use super::fills::{rounded, without_border};
+use super::cells;
+use super::fills::without_border;
+use super::values::rounded;
 use super::{Mistake, Parameters, border};
 use crate::convention::{LineConvention, LineQuestion, Mask};
 use rasterproof_core::arrays::MapArray as _;
@@ -55,9 +57,19 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         sentence: |p| {
             let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
             let from = ["", ", counted from the end that is cut", ", counted from the other end"];
-            if p >= 72 {
+            if p >= 84 {
+                let (axis, rest) = (["y", "x"][((p - 84) / 36) as usize], (p - 84) % 36);
                 return format!(
-                    "cuts lines at the window and draws the rest as a line of its own, whose new ends are both counted from the first one and {how}: the rest takes other pixels"
+                    "cuts lines at the window where {axis} leaves it and draws the rest as a line of its own, whose new ends are {how}{}: the rest takes other pixels",
+                    from[(rest / 12) as usize]
+                );
+            }
+            if p >= 72 {
+                let how =
+                    ["", "their distance from it being "][(p / 3 % 2) as usize].to_owned() + how;
+                let to = ["", " and the first pixels after it"][((p - 72) / 6) as usize];
+                return format!(
+                    "cuts lines at the window{to} and draws the rest as a line of its own, whose new ends are both counted from the first one, {how}: the rest takes other pixels"
                 );
             }
             let (from, turned) = (
@@ -71,7 +83,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line across the border with the pixels of the whole line",
-        parameters: Parameters::Below(75),
+        parameters: Parameters::Below(84 + 2 * 36),
         draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
     },
     Mistake {
@@ -155,6 +167,42 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         }),
     },
     Mistake {
+        name: "ties by direction",
+        sentence: |p| {
+            let on: Vec<&str> = (0..8)
+                .filter(|octant| p >> octant & 1 == 1)
+                .map(|octant| OCTANTS[octant as usize])
+                .collect();
+            format!(
+                "lets a tie go on where lines run {}, and not yet where they run elsewhere",
+                on.join(", or ")
+            )
+        },
+        repair: "let one comparison decide in all directions",
+        page: "ch03",
+        refuted: "a tie in one of these directions that does not go on",
+        parameters: Parameters::Octants,
+        draws: Stroke::Own(by_octant),
+    },
+    Mistake {
+        name: "halved again and again",
+        sentence: |p| {
+            format!(
+                "draws both halves of a line from pixel to pixel, whose middle is {}: errors of the halves add up",
+                ["cut toward zero", "cut down", "rounded up"][p as usize]
+            )
+        },
+        repair: "step along the longer axis with one error term",
+        page: "ch03",
+        refuted: "a long line with one pixel for each step",
+        parameters: Parameters::Below(3),
+        draws: Stroke::Own(|ends, _, p| {
+            let mut pixels = Vec::new();
+            halved(ends, p, &mut pixels);
+            pixels
+        }),
+    },
+    Mistake {
         name: "lines are left out by kind",
         sentence: |p| format!("does not draw lines {}", KINDS[p as usize].0),
         repair: "treat this kind as any other",
@@ -174,6 +222,9 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                 0 => "the first end",
                 1 => "the left end",
                 2 => "the first end, as times of crossings in floats of 64 bits have it",
+                _ if p == 15 => {
+                    "the left end, walked in floats of 64 bits in steps of at least 1e-9 px"
+                }
                 _ => "the first end, as times of crossings in floats of 32 bits have it",
             };
             format!(
@@ -183,17 +234,39 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "light one pixel for each step along the longer axis",
         page: "ch03",
         refuted: "a diagonal step without a pixel between",
-        parameters: Parameters::Below(15),
+        parameters: Parameters::Below(16),
         draws: Stroke::Own(supercover),
+    },
+    Mistake {
+        name: "a stroke of area",
+        sentence: |p| {
+            let least = match cells::LEAST[(p % 4) as usize] {
+                1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
+                least => format!("an area of {least} of 255"),
+            };
+            format!(
+                "draws a line as an area of 1 px across and {}, and a pixel of it from {least} on",
+                ["from centre to centre", "half a pixel longer at both ends"][(p / 4) as usize]
+            )
+        },
+        repair: "light one pixel for each step along the longer axis",
+        page: "ch03",
+        refuted: "a step with one pixel",
+        parameters: Parameters::Below(8),
+        draws: Stroke::Own(stroke),
     },
     Mistake {
         name: "the slope is cut",
         sentence: |p| {
             let [bits, cut, start, ends] = slope_of(p);
             let cut = ["cut toward zero", "cut down", "rounded"][cut as usize];
-            let start =
-                ["half a pixel ahead", "at the end's own coordinate", "a step before half a pixel"]
-                    [start as usize];
+            let start = [
+                "half a pixel ahead",
+                "at the end's own coordinate",
+                "a step before half a pixel",
+                "half a pixel ahead in x and a step before it in y",
+                "half a pixel ahead in y and a step before it in x",
+            ][start as usize];
             format!(
                 "adds a slope that is {cut} to 1/{} px, beginning {start}{}: on long lines the far end drifts away",
                 1_i64 << bits,
@@ -203,7 +276,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "keep the remainder of the division, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line that reaches its second end",
-        parameters: Parameters::Below(9 * 3 * 3 * 2),
+        parameters: Parameters::Below(9 * 3 * 5 * 2),
         draws: Stroke::Own(fixed_slope),
     },
     Mistake {
@@ -223,13 +296,15 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
                 "interpolates between the ends, a (1 - t) + b t, in floats of {} bits, rounded",
                 "interpolates between the ends, a (1 - t) + b t, in floats of {} bits, cut toward zero",
                 "rounds the slope to a float of {} bits and computes each step from the first end",
+                "divides by a step too many, in floats of {} bits, rounded: the line does not reach its second end",
+                "divides by a step too few, in floats of {} bits, rounded: the line runs beyond its second end",
             ][how as usize]
                 .replace("{}", bits)
         },
         repair: "count in integers, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line whose height is right at the far end",
-        parameters: Parameters::Below(36),
+        parameters: Parameters::Below(42),
         draws: Stroke::Own(floats),
     },
     Mistake {
@@ -264,6 +339,22 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         draws: Stroke::Own(one_axis),
     },
     Mistake {
+        name: "one step at a time",
+        sentence: |p| {
+            let axes = ["x", "y"];
+            format!(
+                "steps along {} or else along {}, never along both at once, so that a slanted line is a staircase",
+                axes[(p % 2) as usize],
+                axes[(1 - p % 2) as usize]
+            )
+        },
+        repair: "test the error for each axis by itself, without an else",
+        page: "ch03",
+        refuted: "two pixels in turn that share a corner alone",
+        parameters: Parameters::Below(4),
+        draws: Stroke::Own(staircase),
+    },
+    Mistake {
         name: "the error term overflows",
         sentence: |p| {
             format!(
@@ -283,18 +374,24 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     Mistake {
         name: "ends overflow",
         sentence: |p| {
-            format!(
-                "keeps coordinates in {p} bits: ends beyond {} px wrap around",
-                1_i64 << (p - 1)
-            )
+            let (what, far) = match p / 100 {
+                0 => ("coordinates", "ends beyond"),
+                _ => ("the differences of both ends", "lines of more than"),
+            };
+            let bits = p % 100;
+            format!("keeps {what} in {bits} bits: {far} {} px wrap around", 1_i64 << (bits - 1))
         },
         repair: "clip first, or use a longer word",
         page: "stability",
         refuted: "a line with an end out there that is drawn rightly",
-        parameters: Parameters::Fixed(&[8, 12, 16]),
+        parameters: Parameters::Fixed(&[8, 12, 16, 108, 112, 116]),
         draws: Stroke::Instead(|ends, _, p| {
-            let shift = 64 - p as u32;
-            vec![ends.map_array(|end| end.map_array(|v| v << shift >> shift))]
+            let shift = 64 - (p % 100) as u32;
+            let from = if p < 100 { [0; 2] } else { ends[0] };
+            let word = |end: [i64; 2]| {
+                [0, 1].map_array(|k: usize| from[k] + ((end[k] - from[k]) << shift >> shift))
+            };
+            vec![ends.map_array(word)]
         }),
     },
     Mistake {
@@ -365,6 +462,65 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     },
 ];
 
+/// How lines run in each octant: bit 0 is whether they are steep, bit 1 whether they run to the left, and bit 2 whether they run up.
+const OCTANTS: [&str; 8] = [
+    "right and down, flat",
+    "right and down, steep",
+    "left and down, flat",
+    "left and down, steep",
+    "right and up, flat",
+    "right and up, steep",
+    "left and up, flat",
+    "left and up, steep",
+];
+
+fn octant([[x0, y0], [x1, y1]]: Ends) -> i64 {
+    i64::from(is_steep([[x0, y0], [x1, y1]])) + 2 * i64::from(x1 < x0) + 4 * i64::from(y1 < y0)
+}
+
+fn by_octant(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [[x0, y0], [x1, y1]] = ends;
+    let [dx, dy] = [x1 - x0, y1 - y0];
+    let (a, b) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+    // The same in all directions is a convention.
+    if a > MOST_STEPS || p == 0 || p == 255 {
+        return Vec::new();
+    }
+    let less = 1 - (p >> octant(ends) & 1);
+    (0..=a)
+        .map(|i| {
+            let rise = (2 * b * i + a - less).div_euclid(2 * a.max(1));
+            let [u, v] = if is_steep(ends) { [rise, i] } else { [i, rise] };
+            [x0 + dx.signum() * u, y0 + dy.signum() * v]
+        })
+        .collect()
+}
+
+/// The octants in which ties go on, as most answers have it; `of` are lines with their pictures.
+pub(super) fn octants(of: &mut dyn Iterator<Item = (Ends, PixelRect, &Mask)>) -> i64 {
+    let mut more = [0; 8];
+    for (ends, window, drawn) in of {
+        let on = 1 << octant(ends);
+        let is_so = |p: i64| i32::from(mask(&by_octant(ends, window, p), window) == *drawn);
+        more[octant(ends) as usize] += is_so(on) - is_so(255 - on);
+    }
+    (0..8).map(|octant| i64::from(more[octant as usize] > 0) << octant).sum()
+}
+
+/// The pixels of both halves of a line.
+fn halved([a, b]: Ends, p: i64, pixels: &mut Vec<[i64; 2]>) {
+    let middle = [0, 1].map_array(|k: usize| match p {
+        0 => (a[k] + b[k]) / 2,
+        1 => (a[k] + b[k]).div_euclid(2),
+        _ => (a[k] + b[k] + 1).div_euclid(2),
+    });
+    if middle == a || middle == b || pixels.len() as i64 > 2 * MOST_STEPS {
+        return pixels.extend([a, b]);
+    }
+    halved([a, middle], p, pixels);
+    halved([middle, b], p, pixels);
+}
+
 fn is_steep([[x0, y0], [x1, y1]]: Ends) -> bool {
     (y1 - y0).abs() > (x1 - x0).abs()
 }
@@ -425,9 +581,14 @@ fn from_left(ends: Ends, left: bool) -> Ends {
 /// is cut before y, p / 6 mod 2 is whether the first end is cut before the second, p / 12 mod 3 is from where a new end is
 /// counted, and from 36 on a line is turned round whose second end was cut.
 fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
-    if p >= 72 {
-        return cut_both([a, b], window, p % 3);
+    if (72..84).contains(&p) {
+        return cut_both([a, b], window, p - 72);
     }
+    // From 84 on one axis is cut alone.
+    let (p, axes) = match p {
+        84.. => ((p - 84) % 36, [p < 120, p >= 120]),
+        _ => (p, [false; 2]),
+    };
     let last = [i64::from(window.x1) - 1, i64::from(window.y1) - 1];
     let order = if p / 3 % 2 == 0 { [1, 0] } else { [0, 1] };
     let p_order = p % 12;
@@ -436,8 +597,8 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     let (mut way, mut cut_along) = ([0; 2], 2);
     // Each end is cut at most twice.
     for _ in 0..5 {
-        let outside = |p: [i64; 2], k: usize| p[k] < 0 || p[k] > last[k];
-        let beyond = |k: usize| a[k].max(b[k]) < 0 || a[k].min(b[k]) > last[k];
+        let outside = |p: [i64; 2], k: usize| !axes[k] && (p[k] < 0 || p[k] > last[k]);
+        let beyond = |k: usize| !axes[k] && (a[k].max(b[k]) < 0 || a[k].min(b[k]) > last[k]);
         if beyond(0) || beyond(1) {
             return None;
         }
@@ -479,12 +640,14 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     None
 }
 
-/// The part within the window by Liang and Barsky: both new ends are counted from the first one.
+/// The part within the window by Liang and Barsky: both new ends are counted from the first one. `how` mod 3 is the rounding,
+/// `how` / 3 mod 2 is whether distances from the first end are rounded, and from 6 on the window is one pixel wider and higher.
 fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
     let way = [b[0] - a[0], b[1] - a[1]].map(|v| v as f64);
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (k, side) in [(0, window.x1), (1, window.y1)] {
-        let [low, high] = [-a[k], i64::from(side) - 1 - a[k]].map(|v| v as f64);
+        let end = i64::from(side) - i64::from(how < 6);
+        let [low, high] = [-a[k], end - a[k]].map(|v| v as f64);
         if way[k] == 0.0 && (low > 0.0 || high < 0.0) {
             return None;
         }
@@ -494,13 +657,18 @@ fn cut_both([a, b]: Ends, window: PixelRect, how: i64) -> Option<Ends> {
         }
     }
     let at = |t: f64, k: usize| {
-        let v = a[k] as f64 + t * way[k];
-        [v as i64, v.floor() as i64, v.round() as i64][how as usize]
+        let from = if how / 3 % 2 == 0 { 0 } else { a[k] };
+        let v = (a[k] - from) as f64 + t * way[k];
+        from + [v as i64, v.floor() as i64, v.round() as i64][(how % 3) as usize]
     };
     (first <= last).then(|| [first, last].map(|t| [at(t, 0), at(t, 1)]))
 }
 
-fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+fn supercover(ends: Ends, window: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    if p == 15 {
+        let centres = ends.map_array(|end| end.map_array(|v| v as f64 + 0.5));
+        return pixels_of(&cells::touched(centres, window, 0.0), window);
+    }
     let [[mut x, mut y], [x1, y1]] = from_left(ends, p / 4 == 1);
     let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
     let (dx, dy) = ((x1 - x).abs(), (y1 - y).abs());
@@ -559,7 +727,7 @@ fn supercover(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
 
 /// Bits of fraction, how the slope is cut, where the line begins, and whether the last pixel is left out.
 fn slope_of(p: i64) -> [i64; 4] {
-    [[16, 8, 10, 12, 4, 6, 7, 14, 20][(p % 9) as usize], p / 9 % 3, p / 27 % 3, p / 81]
+    [[16, 8, 10, 12, 4, 6, 7, 14, 20][(p % 9) as usize], p / 9 % 3, p / 27 % 5, p / 135]
 }
 
 fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
@@ -575,9 +743,11 @@ fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]
         _ => ((d << bits) * 2 + steps).div_euclid(2 * steps),
     };
     let (sx, sy) = (cut(x1 - x0), cut(y1 - y0));
-    let half = [1 << (bits - 1), 0, (1 << (bits - 1)) - 1][start as usize];
+    let half = 1 << (bits - 1);
+    let [a, b] =
+        [[half; 2], [0; 2], [half - 1; 2], [half, half - 1], [half - 1, half]][start as usize];
     (0..=steps - without_last)
-        .map(|i| [((x0 << bits) + half + i * sx) >> bits, ((y0 << bits) + half + i * sy) >> bits])
+        .map(|i| [((x0 << bits) + a + i * sx) >> bits, ((y0 << bits) + b + i * sy) >> bits])
         .collect()
 }
 
@@ -592,14 +762,15 @@ fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
     let (sx, sy) = (slope(x1 - x0), slope(y1 - y0));
     if how >= 7 {
         let at = |i: i64, a: i64, b: i64| {
-            let t = r(i as f64 / steps.max(1) as f64);
+            let of = steps + [0, 1, -1][(how - 11).max(0) as usize];
+            let t = r(i as f64 / of.max(1) as f64);
             let v = match how {
                 11 => a as f64 + r((b - a) as f64 / steps.max(1) as f64) * i as f64,
-                7 | 8 => r(a as f64 + r(r((b - a) as f64) * t)),
+                7 | 8 | 12.. => r(a as f64 + r(r((b - a) as f64) * t)),
                 _ => r(r(a as f64 * r(1.0 - t)) + r(b as f64 * t)),
             };
             match how {
-                11 => (v + 0.5).floor() as i64,
+                11.. => (v + 0.5).floor() as i64,
                 7 | 9 => v.round() as i64,
                 _ => v as i64,
             }
@@ -657,6 +828,30 @@ const STARTS: [(Start, &str); 8] = [
     (|a, _| a, "a"),
     (|a, _| -a, "-a"),
 ];
+
+/// Steps by an error of both axes, of which one moves at a time: x is tested first, or y with p mod 2; p / 2 is whether a tie
+/// does not count.
+fn staircase([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [dx, dy] = [(x1 - x0).abs(), (y1 - y0).abs()];
+    if dx + dy > 2 * MOST_STEPS {
+        return Vec::new();
+    }
+    let (mut x, mut y, mut error) = (x0, y0, dx - dy);
+    let mut pixels = vec![[x, y]];
+    // Where it misses its end, it goes on somewhere else.
+    while [x, y] != [x1, y1] && (x - x0).abs() <= dx && (y - y0).abs() <= dy {
+        let tie = p / 2;
+        let moves = [2 * error >= tie - dy, 2 * error <= dx - tie];
+        let along_x = moves[0] && (p % 2 == 0 || !moves[1]);
+        if along_x {
+            (x, error) = (x + (x1 - x0).signum(), error - dy);
+        } else {
+            (y, error) = (y + (y1 - y0).signum(), error + dx);
+        }
+        pixels.push([x, y]);
+    }
+    pixels
+}
 
 /// p mod 8 is where the error term begins, p / 8 mod 3 what is added and taken away, p / 24 mod 2 what happens at 0, and from 48
 /// on lines are seen from the left. What is right draws nothing, as it is a convention.
@@ -759,6 +954,27 @@ fn short_error([[mut x, mut y], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i
         }
     }
     pixels
+}
+
+fn pixels_of(mask: &Mask, window: PixelRect) -> Vec<[i64; 2]> {
+    let all = (0..window.y1).flat_map(|y| (0..window.x1).map(move |x| [x, y]));
+    all.filter(|&[x, y]| mask.has(x, y)).map(|pixel| pixel.map_array(i64::from)).collect()
+}
+
+/// A line as an area of one pixel's width, with both ends a half longer or not.
+fn stroke(ends: Ends, window: PixelRect, p: i64) -> Vec<[i64; 2]> {
+    let [[x0, y0], [x1, y1]] = ends.map_array(|end| end.map_array(|v| v as f64 + 0.5));
+    let (dx, dy) = (x1 - x0, y1 - y0);
+    let length = (dx * dx + dy * dy).sqrt();
+    if length == 0.0 {
+        return Vec::new();
+    }
+    let [dx, dy] = [dx, dy].map_array(|v| v / length / 2.0);
+    let longer = if p > 3 { 1.0 } else { 0.0 };
+    let (x0, y0) = (x0 - dx * longer, y0 - dy * longer);
+    let (x1, y1) = (x1 + dx * longer, y1 + dy * longer);
+    let area = [[x0 + dy, y0 - dx], [x1 + dy, y1 - dx], [x1 - dy, y1 + dx], [x0 - dy, y0 + dx]];
+    pixels_of(&cells::by_area(&area, window, cells::LEAST[(p % 4) as usize]), window)
 }
 
 /// The picture of pixels in a window.

@@ -7,6 +7,7 @@
 //! and of the right ones, among answers that it was not chosen by. Otherwise the nearest one is a lead, and what all wrong
 //! answers have in common is said.
 
+mod cells;
 mod common;
 mod fills;
 mod lines;
@@ -61,6 +62,8 @@ enum Parameters {
     Clamps,
     /// Those ways of filling row by row that come near the answers, and of which it is true.
     Scans(fn(i64) -> bool),
+    /// The directions of lines in which ties go on, as the answers have them.
+    Octants,
 }
 
 /// The entry that lines and triangles share: a row or a column at the border of the window is never drawn.
@@ -347,6 +350,9 @@ fn explain(
     programs: &[Program<'_, TriangleQuestion, Coverage>],
 ) -> Option<Mistakes> {
     let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
+    if !is_wrong.contains(&true) {
+        return None;
+    }
     // What each base draws, once it is needed.
     let whole: Vec<OnceCell<Option<Mask>>> =
         (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
@@ -448,7 +454,16 @@ pub fn of_lines(
     }
     let mut hypotheses = Vec::new();
     for mistake in lines::TABLE {
-        let parameters = numbers(mistake.parameters);
+        let parameters = match mistake.parameters {
+            Parameters::Octants => {
+                let mut chosen = chosen_by(&is_wrong).into_iter().map(|i| {
+                    let Answered { question, drawn, .. } = &answered[i];
+                    (wide(question.ends), question.window, drawn)
+                });
+                vec![lines::octants(&mut chosen)]
+            }
+            others => numbers(others),
+        };
         // What has its own pixels needs no convention underneath.
         let bases = if matches!(mistake.draws, Stroke::Own(_)) { &bases[..1] } else { &bases };
         for (&p, base) in parameters.iter().flat_map(|p| bases.iter().map(move |base| (p, base))) {
@@ -517,7 +532,9 @@ fn numbers(parameters: Parameters) -> Vec<i64> {
     match parameters {
         Parameters::Fixed(parameters) => parameters.to_vec(),
         Parameters::Below(end) => (0..end).collect(),
-        Parameters::Sizes | Parameters::Clamps | Parameters::Scans(_) => Vec::new(),
+        Parameters::Sizes | Parameters::Clamps | Parameters::Scans(_) | Parameters::Octants => {
+            Vec::new()
+        }
     }
 }
 
@@ -581,7 +598,8 @@ fn with_limits(
 ) -> Option<Mistakes> {
     let all_right = || {
         let wrong = Count { drawn: 0, of: answers as u64 };
-        (!limits.is_empty()).then(|| Mistakes { wrong, ..Mistakes::default() })
+        let causes = limits.iter().filter_map(Threshold::as_cause).collect();
+        (!limits.is_empty()).then(|| Mistakes { wrong, causes, ..Mistakes::default() })
     };
     let found = found.or_else(all_right)?;
     Some(Mistakes { limits, ..found })
@@ -777,7 +795,7 @@ pub fn table() -> Vec<Explanation> {
             Parameters::Fixed(parameters) => parameters[0],
             Parameters::Below(_) => 1,
             Parameters::Sizes => triangles::packed_size(0, true, 131_072),
-            Parameters::Clamps | Parameters::Scans(_) => 1,
+            Parameters::Clamps | Parameters::Scans(_) | Parameters::Octants => 1,
         };
         says(mistake, p)
     }

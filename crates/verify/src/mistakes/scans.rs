@@ -3,7 +3,7 @@
 use super::fills::{Point, points, wrap};
 use crate::convention::Mask;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
 /// In which numbers the crossing of an edge with a row is computed.
@@ -150,6 +150,8 @@ pub(super) struct Scan {
     level: i64,
     /// The heights that corners are sorted by: 0, those that are drawn; or one of `SORTED`, or the exact ones where corners are cut.
     sorted: i64,
+    /// 1 where each row gets a pixel at least, the one that would be its first.
+    least: i64,
 }
 
 const WHOLE: [&str; 5] = [
@@ -165,10 +167,11 @@ const FIRSTS: [&str; 4] = [
     "the first row that begins below a corner",
     "the height of a corner, rounded,",
 ];
-const HEIGHTS: [&str; 3] = [
+const HEIGHTS: [&str; 4] = [
     "",
     ", by the crossings with the upper side of each row",
     ", beginning at the corner and not at the first row",
+    ", counting rows from the one that holds the corner, whatever part of it lies above",
 ];
 const LEFT: [&str; 5] = [
     "the first sample right of the left crossing or on it",
@@ -198,24 +201,30 @@ const LOWER: [&str; 4] = [
 ];
 
 /// How many values each digit has, in the order of the fields.
-const DIGITS: [i64; 10] = [Slope::COUNT, 4, 3, 5, 8, 3, 5, 9, 4, 4];
+const DIGITS: [i64; 11] = [Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2];
 
 impl Scan {
     fn of(p: i64) -> Self {
         let mut rest = p;
-        let [slope, lower, above, whole, rows, height, left, right, level, sorted] =
-            DIGITS.map(|many| {
+        let [slope, lower, above, whole, rows, height, left, right, level, sorted, least] = DIGITS
+            .map(|many| {
                 let digit = rest % many;
                 rest /= many;
                 digit
             });
         let slope = Slope::of(slope);
-        Self { slope, lower, above, whole, rows, height, left, right, level, sorted }
+        Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least }
     }
 
     /// The sentence, after 'it'.
     pub(super) fn sentence(p: i64) -> String {
-        let Self { slope, lower, above, whole, rows, height, left, right, level, sorted } =
+        if p >= COLUMNS {
+            return format!(
+                "goes column by column, and with x and y exchanged {}",
+                Self::sentence(p - COLUMNS)
+            );
+        }
+        let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least } =
             Self::of(p);
         let mut words = WHOLE[whole as usize].to_owned();
         if sorted > 0 && whole > 0 {
@@ -236,6 +245,7 @@ impl Scan {
             words += ", and ";
         }
         words += &format!("fills from {} to {}", LEFT[left as usize], RIGHT[right as usize]);
+        words += ["", ", but one pixel at least"][least as usize];
         words += LOWER[lower as usize];
         words += HEIGHTS[height as usize];
         words += &match (rows, whole) {
@@ -262,7 +272,7 @@ impl Scan {
 
     /// Whether crossings are rounded.
     pub(super) fn is_rounded(p: i64) -> bool {
-        p % Slope::COUNT > 0
+        p % COLUMNS % Slope::COUNT > 0
     }
 
     /// Whether they are exact, and corners are sorted by their heights.
@@ -272,15 +282,16 @@ impl Scan {
 
     /// Whether corners are sorted by whole rows.
     pub(super) fn is_sorted_by_rows(p: i64) -> bool {
-        let Self { sorted, whole, .. } = Self::of(p);
+        let Self { sorted, whole, .. } = Self::of(p % COLUMNS);
         sorted > 0 && whole == 0
     }
 
     /// All of a frame: what is rounded, where edges begin, what level triangles are, and how corners are sorted.
     fn within(frame: i64) -> Vec<i64> {
         let base = Self::of(frame);
-        // The places of the last two digits.
-        let [level_at, sorted_at] = [8, 9].map(|i| DIGITS[..i].iter().product::<i64>());
+        // The places of the last three digits.
+        let [level_at, sorted_at, least_at] =
+            [8, 9, 10].map(|i| DIGITS[..i].iter().product::<i64>());
         let mut all = Vec::new();
         // Of whole corners there are level triangles, and corners that were sorted before.
         let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
@@ -305,6 +316,7 @@ impl Scan {
             }
             if base.whole == 0 {
                 all.extend((1..4).map(|sorted| frame + sorted * sorted_at));
+                all.push(frame + least_at);
             }
         }
         all
@@ -331,7 +343,8 @@ impl Scan {
         match self.height {
             0 => row * 256 + 128 - from,
             1 => row * 256 - from,
-            _ => (row - first_row) * 256,
+            2 => (row - first_row) * 256,
+            _ => (row - from.div_euclid(256)) * 256,
         }
     }
 }
@@ -345,8 +358,26 @@ const FRAMES: usize = 10;
 
 /// The parameters whose frames (rows, heights and ends of rows) come nearest to what was drawn: with exact crossings, and with
 /// the slope and the beginning that are best in the first of these.
-pub(super) fn fitting(drawn: &[Drawn<'_>]) -> Vec<i64> {
-    let mut all = frames(drawn, 0);
+pub(super) fn fitting(rows: &[Drawn<'_>]) -> Vec<i64> {
+    let corners: Vec<_> =
+        rows.iter().map(|(corners, window, _)| turned(corners, *window)).collect();
+    let columns: Vec<Drawn<'_>> = corners
+        .iter()
+        .zip(rows)
+        .map(|((corners, window), (.., drawn))| (corners, *window, drawn.turned()))
+        .collect();
+    let (least, all) = frames(rows, 0, u32::MAX);
+    // Where crossings are rounded, both may miss as many.
+    match frames(&columns, 0, least / 4) {
+        (_, all) if !all.is_empty() => {
+            around(&columns, all).into_iter().map(|p| p + COLUMNS).collect()
+        }
+        _ => around(rows, all),
+    }
+}
+
+/// All that is near the best frames with exact crossings.
+fn around(drawn: &[Drawn<'_>], mut all: Vec<i64>) -> Vec<i64> {
     let mut best = (u32::MAX, 0);
     for p in Scan::within(all[0]) {
         let missed = Scan::of(p).missed(drawn, best.0);
@@ -356,22 +387,25 @@ pub(super) fn fitting(drawn: &[Drawn<'_>]) -> Vec<i64> {
     }
     // Too many that explain the same crowd out others.
     all.truncate(2);
-    all.extend(frames(drawn, best.1 % WITHIN).into_iter().map(|p| p - p % WITHIN));
+    let others = frames(drawn, best.1 % WITHIN, u32::MAX).1;
+    all.extend(others.into_iter().map(|p| p - p % WITHIN));
     all.sort_unstable();
     all.dedup();
     all.into_iter().flat_map(Scan::within).collect()
 }
 
-/// The best frames with a slope and where edges begin, the best first.
-fn frames(drawn: &[Drawn<'_>], slope: i64) -> Vec<i64> {
+/// The best frames with a slope and where edges begin, the best first, that miss fewer pixels than `most`; and how many the first
+/// misses.
+fn frames(drawn: &[Drawn<'_>], slope: i64, most: u32) -> (u32, Vec<i64>) {
     let mut best: Vec<(u32, i64)> = Vec::new();
     for frame in (0..DIGITS[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
         let how = Scan::of(frame);
         // Of whole corners rows are with the last one or without, and edges begin at the corner.
-        if how.whole > 0 && (how.rows > 1 || how.height > 1) {
+        let is_twice = how.height == 3 && how.rows / 2 == 1;
+        if is_twice || how.whole > 0 && (how.rows > 1 || how.height > 1) {
             continue;
         }
-        let most = best.get(FRAMES - 1).map_or(u32::MAX, |(missed, _)| *missed);
+        let most = best.get(FRAMES - 1).map_or(most, |(missed, _)| *missed);
         let missed = how.missed(drawn, most);
         if missed < most {
             let at = best.partition_point(|(other, _)| *other <= missed);
@@ -379,9 +413,9 @@ fn frames(drawn: &[Drawn<'_>], slope: i64) -> Vec<i64> {
             best.truncate(FRAMES);
         }
     }
-    let least = best.first().map_or(0, |(missed, _)| *missed);
-    best.retain(|(missed, _)| *missed <= 2 * least + 4);
-    best.into_iter().map(|(_, frame)| frame).collect()
+    let least = best.first().map_or(u32::MAX, |(missed, _)| *missed);
+    best.retain(|(missed, _)| *missed <= least.saturating_mul(2).saturating_add(4));
+    (least, best.into_iter().map(|(_, frame)| frame).collect())
 }
 
 /// A crossing that is moved from row to row, in pixels.
@@ -415,7 +449,7 @@ impl Walk {
                 (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
             }
             Slope::Reciprocal => (0.0, single(single(px(dx)) * single(1.0 / single(px(dy))))),
-            Slope::Half => (0.0, super::fills::rounded(px(dx) / px(dy), 2)),
+            Slope::Half => (0.0, super::values::rounded(px(dx) / px(dy), 2)),
             Slope::Inverse(bits) => {
                 let unit = 1_i64 << bits;
                 (0.0, px(dx) * (unit / dy) as f64 * 256.0 / unit as f64)
@@ -497,9 +531,23 @@ impl Walk {
 /// Rows that are walked above the window, at most: further ones are not expected.
 const MOST_ROWS: i64 = 1 << 16;
 
-/// The picture of a way of filling row by row.
+/// Parameters from here on fill column by column.
+const COLUMNS: i64 = 1 << 40;
+
+/// The picture of a way of filling row by row, or column by column.
 pub(super) fn scanned(corners: &Corners, window: PixelRect, p: i64) -> Mask {
-    scan(corners, window, Scan::of(p))
+    match p < COLUMNS {
+        true => scan(corners, window, Scan::of(p)),
+        false => {
+            let (corners, window) = turned(corners, window);
+            scan(&corners, window, Scan::of(p - COLUMNS)).turned()
+        }
+    }
+}
+
+fn turned(corners: &Corners, window: PixelRect) -> (Corners, PixelRect) {
+    let window = PixelRect { x0: window.y0, y0: window.x0, x1: window.y1, y1: window.x1 };
+    (corners.map_array(|c| SubpixelPoint::new(c.y, c.x)), window)
 }
 
 fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
@@ -536,7 +584,9 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
             3 | 7 => right.ceil(),
             _ => right.trunc(),
         };
-        for x in clamp(first)..clamp(end + f64::from(u8::from(how.right > 3))) {
+        let end = end + f64::from(u8::from(how.right > 3));
+        let end = if how.least == 1 { end.max(first + 1.0) } else { end };
+        for x in clamp(first)..clamp(end) {
             mask.set(x, y as i32);
         }
     };

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::fills::{FARTHEST, decimal};
 use super::questions::{LONGEST_PX, Room};
-use super::{lines, sample_of};
+use super::{Explanation, lines, sample_of};
 use crate::convention::{
     Ask, AskLine, Convention, Count, Known, LineConvention, LineQuestion, Mask, Mirror,
     TriangleQuestion,
@@ -63,6 +63,36 @@ impl fmt::Display for Threshold {
             )?;
         }
         hint.iter().try_for_each(|hint| write!(f, " {hint}"))
+    }
+}
+
+impl Threshold {
+    /// A row or a column at the end of a word, from which on it is wrong where it is right before.
+    pub(super) fn as_cause(&self) -> Option<Explanation> {
+        let is_place = [Axis::Column, Axis::Row].iter().any(|axis| axis.name() == self.of);
+        let bits = (self.wrong_from as u64).checked_ilog2()?;
+        if !is_place || !self.is_sharp || self.wrong_from != f64::from(2).powi(bits as i32) {
+            return None;
+        }
+        let does = format!(
+            "counts {}s of the window in a word of {bits} bits: it is right up to {} {}, and wrong from {} on",
+            self.of,
+            self.of,
+            self.wrong_from - 1.0,
+            self.wrong_from
+        );
+        let all = |many| Count { drawn: many, of: many };
+        Some(Explanation {
+            wrong: all(self.wrong[0].drawn),
+            right: all(self.right),
+            ..Explanation::new(
+                "a word for rows or columns",
+                does,
+                "use a word that holds the largest window",
+                "stability",
+                "a triangle beyond it that is drawn rightly",
+            )
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! The table of mistakes in filling triangles. To add one, add an entry: everything else follows from it.
 
+use super::cells;
 use super::fills::{self, Words};
 use super::scans::{self, Scan};
 use super::{Mistake, Parameters, border};
@@ -53,7 +54,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "rule by order",
         sentence: |p| {
-            let (owned, order) = (p % 27, p / 27);
+            let (owned, order, winding) = (p % 27, p / 27 % ORDERS.len() as i64, p / OF_BOTH);
             let edges = [
                 "from the first corner to the second",
                 "from the second to the third",
@@ -79,21 +80,27 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 ),
             };
             words += &exchanged(order);
+            words +=
+                ["", " (of clockwise triangles alone)", " (of counterclockwise triangles alone)"]
+                    [winding as usize];
             words
         },
         repair: "let the direction of an edge decide, and not its place in the list",
         page: "ch02-edge-functions",
         refuted: "a triangle whose corners are rotated and that draws the same samples",
-        parameters: Parameters::Below(27 * ORDERS.len() as i64),
+        parameters: Parameters::Below(3 * OF_BOTH),
         draws: Fill::Sampled(|corners, window, base, p| {
             let (base, clockwise) = (base.with_rule(RULES[0]), area2(corners) > 0);
             // The same for all edges is no rule by order.
-            if matches!(p % 27, 0 | 13 | 26) {
+            if matches!(p % 27, 0 | 13 | 26) && p < OF_BOTH {
                 return Mask::default();
             }
+            let order = p / 27 % ORDERS.len() as i64;
+            let is_ruled = p / OF_BOTH == if clockwise { 2 } else { 1 };
             fills::by_edges(corners, window, &base, &|edge, value, owns| {
-                let edge = place_of_edge(edge, p / 27, clockwise) as u32;
+                let edge = place_of_edge(edge, order, clockwise) as u32;
                 let owns = match p / 3_i64.pow(edge) % 3 {
+                    _ if is_ruled => owns,
                     0 => false,
                     1 => true,
                     _ => owns,
@@ -254,6 +261,30 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         }),
     },
     Mistake {
+        name: "coordinates in short floats",
+        sentence: |p| {
+            let how = ["rounded", "cut"][(p / 100) as usize];
+            let kind = match p % 100 {
+                10 => " (as a half float)",
+                7 => " (as a bfloat16)",
+                _ => "",
+            };
+            format!(
+                "keeps coordinates in floats with {} significant bits{kind}, {how}: from {} px on they lose subpixels",
+                p % 100 + 1,
+                1_i64 << (p % 100 - 7)
+            )
+        },
+        repair: "keep corners as integers in subpixels, or in floats of 32 bits",
+        page: "stability",
+        refuted: "a corner with more significant bits whose edges pass where they should",
+        parameters: Parameters::Fixed(&[10, 7, 15, 110, 107, 115]),
+        draws: Fill::Instead(|corners, _, p| {
+            let short = |v: i32| fills::shortened(v, p % 100, p >= 100);
+            vec![corners.map_array(|c| SubpixelPoint::new(short(c.x), short(c.y)))]
+        }),
+    },
+    Mistake {
         name: "each axis on a grid of its own",
         sentence: |p| {
             let [x, y] = axes(p).map_array(|(step, rounding)| match step {
@@ -314,28 +345,39 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "weights are cut",
         sentence: |p| {
-            let bits = WEIGHT_BITS[(p / 8) as usize];
+            let bits = WEIGHT_BITS[(p / 10 % 8) as usize];
             let cut = ["toward zero", "down"][(p % 2) as usize];
+            let how = match p / 80 {
+                0 => "divides the edge functions by the area into".to_owned(),
+                of => format!(
+                    "multiplies the edge functions by a reciprocal of the area of {} bits into",
+                    RECIPROCAL_BITS[of as usize - 1]
+                ),
+            };
             format!(
-                "divides the edge functions by the area into weights of {bits} bits, cut {cut}{}: a strip along edges is drawn or lost",
-                if p / 2 % 4 == 0 { "" } else { ", one of them being what is left of 1" }
+                "{how} weights of {bits} bits, cut {cut}{}: a strip along edges is drawn or lost",
+                if p / 2 % 5 == 0 { "" } else { ", one of them being what is left of 1" }
             )
         },
         repair: "test the edge functions before they are divided",
         page: "ch02-edge-functions",
         refuted: "a sample whose weight is below a step and that is drawn rightly",
-        parameters: Parameters::Below(64),
+        parameters: Parameters::Below(80 * (1 + RECIPROCAL_BITS.len() as i64)),
         draws: Fill::Sampled(|corners, window, base, p| {
-            let bits = WEIGHT_BITS[(p / 8) as usize];
+            let bits = WEIGHT_BITS[(p / 10 % 8) as usize];
             let area = area2(corners);
             let whole = area.abs().max(1);
-            let cut = |value: i128| match p % 2 {
-                0 => (value << bits) / whole,
+            let reciprocal = (p >= 80).then(|| RECIPROCAL_BITS[(p / 80 - 1) as usize]);
+            let cut = |value: i128| match (reciprocal, p % 2) {
+                (Some(more), 0) => (value * ((1 << more) / whole)) / (1 << (more - bits)),
+                (Some(more), _) => (value * ((1 << more) / whole)) >> (more - bits),
+                (_, 0) => (value << bits) / whole,
                 _ => (value << bits).div_euclid(whole),
             };
             // Which one is left over, or another one where two corners are exchanged first.
-            let rest = [None, Some(2), Some(0), Some(if area > 0 { 2 } else { 0 })];
-            let rest = rest[(p / 2 % 4) as usize];
+            let [this, other] = if area > 0 { [2, 0] } else { [0, 2] };
+            let rest = [None, Some(2), Some(0), Some(this), Some(other)];
+            let rest = rest[(p / 2 % 5) as usize];
             fills::by_all_edges(corners, window, base, &|values| {
                 let mut weights = values.map_array(cut);
                 if let Some(rest) = rest {
@@ -601,6 +643,9 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "skips tiles of {} px whose first corner lies outside",
                 "loses the last column that a triangle has in each tile of {} px",
                 "skips tiles of {} px of whose corner pixels in the window none is covered",
+                "skips tiles of {} px that do not lie in the triangle with all four corner pixels",
+                "tests each edge with the wrong corner of tiles of {} px, whose x is that of another one",
+                "tests each edge with the wrong corner of tiles of {} px, whose y is that of another one",
             ][(p / 100) as usize];
             tested.replace("{}", &format!("{side} x {side}"))
         },
@@ -614,21 +659,22 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "blocks are drawn whole",
         sentence: |p| {
             format!(
-                "draws blocks of {} x {} px wholly or not at all, {}",
+                "draws blocks of {} x {} px wholly {}",
                 1 << (p % 5),
                 1 << (p / 5 % 5),
                 [
-                    "as their first sample is covered",
-                    "as their middle is covered",
-                    "as their last sample is covered",
-                    "wholly if any of their samples is covered"
+                    "or not at all, as their first sample is covered",
+                    "or not at all, as their middle is covered",
+                    "or not at all, as their last sample is covered",
+                    "or not at all: wholly if any of their samples is covered",
+                    "where the samples of three of their corner pixels are covered",
                 ][(p / 25) as usize]
             )
         },
         repair: "test the sample of each pixel",
         page: "speed",
         refuted: "two pixels of such a block of which one is drawn",
-        parameters: Parameters::Below(100),
+        parameters: Parameters::Below(125),
         draws: Fill::Ruled(fills::blocks),
     },
     Mistake {
@@ -760,6 +806,80 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         draws: Fill::Own(scans::scanned),
     },
     Mistake {
+        name: "all that edges touch",
+        sentence: |p| {
+            format!(
+                "draws the pixels that the sides touch, too, walked in floats of 64 bits from pixel to pixel{}",
+                [
+                    "",
+                    ", but not those that a side touches along their own sides or in one point",
+                    ", but not those that a side touches by less than 1/100 px"
+                ][p as usize]
+            )
+        },
+        repair: "draw the samples within the triangle alone, or declare that all that is touched is drawn, and compute it exactly",
+        page: "ch02",
+        refuted: "a pixel that is touched and is not drawn",
+        parameters: Parameters::Below(3),
+        draws: Fill::Ruled(|corners, window, base, p| {
+            let mut mask = base.mask(corners, window).unwrap_or_default();
+            let points = cells::places(corners);
+            for i in 0..3 {
+                let side = [points[i], points[(i + 1) % 3]];
+                mask.add(&cells::touched(side, window, [0.0, 1e-3, 1e-2][p as usize]));
+            }
+            mask
+        }),
+    },
+    Mistake {
+        name: "coverage by area",
+        sentence: |p| {
+            let least = match cells::LEAST[p as usize] {
+                1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
+                least => format!("an area of {least} of 255"),
+            };
+            format!(
+                "adds up areas in whole numbers of 1/256 px, as for antialiasing, and draws a pixel from {least} on"
+            )
+        },
+        repair: "test one sample of each pixel: what neighbours share is drawn by one of them then",
+        page: "ch02",
+        refuted: "a pixel of which less is covered and that is drawn",
+        parameters: Parameters::Below(4),
+        draws: Fill::Own(|corners, window, p| {
+            cells::by_area(&cells::places(corners), window, cells::LEAST[p as usize])
+        }),
+    },
+    Mistake {
+        name: "two halves from their tips",
+        sentence: |p| {
+            let [precision, whole, ends, rows, upper, lower] = fills::HALVES.digits(p);
+            let cut = ["cut toward zero", "cut down", "rounded", "rounded up from the sample"];
+            format!(
+                "splits triangles at the middle corner{} and adds up the slopes of each half from its tip, the lower half upwards, in floats of {} bits; crossings are {}, heights {}; {}: two loops of many tutorials",
+                [
+                    "",
+                    ", after corners are cut to whole pixels,",
+                    ", after corners are rounded to whole pixels,"
+                ][whole as usize],
+                ["32", "64"][precision as usize],
+                cut[ends as usize],
+                cut[rows as usize],
+                [
+                    "neither half draws the row between",
+                    "the upper half draws the row between",
+                    "the lower half draws the row between",
+                    "both halves draw the row between"
+                ][(upper + 2 * lower) as usize]
+            )
+        },
+        repair: "walk both halves along the unsplit long edge, and take each crossing at the height of the samples",
+        page: "ch02-scanline",
+        refuted: "a triangle with its top cut off that draws the same rows below",
+        parameters: Parameters::Below(fills::HALVES.count()),
+        draws: Fill::Own(fills::halves),
+    },
+    Mistake {
         name: "whole pixels by integer divisions",
         sentence: |p| {
             let mut words = format!(
@@ -853,6 +973,8 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     },
 ];
 
+/// Parameters of a rule by order of both windings; those of one follow.
+const OF_BOTH: i64 = 27 * ORDERS.len() as i64;
 /// The rules that mistakes are looked for with.
 pub(super) const RULES: [&str; 6] =
     ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
@@ -910,6 +1032,8 @@ fn axes(p: i64) -> [(i32, usize); 2] {
 const OFFSETS: [i64; 8] = [1, 2, 8, 16, 32, 64, 128, 256];
 /// Bits of weights in whole numbers.
 const WEIGHT_BITS: [u32; 8] = [4, 7, 8, 10, 12, 14, 15, 16];
+/// Bits of reciprocals of the area, which has 16 bits of fraction.
+const RECIPROCAL_BITS: [u32; 3] = [40, 32, 24];
 
 const STEPS_WITH_ONE: [i32; 5] = [256, 128, 64, 16, 1];
 const CLIP_STEPS: [i32; 4] = [256, 64, 16, 4];
@@ -1042,10 +1166,10 @@ fn suffix(number: i64) -> &'static str {
 }
 
 /// Sides and tests of tiles.
-const TILES: [i64; 38] = {
-    let mut all = [0; 38];
+const TILES: [i64; 53] = {
+    let mut all = [0; 53];
     let (mut i, mut n) = (0, 0);
-    while i < 40 {
+    while i < 55 {
         let side = 2 << (i % 5);
         // A tile as large as the window has its middle or first pixel beyond, or is all.
         if side < 32 || i / 5 == 0 || i / 5 > 2 {

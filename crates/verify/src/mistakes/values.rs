@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Explanation, Hypothesis, Mistakes, of_answers};
+use super::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
 use crate::cases::{self, Shape, Triangle};
 use crate::comparison::area2;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
@@ -197,30 +197,6 @@ const VALUES: &[ValueMistake] = &[
         values: |t, l| with(sum(l, t.vertices.map(|v| v.inv_w)), attributes(t, corrected(t, l))),
     },
     ValueMistake {
-        name: "another range of depth",
-        does: "turns depth round: 1 - z",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a depth near 0 that is given as such",
-        values: |t, l| with(1.0 - sum(l, depths(t)), attributes(t, corrected(t, l))),
-    },
-    ValueMistake {
-        name: "another range of depth",
-        does: "takes depth for a number between -1 and 1 and gives (z + 1) / 2",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a depth near 0 that is given as such",
-        values: |t, l| with(sum(l, depths(t)) / 2.0 + 0.5, attributes(t, corrected(t, l))),
-    },
-    ValueMistake {
-        name: "another range of depth",
-        does: "gives depth between -1 and 1: 2 z - 1",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a depth near 0 that is given as such",
-        values: |t, l| with(sum(l, depths(t)) * 2.0 - 1.0, attributes(t, corrected(t, l))),
-    },
-    ValueMistake {
         name: "weights of other corners",
         does: "gives the second corner the weight of the third and the third that of the second",
         repair: "keep a value with its corner where corners are sorted or exchanged",
@@ -356,14 +332,39 @@ const VALUES: &[ValueMistake] = &[
         },
     },
     ValueMistake {
-        name: "another value",
-        does: "gives depth with the other sign",
-        repair: "leave depth as the corners have it",
-        page: "ch06",
-        refuted: "a pixel with its own depth",
+        name: "weights of w squared",
+        does: "divides attributes by w twice, as where 1/w is divided by w once more",
+        repair: "weight the corners by 1/w",
+        page: "ch05",
+        refuted: "a triangle with unequal w and right attributes",
         values: |t, l| {
-            let [depth, first, second] = right_values(t, l);
-            [-depth, first, second]
+            let parts = [0, 1, 2].map(|i| l[i] * t.vertices[i].inv_w * t.vertices[i].inv_w);
+            let whole: f64 = parts.iter().sum();
+            with(sum(l, depths(t)), attributes(t, parts.map(|part| part / whole)))
+        },
+    },
+    ValueMistake {
+        name: "values of one corner",
+        does: "gives every pixel the attributes of the corner with the largest weight",
+        repair: "interpolate between the corners",
+        page: "ch05",
+        refuted: "two pixels of a triangle with different values",
+        values: |t, l| {
+            let most = (0..3).rev().max_by(|a, b| l[*a].total_cmp(&l[*b])).unwrap_or(0);
+            let mut one = [0.0; 3];
+            one[most] = 1.0;
+            with(sum(l, depths(t)), attributes(t, one))
+        },
+    },
+    ValueMistake {
+        name: "values without a sign",
+        does: "loses the sign of attributes",
+        repair: "leave attributes as they are: textures may begin below 0",
+        page: "ch05",
+        refuted: "a negative attribute",
+        values: |t, l| {
+            let [depth, a, b] = right_values(t, l);
+            [depth, a.abs(), b.abs()]
         },
     },
     ValueMistake {
@@ -418,7 +419,7 @@ const CORNERS: [(Moved, &str); 5] = [
 
 /// Numbers in which something is kept, with so many bits, and how that is said.
 type Kept = (fn(f64, i32) -> f64, &'static [i32], &'static str);
-const KEPT: [Kept; 8] = [
+const KEPT: [Kept; 9] = [
     (
         |v, bits| mantissa(v, bits, f64::round),
         FLOATS,
@@ -447,6 +448,7 @@ const KEPT: [Kept; 8] = [
         "whole numbers and {} bits of fraction, rounded",
     ),
     (|v, _| v - v.floor(), &[0], "fractions alone, as they wrap around at 1"),
+    (|v, _| rounded(v, 2), &[0], "floats of 16 bits"),
 ];
 /// Bits of floats of 16 bits, of those with the exponent of one of 32 bits, and of others.
 const FLOATS: &[i32] = &[10, 7, 5, 8, 12, 16];
@@ -461,6 +463,21 @@ fn in_unit(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {
 fn in_steps(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {
     let unit = f64::from(2).powi(-bits);
     cut(v / unit) * unit
+}
+
+/// A number in the precision of this number: 0 is 32 bits, 1 is 64, and 2 is 16.
+#[must_use]
+pub fn rounded(v: f64, precision: i64) -> f64 {
+    match precision {
+        0 => f64::from(v as f32),
+        1 => v,
+        _ if v.abs() >= 65520.0 => v.signum() * f64::INFINITY,
+        _ => {
+            // 10 bits after the first one, down to 2^-24: a sum with 1.5 x 2^52 such units has no others, halves to even.
+            let large = f64::from_bits(((exponent(v).max(-14) + 42 + 1023) as u64) << 52) * 1.5;
+            v + large - large
+        }
+    }
 }
 
 /// The power of two of the first digit of a number that is not tiny.
@@ -497,18 +514,28 @@ pub struct ValueHypothesis {
     /// Numbers in which values are kept, or the weights of the corners, with their bits.
     kept: Option<(Kept, i32)>,
     weights: Option<(Kept, i32)>,
+    /// The same of 1/w at a pixel, or of w, by which attributes are multiplied.
+    divisor: Option<(Kept, i32, bool)>,
+    /// The same of 1/w at the corners, or of w.
+    of_corners: Option<(Kept, i32, bool)>,
+    /// What becomes of each right value: it is multiplied, and something is added.
+    scaled: [[f64; 2]; 3],
     /// Pixels of a block that have one value, and the place in the block.
     block: Option<(i32, f64)>,
-    /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row.
-    steps: Option<(i32, bool)>,
+    /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row;
+    /// nothing where all pixels of a row have the values of the first one.
+    steps: Option<(Option<i32>, bool)>,
 }
 
 impl ValueHypothesis {
-    /// Depth and both attributes that it predicts at a pixel.
+    /// Depth and both attributes that it predicts at a pixel; nothing of moved corners without area.
     #[must_use]
-    pub fn predict(&self, triangle: &Triangle, (x_px, y_px): (i32, i32)) -> [f64; 3] {
+    pub fn predict(&self, triangle: &Triangle, (x_px, y_px): (i32, i32)) -> Option<[f64; 3]> {
         let corners =
             triangle.corners().map(|p| SubpixelPoint::new((self.moved)(p.x), (self.moved)(p.y)));
+        if area2(&corners) == 0 {
+            return None;
+        }
         let in_bits = |kept: Option<(Kept, i32)>| {
             move |v: f64| kept.map_or(v, |((keep, ..), bits)| keep(v, bits))
         };
@@ -520,7 +547,26 @@ impl ValueHypothesis {
             };
             weights(&corners, at).map(in_bits(self.weights))
         };
-        let at = |x: i32| (self.values)(triangle, weights_at(x)).map(in_bits(self.kept));
+        let at = |x: i32| {
+            let l = weights_at(x);
+            let mut values = (self.values)(triangle, l).map(in_bits(self.kept));
+            if let Some(((keep, ..), bits, is_w)) = self.divisor {
+                let whole = sum(l, triangle.vertices.map(|v| v.inv_w));
+                let w = if is_w { keep(1.0 / whole, bits) } else { 1.0 / keep(whole, bits) };
+                let over_w = [0, 1, 2].map(|i| l[i] * triangle.vertices[i].inv_w * w);
+                values = with(values[0], attributes(triangle, over_w));
+            }
+            if let Some(((keep, ..), bits, is_w)) = self.of_corners {
+                let inverse = triangle.vertices.map(|v| match is_w {
+                    true => 1.0 / keep(1.0 / v.inv_w, bits),
+                    false => keep(v.inv_w, bits),
+                });
+                let whole = sum(l, inverse);
+                let parts = [0, 1, 2].map(|i| l[i] * inverse[i] / whole);
+                values = with(values[0], attributes(triangle, parts));
+            }
+            [0, 1, 2].map(|i| values[i] * self.scaled[i][0] + self.scaled[i][1])
+        };
         let mut values = at(x_px);
         if let Some((steps, from_first)) = self.steps {
             let is_in = |x: i32| weights_at(x).iter().all(|weight| *weight >= 0.0);
@@ -528,16 +574,27 @@ impl ValueHypothesis {
                 true => (0..x_px).rev().find(|&x| !is_in(x)).map_or(0, |x| x + 1),
                 false => 0,
             };
-            let start = first + (x_px - first) / steps * steps;
-            let (from, to) = (at(start), at(start + steps));
-            let part = f64::from(x_px - start) / f64::from(steps);
-            for i in [1, 2] {
-                values[i] = from[i] + (to[i] - from[i]) * part;
+            match steps {
+                None => values = at(first),
+                Some(steps) => {
+                    let start = first + (x_px - first) / steps * steps;
+                    let (from, to) = (at(start), at(start + steps));
+                    let part = f64::from(x_px - start) / f64::from(steps);
+                    for i in [1, 2] {
+                        values[i] = from[i] + (to[i] - from[i]) * part;
+                    }
+                }
             }
         }
         let right = right_at(triangle, (x_px, y_px));
-        [0, 1, 2].map(|i| if self.parts[i] { values[i] } else { right[i] })
+        Some([0, 1, 2].map(|i| if self.parts[i] { values[i] } else { right[i] }))
     }
+}
+
+/// Right values at a pixel and given ones.
+#[must_use]
+pub fn pixel_of(triangle: &Triangle, f: &Fragment<DVec2>) -> [[f64; 3]; 2] {
+    [right_at(triangle, (f.x_px, f.y_px)), [f.depth, f.varying.x, f.varying.y]]
 }
 
 /// Right values at a pixel.
@@ -563,20 +620,25 @@ pub fn are_explained(
         let (right, allowed) = (right_at(triangle, pixel), allowed(predicted));
         let values = [fragment.depth, fragment.varying.x, fragment.varying.y];
         for i in 0..3 {
-            let miss = (values[i] - predicted[i]).abs() / allowed[i];
-            if miss > 10.0 || miss.is_nan() {
+            let miss = |to: [f64; 3]| match values[i].is_finite() || to[i].is_finite() {
+                true => (values[i] - to[i]).abs() / allowed[i],
+                // A division by 0 may give anything but a number.
+                false => 0.0,
+            };
+            let missed = miss(predicted);
+            if missed > 10.0 || missed.is_nan() {
                 return false;
             }
-            off = off.max(miss);
-            off_right = off_right.max((values[i] - right[i]).abs() / allowed[i]);
+            off = off.max(missed);
+            off_right = off_right.max(miss(right));
         }
     }
     off_right <= 1.0 || 2.0 * off <= off_right
 }
 
-/// Every mistake, from all corners, at all places, in all values or in some.
+/// Every mistake, from all corners, at all places, in all values or in some; and that values are scaled in such a way.
 #[must_use]
-pub fn of_values() -> Vec<ValueHypothesis> {
+pub fn of_values(scaled: [[f64; 2]; 3]) -> Vec<ValueHypothesis> {
     let mut all = Vec::new();
     let mut add = |mistake: &ValueMistake, does: String, of: ValueHypothesis| {
         let ValueMistake { name, repair, page, refuted, .. } = *mistake;
@@ -592,6 +654,9 @@ pub fn of_values() -> Vec<ValueHypothesis> {
         parts,
         kept: None,
         weights: None,
+        divisor: None,
+        of_corners: None,
+        scaled: [[1.0, 0.0]; 3],
         block: None,
         steps: None,
     };
@@ -620,6 +685,15 @@ pub fn of_values() -> Vec<ValueHypothesis> {
             let does = format!("keeps the weights of the corners in {numbers}{said}");
             add(&FEW_BITS, does, ValueHypothesis { weights: Some((kept, bits)), ..right(parts) });
         }
+        for (is_w, what) in [(false, "1/w"), (true, "w")] {
+            let does =
+                format!("keeps {what} at a pixel in {numbers}, and divides attributes by that");
+            let divisor = Some((kept, bits, is_w));
+            add(&FEW_BITS, does, ValueHypothesis { divisor, ..right([true; 3]) });
+            let does = format!("keeps {what} of corners in {numbers}");
+            let of_corners = Some((kept, bits, is_w));
+            add(&FEW_BITS, does, ValueHypothesis { of_corners, ..right([true; 3]) });
+        }
     }
     for side in [2, 4, 8] {
         for (place, at) in [(0.5, "of its first pixel"), (f64::from(side) / 2.0, "at its middle")] {
@@ -638,7 +712,25 @@ pub fn of_values() -> Vec<ValueHypothesis> {
             "corrects attributes for perspective at every {steps}th pixel, counted from {}, and interpolates linearly between",
             if from_first { "the first one of the row" } else { "the left side of the window" }
         );
-        add(&STEPS, does, ValueHypothesis { steps: Some((steps, from_first)), ..right([true; 3]) });
+        let steps = Some((Some(steps), from_first));
+        add(&STEPS, does, ValueHypothesis { steps, ..right([true; 3]) });
+    }
+    let off: Vec<String> = ["depth", "the first attribute", "the second attribute"]
+        .into_iter()
+        .zip(scaled)
+        .filter(|(_, by)| *by != [1.0, 0.0])
+        .map(|(name, [by, plus])| match plus == 0.0 {
+            true => format!("{by} x {name}"),
+            false => format!("{by} x {name} {} {}", if plus < 0.0 { "-" } else { "+" }, plus.abs()),
+        })
+        .collect();
+    if !off.is_empty() {
+        let does = format!("gives {}", off.join(", "));
+        add(&SCALED, does, ValueHypothesis { scaled, ..right([true; 3]) });
+    }
+    for (parts, said) in [PARTS[0], PARTS[3], PARTS[4]] {
+        let does = format!("gives the pixels of a row the values of the first one{said}");
+        add(&BLOCKS, does, ValueHypothesis { steps: Some((None, true)), ..right(parts) });
     }
     all
 }
@@ -662,11 +754,19 @@ const FEW_BITS: ValueMistake = ValueMistake {
     values: right_values,
 };
 const BLOCKS: ValueMistake = ValueMistake {
-    name: "one value for a block",
+    name: "one value for several pixels",
     does: "",
     repair: "compute the values of each pixel",
     page: "ch05",
     refuted: "two pixels of a block with values of their own",
+    values: right_values,
+};
+const SCALED: ValueMistake = ValueMistake {
+    name: "values are scaled",
+    does: "",
+    repair: "leave values as the corners have them",
+    page: "ch05",
+    refuted: "a value that is given as it is",
     values: right_values,
 };
 const STEPS: ValueMistake = ValueMistake {
@@ -677,6 +777,31 @@ const STEPS: ValueMistake = ValueMistake {
     refuted: "a pixel between two of these with the attributes of its place",
     values: right_values,
 };
+
+/// What right values are multiplied by, and what is added, as most of some pixels have it: a right value and the given one each.
+#[must_use]
+pub fn scaled(pixels: &[[[f64; 3]; 2]]) -> [[f64; 2]; 3] {
+    [0, 1, 2].map(|k| {
+        let near = |v: f64| (v * 1e4).round() / 1e4;
+        let mut found: Vec<([f64; 2], usize)> = Vec::new();
+        for pair in pixels.windows(2) {
+            let [[x, y], [u, v]] = [&pair[0], &pair[1]].map(|[right, given]| [right[k], given[k]]);
+            // Where all are small or far apart, digits are lost.
+            if (x - u).abs() < 0.01 || [x, y, u, v].iter().any(|v| v.abs() > 100.0) {
+                continue;
+            }
+            let by = (y - v) / (x - u);
+            let fit = [near(by), near(y - by * x)];
+            match found.iter_mut().find(|(known, _)| *known == fit) {
+                Some((_, times)) => *times += 1,
+                None => found.push((fit, 1)),
+            }
+        }
+        let most = found.iter().max_by_key(|(_, times)| *times);
+        let is_most = |(_, times): &&([f64; 2], usize)| 2 * times > found.iter().map(|f| f.1).sum();
+        most.filter(is_most).map_or([1.0, 0.0], |(fit, _)| *fit)
+    })
+}
 
 /// The families in which the mistakes differ.
 pub const FAMILIES: &[&str] = &["w-100", "uniform", "w-extreme", "fan"];
@@ -699,6 +824,13 @@ pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mis
     }
     let is_wrong: Vec<bool> = all.iter().map(|(_, (.., is_wrong))| *is_wrong).collect();
     let all = &all;
+    let pixels: Vec<_> = chosen_by(&is_wrong)
+        .into_iter()
+        .flat_map(|i| {
+            let (triangle, (fragments, ..)) = &all[i];
+            fragments.iter().take(2).map(move |f| pixel_of(triangle, f))
+        })
+        .collect();
     let hypothesis = |known: ValueHypothesis| Hypothesis {
         says: known.says.clone(),
         predicts: Box::new(move |i| {
@@ -706,9 +838,9 @@ pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mis
             let allowed = |predicted: [f64; 3]| {
                 [0, 1, 2].map(|i| bounds[i] + 6.4 * f64::EPSILON * predicted[i].abs())
             };
-            let predict = |pixel| Some(known.predict(triangle, pixel));
+            let predict = |pixel| known.predict(triangle, pixel);
             are_explained(triangle, &mut fragments.iter(), &predict, &allowed)
         }),
     };
-    of_answers(of_values().into_iter().map(hypothesis).collect(), &is_wrong)
+    of_answers(of_values(scaled(&pixels)).into_iter().map(hypothesis).collect(), &is_wrong)
 }

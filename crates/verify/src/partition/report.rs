@@ -11,7 +11,7 @@ use super::{
     Family, Fault, FaultKind, Faults, Options, Polygon, Refused, Tessellate, Tessellation,
     Triangle, judge_partition,
 };
-use crate::judge::{self, NothingJudged, Watch, caught};
+use crate::judge::{self, NothingJudged, Watch, ascii, caught};
 use crate::mistakes::Mistakes;
 use rasterproof_core::parallel;
 
@@ -100,7 +100,7 @@ pub struct Triangulated {
 
 /// The outcome of a run. Its failures are the smallest polygon of each kind of fault, grave ones first; its cause explains the wrong
 /// polygons, or says what is known of them.
-pub type Verdict = judge::Verdict<Options, Polygons, Failure, Mistakes>;
+pub type Verdict = judge::Verdict<Options, Polygons, Failure, Option<Mistakes>>;
 
 impl Verdict {
     /// Nothing, or what a failing test has to print.
@@ -156,7 +156,7 @@ impl Verdict {
         show: &dyn Fn(&Polygon) -> String,
         repeat: &dyn Fn(&str, u64) -> String,
     ) -> fmt::Result {
-        let Self { options, families, failures, cause } = self;
+        let Self { options, families, failures, cause, .. } = self;
         let sum = self.sum();
         writeln!(f, "{} of {} polygons are not covered exactly once", sum.wrong, sum.polygons)?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
@@ -168,7 +168,8 @@ impl Verdict {
         }
         if let Some(cause) = cause {
             let what = if cause.is_known() { "probable cause" } else { "no cause was recognised" };
-            writeln!(f, "\n{what}: {}\n", cause.sentences().join("\n  "))?;
+            let said = format!("{what}: {}", cause.sentences().join("\n"));
+            writeln!(f, "\n{}\n", ascii::broken(&said, 80, "  "))?;
         }
         let wrong = families.iter().filter(|report| report.wrong > 0);
         let wrong: Vec<_> =
@@ -306,7 +307,7 @@ fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudge
         true => None,
         false => cause::cause(&some(tessellator, options), options),
     };
-    Ok(Verdict { options: options.clone(), families, failures, cause })
+    Ok(Verdict { options: options.clone(), families, failures, cause, more: () })
 }
 
 fn wanted(options: &Options) -> Vec<Family> {

@@ -1,6 +1,6 @@
 //! A device judged: the families by the judge of programs, then the stages, each with its rule.
 
-use rasterproof_verify::specification::{self as rules, Clause, Standing};
+use rasterproof_verify::specification::{Clause, Standing, VULKAN};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::engine::Gpu;
@@ -14,10 +14,9 @@ use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, mistakes, recognise};
 use rasterproof_judge::run::{Failing, Found, Row, run};
-use rasterproof_judge::verdict::{Judgement, Outcome, sentence};
+use rasterproof_judge::verdict::{Outcome, Particulars, Verdict, sentence, verdict};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
-use rasterproof_verify::comparison::Rule as Tie;
 
 /// Cases of a stage for each case of a family.
 const STAGE_SHARE: u64 = 2;
@@ -28,7 +27,7 @@ const MOST_OF_A_STAGE: u64 = 2048;
 pub struct DeviceReport {
     pub about: About,
     pub plant: Option<&'static str>,
-    pub verdict: Judgement,
+    pub verdict: Verdict,
     pub findings: Vec<Requirement>,
     /// Known faults of this driver that were seen, or not any more.
     pub known: Vec<String>,
@@ -99,7 +98,7 @@ pub fn judge_with(
     let mut truth = Truth::of(&declared);
     truth.expect = Box::new(Specified::new(&declared));
     // The specification asks for less than the oracle: either of two triangles has a shared sample.
-    let open = declared.convention.rule(Tie::Unspecified);
+    let open = declared.convention.rule(VULKAN.edges);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
     let mut found = run(&mut [&mut shared], &options, &truth, progress);
@@ -115,9 +114,15 @@ pub fn judge_with(
     let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
-    let mut verdict =
-        Judgement::new(declared, &options, windings, said, found, failures, complaints);
-    verdict.causes = causes;
+    let more = Particulars {
+        declared,
+        windings,
+        recognised: said,
+        found,
+        complaints,
+        ..Particulars::default()
+    };
+    let mut verdict = verdict(&options, more, failures, causes);
     let mut findings = of_rows(&mut verdict, &old, &stale);
     drop(shared);
     if options.only.is_none() {
@@ -159,20 +164,20 @@ fn stale(
 }
 
 fn rule(property: &str) -> Clause {
-    match property {
-        "values" => rules::PERSPECTIVE,
-        "samples4" => rules::SAMPLES,
-        _ => rules::POLYGONS,
-    }
+    VULKAN.clause(match property {
+        "values" => "perspective",
+        "samples4" => "samples",
+        _ => "polygons",
+    })
 }
 
 /// Every row with its rule; the verdict's properties come out alike.
-fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Requirement> {
+fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Requirement> {
     let mut findings = Vec::new();
-    for row in &verdict.found.rows {
+    for row in &verdict.families {
         let is_of = |f: &&Failing| f.property == row.name;
         let known = old.iter().filter(is_of).count();
-        let news = verdict.found.failing.iter().filter(is_of).count();
+        let news = verdict.more.found.failing.iter().filter(is_of).count();
         let class = class(row, known, news, stale);
         let mut detail = sentence(row);
         if known > 0 {
@@ -185,7 +190,7 @@ fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Re
             detail,
         });
     }
-    for property in &mut verdict.properties {
+    for property in &mut verdict.more.properties {
         if let Some(finding) = findings.iter().find(|f| f.name == property.name) {
             property.outcome = match finding.class {
                 Standing::Known => Outcome::ExpectedFailure,
@@ -197,7 +202,7 @@ fn of_rows(verdict: &mut Judgement, old: &[Failing], stale: &[String]) -> Vec<Re
             // That it draws, in both windings, and answers.
             let (name, detail) = (property.name.to_owned(), property.detail.clone());
             let class = if name == "protocol" { Standing::NoAnswer } else { Standing::Outside };
-            findings.push(Requirement { name, rule: rules::POLYGONS, class, detail });
+            findings.push(Requirement { name, rule: VULKAN.clause("polygons"), class, detail });
         }
     }
     findings

@@ -22,53 +22,51 @@ use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::single_precision::linear_bounds;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
-use rasterproof_verify::specification::{self as rules, Clause, Standing};
+use rasterproof_verify::specification::{Standing, VULKAN};
 
 type Judge = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
 
-const REQUIREMENTS: [(&str, Clause, Judge); 12] = [
-    ("snapping", rules::SNAPPING, snapping),
-    ("noperspective", rules::LINEAR, linear),
-    ("depths, 16 bits", rules::DEPTHS, |gpu, seed, cases| {
+const REQUIREMENTS: [(&str, &str, Judge); 12] = [
+    ("snapping", "snapping", snapping),
+    ("noperspective", "linear", linear),
+    ("depths, 16 bits", "depths", |gpu, seed, cases| {
         depth::stored(gpu, seed, cases, Kind::Depths16)
     }),
-    ("depths, f32", rules::DEPTHS, |gpu, seed, cases| {
-        depth::stored(gpu, seed, cases, Kind::Depths)
-    }),
-    ("depth test", rules::DEPTH_TEST, depth::nearer),
-    ("near and far plane", rules::CLIPPING, depth::clipped),
-    ("clipped, near", rules::CLIPPING, |gpu, seed, cases| clipping(gpu, seed, cases, false)),
-    ("clipped, far", rules::CLIPPING, |gpu, seed, cases| clipping(gpu, seed, cases, true)),
-    ("lines", rules::RECTANGLES, |gpu, seed, cases| lines::apart(gpu, seed, cases, Kind::Lines)),
-    ("lines, rectangular", rules::RECTANGLES, |gpu, seed, cases| {
+    ("depths, f32", "depths", |gpu, seed, cases| depth::stored(gpu, seed, cases, Kind::Depths)),
+    ("depth test", "depth-test", depth::nearer),
+    ("near and far plane", "clipping", depth::clipped),
+    ("clipped, near", "clipping", |gpu, seed, cases| clipping(gpu, seed, cases, false)),
+    ("clipped, far", "clipping", |gpu, seed, cases| clipping(gpu, seed, cases, true)),
+    ("lines", "rectangles", |gpu, seed, cases| lines::apart(gpu, seed, cases, Kind::Lines)),
+    ("lines, rectangular", "rectangles", |gpu, seed, cases| {
         lines::apart(gpu, seed, cases, Kind::RectangularLines)
     }),
-    ("lines, Bresenham", rules::BRESENHAM, |gpu, seed, cases| {
+    ("lines, Bresenham", "bresenham", |gpu, seed, cases| {
         lines::apart(gpu, seed, cases, Kind::BresenhamLines)
     }),
-    ("the same twice", rules::REPEATABILITY, twice),
+    ("the same twice", "repeatability", twice),
 ];
 
 /// Runs every stage; what the device does not answer is said in its place.
 pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Vec<Requirement> {
-    let finding = |name: &str, rule, outcome: Result<Outcome, Error>| {
+    let finding = |name: &str, rule: &str, outcome: Result<Outcome, Error>| {
         let (class, detail) = outcome.unwrap_or_else(|error| match error {
             Error::Unsupported(what) => (Standing::NotOffered, what),
             other => (Standing::NoAnswer, other.to_string()),
         });
-        Requirement { name: name.to_owned(), rule, class, detail }
+        Requirement { name: name.to_owned(), rule: VULKAN.clause(rule), class, detail }
     };
     let mut findings: Vec<Requirement> = REQUIREMENTS
         .iter()
         .map(|(name, rule, stage)| {
             let strict = gpu.about().strict_lines;
-            let rule = if *name == "lines" && !strict { rules::LOOSE_LINES } else { *rule };
+            let rule = if *name == "lines" && !strict { "loose-lines" } else { *rule };
             finding(name, rule, stage(gpu, seed, cases))
         })
         .collect();
-    findings.push(finding(LARGE, rules::POLYGONS, large(gpu, seed, cases, known)));
+    findings.push(finding(LARGE, "polygons", large(gpu, seed, cases, known)));
     let joined = lines::joined(gpu, seed, cases, known);
-    findings.push(finding(lines::JOINED, rules::JOINED, joined));
+    findings.push(finding(lines::JOINED, "joined", joined));
     findings
 }
 

@@ -3,6 +3,7 @@
 use super::campaign::DeviceReport;
 use super::outcome::Requirement;
 use crate::device::find::About;
+use rasterproof_judge::verdict::Scores as _;
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::{json, judge_text};
@@ -99,13 +100,13 @@ pub fn report(
         ..Row::default()
     };
     let mut notes = Vec::new();
-    if let Some(row) = verdict.found.rows.iter().find(|row| row.values > 0) {
+    if let Some(row) = verdict.families.iter().find(|row| row.values > 0) {
         let (values, worst) = (row.values, row.worst);
         notes.push(format!(
             "values: {values} compared, the worst at {worst:.3} of the derived bound"
         ));
     }
-    if let Some(said) = &verdict.recognised {
+    if let Some(said) = &verdict.more.recognised {
         let said = said.sentences.iter().chain(&said.compass);
         notes.extend(said.map(|text| format!("it draws as one who says: {text}")));
     }
@@ -122,7 +123,7 @@ pub fn report(
     let mut short = findings.clone();
     short.columns.pop();
     short.rows.iter_mut().for_each(|row| drop(row.cells.pop()));
-    let mut about = format!("{}: {}", verdict.declared.name, device(&stand.about));
+    let mut about = format!("{}: {}", verdict.more.declared.name, device(&stand.about));
     if let Some(plant) = &stand.plant {
         about += &format!("\na fault is planted: {plant}");
     }

@@ -183,7 +183,7 @@ impl<'a> Forgiving<'a> {
         let inside = places.iter().filter(|p| **p == Place::Inside).count();
         let edges = places.iter().filter(|p| **p == Place::Edge).count();
         let (least, most) = (times * inside, times * (inside + edges));
-        let is_shared = self.device.interface == Interface::Webgl2
+        let is_shared = self.device.interface.source().shares
             && inside == 0
             && on_shared_edge(&self.corners, sample);
         (least..=most).contains(&usize::from(hits)) && (!is_shared || hits == 1)
@@ -238,7 +238,7 @@ impl<'a> Forgiving<'a> {
             all.iter().flat_map(|t| edges(t)).filter(|edge| *edge == [*b, *a]).count() == 1
         };
         let most = near.iter().filter(|edges| !edges.is_empty()).count();
-        let is_open = self.device.interface == Interface::Webgpu
+        let is_open = !self.device.interface.source().shares
             || near.iter().flatten().any(|edge| !is_shared(edge));
         most > 0 && usize::from(hits) <= most && is_open
     }

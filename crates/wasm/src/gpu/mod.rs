@@ -21,6 +21,7 @@ use base64::engine::general_purpose::STANDARD;
 pub(crate) use cause::Cause;
 pub(crate) use judge::Judge;
 use rasterproof_core::grid::{SUBPIXEL_BITS, SUBPIXELS};
+use rasterproof_verify::specification::{OPENGL_ES, Source, WEBGPU};
 
 /// What is checked, in the order of the page. Positions come first, because all others are placed on the
 /// lattice that is found.
@@ -54,6 +55,16 @@ pub(crate) enum Topic {
 pub(crate) enum Interface {
     Webgl2,
     Webgpu,
+}
+
+impl Interface {
+    /// What it is judged by.
+    fn source(self) -> Source {
+        match self {
+            Self::Webgl2 => OPENGL_ES,
+            Self::Webgpu => WEBGPU,
+        }
+    }
 }
 
 /// What the page knows of the device when it sends a question.

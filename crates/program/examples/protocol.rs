@@ -6,9 +6,10 @@
 use std::process::ExitCode;
 
 use rasterproof_judge::ask::Subject;
-use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::{Options, judge, process_group, server};
+use rasterproof_judge::verdict::Scores as _;
+use rasterproof_judge::{Options, judge, server};
+use rasterproof_program::{Limits, Program, group};
 use rasterproof_registry::engines;
 
 const USAGE: &str =
@@ -45,7 +46,7 @@ fn answer(name: &str) -> ExitCode {
 }
 
 fn ask(cases: u64, declare: &str, command: &[String]) -> ExitCode {
-    process_group::end_all_on_ctrl_c();
+    group::end_all_on_ctrl_c();
     let declared: Vec<String> = declare.split_whitespace().map(str::to_owned).collect();
     let program = match Program::start(command, &declared, Limits::default()) {
         Ok(program) => program,
@@ -58,8 +59,8 @@ fn ask(cases: u64, declare: &str, command: &[String]) -> ExitCode {
     let mut askers = [Box::new(program) as Box<dyn Subject>];
     let options = Options::default().cases(cases);
     let verdict = judge(&mut askers, &options, &|program| recognise(program, scope), &|_| {});
-    let pixels: u64 = verdict.found.rows.iter().map(|row| row.pixels).sum();
-    for property in verdict.properties.iter().filter(|property| !property.outcome.is_good()) {
+    let pixels: u64 = verdict.families.iter().map(|row| row.pixels).sum();
+    for property in verdict.more.properties.iter().filter(|property| !property.outcome.is_good()) {
         println!("{}: {}", property.name, property.detail);
     }
     let agrees = verdict.agrees() && pixels > 0;

@@ -1,4 +1,4 @@
-//! Coverage as characters: `#` agrees, `-` missing, `+` extra, `2` twice, `.` outside both.
+//! What a text of characters is made of. Coverage as characters: `#` agrees, `-` missing, `+` extra, `2` twice, `.` outside both.
 
 use rasterproof_core::frame::Coverage;
 
@@ -10,6 +10,7 @@ pub const MOST_COLUMNS: u32 = 96;
 pub const MOST_ROWS: u32 = 48;
 
 /// The character of a pixel with these hits.
+#[must_use]
 pub fn mark(actual: u8, target: u8) -> char {
     match (actual, target) {
         (0, 0) => '.',
@@ -23,6 +24,7 @@ pub fn mark(actual: u8, target: u8) -> char {
 }
 
 /// The grid of `actual` judged by `target`, one line for each row, without line ends.
+#[must_use]
 pub fn grid(actual: &Coverage, target: &Coverage) -> Vec<String> {
     let (x, y) = shown(actual, target);
     let rows = actual.rows().zip(target.rows()).skip(y.start).take(y.len());
@@ -65,7 +67,19 @@ fn shown(actual: &Coverage, target: &Coverage) -> (std::ops::Range<usize>, std::
     (x..width.min(x + most_x), y..height.min(y + most_y))
 }
 
+/// What was drawn by each of those named beside what is expected, with the legend.
+#[must_use]
+pub fn beside(names: &[&str], drawn: &[&Coverage], expected: &Coverage, columns: usize) -> String {
+    let drawn =
+        names.iter().zip(drawn).map(|(by, drawn)| ((*by).to_owned(), grid(drawn, expected)));
+    let blocks: Vec<_> = drawn.chain([("expected".to_owned(), grid(expected, expected))]).collect();
+    let lines = side_by_side(&blocks, columns);
+    let lines = lines.lines().map(|line| format!("  {line}").trim_end().to_owned() + "\n");
+    lines.collect::<String>() + &format!("  ({LEGEND})\n")
+}
+
 /// Puts blocks of lines beside each other under their titles, as many as fit `columns`.
+#[must_use]
 pub fn side_by_side(blocks: &[(String, Vec<String>)], columns: usize) -> String {
     let mut out = String::new();
     let width = |(title, lines): &(String, Vec<String>)| {
@@ -92,4 +106,46 @@ pub fn side_by_side(blocks: &[(String, Vec<String>)], columns: usize) -> String 
         rest = later;
     }
     out
+}
+
+/// The text in lines that `width` finds no wider than `room`, broken at blanks, and between Chinese characters, but not before a
+/// mark such as a full stop.
+#[must_use]
+pub fn lines<T: PartialOrd>(text: &str, room: T, width: impl Fn(&str) -> T) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let may_begin = |(_, c): &(usize, char)| is_wide(*c) && !"，。、；：？！）”".contains(*c);
+        let breaks = word.char_indices().skip(1).filter(may_begin).map(|(at, _)| at);
+        let mut from = 0;
+        for to in breaks.chain([word.len()]) {
+            let (gap, piece) = (if from == 0 { " " } else { "" }, &word[from..to]);
+            let longer = lines.last().map(|line| format!("{line}{gap}{piece}"));
+            match (longer.filter(|longer| width(longer) <= room), lines.last_mut()) {
+                (Some(longer), Some(line)) => *line = longer,
+                _ => lines.push(piece.to_owned()),
+            }
+            from = to;
+        }
+    }
+    lines
+}
+
+fn is_wide(c: char) -> bool {
+    ('\u{2e80}'..='\u{ffe6}').contains(&c)
+}
+
+/// Columns of a text in a terminal, where a Chinese character takes two.
+#[must_use]
+pub fn columns(text: &str) -> usize {
+    text.chars().map(|c| 1 + usize::from(is_wide(c))).sum()
+}
+
+/// A text whose lines are broken at so many columns, those with code left whole, all but the first behind `indent`.
+#[must_use]
+pub fn broken(text: &str, room: usize, indent: &str) -> String {
+    let of_line = |line: &str| match line.contains("::") {
+        true => line.to_owned(),
+        false => lines(line, room - indent.len(), columns).join(&format!("\n{indent}")),
+    };
+    text.lines().map(of_line).collect::<Vec<_>>().join(&format!("\n{indent}"))
 }

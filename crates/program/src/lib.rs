@@ -7,6 +7,8 @@
 //! started again. What was in flight is then asked one by one, so that the request that did it is
 //! known.
 
+pub mod group;
+
 use std::collections::VecDeque;
 use std::ffi::{OsStr, OsString};
 use std::io::{Read, Write};
@@ -15,11 +17,11 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::ask::{Answer, Breach, Misbehaviour, Question, Subject};
-use super::declared::Declared;
-use super::process_group::Group;
-use super::text::{Words, printable};
+use group::Group;
 use rasterproof_host::limits;
+use rasterproof_judge::ask::{Answer, Breach, Misbehaviour, Question, Subject};
+use rasterproof_judge::declared::Declared;
+use rasterproof_judge::text::{Words, printable};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
