@@ -52,9 +52,9 @@ fn bench_lists(criterion: &mut Criterion, scene: &Scene, tiles: &Tiles, target: 
         let mut count = |span: Span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px));
         pieces.iter().for_each(|piece| piece.spans(&mut count));
     });
-    assert_eq!(pixels, scene.pixels, "{name} on {}", scene.name);
+    assert_eq!(pixels, scene.pixels(), "{name} on {}", scene.name);
     let mut group = criterion.benchmark_group(format!("cover/{}", scene.name));
-    group.throughput(Throughput::Elements(scene.pixels));
+    group.throughput(Throughput::Elements(scene.pixels()));
     group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
         bencher.iter(|| {
             paint::fill(tiles, black_box(&scene.triangles), COLOUR, target);
@@ -70,9 +70,9 @@ fn bench_cover(
     engine: &impl Rasterize,
     target: &mut Frame<u32>,
 ) {
-    assert_eq!(covered(engine, &scene.triangles), scene.pixels, "{name} on {}", scene.name);
+    assert_eq!(covered(engine, &scene.triangles), scene.pixels(), "{name} on {}", scene.name);
     let mut group = criterion.benchmark_group(format!("cover/{}", scene.name));
-    group.throughput(Throughput::Elements(scene.pixels));
+    group.throughput(Throughput::Elements(scene.pixels()));
     group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
         bencher.iter(|| {
             for corners in black_box(&scene.triangles) {
@@ -101,13 +101,13 @@ fn bench_fragments(
     for triangle in &triangles {
         engine.fragments(triangle, window(), |_| drawn += 1);
     }
-    assert_eq!(drawn, scene.pixels, "{name} on {}", scene.name);
+    assert_eq!(drawn, scene.pixels(), "{name} on {}", scene.name);
 
     let mut target = Frame::new(window(), 0);
     let mut group = criterion.benchmark_group(format!("fragments/{}", scene.name));
     // A pass takes milliseconds: samples of one length instead of growing ones.
     group.sampling_mode(SamplingMode::Flat);
-    group.throughput(Throughput::Elements(scene.pixels));
+    group.throughput(Throughput::Elements(scene.pixels()));
     group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
         bencher.iter(|| {
             for triangle in black_box(&triangles) {

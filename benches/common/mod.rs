@@ -22,8 +22,6 @@ pub struct Scene {
     pub name: &'static str,
     /// Corners within the target, of either winding, at random phases within the pixel.
     pub triangles: Vec<Corners>,
-    /// Pixels they cover, added up triangle by triangle, by the oracle.
-    pub pixels: u64,
 }
 
 /// All classes, from large to sliver.
@@ -31,7 +29,7 @@ pub fn scenes() -> Vec<Scene> {
     let mut random = SplitMix64(0x7261_7374_6572);
     let mut compact = |name, count, area_px: f64| {
         let triangles = (0..count).map(|_| place(compact_shape(&mut random, area_px), &mut random));
-        Scene::new(name, triangles.collect())
+        Scene { name, triangles: triangles.collect() }
     };
     let mut scenes = vec![
         compact("large", 16, 100_000.0),
@@ -40,14 +38,14 @@ pub fn scenes() -> Vec<Scene> {
         compact("tiny", 16_000, 3.0),
     ];
     let slivers = (0..200).map(|_| place(sliver_shape(&mut random, 600.0), &mut random));
-    scenes.push(Scene::new("sliver", slivers.collect()));
+    scenes.push(Scene { name: "sliver", triangles: slivers.collect() });
     scenes
 }
 
 impl Scene {
-    fn new(name: &'static str, triangles: Vec<Corners>) -> Self {
-        let pixels = covered(&Oracle, &triangles);
-        Self { name, triangles, pixels }
+    /// Pixels they cover, added up triangle by triangle, by the oracle.
+    pub fn pixels(&self) -> u64 {
+        covered(&Oracle, &self.triangles)
     }
 }
 

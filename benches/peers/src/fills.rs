@@ -116,7 +116,7 @@ pub fn measure(scene: &Scene, rounds: usize, children: &mut Children) -> Vec<Row
     rows.map(|((Candidate { name, .. }, ns), errors)| Row {
         class: scene.name,
         triangles: scene.triangles.len(),
-        pixels: scene.pixels,
+        pixels: scene.pixels(),
         name,
         ns,
         errors,

@@ -105,7 +105,7 @@ fn run() -> Result<(), String> {
             "--growth" => grows = true,
             "--only" => return only(&words.collect::<Vec<_>>()),
             // `limits.py` reads these.
-            "--rates" => return rates::print(&words.collect::<Vec<_>>()),
+            "--rates" => return rates::print(&machine(), &words.collect::<Vec<_>>()),
             // Growth starts itself so.
             "--memory" => {
                 let mut number = || words.next()?.parse().ok();
@@ -120,20 +120,7 @@ fn run() -> Result<(), String> {
             _ => names.push(word),
         }
     }
-    let said = std::env::args().skip(1);
-    let machine = Machine {
-        command: ["benches/peers/run".to_owned()]
-            .into_iter()
-            .chain(said)
-            .collect::<Vec<_>>()
-            .join(" "),
-        processor: processor(),
-        cores: std::thread::available_parallelism().map_or(1, usize::from),
-        system: first_line("uname", &["-sr"]),
-        instructions: Tiles::default().instructions(),
-        day: first_line("date", &["-u", "+%F"]),
-        commit: first_line("git", &["describe", "--always", "--dirty", "--abbrev=10"]),
-    };
+    let machine = machine();
     let threads = machine.cores.min(2);
     let pools: Vec<_> = (1..=threads)
         .map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build())
@@ -198,6 +185,23 @@ fn run() -> Result<(), String> {
     results.missing.retain(|missing| seen.insert(missing.name.clone()));
     print!("{}", text::text(&results));
     save(json, &results)
+}
+
+fn machine() -> Machine {
+    let said = std::env::args().skip(1);
+    Machine {
+        command: ["benches/peers/run".to_owned()]
+            .into_iter()
+            .chain(said)
+            .collect::<Vec<_>>()
+            .join(" "),
+        processor: processor(),
+        cores: std::thread::available_parallelism().map_or(1, usize::from),
+        system: first_line("uname", &["-sr"]),
+        instructions: Tiles::default().instructions(),
+        day: first_line("date", &["-u", "+%F"]),
+        commit: first_line("git", &["describe", "--always", "--dirty", "--abbrev=10"]),
+    }
 }
 
 /// Draws or fills the same again and again and nothing else, for programs that count instructions.

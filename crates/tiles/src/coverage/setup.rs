@@ -25,7 +25,7 @@ const _: () = assert!(
     "E and E - bias fit i32"
 );
 
-/// What a walk looks at beyond the box, both sides together: less than a tile on either.
+/// More than a walk looks at beyond the box, which is less than a tile.
 const PADDING: i64 = (2 * SIDE_PX * SUBPIXELS) as i64;
 
 /// (Wx + padding) (Wy + padding) is below this where E' is stepped in i32, up to about 2,864 px

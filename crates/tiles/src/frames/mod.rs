@@ -26,7 +26,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
 
-use crate::coverage::{CELL_PX, CoverList, Piece, QUARTER_PX, Tiles};
+use crate::coverage::{CELL_PX, CoverList, Piece, Tiles};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
@@ -368,23 +368,17 @@ impl<'a> Drawing<'a> {
                     pass.pixels::<S, CELL_PX>(simd, at, mask, &mut self.buffer, visible);
                 }
                 Piece::Quarter(quarter) => {
-                    let mut rows = [0; QUARTER_PX as usize];
-                    for (row, byte) in rows.iter_mut().zip(quarter.pixels.to_le_bytes()) {
-                        *row = byte.into();
-                    }
-                    let at = [quarter.x_px - x0, quarter.y_px - y0];
+                    let (at, rows) =
+                        ([quarter.x_px - x0, quarter.y_px - y0], quarter.pixels.to_le_bytes());
                     pass.rows(simd, at, &rows, &mut self.buffer, visible);
                 }
+                // The only piece of its triangle here.
                 Piece::Tile(tile)
                     if run.get(i + 1).is_none_or(|next| next.triangle() != self.last)
                         && masks.is_empty() =>
                 {
-                    let mut rows = [0; 16];
-                    for (row, &bits) in rows.iter_mut().zip(&tile.rows) {
-                        *row = bits.into();
-                    }
                     let at = [tile.x_px - x0, tile.y_px - y0];
-                    pass.rows(simd, at, &rows, &mut self.buffer, visible);
+                    pass.rows(simd, at, &tile.rows, &mut self.buffer, visible);
                 }
                 Piece::Tile(_) | Piece::Block(_) => masks.add(covered, 0, self.buffer.rect),
             }

@@ -48,16 +48,16 @@ impl VisibilityPass {
     /// Draws what is covered at the centres of pixels: of a row its bits, from column `left` of the tile on, four rows at a
     /// time: as one cell where four columns hold what is covered, else as pairs, each from the first column that is covered on.
     #[inline(always)]
-    pub fn rows<S: Simd>(
+    pub fn rows<S: Simd, T: Copy + Into<u64>>(
         &self,
         simd: S,
         [left, top]: [i32; 2],
-        rows: &[u64],
+        rows: &[T],
         buffer: &mut Buffer,
         seen: &mut Vec<VisibleBlock>,
     ) {
         for (top, rows) in (top..).step_by(4).zip(rows.chunks(4)) {
-            let row = |i: usize| rows.get(i).copied().unwrap_or(0);
+            let row = |i: usize| rows.get(i).map_or(0, |&row| row.into());
             let (a, b, c, d) = (row(0), row(1), row(2), row(3));
             let any = a | b | c | d;
             if any == 0 {
