@@ -16,10 +16,12 @@ use std::process::Command;
 use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, Span};
-use rasterproof_judge::Options;
-use rasterproof_judge::ask::runs_of;
+use rasterproof_judge::ask::{Subject, runs_of};
+use rasterproof_judge::in_process::Inside;
+use rasterproof_judge::{Options, against};
 use rasterproof_judge::verdict::Scores as _;
 use rasterproof_precision::cost::ExternalVariant as _;
+use rasterproof_registry::engines;
 use rasterproof_report::html::Report;
 use rasterproof_report::text as terminal;
 use rasterproof_verify::oracle::Oracle;
@@ -80,6 +82,27 @@ fn class(stand: &DeviceReport, name: &str) -> Standing {
 /// Whether it is one of the two drivers whose answers are known to be the oracle's.
 fn is_known_right(about: &About) -> bool {
     ["lavapipe", "swiftshader"].iter().any(|word| about.words().contains(word))
+}
+
+/// Any two subjects are compared case by case, here a device and an engine of this project.
+#[test]
+fn a_device_is_compared_with_an_engine() {
+    for name in devices() {
+        let gpu = Gpu::named(&name).unwrap();
+        if !is_known_right(gpu.about()) {
+            continue;
+        }
+        let mut pair: [[Box<dyn Subject>; 2]; 1] =
+            [[Box::new(gpu), Box::new(Inside::new(engines::find("scanline").unwrap()))]];
+        let options = options(12, &["half-integer"]);
+        let same = against::compare(&mut pair, &options, &|_| ());
+        assert!(same.agrees() && same.sides().both == 0, "{:?}", same.sides());
+        pair[0][1] = Box::new(Inside::new(engines::find("games101-strict").unwrap()));
+        let verdict = against::compare(&mut pair, &options, &|_| ());
+        let sides = verdict.sides();
+        assert!(sides.first > 0 && sides.second + sides.neither == 0, "{name}: {sides:?}");
+        assert!(!verdict.failures.is_empty());
+    }
 }
 
 #[test]
