@@ -10,8 +10,9 @@ use rasterproof_core::triangle::PixelPoint;
 /// The first length that is tried, in steps, and by how much the next one is longer.
 const FIRST: i32 = 1 << 10;
 const GROWTH: i32 = 8;
-/// No line is longer, twice the domain; triangles that are asked for have a quarter of it.
+/// The longest lines that are asked for: twice the domain, in pixels.
 const MOST: i32 = 1 << 24;
+/// The same of the sides of triangles.
 const MOST_SIDE: i32 = MOST / 4;
 /// What is too short to be told from the time of any answer.
 const SHORT: Duration = Duration::from_millis(50);
