@@ -31,7 +31,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use triangles::{BY_WINDING, Fill};
-use weigh::{LEAST_WRONG, weigh};
+use weigh::{LEAST_WRONG, fresh, weigh};
 
 pub use thresholds::Threshold;
 pub use weigh::{Hypothesis, chosen_by};
@@ -130,6 +130,11 @@ impl Explanation {
     ) -> Self {
         let none = Count::default();
         Self { name, does, repair, page, refuted, wrong: none, right: none }
+    }
+
+    fn missed(&self) -> usize {
+        let missed = |count: &Count| (count.of - count.drawn) as usize;
+        missed(&self.wrong) + missed(&self.right)
     }
 
     /// A program that is known, with what is wrong with it.
@@ -398,10 +403,15 @@ fn explain(
         program.hypothesis(answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
     }));
     let seen = || answered.iter().map(common::Seen::triangle).collect();
-    let is_near = |i: usize| {
-        fills::metric(&answered[i].question.corners, fills::FARTHEST) <= i64::from(NEAR_PX) * 256
+    let is_near = |i: &usize| {
+        fills::metric(&answered[*i].question.corners, fills::FARTHEST) <= i64::from(NEAR_PX) * 256
     };
-    conclude(hypotheses, &is_wrong, &is_near, &seen)
+    let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
+    let alone = |among: &[usize]| {
+        let missed = |base: &Base| among.iter().filter(|&&i| !base.draws(&answered[i])).count();
+        bases.iter().filter(|base| base.said.is_some()).map(missed).min().unwrap_or(usize::MAX)
+    };
+    conclude(hypotheses, &is_wrong, &near, &alone, &seen)
 }
 
 /// The same for a line drawer: it asks for 700 lines of at most 40,000 steps.
@@ -503,8 +513,9 @@ pub fn of_lines(
     );
     let seen = || answered.iter().map(common::Seen::line).collect();
     let is_near =
-        |i: usize| answered[i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
-    let found = conclude(hypotheses, &is_wrong, &is_near, &seen);
+        |i: &usize| answered[*i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
+    let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
+    let found = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
     with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected, goes_on))
 }
 
@@ -546,14 +557,16 @@ fn says<D>(mistake: &Mistake<D>, p: i64) -> Explanation {
 /// Weighs hypotheses about answers of any kind. `is_wrong` says of each answer whether it is; nothing where none is.
 #[must_use]
 pub fn of_answers(hypotheses: Vec<Hypothesis<'_>>, is_wrong: &[bool]) -> Option<Mistakes> {
-    conclude(hypotheses, is_wrong, &|_| false, &Vec::new)
+    conclude(hypotheses, is_wrong, &[], &|_| usize::MAX, &Vec::new)
 }
 
-/// `is_near` says of which answers it is known that numbers cannot have been too large.
+/// `near` are the answers of which it is known that numbers cannot have been too large; `alone` says how many of some answers
+/// the best convention misses without a mistake.
 fn conclude(
     hypotheses: Vec<Hypothesis<'_>>,
     is_wrong: &[bool],
-    is_near: &dyn Fn(usize) -> bool,
+    near: &[usize],
+    alone: &dyn Fn(&[usize]) -> usize,
     seen: &dyn Fn() -> Vec<common::Seen>,
 ) -> Option<Mistakes> {
     let wrong = is_wrong.iter().filter(|wrong| **wrong).count();
@@ -561,11 +574,19 @@ fn conclude(
         return None;
     }
     let all: Vec<usize> = (0..is_wrong.len()).collect();
+    // Beside a convention that explains nearly as much, a mistake that seldom shows itself would be named.
+    let keep_needed = |causes: &mut Vec<Explanation>, among: &[usize]| {
+        if !causes.is_empty() {
+            let alone = alone(&fresh(is_wrong, among));
+            causes.retain(|cause| 2 * cause.missed() < alone);
+        }
+    };
     let (mut causes, lead) = weigh(&hypotheses, is_wrong, &all);
+    keep_needed(&mut causes, &all);
     if causes.is_empty() {
         // A mistake may be there beside another one that large numbers show.
-        let near: Vec<usize> = all.into_iter().filter(|&i| is_near(i)).collect();
-        causes = weigh(&hypotheses, is_wrong, &near).0;
+        causes = weigh(&hypotheses, is_wrong, near).0;
+        keep_needed(&mut causes, near);
         for cause in &mut causes {
             cause.does += &format!(
                 " (seen where all coordinates are below {NEAR_PX} px; beyond, more goes wrong)"
@@ -672,14 +693,15 @@ struct Base {
 }
 
 impl Base {
+    fn draws(&self, a: &Answered<TriangleQuestion>) -> bool {
+        let TriangleQuestion { corners, window } = &a.question;
+        let mask = self.convention.mask(corners, *window);
+        mask.is_none_or(|mask| a.is(mask, Mask::default()))
+    }
+
     /// Whether it explains all answers, of which some are wrong.
     fn explains(&self, answered: &[Answered<TriangleQuestion>]) -> bool {
-        let is_explained = |a: &Answered<TriangleQuestion>| {
-            let TriangleQuestion { corners, window } = &a.question;
-            let mask = self.convention.mask(corners, *window);
-            mask.is_none_or(|mask| a.is(mask, Mask::default()))
-        };
-        answered.iter().any(Answered::is_wrong) && answered.iter().all(is_explained)
+        answered.iter().any(Answered::is_wrong) && answered.iter().all(|a| self.draws(a))
     }
 
     /// Whether a mistake needs it: one with a rule of its own needs each place once, another one may need none.

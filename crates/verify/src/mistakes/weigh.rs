@@ -77,7 +77,7 @@ pub(super) fn weigh(
     if among.iter().filter(|&&i| is_wrong[i]).count() < LEAST_WRONG {
         return (Vec::new(), None);
     }
-    let [fitted, fresh] = [0, 1].map(|which| half(is_wrong, among, which));
+    let (fitted, fresh) = (half(is_wrong, among, 0), fresh(is_wrong, among));
     let mut left: Vec<_> = hypotheses.iter().collect();
     for (answers, kept, of_one_name) in LOOKS {
         let some = |wrong: bool| fitted.iter().copied().filter(move |&i| is_wrong[i] == wrong);
@@ -132,6 +132,11 @@ fn half(is_wrong: &[bool], among: &[usize], which: usize) -> Vec<usize> {
     let of =
         |wrong| among.iter().copied().filter(move |&i| is_wrong[i] == wrong).skip(which).step_by(2);
     of(true).chain(of(false)).collect()
+}
+
+/// The numbers of the answers that hypotheses are weighed by.
+pub(super) fn fresh(is_wrong: &[bool], among: &[usize]) -> Vec<usize> {
+    half(is_wrong, among, 1)
 }
 
 /// The numbers of the answers by which hypotheses are chosen, the wrong ones first: what is read off answers is read off these.
