@@ -18,8 +18,8 @@ use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::target::{Antialias, check_size};
 use rasterproof_render::scene::chapters;
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::picture;
 use rasterproof_report::table::Table;
+use rasterproof_report::{picture, words};
 
 use crate::cli::starters::{self, Language};
 use rasterproof_program::group;
@@ -269,11 +269,18 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         pictures.push((label.to_owned(), drawn));
     }
     drop(bar);
+    let own = match &arguments.command[..] {
+        [] => String::new(),
+        words => format!(" -- {}", shell::line(words)),
+    };
+    let of_model = |path: &PathBuf| format!(" --model {}", quote(path));
+    let of_step = || word.map_or_else(String::new, |word| format!(" {word}"));
+    let shown = arguments.model.as_ref().map_or_else(of_step, of_model);
+    let title = format!("course show {name}");
     let mut report = Report {
-        title: format!("course show {name}"),
-        command: format!("rasterproof course show {}", word.unwrap_or_default())
-            .trim_end()
-            .to_owned(),
+        about: title.clone(),
+        title,
+        command: format!("rasterproof course show{shown}{own}"),
         ..Report::default()
     };
     let mut differing = 0;
@@ -304,7 +311,14 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     let is_blank = pictures.iter().all(|(_, picture)| is_plain(&picture.right));
     report.outcome = Some(match is_blank && differing == 0 {
         true => Outcome::not_compared(NOTHING_DRAWN),
-        false => Outcome::of(differing == 0, sentence),
+        false => Outcome {
+            answer: match pictures.iter().map(|(_, picture)| picture.differing).sum() {
+                0 if differing == 0 => "no pixel differs".to_owned(),
+                0 => "requests are refused or not answered".to_owned(),
+                pixels => words::count(pixels, "pixel differs", "pixels differ"),
+            },
+            ..Outcome::of(differing == 0, sentence)
+        },
     });
     report.notes.extend(complaint(&program));
     let sheets: Vec<_> = pictures.iter().map(|(_, picture)| picture.sheet()).collect();

@@ -20,8 +20,8 @@ pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String 
     let (screen, columns) = (columns.min(SCREEN), columns.min(WIDTH));
     let verdict = report.outcome.as_ref().filter(|outcome| outcome.is_verdict());
     let mut out = match verdict {
-        Some(outcome) => format!("{} ", mark(outcome.good, colour)),
-        None => String::new(),
+        Some(outcome) if !report.about.is_empty() => format!("{} ", mark(outcome.good, colour)),
+        _ => String::new(),
     };
     let answer = verdict.map(|outcome| &outcome.answer).filter(|answer| !answer.is_empty());
     let mut answer = answer.map(|answer| format!(": {answer}"));
