@@ -209,7 +209,9 @@ fn a_comparison_of_nothing_says_that_nothing_was_compared() {
     not_compared("render flat.obj --size 32x24 --spin 2 -o a.gif");
     let program = format!("-- {PROGRAM} engine scanline");
     let show = format!("course show --model flat.obj --size 32x24 --out . {program}");
-    folder.check(show, 0).prints("NOT COMPARED");
+    let shown = folder.check(show, 0).prints("NOT COMPARED");
+    assert!(shown.out.starts_with("course show model\n"), "{shown}");
+    shown.prints("repeat with: rasterproof course show --model flat.obj -- ");
     assert!(folder.text("course-model.html").contains("NOT COMPARED"));
     let study = folder.check("study flat.obj --size 32x24 --once", 0);
     study.prints("NOT COMPARED").prints("so nothing was compared").omits("wrong here");
