@@ -271,7 +271,8 @@ fn limits(run: &Value, peers: &Value, words: &Words) -> String {
     let mut terms: Vec<_> = frames[0]["terms"].as_object().unwrap().iter().collect();
     terms.sort_by(|a, b| number(b.1).total_cmp(&number(a.1)));
     let [colon, _] = words.ends;
-    write!(page, "\n{}{}\n\n| |  |", words.limits[1], colon.trim_end()).unwrap();
+    let head: Vec<&str> = words.limits[0].split('|').take(3).collect();
+    write!(page, "\n{}{}\n\n{}|", words.limits[1], colon.trim_end(), head.join("|")).unwrap();
     terms.iter().for_each(|(term, _)| write!(page, " {term} |").unwrap());
     page += &("\n|---|---".to_owned() + &"|---".repeat(terms.len()) + "|\n");
     for row in frames {
