@@ -14,8 +14,9 @@ use crate::spread::Spread;
 const COPIED: usize = 1 << 28;
 const ROUNDS: usize = 9;
 
-/// `machine`: prints what the results of other runs begin with. `mesh NAME`: prints the bytes of its vertices and indices, as peers get them. `copy`: prints the bytes that a second reads and writes. `loop COUNT`: prints the seconds of so many
-/// rounds; how many instructions a round has, valgrind counts.
+/// Prints, by the first word: `machine`, what the results of other runs begin with; `mesh NAME`, the bytes of its vertices and
+/// indices, as peers get them; `copy`, the bytes that a second reads and writes; `loop COUNT`, the seconds of so many rounds,
+/// whose instructions valgrind counts.
 pub fn print(machine: &Machine, words: &[String]) -> Result<(), String> {
     let [what, rest @ ..] = words else {
         return Err("--rates needs machine, mesh, copy or loop".to_owned());

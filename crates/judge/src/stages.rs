@@ -15,6 +15,7 @@ use super::near_plane::{asked, bounds, is_round};
 use super::pixels::masks_of;
 use super::run::MOST_DEATHS;
 use glam::DVec2;
+use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment};
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
@@ -24,7 +25,9 @@ use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::pixels::few;
 use rasterproof_verify::convention::{Convention, Shape, Ties};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
-use rasterproof_verify::mistakes::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
+use rasterproof_verify::mistakes::{
+    Explanation, Hypothesis, Mistakes, RULES, chosen_by, of_answers,
+};
 use rasterproof_verify::oracle::Oracle;
 
 /// A case with its answers, and whether they are wrong.
@@ -334,15 +337,7 @@ const LOOKED_AT: usize = 24;
 fn found_pattern(all: &[Answered], is_wrong: &[bool]) -> Option<Pattern> {
     let places: Vec<(i32, i32)> = (0..=16).flat_map(|y| (0..=16).map(move |x| (x, y))).collect();
     let mut left = vec![15_u8; places.len()];
-    for &i in chosen_by(is_wrong).iter().take(LOOKED_AT) {
-        let (Some(question), Some(Answer::Samples(runs))) =
-            (all[i].questions.first(), all[i].answers.first())
-        else {
-            continue;
-        };
-        let Asked::Samples(corners) = &question.of else { continue };
-        let window = window_of(question);
-        let drawn = masks_of(runs, window);
+    for (corners, window, drawn) in all_masks(all, is_wrong, LOOKED_AT) {
         let open: Vec<usize> = (0..places.len()).filter(|&place| left[place] > 0).collect();
         for some in open.chunks(8) {
             let at: Vec<_> = some.iter().map(|&place| places[place]).collect();
@@ -388,19 +383,9 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
                 "a pixel on an edge with the right mask",
             );
             // Bit 4 is the centre.
-            let places = [a, b, c, d, (8, 8)];
-            hypothesis(all, says, move |question, answer| {
-                let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
-                    return true;
-                };
-                let window = window_of(question);
-                let Some(masks) = masks_at(&Oracle, *corners, window, &places) else { return true };
-                let drawn = masks_of(runs, window);
-                masks.rows().zip(drawn.rows()).all(|((y, masks), (_, drawn))| {
-                    (window.x0..).zip(masks.iter().zip(drawn)).all(|(x, (mask, drawn))| {
-                        gate(*mask, [x, y], corners, number) == *drawn
-                    })
-                })
+            let places = vec![a, b, c, d, (8, 8)];
+            masks_become(all, says, places, move |mask, at, corners| {
+                gate(mask, at, corners, number)
             })
         })
         .chain(rules)
@@ -411,16 +396,9 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
 /// The mask that is drawn for each right one, and the mask of which none was seen as it is.
 fn found_masks(all: &[Answered], is_wrong: &[bool]) -> Option<[u8; 16]> {
     let mut table: [Option<u8>; 16] = [None; 16];
-    for i in chosen_by(is_wrong) {
-        let (Some(question), Some(Answer::Samples(runs))) =
-            (all[i].questions.first(), all[i].answers.first())
-        else {
-            continue;
-        };
-        let Asked::Samples(corners) = &question.of else { continue };
-        let window = window_of(question);
+    for (corners, window, drawn) in all_masks(all, is_wrong, usize::MAX) {
         let right = masks_at(&Oracle, *corners, window, &SAMPLES)?;
-        for ((_, right), (_, drawn)) in right.rows().zip(masks_of(runs, window).rows()) {
+        for ((_, right), (_, drawn)) in right.rows().zip(drawn.rows()) {
             for (right, drawn) in right.iter().zip(drawn) {
                 if *table[usize::from(right & 15)].get_or_insert(*drawn) != *drawn {
                     return None;
@@ -459,22 +437,58 @@ fn of_masks(all: &[Answered], masks: [u8; 16]) -> Hypothesis<'_> {
         "games101",
         "a pixel with such samples that is drawn rightly",
     );
-    hypothesis(all, says, move |question, answer| {
-        let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
-            return true;
-        };
-        let window = window_of(question);
-        let Some(right) = masks_at(&Oracle, *corners, window, &SAMPLES) else { return true };
-        let drawn = masks_of(runs, window);
-        right.rows().zip(drawn.rows()).all(|((_, right), (_, drawn))| {
-            right.iter().zip(drawn).all(|(mask, drawn)| masks[usize::from(mask & 15)] == *drawn)
+    masks_become(all, says, SAMPLES.to_vec(), move |mask, _, _| masks[usize::from(mask & 15)])
+}
+
+/// That this becomes of the mask of some places, at each pixel.
+fn masks_become<'a>(
+    all: &'a [Answered],
+    says: Explanation,
+    places: Vec<(i32, i32)>,
+    mask: impl Fn(u8, [i32; 2], &Corners) -> u8 + 'a,
+) -> Hypothesis<'a> {
+    by_masks(all, says, move |corners, window, drawn| {
+        let Some(masks) = masks_at(&Oracle, *corners, window, &places) else { return true };
+        masks.rows().zip(drawn.rows()).all(|((y, masks), (_, drawn))| {
+            let pixels = (window.x0..).zip(masks.iter().zip(drawn));
+            pixels.into_iter().all(|(x, (of, drawn))| mask(*of, [x, y], corners) == *drawn)
         })
     })
 }
 
-/// Rules that samples may follow, the right one first.
-const RULES: [&str; 6] =
-    ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
+/// A hypothesis by the masks that are drawn of a triangle; it says nothing of other questions.
+fn by_masks<'a>(
+    all: &'a [Answered],
+    says: Explanation,
+    predicts: impl Fn(&Corners, PixelRect, &Frame<u8>) -> bool + 'a,
+) -> Hypothesis<'a> {
+    hypothesis(all, says, move |question, answer| {
+        let drawn = masks_drawn(question, answer);
+        drawn.is_none_or(|(corners, window, drawn)| predicts(corners, window, &drawn))
+    })
+}
+
+/// The triangle of a question about samples, with the masks of its answer.
+fn masks_drawn<'q>(
+    question: &'q Question,
+    answer: &Answer,
+) -> Option<(&'q Corners, PixelRect, Frame<u8>)> {
+    let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
+        return None;
+    };
+    let window = window_of(question);
+    Some((corners, window, masks_of(runs, window)))
+}
+
+/// The same of all answers by which hypotheses are chosen, or of the first ones, which have one question each.
+fn all_masks<'a>(
+    all: &'a [Answered],
+    is_wrong: &[bool],
+    most: usize,
+) -> impl Iterator<Item = (&'a Corners, PixelRect, Frame<u8>)> {
+    let of = move |i: usize| masks_drawn(all[i].questions.first()?, all[i].answers.first()?);
+    chosen_by(is_wrong).into_iter().take(most).filter_map(of)
+}
 
 /// Another rule for the samples of clockwise triangles, or of the others, or of both; or for one sample alone.
 fn sample_rule(all: &[Answered], p: usize, alone: Option<usize>) -> Option<Hypothesis<'_>> {
@@ -495,12 +509,7 @@ fn sample_rule(all: &[Answered], p: usize, alone: Option<usize>) -> Option<Hypot
         "ch02",
         "a sample on an edge that the top-left rule decides",
     );
-    Some(hypothesis(all, says, move |question, answer| {
-        let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
-            return true;
-        };
-        let window = window_of(question);
-        let drawn = masks_of(runs, window);
+    Some(by_masks(all, says, move |corners, window, drawn| {
         let ties = if area2(corners) > 0 { clockwise } else { other };
         let usual = Convention::default().ties;
         SAMPLES.iter().enumerate().all(|(bit, (x, y))| {

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use super::html::{Figure, escape};
 
-/// Units to the character.
+/// The width of a character, in units of the drawing.
 const LETTER: f64 = 8.0;
 
 pub type Ink = [u8; 3];

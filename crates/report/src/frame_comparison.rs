@@ -156,7 +156,7 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     (count, wrong)
 }
 
-/// The effects of a map.
+/// The effects that a map of a frame has a colour for.
 pub fn mapped() -> impl Iterator<Item = Effect> {
     Effect::ALL.into_iter().filter(|effect| effect.map_colour().is_some())
 }

@@ -89,7 +89,6 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
     arranged(&[(title.to_owned(), Size::Heading, INK)], panels, columns, &entries, &note)
 }
 
-/// Words of one size and colour.
 pub(super) type Words = (String, Size, Rgb<u8>);
 
 /// Words, below them pictures in so many columns, below these what the colours mean, and a note.
@@ -302,7 +301,7 @@ fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: 
     }
 }
 
-/// With a border, and where there is room a grid between them.
+/// Pixels as squares with a border around all of them, and with a grid where squares are large enough.
 fn squares(
     shown: PixelRect,
     zoom: u32,

@@ -53,7 +53,6 @@ pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
 /// A line from one position to another, in pixels.
 pub(super) type Segment = [[f64; 2]; 2];
 
-/// The edges of a triangle.
 pub(super) fn edges([a, b, c]: [[f64; 2]; 3]) -> [Segment; 3] {
     [[a, b], [b, c], [c, a]]
 }

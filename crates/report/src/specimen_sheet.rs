@@ -37,7 +37,7 @@ const WRONG: Rgb<u8> = Rgb([60, 120, 220]);
 /// A value beyond the range of its corners.
 const BEYOND: Colour = [40, 170, 60];
 
-/// Largest side of a panel.
+/// Largest side of a panel, in pixels of the sheet, with its border.
 const PANEL: u32 = 161;
 
 struct Panels {

@@ -16,6 +16,14 @@ pub(super) fn places(corners: &Corners) -> [Place; 3] {
 /// Least coverages that are drawn, of 255.
 pub(super) const LEAST: [i64; 4] = [1, 127, 128, 255];
 
+/// One of them in words.
+pub(super) fn least_said(least: i64) -> String {
+    match least {
+        1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
+        least => format!("an area of {least} of 255"),
+    }
+}
+
 /// A polygon by the areas that its sides cut off in each cell, in 1/256 px and whole numbers, as Agg computes it; and
 /// where the coverage is at least this. The area is shifted before its sign is lost, so that the least area of one winding counts.
 pub(super) fn by_area(polygon: &[Place], window: PixelRect, least: i64) -> Mask {

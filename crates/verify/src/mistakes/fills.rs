@@ -870,8 +870,8 @@ pub(super) fn halves(corners: &Corners, window: PixelRect, p: i64) -> Mask {
     mask
 }
 
-/// Longer triangles are not expected: their rows are walked one by one.
-const MOST_ROWS: i64 = 1 << 16;
+/// Rows that are walked one by one, at most: what begins farther above the window is not expected.
+pub(super) const MOST_ROWS: i64 = 1 << 16;
 
 /// A number whose digits are choices, of so many each.
 pub(super) struct Digits<const N: usize>(pub(super) [i64; N]);

@@ -240,10 +240,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     Mistake {
         name: "a stroke of area",
         sentence: |p| {
-            let least = match cells::LEAST[(p % 4) as usize] {
-                1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
-                least => format!("an area of {least} of 255"),
-            };
+            let least = cells::least_said(cells::LEAST[(p % 4) as usize]);
             format!(
                 "draws a line as an area of 1 px across and {}, and a pixel of it from {least} on",
                 ["from centre to centre", "half a pixel longer at both ends"][(p / 4) as usize]

@@ -34,6 +34,7 @@ use triangles::{BY_WINDING, Fill};
 use weigh::{LEAST_WRONG, fresh, weigh};
 
 pub use thresholds::Threshold;
+pub use triangles::RULES;
 pub use weigh::{Hypothesis, chosen_by};
 
 /// An entry of a table.
@@ -250,6 +251,11 @@ impl<Q> Answered<Q> {
     fn is(&self, drawn: Mask, twice: Mask) -> bool {
         self.drawn == drawn && self.twice == twice
     }
+
+    /// Whether a convention draws it, which may say nothing.
+    fn is_as(&self, convention: Option<Mask>) -> bool {
+        convention.is_none_or(|mask| self.is(mask, Mask::default()))
+    }
 }
 
 impl Answered<TriangleQuestion> {
@@ -361,6 +367,10 @@ fn explain(
     // What each base draws, once it is needed.
     let whole: Vec<OnceCell<Option<Mask>>> =
         (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
+    let drawn_by = |number: usize, i: usize| {
+        *whole[number * answered.len() + i].get_or_init(|| bases[number].mask(&answered[i]))
+    };
+    let drawn_by = &drawn_by;
     let scans = OnceCell::new();
     let mut hypotheses = Vec::new();
     for mistake in triangles::TABLE {
@@ -384,10 +394,9 @@ fn explain(
                 base.serves(mistake.draws) && (!is_many || base.is_first || base.is_found())
             });
             for (number, base) in served.filter(|(_, base)| is_told(base)) {
-                let whole = &whole[number * answered.len()..];
                 let predicts = move |i: usize| {
                     let TriangleQuestion { corners, window } = &answered[i].question;
-                    let whole = || *whole[i].get_or_init(|| base.convention.mask(corners, *window));
+                    let whole = || drawn_by(number, i);
                     let mask = fill(mistake.draws, p, &base.convention, corners, *window, &whole);
                     mask.is_none_or(|[drawn, twice]| {
                         answered[i].may_be(drawn, twice, mistake.draws)
@@ -408,8 +417,12 @@ fn explain(
     };
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
     let alone = |among: &[usize]| {
-        let missed = |base: &Base| among.iter().filter(|&&i| !base.draws(&answered[i])).count();
-        bases.iter().filter(|base| base.said.is_some()).map(missed).min().unwrap_or(usize::MAX)
+        let missed = |number| {
+            let is_missed = |&&i: &&usize| !answered[i].is_as(drawn_by(number, i));
+            among.iter().filter(is_missed).count()
+        };
+        let conventions = (0..bases.len()).filter(|&number| bases[number].said.is_some());
+        conventions.map(missed).min().unwrap_or(usize::MAX)
     };
     conclude(hypotheses, &is_wrong, &near, &alone, &seen)
 }
@@ -693,15 +706,13 @@ struct Base {
 }
 
 impl Base {
-    fn draws(&self, a: &Answered<TriangleQuestion>) -> bool {
-        let TriangleQuestion { corners, window } = &a.question;
-        let mask = self.convention.mask(corners, *window);
-        mask.is_none_or(|mask| a.is(mask, Mask::default()))
+    fn mask(&self, a: &Answered<TriangleQuestion>) -> Option<Mask> {
+        self.convention.mask(&a.question.corners, a.question.window)
     }
 
     /// Whether it explains all answers, of which some are wrong.
     fn explains(&self, answered: &[Answered<TriangleQuestion>]) -> bool {
-        answered.iter().any(Answered::is_wrong) && answered.iter().all(|a| self.draws(a))
+        answered.iter().any(Answered::is_wrong) && answered.iter().all(|a| a.is_as(self.mask(a)))
     }
 
     /// Whether a mistake needs it: one with a rule of its own needs each place once, another one may need none.

@@ -1,6 +1,6 @@
 //! Wrong fills row by row between the crossings of rows with edges, as functions of the corners in subpixels (1/256 px).
 
-use super::fills::{Point, points, wrap};
+use super::fills::{Digits, MOST_ROWS, Point, points, wrap};
 use crate::convention::Mask;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -201,17 +201,12 @@ const LOWER: [&str; 4] = [
 ];
 
 /// How many values each digit has, in the order of the fields.
-const DIGITS: [i64; 11] = [Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2];
+const DIGITS: Digits<11> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2]);
 
 impl Scan {
     fn of(p: i64) -> Self {
-        let mut rest = p;
-        let [slope, lower, above, whole, rows, height, left, right, level, sorted, least] = DIGITS
-            .map(|many| {
-                let digit = rest % many;
-                rest /= many;
-                digit
-            });
+        let [slope, lower, above, whole, rows, height, left, right, level, sorted, least] =
+            DIGITS.digits(p);
         let slope = Slope::of(slope);
         Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least }
     }
@@ -291,7 +286,7 @@ impl Scan {
         let base = Self::of(frame);
         // The places of the last three digits.
         let [level_at, sorted_at, least_at] =
-            [8, 9, 10].map(|i| DIGITS[..i].iter().product::<i64>());
+            [8, 9, 10].map(|i| DIGITS.0[..i].iter().product::<i64>());
         let mut all = Vec::new();
         // Of whole corners there are level triangles, and corners that were sorted before.
         let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
@@ -352,7 +347,7 @@ impl Scan {
 /// A triangle with what was drawn of it.
 pub(super) type Drawn<'a> = (&'a Corners, PixelRect, Mask);
 /// The parameters of a frame: slopes, and where edges begin.
-const WITHIN: i64 = DIGITS[0] * DIGITS[1] * DIGITS[2];
+const WITHIN: i64 = DIGITS.0[0] * DIGITS.0[1] * DIGITS.0[2];
 /// Frames that are tried with all ways of rounding, for each of two slopes.
 const FRAMES: usize = 10;
 
@@ -398,7 +393,7 @@ fn around(drawn: &[Drawn<'_>], mut all: Vec<i64>) -> Vec<i64> {
 /// misses.
 fn frames(drawn: &[Drawn<'_>], slope: i64, most: u32) -> (u32, Vec<i64>) {
     let mut best: Vec<(u32, i64)> = Vec::new();
-    for frame in (0..DIGITS[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
+    for frame in (0..DIGITS.0[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
         let how = Scan::of(frame);
         // Of whole corners rows are with the last one or without, and edges begin at the corner.
         let is_twice = how.height == 3 && how.rows / 2 == 1;
@@ -527,9 +522,6 @@ impl Walk {
         }
     }
 }
-
-/// Rows that are walked above the window, at most: further ones are not expected.
-const MOST_ROWS: i64 = 1 << 16;
 
 /// Parameters from here on fill column by column.
 const COLUMNS: i64 = 1 << 40;

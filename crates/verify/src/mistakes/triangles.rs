@@ -834,10 +834,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
     Mistake {
         name: "coverage by area",
         sentence: |p| {
-            let least = match cells::LEAST[p as usize] {
-                1 => "the least area of one winding, and 1/256 px of the other".to_owned(),
-                least => format!("an area of {least} of 255"),
-            };
+            let least = cells::least_said(cells::LEAST[p as usize]);
             format!(
                 "adds up areas in whole numbers of 1/256 px, as for antialiasing, and draws a pixel from {least} on"
             )
@@ -976,7 +973,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
 /// Parameters of a rule by order of both windings; those of one follow.
 const OF_BOTH: i64 = 27 * ORDERS.len() as i64;
 /// The rules that mistakes are looked for with.
-pub(super) const RULES: [&str; 6] =
+pub const RULES: [&str; 6] =
     ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
 const AREAS: [f64; 8] = [0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 const EPSILONS: [f64; 7] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
