@@ -93,7 +93,7 @@ impl CostArguments {
         let plots: Vec<_> = names.map(|name| self.plot_file(&name)).collect();
         let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
         let plots = plots.iter().map(|output| written("a plot in --out", output));
-        files::check(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
+        files::check(from.into_iter().chain(plots).chain(as_file(&page)))
     }
 
     /// The devices that are measured beside the choices.
@@ -146,14 +146,13 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
         report.notes.push(format!("drawn in {folder}, as SVG: {written}"));
     }
     let page = arguments.page.page("cost.html");
-    show(report, Shown::all_or_json(arguments.json), page, streams)?;
-    Ok(exit::AGREES)
+    show(report, Shown::all_or_json(arguments.json), page, exit::AGREES, streams)
 }
 
 /// What an earlier run printed, as far as it is asked for.
 fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, InputError> {
     let named = |what: String| usage(format!("{}: {}", printable_path(path), printable(&what)));
-    let text = input::read_text(path, limits::DOCUMENT_BYTES).map_err(usage)?;
+    let text = input::read_text(path, limits::DOCUMENT_BYTES)?;
     let mut recorded = Recorded::read(&text).map_err(|why| {
         named(format!("{why}; write such a file with `rasterproof cost --json > FILE`"))
     })?;

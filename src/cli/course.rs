@@ -7,7 +7,7 @@ use image::RgbImage;
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
-use super::page::{Place, Shown, show};
+use super::page::{Place, Shown, print, show};
 use super::progress::Progress as Bar;
 use super::render::NOTHING_DRAWN;
 use super::view::{Purpose, ViewArguments};
@@ -18,7 +18,7 @@ use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::target::{Antialias, check_size};
 use rasterproof_render::scene::chapters;
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 use rasterproof_report::{picture, words};
 
 use crate::cli::starters::{self, Language};
@@ -120,7 +120,7 @@ pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
 
 /// The steps; those passed are marked where there is a progress file.
 fn list(streams: &mut Streams<'_>) -> Status {
-    let progress = Progress::read(Path::new(".")).map_err(usage)?;
+    let progress = Progress::read(Path::new("."))?;
     let row = |step: &Step| {
         let mark = match &progress {
             Some(progress) if progress.has_passed(step) => "+",
@@ -131,15 +131,9 @@ fn list(streams: &mut Streams<'_>) -> Status {
             step.exercises.iter().flat_map(|e| &e.families).map(String::as_str).collect();
         families.sort_unstable();
         families.dedup();
-        vec![
-            mark.to_owned(),
-            course::number(step).to_string(),
-            step.name.clone(),
-            format!("{} ({})", step.title, step.page),
-            step.judged.clone(),
-            families.join(", "),
-        ]
-        .into()
+        let page = format!("{} ({})", step.title, step.page);
+        let (number, families) = (course::number(step), families.join(", "));
+        Row::of(&[&mark, &number, &step.name, &page, &step.judged, &families])
     };
     let columns = "~state 1 | >~number 2 | ~step 14 | ~page 1 | what is judged | :families";
     let (next, marks) = match &progress {
@@ -155,8 +149,7 @@ fn list(streams: &mut Streams<'_>) -> Status {
         tables: vec![Table::new("", columns, STEPS.iter().map(row).collect())],
         ..Report::default()
     };
-    show(report, Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    print(report, exit::AGREES, streams)
 }
 
 fn start(language: Language, solution: bool, folder: &Path, streams: &mut Streams<'_>) -> Status {
@@ -181,13 +174,12 @@ fn start(language: Language, solution: bool, folder: &Path, streams: &mut Stream
     notes.push(format!("step 1, {}: {}", step.title, step.judged));
     notes.push("read steps.md, write the step in the starter, then have it judged by".to_owned());
     notes.push(format!("rasterproof course check{dir}"));
-    show(Report { notes, ..Report::default() }, Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    print(Report { notes, ..Report::default() }, exit::AGREES, streams)
 }
 
 /// The progress of a folder, or that of the command that is named instead.
 fn read_progress(dir: &Path, command: &[String], verb: &str) -> Result<Progress, InputError> {
-    let mut progress = match (Progress::read(dir).map_err(usage)?, command.is_empty()) {
+    let mut progress = match (Progress::read(dir)?, command.is_empty()) {
         (Some(found), _) => found,
         (None, false) => Progress::new(Vec::new(), Vec::new()),
         (None, true) => {
@@ -221,7 +213,7 @@ fn built_and_started(
 ) -> Result<Program, InputError> {
     group::end_all_on_ctrl_c();
     let limits = build.bounds();
-    sandbox::build(dir, &progress.build, &limits).map_err(usage)?;
+    sandbox::build(dir, &progress.build, &limits)?;
     sandbox::start(dir, &progress.run, &limits, Limits::default()).map_err(usage)
 }
 
@@ -230,9 +222,8 @@ const CUBE: &str = "cube";
 
 fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     let progress = read_progress(&arguments.dir, &arguments.command, "show")?;
-    let (size, aspect) =
-        (arguments.size, f64::from(arguments.size.0) / f64::from(arguments.size.1));
-    check_size(size.0, size.1, Antialias::None).map_err(usage)?;
+    let size @ (width, height) = arguments.size;
+    check_size(width, height, Antialias::None)?;
     let word = arguments.step.as_deref();
     let steps: Vec<&Step> = match (word, &arguments.model) {
         (Some(CUBE), _) | (None, Some(_)) => Vec::new(),
@@ -251,7 +242,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     };
     let sheet = arguments.place.output(format!("course-{name}.png"));
     let page = arguments.place.output(format!("course-{name}.html"));
-    files::check(&[written("the picture", &sheet), written("the page", &page)])?;
+    files::check([written("the picture", &sheet), written("the page", &page)])?;
     let bar = Bar::new(streams.progress, "pictures", Some(steps.len() as u64 + 1));
     let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
     let mut pictures = Vec::new();
@@ -261,11 +252,11 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         pictures.extend(drawn.into_iter().map(|picture| (label.clone(), picture)));
         bar.done(1);
     }
+    let aspect = f64::from(width) / f64::from(height);
     let cube = chapters::scene(CUBE, aspect, 0.1).filter(|_| matches!(word, Some("all" | CUBE)));
     for (label, scene) in [("the cube", cube), ("the model", model)] {
         let Some(scene) = scene else { continue };
-        let drawn =
-            show::scene(&mut program, "drawn by your values", &scene, size).map_err(usage)?;
+        let drawn = show::scene(&mut program, "drawn by your values", &scene, size)?;
         pictures.push((label.to_owned(), drawn));
     }
     drop(bar);
@@ -273,9 +264,11 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         [] => String::new(),
         words => format!(" -- {}", shell::line(words)),
     };
-    let of_model = |path: &PathBuf| format!(" --model {}", quote(path));
-    let of_step = || word.map_or_else(String::new, |word| format!(" {word}"));
-    let shown = arguments.model.as_ref().map_or_else(of_step, of_model);
+    let shown = match (&arguments.model, word) {
+        (Some(path), _) => format!(" --model {}", quote(path)),
+        (None, Some(word)) => format!(" {word}"),
+        (None, None) => String::new(),
+    };
     let title = format!("course show {name}");
     let mut report = Report {
         about: title.clone(),
@@ -325,8 +318,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     if streams.save(&sheet, &picture::png(&picture::stack(&sheets))) {
         report.notes.push(format!("drawn in {}", printable_path(&sheet.path)));
     }
-    show(report, Shown::All, Some(page), streams)?;
-    Ok(if differing == 0 { exit::AGREES } else { exit::DISAGREES })
+    show(report, Shown::All, Some(page), exit::of(differing == 0), streams)
 }
 
 fn complaint(program: &Program) -> Option<String> {
@@ -380,6 +372,5 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
         let number = course::number(step);
         report.notes.push(format!("page: steps.md, step {number} ({})", step.page));
     }
-    show(report, Shown::All, None, streams)?;
-    Ok(if outcome.passes() { exit::AGREES } else { exit::DISAGREES })
+    print(report, exit::of(outcome.passes()), streams)
 }

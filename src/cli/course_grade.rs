@@ -400,7 +400,7 @@ fn judge_row(
     let grade = grade(&submission, arguments);
     let agrees = grade.points == STEPS.len();
     streams.output.write_all(pretty(&Grades::new(vec![grade], arguments)).as_bytes())?;
-    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+    Ok(exit::of(agrees))
 }
 
 fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {

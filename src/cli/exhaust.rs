@@ -152,7 +152,7 @@ impl ExhaustArguments {
 
 pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let plan = arguments.plan();
-    plan.check().map_err(usage)?;
+    plan.check()?;
     let shard = Shard { part: arguments.common.shard.0, parts: arguments.common.shard.1 };
     let certificate_file = arguments.common.output.as_deref().map(Output::typed);
     let certificate_file = certificate_file.as_ref();
@@ -162,7 +162,7 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let lock = Lock::file_of(path);
     let kept = [written("--checkpoint", &state), ("its lock", &lock, Use::Writes(Over::Updated))];
     let output = certificate_file.map(|output| written("--output", output));
-    files::check(&kept.into_iter().chain(output).collect::<Vec<_>>())?;
+    files::check(kept.into_iter().chain(output))?;
     let cases = Counts::of(&plan, shard.chunks(&plan)).cases;
     if cases == 0 {
         let Shard { part, parts } = shard;
@@ -277,25 +277,25 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
     if let Some(file) = file {
         streams.save(file, certificate.to_json().as_bytes());
     }
-    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+    Ok(exit::of(agrees))
 }
 
 pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     let read = arguments.files.iter().map(|path| ("a shard", path.as_path(), Use::Reads));
     let output = arguments.output.as_deref().map(Output::typed);
     let written = output.as_ref().map(|output| written("--output", output));
-    files::check(&read.chain(written).collect::<Vec<_>>())?;
+    files::check(read.chain(written))?;
     let mut shards = Vec::new();
     for path in &arguments.files {
         let name = printable_path(path);
-        let text = input::read_text(path, limits::CERTIFICATE_BYTES).map_err(usage)?;
+        let text = input::read_text(path, limits::CERTIFICATE_BYTES)?;
         let certificate = Certificate::from_json(&text).map_err(|what| {
             let what = printable(&what.to_string()).into_owned();
             usage(format!("{name} {what}; name files that exhaust --output has written"))
         })?;
         shards.push((name, certificate));
     }
-    let merged = certificate::merge(&shards).map_err(usage)?;
+    let merged = certificate::merge(&shards)?;
     if let Some(count) = arguments.check {
         judge_again(&merged, count, arguments.seed, streams)?;
     }

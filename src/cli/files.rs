@@ -44,11 +44,11 @@ pub(super) fn written<'a>(option: &'a str, output: &'a Output) -> Named<'a> {
 /// Refuses a command that would write over a file which it also reads or writes by another option, by
 /// whatever names; or over one that it has read already, such as a texture of a model; or, where the
 /// program chose the name, over a file that it did not make.
-pub(super) fn check(files: &[Named<'_>]) -> Result<(), InputError> {
+pub(super) fn check<'a>(files: impl IntoIterator<Item = Named<'a>>) -> Result<(), InputError> {
     // Where standard output is a file, it is one more that is written.
     let standard_output = ("standard output", Path::new(STANDARD_OUTPUT), Use::Writes(Over::Any));
     let standard_output = cfg!(unix).then_some(standard_output);
-    let all = files.iter().copied().chain(standard_output);
+    let all = files.into_iter().chain(standard_output);
     let identified = |(option, path, of)| Some((option, path, of, Identity::of(path)?));
     let all: Vec<(&str, &Path, Use, Identity)> = all.filter_map(identified).collect();
     let is_written = |of: Use| of != Use::Reads;

@@ -9,7 +9,7 @@ use super::files::{self, Output, written};
 use super::inspect_case::{
     CaseArguments, Found, all_around, face_of_file, find, off_lattice, parse_pixel, recorded, words,
 };
-use super::page::{PageArguments, Shown, as_file, show};
+use super::page::{PageArguments, Shown, as_file, print, show};
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{
@@ -119,7 +119,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     let page = arguments.page.page("inspect.html");
     let output = asked.as_ref().map(|output| written("--output", output));
     let named: Vec<_> = output.into_iter().chain(as_file(&page)).collect();
-    files::check(&named)?;
+    files::check(named.iter().copied())?;
     let face = face_of_file(&arguments.case.what);
     let is_face = face.is_some();
     let mut about = Vec::new();
@@ -128,7 +128,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         Some(face) => {
             let exact = arguments.case.exact;
             let (said, found) = study::face(face, &arguments.view, (command, exact), streams)?;
-            files::check(&named)?;
+            files::check(named.iter().copied())?;
             about.extend(said);
             match found {
                 Some(found) if exact => off_lattice(found)?,
@@ -137,8 +137,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
                     report.about = about.join("\n");
                     let why = "The face lies outside of the window, or is culled.";
                     report.outcome = Some(Outcome::not_compared(why));
-                    show(report, Shown::All, None, streams)?;
-                    return Ok(exit::USAGE);
+                    return print(report, exit::USAGE, streams);
                 }
             }
         }
@@ -151,8 +150,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
         Found::Refused { title, corners } => {
             let (is_right, report) = refused(title, &corners);
-            show(report, Shown::All, None, streams)?;
-            return Ok(if is_right { exit::AGREES } else { exit::DISAGREES });
+            return print(report, exit::of(is_right), streams);
         }
     };
     if let Some(window) = arguments.window {
@@ -228,12 +226,8 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         report.title = format!("One case: {}", view.name);
         report.cases = vec![view];
     }
-    show(report, Shown::All, page, streams)?;
-    Ok(match (is_compared, agrees) {
-        (false, true) => exit::USAGE,
-        (_, true) => exit::AGREES,
-        (_, false) => exit::DISAGREES,
-    })
+    let status = if is_compared || !agrees { exit::of(agrees) } else { exit::USAGE };
+    show(report, Shown::All, page, status, streams)
 }
 
 /// What is said of the pixel that is asked for, with its hits.

@@ -1,6 +1,6 @@
 //! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
 
-use super::page::{Shown, show};
+use super::page::print;
 use super::progress::Progress;
 use super::{Status, Streams, exit, program};
 use rasterproof_faults::planted::{self, Mutant};
@@ -10,7 +10,7 @@ use rasterproof_invariants::{
     CATALOGUE, Failure, Invariant, MOST_LOOKED_THROUGH, Predicate, Ruling, Trial, drawn,
 };
 use rasterproof_report::html::{Excerpt, Outcome, Report};
-use rasterproof_report::table::{Mark, Row, Table};
+use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::thousands;
 use rasterproof_verify::judge::caught;
 
@@ -66,8 +66,7 @@ pub fn run(
         outcome: (wanted.len() > 1).then(|| outcomes.outcome()),
         ..Report::default()
     };
-    show(report, Shown::All, None, streams)?;
-    Ok(outcomes.status())
+    print(report, outcomes.status(), streams)
 }
 
 #[derive(Default)]
@@ -159,18 +158,11 @@ fn row(
         Ruling::Fails => &mut outcomes.failing,
         Ruling::NotJudged => &mut outcomes.not_judged,
     } += 1;
-    let counts = [report.cases, report.skipped, report.compared].map(thousands);
-    let name = format!("{} {}", invariant.number, invariant.name);
-    let mut cells = vec![name];
-    cells.extend(counts);
-    cells.extend([
-        word.to_owned(),
-        invariant.statement.to_owned(),
-        invariant.tolerance.to_owned(),
-        found,
-    ]);
-    let mark = if report.ruling() == Ruling::Holds { Mark::Plain } else { Mark::Wrong };
-    Row { cells, mark, ..Row::default() }
+    let [cases, skipped, compared] = [report.cases, report.skipped, report.compared].map(thousands);
+    let Invariant { number, name, statement, tolerance, .. } = invariant;
+    let name = format!("{number} {name}");
+    Row::of(&[&name, &cases, &skipped, &compared, &word, statement, tolerance, &found])
+        .marked(report.ruling() == Ruling::Holds)
 }
 
 #[derive(clap::Args, Debug)]
@@ -194,9 +186,8 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     };
     let row = |(name, marks): &(String, Vec<bool>)| {
         let kills = marks.iter().filter(|&&mark| mark).count();
-        let about = planted::about(name).unwrap_or("a check that cannot fail").to_owned();
-        let mark = if kills > 0 { Mark::Plain } else { Mark::Wrong };
-        Row { cells: vec![name.clone(), kills.to_string(), about], mark, ..Row::default() }
+        let about = planted::about(name).unwrap_or("a check that cannot fail");
+        Row::of(&[name, &kills, &about]).marked(kills > 0)
     };
     let columns = "fault 30 | >broken 2 the invariants that it breaks | what it is 1";
     let faults = Table::new("", columns, matrix.rows.iter().map(row).collect()).judged();
@@ -214,8 +205,7 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
         notes,
         ..Report::default()
     };
-    show(report, Shown::All, None, streams)?;
-    Ok(if problems.is_empty() { exit::AGREES } else { exit::DISAGREES })
+    print(report, exit::of(problems.is_empty()), streams)
 }
 
 /// The invariants with what they say, by their numbers.

@@ -144,18 +144,17 @@ fn tessellator(
             "--{option} is not for tessellators, and {name} is one; leave it out"
         )));
     }
-    let report = polygons::judge(program, options).map_err(usage)?;
+    let report = polygons::judge(program, options)?;
     let (repeat_all, repeat_case) = again(arguments, typed);
-    let format = arguments.format();
+    let (format, status) = (arguments.format(), exit::of(report.sum().wrong == 0));
     if format == Format::Text {
         let said = judge_text::of_polygons(&declared, &report, &repeat_all, &repeat_case);
-        show(said, Shown::Screen, None, streams)?;
-    } else {
-        let verdict = polygons::verdict(&declared, options, &report);
-        let text = formats::write(&verdict, format, &repeat_all, &repeat_case);
-        streams.output.write_all(text.as_bytes())?;
+        return show(said, Shown::Screen, None, status, streams);
     }
-    Ok(if report.sum().wrong == 0 { exit::AGREES } else { exit::DISAGREES })
+    let verdict = polygons::verdict(&declared, options, &report);
+    let text = formats::write(&verdict, format, &repeat_all, &repeat_case);
+    streams.output.write_all(text.as_bytes())?;
+    Ok(status)
 }
 
 pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
@@ -167,9 +166,9 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     arguments.page.refuse_idle_folder(typed)?;
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
-    files::check(&known.into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
+    files::check(known.into_iter().chain(as_file(&page)))?;
     let baseline = match &arguments.baseline {
-        Some(path) => Some(Baseline::read(path, arguments.seed).map_err(usage)?),
+        Some(path) => Some(Baseline::read(path, arguments.seed)?),
         None => None,
     };
     group::end_all_on_ctrl_c();
@@ -234,9 +233,12 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let make = if is_whole { judge_text::whole } else { judge_text::report };
     let mut report = make(&verdict, &repeat_all, &repeat_case, arguments.table);
     report.command = typed.clone().set("seed", arguments.seed).line();
+    let mut agrees = verdict.agrees();
     match arguments.format() {
-        Format::Text => show(report, Shown::Screen, page, streams)?,
-        Format::Json => show(report, Shown::Json, page, streams)?,
+        format @ (Format::Text | Format::Json) => {
+            let shown = Shown::screen_or_json(format == Format::Json);
+            show(report, shown, page, exit::of(agrees), streams)?;
+        }
         other => {
             let text = formats::write(&verdict, other, &repeat_all, &repeat_case);
             streams.output.write_all(text.as_bytes())?;
@@ -246,7 +248,6 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             }
         }
     }
-    let mut agrees = verdict.agrees();
     // It was read, and is written anew.
     let updated = |path: &Path| Output { path: path.to_owned(), over: Over::Updated };
     if let (Some(baseline), Some(path), true) =
@@ -262,5 +263,5 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
             Ok(_) => {}
         }
     }
-    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+    Ok(exit::of(agrees))
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::page::{Place, Shown, show};
+use super::page::{Place, print};
 use super::progress::Progress;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
@@ -79,7 +79,7 @@ pub fn run(
     let columns = "library 22 | >triangles 10 wrong pixels as declared | >by its rule 11 by its own convention | >lines 10 wrong \
                    pixels as declared | >by its rule 11 by its own convention";
     let tables = vec![Table::new("Wrong pixels of each library", columns, shown)];
-    show(Report { tables, ..Report::default() }, Shown::All, None, streams)?;
+    print(Report { tables, ..Report::default() }, exit::AGREES, streams)?;
     let all = League {
         rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
         seed: options.seed,

@@ -39,8 +39,8 @@ mod view;
 mod vulkan;
 pub mod wrap;
 
+use std::error::Error;
 use std::ffi::OsString;
-use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -60,7 +60,7 @@ use wrap::Folded;
 
 use rasterproof_registry::engines;
 use rasterproof_report::html::Report;
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases;
 
 pub mod exit {
@@ -68,6 +68,10 @@ pub mod exit {
     pub const DISAGREES: u8 = 1;
     /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
+
+    pub const fn of(agrees: bool) -> u8 {
+        if agrees { AGREES } else { DISAGREES }
+    }
 }
 
 /// A text below the options of a command.
@@ -151,34 +155,14 @@ enum Command {
     List,
 }
 
-/// Something wrong with the input: what, and what to do about it.
-#[derive(Debug)]
-pub enum InputError {
-    /// A message for standard error; exit status 2.
-    Usage(String),
-    Io(io::Error),
-}
-
-impl From<io::Error> for InputError {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Usage(message) => f.write_str(message),
-            Self::Io(error) => write!(f, "{error}"),
-        }
-    }
-}
+/// Something wrong with the input: what, and what to do about it. Its exit status is 2.
+type InputError = Box<dyn Error + Send + Sync>;
 
 /// The exit status of a command, or why it has none.
 type Status = Result<u8, InputError>;
 
 fn usage(message: impl ToString) -> InputError {
-    InputError::Usage(message.to_string())
+    message.to_string().into()
 }
 
 /// A parser that takes one of these words for the value beside it.
@@ -362,8 +346,9 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {
         let output = &mut Guarded::new(streams.output, escape);
+        let is_end = |error: &io::Error| error.kind() == io::ErrorKind::BrokenPipe;
         return match run(output, errors, delivery) {
-            Err(InputError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
+            Err(error) if error.downcast_ref().is_some_and(is_end) => exit::AGREES,
             result => status_of(result, errors),
         };
     }
@@ -487,13 +472,12 @@ fn list(streams: &mut Streams<'_>) -> Status {
     ];
     #[cfg(feature = "vulkan")]
     tables.extend(vulkan::listed());
-    page::show(Report { tables, ..Report::default() }, page::Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
 }
 
 /// A list under a title, what an entry is about beside its name.
 fn listed<'a>(title: &str, entries: impl Iterator<Item = (String, &'a str)>) -> Table {
-    let row = |(name, about): (String, &str)| vec![name, about.to_owned()].into();
+    let row = |(name, about): (String, &str)| Row::of(&[&name, &about]);
     Table::new(title, "~name 1 | ~about 1", entries.map(row).collect())
 }
 

@@ -10,19 +10,9 @@ use rasterproof_host::text::printable_path;
 
 use super::files::{Named, Output, written};
 use super::typed::Typed;
-use super::{InputError, Streams, usage};
+use super::{InputError, Status, Streams, usage};
 use rasterproof_report::html::{self, Report};
 use rasterproof_report::{json, text};
-
-impl Shown {
-    pub(super) fn screen_or_json(is_json: bool) -> Self {
-        if is_json { Self::Json } else { Self::Screen }
-    }
-
-    pub(super) fn all_or_json(is_json: bool) -> Self {
-        if is_json { Self::Json } else { Self::All }
-    }
-}
 
 /// Options of every command that writes pages or pictures.
 #[derive(clap::Args, Debug)]
@@ -92,13 +82,29 @@ pub(super) enum Shown {
     Json,
 }
 
+impl Shown {
+    pub(super) fn screen_or_json(is_json: bool) -> Self {
+        if is_json { Self::Json } else { Self::Screen }
+    }
+
+    pub(super) fn all_or_json(is_json: bool) -> Self {
+        if is_json { Self::Json } else { Self::All }
+    }
+}
+
+/// Prints all of a report that has no page; the status is that of the command.
+pub(super) fn print(report: Report, status: u8, streams: &mut Streams<'_>) -> Status {
+    show(report, Shown::All, None, status, streams)
+}
+
 /// Prints a report, then writes its page where one was asked for.
 pub(super) fn show(
     report: Report,
     shown: Shown,
     page: Option<Output>,
+    status: u8,
     streams: &mut Streams<'_>,
-) -> Result<(), InputError> {
+) -> Status {
     let text = match shown {
         Shown::Json => json::text(&report.data),
         Shown::Screen | Shown::All => {
@@ -111,26 +117,21 @@ pub(super) fn show(
     if let Some(page) = page {
         write_page(&page, report, streams);
     }
-    Ok(())
+    Ok(status)
 }
 
-/// Writes the page of a command and says on standard error where it is.
+/// Writes the page of a command and the index of its folder, and says on standard error where it is.
 pub(super) fn write_page(page: &Output, report: Report, streams: &mut Streams<'_>) {
-    if save_page(page, report, streams) {
-        let _ = writeln!(streams.errors, "report: {}", printable_path(&page.path));
-    }
-}
-
-/// Writes a page and the index of its folder; returns whether the page was written.
-pub(super) fn save_page(page: &Output, report: Report, streams: &mut Streams<'_>) -> bool {
     let folder = page.path.parent().unwrap_or(Path::new(""));
     let report = Report { docs: docs_from(folder), ..report };
-    let is_written = streams.save(page, html::page(&report).as_bytes());
-    if is_written && let Err(error) = write_index(folder, streams) {
+    if !streams.save(page, html::page(&report).as_bytes()) {
+        return;
+    }
+    if let Err(error) = write_index(folder, streams) {
         let folder = printable_path(folder);
         streams.lose(&format!("{folder}: the pages cannot be listed in index.html: {error}"));
     }
-    is_written
+    let _ = writeln!(streams.errors, "report: {}", printable_path(&page.path));
 }
 
 /// The index of a folder, unless another file of that name is there.

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::files;
-use super::page::{PageArguments, Shown, as_file, show};
+use super::page::{PageArguments, Shown, as_file, print, show};
 use super::plan_table::{self, grouped};
 use super::progress::Progress;
 use super::render::NOTHING_DRAWN;
@@ -18,7 +18,7 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::thousands;
 use rasterproof_report::{frame_comparison, json, picture};
 
@@ -47,9 +47,8 @@ pub struct PlanArguments {
 }
 
 fn parse_effect(name: &str) -> Result<Effect, String> {
-    let names = || Effect::ALL.map(Effect::name).join(", ");
     let effect = Effect::ALL.into_iter().find(|effect| effect.name() == name);
-    effect.ok_or_else(|| format!("it is none of {}", names()))
+    effect.ok_or_else(|| format!("it is none of {}", Effect::ALL.map(Effect::name).join(", ")))
 }
 
 #[derive(serde::Serialize)]
@@ -140,15 +139,15 @@ const WHOLE: [(&str, Effects); 3] =
 /// Everything on, as usual, everything planned, then for each effect that one planned and all but
 /// that one.
 fn mixtures() -> Vec<(String, Effects)> {
-    let mut mixtures: Vec<_> =
-        WHOLE.map(|(name, effects)| (name.to_owned(), effects)).into_iter().collect();
-    for effect in Effect::ALL {
+    let of = |effect: Effect| {
         let name = effect.name();
-        mixtures
-            .push((format!("all, {name} planned"), Effects::ALWAYS.with(effect, Mode::Planned)));
-        mixtures.push((format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)));
-    }
-    mixtures
+        [
+            (format!("all, {name} planned"), Effects::ALWAYS.with(effect, Mode::Planned)),
+            (format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)),
+        ]
+    };
+    let whole = WHOLE.map(|(name, effects)| (name.to_owned(), effects));
+    whole.into_iter().chain(Effect::ALL.into_iter().flat_map(of)).collect()
 }
 
 impl Savings {
@@ -176,15 +175,11 @@ impl Savings {
 
     fn table(&self) -> Table {
         let row = |s: &Saving| {
-            vec![
-                s.effect.name().to_owned(),
-                format!("{:.0}", s.alone_us),
-                percent(s.saves_alone, s.noise_alone),
-                format!("{:.0}", s.all_but_us),
-                percent(s.saves_last, s.noise_last),
-                s.wrong_without.to_string(),
-            ]
-            .into()
+            let [alone, all_but] = [s.alone_us, s.all_but_us].map(|us| format!("{us:.0}"));
+            let saves_alone = percent(s.saves_alone, s.noise_alone);
+            let saves_last = percent(s.saves_last, s.noise_last);
+            let wrong = &s.wrong_without;
+            Row::of(&[&s.effect.name(), &alone, &saves_alone, &all_but, &saves_last, wrong])
         };
         let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
         let columns = "planned 14 | >alone us 10 it is planned, the rest paid for | >saves 9 compared with paying for \
@@ -209,10 +204,9 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
         arguments.page.refuse_idle_folder(typed)?;
     }
     let page = arguments.page.page("plan.html");
-    let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
-    check()?;
+    files::check(as_file(&page))?;
     let scene = arguments.what.maker(typed, Purpose::Planned, streams)?.scene;
-    check()?;
+    files::check(as_file(&page))?;
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
     }
@@ -238,8 +232,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
             same: is_compared.then_some(same),
         });
     }
-    show(report, Shown::all_or_json(arguments.json), page, streams)?;
-    Ok(if same { exit::AGREES } else { exit::DISAGREES })
+    show(report, Shown::all_or_json(arguments.json), page, exit::of(same), streams)
 }
 
 /// Microseconds that a planned frame looks at triangles for the reason of depth, the median; none where it lists all.
@@ -253,8 +246,7 @@ fn time_survey(arguments: &PlanArguments, scene: &Scene) -> Result<Option<f64>, 
             survey();
             times.push(start.elapsed().as_secs_f64() * 1e6);
         }
-    })
-    .map_err(usage)?;
+    })?;
     times.sort_by(f64::total_cmp);
     Ok(times.get(ROUNDS / 2).copied())
 }
@@ -268,20 +260,18 @@ fn draw_without(
 ) -> Status {
     let mut targets = [arguments.what.view.target()?, arguments.what.view.target()?];
     let [with, without] = &mut targets;
-    let planned = arguments.engine.render(scene, &Effects::PLANNED, with).map_err(usage)?;
-    let other = arguments.engine.render_without(scene, effect, without).map_err(usage)?;
+    let planned = arguments.engine.render(scene, &Effects::PLANNED, with)?;
+    let other = arguments.engine.render_without(scene, effect, without)?;
     let (first, second) = ((&planned.picture, &*with), (&other.picture, &*without));
     let difference = frame_comparison::compare(first, second, None).picture;
     let wrong = frame_comparison::differing(&planned.picture, &other.picture);
     let name = effect.name();
     let stem = format!("{}-without-{name}", arguments.what.name());
-    let pixels =
-        u64::from(planned.picture.bounds().width()) * u64::from(planned.picture.bounds().height());
+    let (bounds, scene) = (planned.picture.bounds(), &scene.name);
+    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
     let share = 100.0 * wrong as f64 / pixels.max(1) as f64;
-    let about = format!(
-        "{}: {wrong} of {pixels} pixels ({share:.1}%) are wrong without {name}",
-        scene.name
-    );
+    let about =
+        format!("{scene}: {wrong} of {pixels} pixels ({share:.1}%) are wrong without {name}");
     let lines = grouped(&planned.plan.decisions).into_iter().filter(|line| line.effect == effect);
     let reason = |line: plan_table::Line<'_>| match line.items().as_str() {
         "frame" => format!("of the frame: {}", line.reason),
@@ -294,8 +284,7 @@ fn draw_without(
             notes.push(format!("drawn in {}", printable_path(&output.path)));
         }
     }
-    show(Report { about, notes, ..Report::default() }, Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    print(Report { about, notes, ..Report::default() }, exit::AGREES, streams)
 }
 
 /// Interleaved rounds of every mixture: the times, the frame that pays for everything, the planned.
@@ -312,7 +301,7 @@ fn measure(
     let mut target = arguments.what.view.target()?;
     let mut draw = |effects: &Effects| {
         let start = Instant::now();
-        let rendered = arguments.engine.render(scene, effects, &mut target).map_err(usage)?;
+        let rendered = arguments.engine.render(scene, effects, &mut target)?;
         progress.done(1);
         Ok::<_, InputError>((start.elapsed(), rendered))
     };
@@ -361,7 +350,7 @@ fn measure(
     let mut wrong = Vec::with_capacity(Effect::ALL.len());
     // As many as were measured: none of a large model.
     for &effect in Effect::ALL.iter().take((kept - WHOLE.len()) / 2) {
-        let without = arguments.engine.render_without(scene, effect, &mut target).map_err(usage)?;
+        let without = arguments.engine.render_without(scene, effect, &mut target)?;
         wrong.push(frame_comparison::differing(&without.picture, &frames[0].picture));
     }
     let savings = Savings::of(measured, &wrong).ok_or_else(nothing)?;
@@ -380,18 +369,17 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
     ];
     let row = |(name, m): (&str, &Measured)| {
         let [low, high] = m.range_us;
-        let range = format!("{low:.0}-{high:.0}");
-        vec![name.to_owned(), format!("{:.0}", m.time_us), range].into()
+        Row::of(&[&name, &format!("{:.0}", m.time_us), &format!("{low:.0}-{high:.0}")])
     };
     let changed = savings.all().filter(|m| !m.same);
     let mut notes: Vec<_> =
         changed.map(|m| format!("DIFFERENT PICTURE with the effects {}", m.effects)).collect();
     let [all, usual] = savings.factors();
-    notes.push(format!(
-        "planned as a whole: {all:.2} times as fast as everything, {usual:.2} as usual"
-    ));
-    let renderer = "usual: what a renderer does without a planner";
-    notes.push(format!("{renderer} (cuts what crosses, culls, one depth test)"));
+    notes.extend([
+        format!("planned as a whole: {all:.2} times as fast as everything, {usual:.2} as usual"),
+        "usual: what a renderer does without a planner (cuts what crosses, culls, one depth test)"
+            .to_owned(),
+    ]);
     if savings.effects.is_empty() && !is_whole {
         notes.push(
             "one effect at a time is not measured, since a round of all mixtures takes more than 5 s \
@@ -412,7 +400,7 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
 fn counts([everything, planned]: [&Rendered; 2]) -> Table {
     let both = everything.counters.shown().into_iter().zip(planned.counters.shown());
     let row = |((name, all), (_, planned)): ((&str, u64), (_, u64))| {
-        vec![name.to_owned(), thousands(all), thousands(planned)].into()
+        Row::of(&[&name, &thousands(all), &thousands(planned)])
     };
     let columns = "~counts 20 | >everything 12 | >planned 12";
     Table::new("What was counted", columns, both.map(row).collect())
@@ -440,16 +428,16 @@ fn report(
 ) -> Report {
     let [all, usual] = savings.factors();
     let same = savings.all().all(|mixture| mixture.same);
-    let sentence = if same {
-        format!(
+    let sentence = match same {
+        true => format!(
             "Planned, it was drawn {all:.1} times as fast as with everything on, and {usual:.1} \
              times as fast as usual, with the same bits."
-        )
-    } else {
-        "A plan changed the picture.".to_owned()
+        ),
+        false => "A plan changed the picture.".to_owned(),
     };
-    let savings_of_each = (!savings.effects.is_empty()).then(|| savings.table());
-    let whole = whole(savings, survey_us, arguments.whole);
+    let mut tables = vec![plan_table::table(&frames[1].plan.decisions), counts(frames)];
+    tables.extend((!savings.effects.is_empty()).then(|| savings.table()));
+    tables.push(whole(savings, survey_us, arguments.whole));
     Report {
         title: format!("What the scene {} calls for", scene.name),
         about: format!("{}: {}", scene.name, scene.about),
@@ -458,11 +446,7 @@ fn report(
             _ => Outcome::of(same, sentence),
         }),
         command: typed.line(),
-        tables: [plan_table::table(&frames[1].plan.decisions), counts(frames)]
-            .into_iter()
-            .chain(savings_of_each)
-            .chain([whole])
-            .collect(),
+        tables,
         ..Report::default()
     }
 }

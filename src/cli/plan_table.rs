@@ -2,7 +2,7 @@
 
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::plan::{Decision, Unit};
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 
 /// A decision that some items share, or one about the frame.
 pub(super) struct Line<'a> {
@@ -64,11 +64,8 @@ pub(super) fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
 /// How much of each effect is on, off, or decided while it is drawn, and why.
 pub(super) fn table(decisions: &[Decision]) -> Table {
     let row = |line: Line<'_>| {
-        let counts = line.counts.map(|count| count.to_string());
-        let mut cells = vec![line.effect.name().to_owned(), line.items()];
-        cells.extend(counts);
-        cells.extend([format!(" {}", line.unit.name()), line.reason.to_owned()]);
-        cells.into()
+        let ([on, off, open], unit) = (line.counts, format!(" {}", line.unit.name()));
+        Row::of(&[&line.effect.name(), &line.items(), &on, &off, &open, &unit, &line.reason])
     };
     let columns = "effect 13 | item 9 | >on 8 how many of the unit | >off 8 how many of the unit | >open 8 how many of the unit \
                    | ~unit 6 | reason";
@@ -82,8 +79,7 @@ mod tests {
     use super::*;
 
     fn decision(item: usize, [on, off]: [u64; 2]) -> Decision {
-        let reason = "asked for everywhere".to_owned();
-        let (effect, unit) = (Effect::Depth, Unit::Pieces);
+        let (effect, unit, reason) = (Effect::Depth, Unit::Pieces, "asked for".to_owned());
         Decision { effect, item: Some(item), unit, on, off, open: 0, reason }
     }
 

@@ -41,7 +41,7 @@ pub(super) fn run(
         over: if *force { Over::Any } else { Over::Marked },
     };
     let output = output.as_deref().map_or_else(usual, Output::typed);
-    files::check(&[("--module", module, Use::Reads), written("--output", &output)])?;
+    files::check([("--module", &**module, Use::Reads), written("--output", &output)])?;
     let refused = |why: String| {
         usage(format!("{why}\nCompile the engines for the page: crates/playground/build"))
     };

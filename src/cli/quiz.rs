@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits, read_files};
 
-use super::page::{Shown, show};
+use super::page::print;
 use super::{InputError, Status, Streams, exit, usage};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::table::Table;
@@ -103,8 +103,7 @@ fn list(chapters: &[&Chapter], language: Language, streams: &mut Streams<'_>) ->
         Table::of_notes(&title, questions.map(said).collect())
     };
     let tables = chapters.iter().map(table).collect();
-    show(Report { tables, ..Report::default() }, Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    print(Report { tables, ..Report::default() }, exit::AGREES, streams)
 }
 
 /// The first questions as a paper, or their answers as its key.
@@ -140,8 +139,7 @@ fn paper(
         Excerpt { title, grid: grid.collect(), ..Excerpt::default() }
     };
     let excerpts = (1..).zip(&asked[..count]).map(question).collect();
-    show(Report { about: head, excerpts, ..Report::default() }, Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    print(Report { about: head, excerpts, ..Report::default() }, exit::AGREES, streams)
 }
 
 struct Quiz<'a> {
@@ -181,7 +179,7 @@ impl Quiz<'_> {
                 writeln!(self.output, "{all} 题答对 {right} 题{rest}")?;
             }
         }
-        Ok(if right == all { exit::AGREES } else { exit::DISAGREES })
+        Ok(exit::of(right == all))
     }
 
     /// Asks one exercise; whether it was answered rightly, or nothing at the end of input.

@@ -9,7 +9,7 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::files::{self, Output, Use, written};
-use super::page::{PageArguments, Shown, as_file, show, write_page};
+use super::page::{PageArguments, Shown, as_file, print, show, write_page};
 use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
@@ -123,14 +123,14 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         as_file(&page),
     ];
     let files: Vec<_> = files.into_iter().flatten().collect();
-    files::check(&files)?;
+    files::check(files.iter().copied())?;
     let purpose = match arguments.engine {
         DrawnBy::Both => Purpose::Compared,
         DrawnBy::Scanline | DrawnBy::EdgeFunction | DrawnBy::Tiles => Purpose::Drawn,
     };
     let maker = what.maker(typed, purpose, streams)?;
     // A model names files of its own.
-    files::check(&files)?;
+    files::check(files.iter().copied())?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
@@ -161,7 +161,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         difference_in = streams.save(&difference, &picture).then_some(difference.path.as_path());
     }
     let times = Times {
-        loading_s: maker.loading_s(),
+        loading_s: maker.model.loading_s,
         drawing_s: drawings.iter().map(|drawing| drawing.time.as_secs_f64()).collect(),
     };
     let mut data = serde_json::Value::Null;
@@ -182,7 +182,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
     if is_empty(&drawings[0].rendered) {
         notes.push("EMPTY: nothing of it is seen; the picture is background alone".to_owned());
-        let why = Some(maker.why_empty()).filter(|why| !why.is_empty());
+        let why = Some(&maker.model.why_empty).filter(|why| !why.is_empty());
         notes.extend(why.map(|why| format!("the cause is that {why}")));
     }
     notes.extend(by_rounding.and_then(|found| rounding(found, ROUNDING)));
@@ -190,12 +190,13 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let outcome = outcome(&drawings, comparison.as_ref(), difference_in);
     let about = format!("{}: {}", scene.name, scene.about);
     let mut report = Report { about, data, notes, outcome, ..Report::default() };
-    show(report.clone(), Shown::screen_or_json(arguments.json), None, streams)?;
+    let status = exit::of(comparison.as_ref().is_none_or(Comparison::agrees));
+    show(report.clone(), Shown::screen_or_json(arguments.json), None, status, streams)?;
     if let Some(page) = page {
         add_to_page(&mut report, typed, scene, &drawings, comparison.as_ref());
         write_page(&page, report, streams);
     }
-    Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
+    Ok(status)
 }
 
 fn names(drawings: &[Drawing]) -> Vec<&'static str> {
@@ -233,7 +234,7 @@ fn compare(
     let ties = if a.is_complete && b.is_complete {
         let engines = [Engine::Scanline, Engine::EdgeFunction];
         let drawn = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawings[i].target });
-        Some(undecided::find(scene, drawn).map_err(usage)?)
+        Some(undecided::find(scene, drawn)?)
     } else {
         None
     };
@@ -252,7 +253,7 @@ fn by_rounding(scene: &Scene, target: &Target) -> Result<ByRounding, InputError>
     if scene.hidden == Hidden::Painter {
         return Ok(ByRounding::default());
     }
-    let classes = classify(scene, target).map_err(usage)?;
+    let classes = classify(scene, target)?;
     let first = classes.first.map(|pair| pair.pixel.into());
     Ok(ByRounding { pixels: classes.by_rounding, first })
 }
@@ -328,7 +329,7 @@ fn read_plan(path: &Path) -> Result<Plan, InputError> {
     let refused = |error: &dyn std::fmt::Display| {
         usage(format!("{}: {}", printable_path(path), printable(&error.to_string())))
     };
-    let text = input::read_text(path, limits::DOCUMENT_BYTES).map_err(usage)?;
+    let text = input::read_text(path, limits::DOCUMENT_BYTES)?;
     let whole = serde_json::from_str::<serde_json::Value>(&text).map_err(|e| refused(&e))?;
     let plan = whole.get("plan").unwrap_or(&whole);
     // Before anything else: the words of another version are not misspelt.
@@ -367,7 +368,7 @@ fn draw(
             Drawing { name, rendered, time, target, unplanned, changed, is_complete }
         };
         if arguments.wireframe {
-            let rendered = drawer.render_wireframe(scene, &mut target).map_err(usage)?;
+            let rendered = drawer.render_wireframe(scene, &mut target)?;
             return Ok(alone(drawer.line_name(), rendered, start.elapsed(), target));
         }
         let asked = |target: &mut Target| match (&plan, &arguments.plan) {
@@ -381,7 +382,7 @@ fn draw(
         if engines.len() < 2 {
             return Ok(alone(drawer.name(), rendered, time, target));
         }
-        let whole = drawer.render(scene, &complete, &mut target).map_err(usage)?;
+        let whole = drawer.render(scene, &complete, &mut target)?;
         let differing = frame_comparison::differing(&rendered.picture, &whole.picture);
         if is_free || differing == 0 {
             let drawn = alone(drawer.name(), rendered, time, target);
@@ -488,17 +489,17 @@ fn draw_in_tiles(
     let exact = || {
         let mut target = arguments.what.view.target()?;
         let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
-        Ok::<_, InputError>(exact.map_err(usage)?.picture)
+        Ok::<_, InputError>(exact?.picture)
     };
-    let division = Division::new(scene, size.width(), size.height()).map_err(usage)?;
+    let division = Division::new(scene, size.width(), size.height())?;
     let handed_over = division.handed_over;
     let start = Instant::now();
     let picture = division.render(Tiles::default(), &mut target, &mut |scene, effects, target| {
         Drawer::Scanline.render(scene, effects, target)
     });
-    let picture = picture.map_err(usage)?;
+    let picture = picture?;
     let times =
-        Times { loading_s: maker.loading_s(), drawing_s: vec![start.elapsed().as_secs_f64()] };
+        Times { loading_s: maker.model.loading_s, drawing_s: vec![start.elapsed().as_secs_f64()] };
     let all = scene.triangles();
     let name = match handed_over.triangles() {
         0 => "tiles",
@@ -531,12 +532,11 @@ fn draw_in_tiles(
             let pixels = u64::from(size.width()) * u64::from(size.height());
             notes.push(format!("{differing} of {pixels} pixels differ from those of scanline"));
         }
-        let found = TiedPieces::new(scene, &target).map_err(usage)?.by_planes_in_f32();
+        let found = TiedPieces::new(scene, &target)?.by_planes_in_f32();
         notes.extend(rounding(found, ROUNDING_IN_TILES));
     }
     let about = format!("{}: {}", scene.name, scene.about);
-    show(Report { about, notes, ..Report::default() }, Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    print(Report { about, notes, ..Report::default() }, exit::AGREES, streams)
 }
 
 /// Saves a picture, and says where.
@@ -557,7 +557,7 @@ fn map(
     let edges = arguments.engine == DrawnBy::EdgeFunction;
     let drawer = if edges { Drawer::EdgeFunction } else { Drawer::Scanline };
     let effects = arguments.effects.unwrap_or(Effects::PLANNED);
-    let (rendered, map) = drawer.render_mapped(scene, &effects, &mut target).map_err(usage)?;
+    let (rendered, map) = drawer.render_mapped(scene, &effects, &mut target)?;
     let title = format!("{}: what each pixel pays for", scene.name);
     let picture = picture::png(&frame_comparison::map_picture(&title, &rendered.picture, &map));
     let drawn_in = saved(output, &picture, streams);
@@ -575,8 +575,7 @@ fn map(
     let rows = frame_comparison::mapped().map(row).collect();
     let table = Table::new("", "effect 15 | >px 9", rows).noted(notes.to_vec());
     let about = format!("{}: effects paid for{drawn_in}", scene.name);
-    show(Report { about, tables: vec![table], ..Report::default() }, Shown::All, None, streams)?;
-    Ok(exit::AGREES)
+    print(Report { about, tables: vec![table], ..Report::default() }, exit::AGREES, streams)
 }
 
 /// Frames of a full turn, into one GIF, which sees the front buffer alone: finished frames.
@@ -630,8 +629,7 @@ fn spin(
         true => Outcome::of(agrees, format!("{wrong} pixels and depths differ")),
     });
     let about = format!("{frames} frames{drawn_in}");
-    show(Report { about, notes, outcome, ..Report::default() }, Shown::All, None, streams)?;
-    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+    print(Report { about, notes, outcome, ..Report::default() }, exit::of(agrees), streams)
 }
 
 fn rgba(picture: &Frame<Colour>) -> image::RgbaImage {

@@ -95,7 +95,7 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     let read = found.iter().map(|path| ("a pending snapshot", path.as_path(), Use::Reads));
     let olds = pending.iter().map(|one| ("a snapshot", one.path.as_path(), Use::Reads));
     let page = written("the page", &output);
-    files::check(&read.chain(olds).chain([page]).collect::<Vec<_>>())?;
+    files::check(read.chain(olds).chain([page]))?;
     for warning in unread.iter().take(MOST_UNREAD) {
         writeln!(streams.errors, "warning: not looked into: {warning}")?;
     }
@@ -115,13 +115,13 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
         notes.push(format!("{accepted} accepted already; {left_over}"));
     }
     let report = Report { notes, ..report(&pending, left_out, &folders) };
-    page::show(report, page::Shown::All, Some(output), streams)?;
-    Ok(match (pending.is_empty(), unread.is_empty()) {
+    let status = match (pending.is_empty(), unread.is_empty()) {
         (false, _) => exit::DISAGREES,
         (true, true) => exit::AGREES,
         // Something may wait where nobody could look.
         (true, false) => exit::USAGE,
-    })
+    };
+    page::show(report, page::Shown::All, Some(output), status, streams)
 }
 
 fn cannot_read(folder: &Path, error: &std::io::Error) -> String {

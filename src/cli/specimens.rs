@@ -39,8 +39,7 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
     let page = arguments.page.page("specimens.html");
     let sheet = arguments.output.as_deref().map(Output::typed);
     let sheet_file = sheet.as_ref().map(|sheet| written("--output", sheet));
-    let files: Vec<_> = sheet_file.into_iter().chain(as_file(&page)).collect();
-    files::check(&files)?;
+    files::check(sheet_file.into_iter().chain(as_file(&page)))?;
     if let Some(path) = &arguments.output {
         ends_in(path, "png", "the picture")?;
     }
@@ -70,8 +69,8 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
     };
     let mut report = report(arguments, typed, &reports, page.is_some());
     report.notes.extend(place);
-    show(report, Shown::all_or_json(arguments.json), page, streams)?;
-    Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
+    let status = exit::of(are_caught(&reports));
+    show(report, Shown::all_or_json(arguments.json), page, status, streams)
 }
 
 /// Each is wrong on the case that exposes it, and right on its harmless one.

@@ -17,7 +17,7 @@ use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::json;
 use rasterproof_report::study::{self as report, Places, costs, hard_cases};
-use rasterproof_report::table::{Mark, Row, Table};
+use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::{self, number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
@@ -90,8 +90,8 @@ impl<'a> Studied<'a> {
             ));
         }
         let mut target = view.target()?;
-        let sampled = Sampled::of(&scene, &target).map_err(usage)?;
-        let hard = hard::find(&scene, origins, &sampled, &mut target).map_err(usage)?;
+        let sampled = Sampled::of(&scene, &target)?;
+        let hard = hard::find(&scene, origins, &sampled, &mut target)?;
         Ok(Self { scene, origins, sampled, hard })
     }
 
@@ -123,7 +123,7 @@ pub(super) fn cost(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Measured, streams)?;
-    let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
+    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, view)?;
     let groups = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
@@ -133,8 +133,7 @@ pub(super) fn cost(
         data: json::costs(&subject, &groups),
         ..Report::default()
     };
-    show(report, Shown::all_or_json(is_json), None, streams)?;
-    Ok(exit::AGREES)
+    show(report, Shown::all_or_json(is_json), None, exit::AGREES, streams)
 }
 
 fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
@@ -147,31 +146,26 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let what = &arguments.what;
     arguments.page.refuse_idle_folder(typed)?;
     let page = arguments.page.page("study.html");
-    let check = || files::check(&as_file(&page).into_iter().collect::<Vec<_>>());
-    check()?;
+    files::check(as_file(&page))?;
     let maker = what.maker(typed, Purpose::Measured, streams)?;
-    check()?;
+    files::check(as_file(&page))?;
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
-    let scene = maker.scene.clone();
-    let studied = Studied::new(scene, maker.origins(), &what.view)?;
+    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &what.view)?;
     let effort = arguments.once.effort(arguments.quick);
     let groups = measure(&studied, &what.view, effort, streams.progress)?;
     let mut target = what.view.target()?;
     let window = target.size();
     let pieces = studied.sampled.at_centres();
-    let seen = cost::exactly_seen(pieces, window);
-    let visible = (pieces, &seen);
+    let visible = (pieces, &cost::exactly_seen(pieces, window));
     let budget = effort.survey();
-    let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, budget);
-    let needs = needs.map_err(usage)?;
+    let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, budget)?;
     let inspect = |face| match what.source() {
         Ok(name) => format!("(a scene of the book, {name}, is no file to inspect)"),
         Err(path) => inspect_command(typed, path, face),
     };
     let subject = studied.subject(&inspect);
-    let not_drawn = maker.not_drawn();
     let commands = match what.source() {
         Ok(_) => Default::default(),
         Err(path) => ["cost", "verify", "plan"]
@@ -181,20 +175,16 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         hard: &studied.hard,
         needs: &needs,
         costs: &groups,
-        not_drawn,
+        not_drawn: &maker.model.not_drawn,
         pieces: pieces.len(),
-        loading_s: maker.loading_s(),
+        loading_s: maker.model.loading_s,
     };
     let mut report = report::report(&subject, &found, head(&studied), commands, typed.line());
     report.data = json::study(&subject, &found, &report.answers);
-    if let Some(loading_s) = maker.loading_s() {
-        let read =
-            format!("read in {:.1} ms, which is no part of the times above", loading_s * 1e3);
-        report.notes.push(read);
-    }
+    let read = |s: f64| format!("read in {:.1} ms, which is no part of the times above", s * 1e3);
+    report.notes.extend(maker.model.loading_s.map(read));
     let shown = if arguments.all { Shown::All } else { Shown::Screen };
-    show(report, if arguments.json { Shown::Json } else { shown }, page, streams)?;
-    Ok(exit::AGREES)
+    show(report, if arguments.json { Shown::Json } else { shown }, page, exit::AGREES, streams)
 }
 
 /// A model from one of some sides: the turn in degrees, and what is seen there.
@@ -209,10 +199,10 @@ struct Turned {
 }
 
 #[derive(serde::Serialize)]
-struct Around<'a> {
+struct Around {
     views: Vec<Turned>,
     /// The job, the choice, and in how many views it is the cheapest exact one.
-    cheapest_exact: Vec<(&'static str, &'a String, &'a u32)>,
+    cheapest_exact: Vec<(&'static str, String, u32)>,
 }
 
 /// A line for each of some views around the model.
@@ -224,11 +214,11 @@ fn all_around(
     let view = &arguments.what.view;
     let progress = Progress::new(streams.progress, "views", Some(views.into()));
     let mut lines = Vec::new();
-    let mut best: BTreeMap<(usize, String), u32> = BTreeMap::new();
-    let mut titles = Vec::new();
+    // By the place of a group, which has a title, and the name of a choice.
+    let mut best: BTreeMap<(usize, String), (&str, u32)> = BTreeMap::new();
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
-        let studied = Studied::new(maker.turned(turn), maker.origins(), view)?;
+        let studied = Studied::new(maker.turned(turn), &maker.model.origins, view)?;
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
         let classes = &studied.hard.classes;
         let pixels = |kind: Kind| studied.hard.of(kind).map_or(0, |case| case.pixels);
@@ -241,43 +231,37 @@ fn all_around(
             equal: classes.equal,
         });
         for (place, group) in groups.iter().enumerate() {
-            if place == titles.len() {
-                titles.push(group.title);
-            }
             if let Some(choice) = group.cheapest_exact(group.measures.len() - 1) {
-                *best.entry((place, group.choices[choice].name.clone())).or_default() += 1;
+                let key = (place, group.choices[choice].name.clone());
+                best.entry(key).or_insert((group.title, 0)).1 += 1;
             }
         }
         progress.done(1);
     }
     drop(progress);
-    let cells = |of: &Turned| {
+    let best = best.into_iter().map(|((_, name), (title, count))| (title, name, count));
+    let all = Around { cheapest_exact: best.collect(), views: lines };
+    let row = |of: &Turned| {
         let counts = [of.kinds, of.slivers, of.order, of.by_rounding, of.equal].map(thousands);
         [vec![number(of.turn, 9)], counts.to_vec()].concat().into()
     };
-    let columns =
-        ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11";
-    let hard = Table::new(
+    let (title, columns) = (
         "Hard cases by the turn of the model",
-        columns,
-        lines.iter().map(cells).collect(),
+        ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11",
     );
+    let hard = Table::new(title, columns, all.views.iter().map(row).collect());
     let hard = hard.noted(vec![COUNTED.to_owned()]);
-    let row = |((place, name), count): (&(usize, String), &u32)| {
-        vec![titles[*place].to_owned(), name.clone(), count.to_string()].into()
-    };
+    let row = |(title, name, count): &(&str, String, u32)| Row::of(&[title, name, count]);
     let columns = "job 28 | choice 24 | >views 6 in how many of the views";
-    let cheapest = Table::new("Cheapest exact choice", columns, best.iter().map(row).collect());
-    let best = best.iter().map(|((place, name), count)| (titles[*place], name, count));
-    let all = Around { cheapest_exact: best.collect(), views: lines };
+    let rows = all.cheapest_exact.iter().map(row).collect();
+    let cheapest = Table::new("Cheapest exact choice", columns, rows);
     let report = Report {
         about: format!("{}: seen from {views} sides", maker.scene.name),
         data: json::value(&all),
         tables: vec![hard, cheapest],
         ..Report::default()
     };
-    show(report, Shown::all_or_json(arguments.json), None, streams)?;
-    Ok(exit::AGREES)
+    show(report, Shown::all_or_json(arguments.json), None, exit::AGREES, streams)
 }
 
 /// What the columns of `--views` mean.
@@ -285,18 +269,16 @@ const COUNTED: &str = "turn in degrees; kinds of hard cases that are seen; px of
                        rounding alone decides, and of them those of equal depths";
 
 fn head(studied: &Studied<'_>) -> String {
-    let (triangles, pieces) =
-        (studied.scene.triangles() as u64, studied.sampled.at_centres().len() as u64);
-    let (triangles, pieces) = (thousands(triangles), thousands(pieces));
-    let head =
-        format!("{}: {triangles} triangles, {pieces} pieces in the window", studied.scene.name);
-    let window = studied.sampled.window;
-    match studied.sampled.all().any(|piece| has_pixel(piece, window)) {
-        true => head,
+    let Studied { scene, sampled, .. } = studied;
+    let counts = [scene.triangles(), sampled.at_centres().len()];
+    let [triangles, pieces] = counts.map(|count| thousands(count as u64));
+    let none = match sampled.all().any(|piece| has_pixel(piece, sampled.window)) {
+        true => "",
         false => {
-            head + "\nNOT COMPARED: none of them has a pixel, so nothing was compared in what follows"
+            "\nNOT COMPARED: none of them has a pixel, so nothing was compared in what follows"
         }
-    }
+    };
+    format!("{}: {triangles} triangles, {pieces} pieces in the window{none}", scene.name)
 }
 
 /// Refuses options of a view where no model is named.
@@ -318,7 +300,7 @@ pub(super) fn verify(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
+    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, view)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     // The engines see samples as the picture has them, and values up to their limit.
@@ -363,23 +345,19 @@ pub(super) fn verify(
         json::Engine { engine: name, fault: what, face }
     };
     let row = |(name, fault): &(&str, Option<Fault>)| {
-        let what = fault.as_ref().map_or("agrees", |fault| &fault.what).to_owned();
+        let what = fault.as_ref().map_or("agrees", |fault| &fault.what);
         let first = fault.as_ref().and_then(|fault| fault.triangle);
         let first =
             first.map(|one| format!("first at {}\n{}", subject.place(one), subject.command(one)));
-        let mark = if fault.is_some() { Mark::Wrong } else { Mark::Plain };
         let name = format!("{name} against the oracle:");
-        Row { cells: vec![name, what, first.unwrap_or_default()], mark, ..Row::default() }
+        Row::of(&[&name, &what, &first.unwrap_or_default()]).marked(fault.is_none())
     };
-    let is_left = (left > 0).then(|| {
-        let left = thousands(left as u64);
-        format!(
-            "not judged: {left} pieces, whose texture coordinates are too large for the engines"
-        )
-    });
-    let engines =
-        Table::new("", "~engine 1 | ~found 1 | first fault", faults.iter().map(row).collect());
-    let engines = engines.judged().noted(is_left.into_iter().collect());
+    let why = "whose texture coordinates are too large for the engines";
+    let is_left =
+        (left > 0).then(|| format!("not judged: {} pieces, {why}", thousands(left as u64)));
+    let columns = "~engine 1 | ~found 1 | first fault";
+    let engines = Table::new("", columns, faults.iter().map(row).collect());
+    let engines = engines.judged().noted(Vec::from_iter(is_left));
     let (pieces, shown) = (thousands(count as u64), printable_path(path));
     let report = Report {
         about: head(&studied),
@@ -405,8 +383,7 @@ pub(super) fn verify(
         }),
         ..Report::default()
     };
-    show(report, Shown::all_or_json(is_json), None, streams)?;
-    Ok(status)
+    show(report, Shown::all_or_json(is_json), None, status, streams)
 }
 
 /// Whether a piece covers the centre of a pixel.
@@ -452,7 +429,7 @@ pub(super) fn face(
 ) -> Result<(Vec<String>, Option<Found>), InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene.clone(), maker.origins(), view)?;
+    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, view)?;
     let (scene, origins) = (&studied.scene, studied.origins);
     let number = word.parse::<u32>().ok();
     let of_face = |(triangle, face)| (Some(face) == number).then_some(triangle);
@@ -488,8 +465,7 @@ pub(super) fn face(
     about.push(format!("in the window: {}", words::count(pieces.len() as u64, "piece", "pieces")));
     let mut corners = Vec::new();
     for piece in pieces {
-        for (i, [x, y]) in piece.px.into_iter().enumerate() {
-            let (w, vertex) = (piece.w[i], &piece.triangle.vertices[i]);
+        for ((vertex, [x, y]), w) in piece.triangle.vertices.iter().zip(piece.px).zip(piece.w) {
             corners.push(match is_exact {
                 true => format!("{x:?},{y:?}"),
                 false => format!("{x:?},{y:?},{w:?},{:?}", vertex.depth),

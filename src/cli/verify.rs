@@ -149,10 +149,10 @@ impl VerifyArguments {
         let default = if self.seconds.is_some() { u64::MAX / 4 } else { options.cases };
         options = options.cases(self.cases.unwrap_or(default));
         for name in &self.family {
-            options = options.family(name.parse().map_err(usage)?);
+            options = options.family(name.parse()?);
         }
         let (part, parts) = self.shard;
-        options.shard = Shard::new(part, parts).map_err(usage)?;
+        options.shard = Shard::new(part, parts)?;
         options.time_limit = self.seconds;
         options.only = self.case;
         Ok(options)
@@ -185,7 +185,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
         return on_a_device(arguments, options, streams);
     }
     let page = arguments.page.page("verify.html");
-    files::check(&as_file(&page).into_iter().collect::<Vec<_>>())?;
+    files::check(as_file(&page))?;
     let judged = arguments.judged();
     if judged.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
@@ -204,8 +204,8 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
             last.notes.extend(place);
         }
     }
-    show(report, Shown::screen_or_json(arguments.json), page, streams)?;
-    Ok(if run.verdict.agrees() { exit::AGREES } else { exit::DISAGREES })
+    let status = exit::of(run.verdict.agrees());
+    show(report, Shown::screen_or_json(arguments.json), page, status, streams)
 }
 
 #[cfg(feature = "vulkan")]

@@ -1,9 +1,10 @@
 //! What is drawn and how it is seen, as a command line says it: a scene of the book, or a model with an eye and a light.
 
+use std::collections::HashMap;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Args as _;
 use glam::{DMat4, DVec3};
@@ -30,7 +31,7 @@ use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
-use rasterproof_report::words::thousands;
+use rasterproof_report::words::{count, thousands};
 use rasterproof_study::work::Work;
 
 #[derive(clap::Args, Debug)]
@@ -181,19 +182,14 @@ fn parse_opacity(text: &str) -> Result<f64, &'static str> {
 
 /// Gives all textures a mip map, and anisotropy where it is asked for; one that several items share is made once.
 fn give_mip_maps(scene: &mut Scene, anisotropy: Option<u8>) {
-    let mut made: Vec<[Arc<Texture>; 2]> = Vec::new();
+    let mut made: HashMap<*const Texture, [Arc<Texture>; 2]> = HashMap::new();
     let mut give = |texture: &mut Arc<Texture>| {
-        let known = made.iter().find(|[before, _]| Arc::ptr_eq(before, texture));
-        let with = match known {
-            Some([_, with]) => with.clone(),
-            None => {
-                let with = Texture::clone(texture).with_mip_map();
-                let with = Arc::new(with.with_anisotropy(anisotropy.unwrap_or(1)));
-                made.push([texture.clone(), with.clone()]);
-                with
-            }
-        };
-        *texture = with;
+        // The texture that was replaced is kept, so that no other one gets its address.
+        let [_, with] = made.entry(Arc::as_ptr(texture)).or_insert_with(|| {
+            let with = Texture::clone(texture).with_mip_map();
+            [texture.clone(), Arc::new(with.with_anisotropy(anisotropy.unwrap_or(1)))]
+        });
+        *texture = with.clone();
     };
     for item in &mut scene.items {
         item.material.texture.iter_mut().for_each(&mut give);
@@ -324,8 +320,7 @@ impl SceneArguments {
                     )));
                 }
                 let scene = chapter(name, aspect, 0.0, view.cull);
-                let base = Base::Chapter(name.to_owned());
-                let maker = Maker { scene, base, aspect, cull: view.cull };
+                let maker = Maker { scene, model: Framed::default(), aspect, cull: view.cull };
                 view.refuse_too_much(name, &maker, purpose)?;
                 Ok(maker)
             }
@@ -356,7 +351,7 @@ impl ViewArguments {
 
     fn aspect(&self) -> Result<f64, InputError> {
         let (width, height) = self.size;
-        check_size(width, height, self.aa).map_err(usage)?;
+        check_size(width, height, self.aa)?;
         Ok(f64::from(width) / f64::from(height))
     }
 
@@ -368,10 +363,9 @@ impl ViewArguments {
     ) -> Result<Maker, InputError> {
         let aspect = self.aspect()?;
         self.refuse_large_frames(purpose)?;
-        let (mut scene, framed) = self.frame_model(path, aspect, streams)?;
+        let (mut scene, model) = self.frame_model(path, aspect, streams)?;
         cull(&mut scene, self.cull);
-        let base = Base::Model(Box::new(framed));
-        let maker = Maker { scene, base, aspect, cull: self.cull };
+        let maker = Maker { scene, model, aspect, cull: self.cull };
         self.refuse_too_much(&printable_path(path).to_string(), &maker, purpose)?;
         let backs = facing::share_of_backs(&maker.scene).filter(|share| *share > 0.5);
         if let Some(share) = backs {
@@ -396,14 +390,13 @@ impl ViewArguments {
             return Ok(());
         }
         let [bytes, most] = [bytes, limits::FRAME_BYTES].map(|bytes| bytes >> 20);
-        let less = match purpose {
-            Purpose::Compared => {
-                "give a smaller --size, or draw by one rasterizer (--engine scanline)"
-            }
-            _ => "give a smaller --size",
+        let or = match purpose {
+            Purpose::Compared => ", or draw by one rasterizer (--engine scanline)",
+            _ => "",
         };
         Err(usage(format!(
-            "{width} x {height} px with {samples} samples take about {bytes} MiB here, and the most are {most}: {less}"
+            "{width} x {height} px with {samples} samples take about {bytes} MiB here, and the most are {most}: give a \
+             smaller --size{or}"
         )))
     }
 
@@ -424,7 +417,7 @@ impl ViewArguments {
         let of_planes = |count: u64| count.saturating_mul(planes);
         let (rows, samples) = (of_planes(work.rows), of_planes(work.samples));
         let blended = of_planes(work.blended);
-        let file_bytes = maker.framed().map_or(0, |framed| framed.file_bytes);
+        let file_bytes = maker.model.file_bytes;
         let Costs { ns_of_row, ns_of_sample, ns_of_byte, .. } = purpose.costs();
         // The map is drawn as often as the frame.
         let map = Work::of_map(scene);
@@ -436,12 +429,13 @@ impl ViewArguments {
         let most = MOST_NS.max(file_bytes.saturating_mul(ns_of_byte)).max(of_picture);
         if ns > most {
             let [seconds, most] = [ns, most].map(|ns| thousands(ns / 1_000_000_000));
-            let of_map = match self.shadows {
-                None => String::new(),
-                Some(_) => format!(" and {} texels in the shadow map", thousands(map.samples)),
+            let (of_map, smaller) = match self.shadows {
+                None => (String::new(), "a smaller --size"),
+                Some(_) => {
+                    let texels = thousands(map.samples);
+                    (format!(" and {texels} texels in the shadow map"), "smaller --shadows")
+                }
             };
-            let smaller =
-                if self.shadows.is_some() { "smaller --shadows" } else { "a smaller --size" };
             return Err(usage(format!(
                 "{name}: its {} triangles in the window have about {} samples in {} rows{of_map}, hidden ones counted, which would \
                  take about {seconds} s here, and the most are {most} s: give {smaller}, or a part of the model",
@@ -482,65 +476,50 @@ impl ViewArguments {
         let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
         let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));
         let time = self.time.unwrap_or(0.0);
-        let numbers = [
-            ("--yaw", yaw),
-            ("--pitch", pitch),
-            ("--zoom", zoom),
-            ("--fov", fov),
-            ("--time", time),
-        ];
+        let numbers =
+            [("yaw", yaw), ("pitch", pitch), ("zoom", zoom), ("fov", fov), ("time", time)];
         if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
-            return Err(usage(format!("{name} {value} is not a finite number")));
+            return Err(usage(format!("--{name} {value} is not a finite number")));
         }
         // Beyond, the distance to the model is lost in the rounding of a double, or overflows.
         if !(1e-6..=1e6).contains(&zoom) {
-            let cause = format!("--zoom {zoom} does not lie between 0.000001 and 1000000");
-            return Err(usage(cause));
+            return Err(usage(format!("--zoom {zoom} does not lie between 0.000001 and 1000000")));
         }
         if fov <= 0.0 || fov >= 180.0 {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
         }
-        let normals = self.normals.unwrap_or_default();
         let animation = self.animation.unwrap_or(1) as usize - 1;
         let pose = self.time.map(|time_s| Pose { animation, time_s });
+        let normals = self.normals.unwrap_or_default();
         let options = LoadOptions { shading, normals, up: self.up, pose };
         let progress = Progress::new(streams.progress, "models read", None);
         let start = Instant::now();
-        let mut model = rasterproof_models::load(path, options).map_err(usage)?;
-        let loading = start.elapsed();
+        let mut model = rasterproof_models::load(path, options)?;
+        let loading_s = Some(start.elapsed().as_secs_f64());
         drop(progress);
         report_model(&model, self.up.is_some(), streams.errors)?;
         if self.time.is_some() && model.animations.is_empty() {
             return Err(usage("--time: the model has no animations".to_owned()));
         }
-        let notes: [(bool, &str, Vec<&str>, &str); 2] = [
-            (
-                self.time.is_some(),
-                "animation",
-                model.animations.iter().map(String::as_str).collect(),
-                "--time 0.5 shows the first after half a second",
-            ),
-            (
-                self.camera.is_some(),
-                "camera",
-                model.cameras.iter().map(|camera| camera.name.as_str()).collect(),
-                "--camera 1 looks through the first",
-            ),
-        ];
-        for (_, what, names, how) in
-            notes.iter().filter(|(is_used, _, names, _)| !is_used && !names.is_empty())
-        {
-            let s = if names.len() == 1 { "" } else { "s" };
-            let listed = cameras::listed(names.iter().copied());
-            writeln!(streams.errors, "the file has {} {what}{s}: {listed}; {how}", names.len())?;
+        if self.time.is_none() && !model.animations.is_empty() {
+            let count = count(model.animations.len() as u64, "animation", "animations");
+            let listed = cameras::listed(model.animations.iter().map(String::as_str));
+            let how = "--time 0.5 shows the first after half a second";
+            writeln!(streams.errors, "the file has {count}: {listed}; {how}")?;
+        }
+        if self.camera.is_none() && !model.cameras.is_empty() {
+            let count = count(model.cameras.len() as u64, "camera", "cameras");
+            let listed = cameras::listed(model.cameras.iter().map(|camera| &*camera.name));
+            let how = "--camera 1 looks through the first";
+            writeln!(streams.errors, "the file has {count}: {listed}; {how}")?;
         }
         if !model.lights.is_empty() {
-            let (count, s) = (model.lights.len(), if model.lights.len() == 1 { "" } else { "s" });
+            let count = count(model.lights.len() as u64, "light", "lights");
             let shadows =
                 if self.shadows.is_some() { ", and nothing keeps it from anything" } else { "" };
             writeln!(
                 streams.errors,
-                "the light is that of {count} light{s} of the file{shadows}; ambient light is that of the view"
+                "the light is that of {count} of the file{shadows}; ambient light is that of the view"
             )?;
         }
         let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
@@ -557,12 +536,11 @@ impl ViewArguments {
         let mut turn = turn_y(yaw);
         let away = DVec3::new(0.0, sin(pitch), -cos(pitch));
         let up = DVec3::new(0.0, cos(pitch), sin(pitch));
-        let mut view = look_at(centre + away * distance, centre, up).map_err(usage)?;
+        let mut view = look_at(centre + away * distance, centre, up)?;
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
-        let mut projection =
-            perspective(fov.to_radians(), aspect, near, distance + radius * 1.01).map_err(usage)?;
+        let mut projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)?;
         if let Some(wanted) = &self.camera {
-            let camera = cameras::find(&model.cameras, wanted).map_err(usage)?;
+            let camera = cameras::find(&model.cameras, wanted)?;
             [view, projection] = cameras::matrices(camera, aspect, [min, max])
                 .map_err(|error| usage(format!("--camera {}: {error}", printable(wanted))))?;
             (turn, distance) = (DMat4::IDENTITY, view.transform_point3(centre).z);
@@ -616,7 +594,7 @@ impl ViewArguments {
             // The file does not decide.
             why_empty.clear();
         }
-        Ok((scene, Framed { centre, origins, not_drawn, why_empty, file_bytes, loading }))
+        Ok((scene, Framed { centre, origins, not_drawn, why_empty, file_bytes, loading_s }))
     }
 }
 
@@ -633,79 +611,47 @@ fn report_model(
         writeln!(errors, "not drawn: {}", model.not_drawn)?;
     }
     if !up_is_given {
-        let (taken, other) = match model.up {
-            Up::Y => ("y", "z"),
-            Up::Z => ("z", "y"),
-        };
+        let (taken, other) = if model.up == Up::Y { ("y", "z") } else { ("z", "y") };
         let why = if model.format.says_up() { "it does by the rule of" } else { "is usual in" };
-        let (format, other) = (model.format.name(), format!("--up {other} for the other"));
-        writeln!(errors, "{taken} points up, as {why} {format}; {other}")?;
+        let format = model.format.name();
+        writeln!(errors, "{taken} points up, as {why} {format}; --up {other} for the other")?;
     }
     Ok(())
 }
 
-struct Framed {
+/// What is known of the file of a model; of a scene of the book nothing.
+#[derive(Default)]
+pub(super) struct Framed {
     centre: DVec3,
-    origins: Vec<Origin>,
-    not_drawn: String,
-    why_empty: String,
+    pub(super) origins: Vec<Origin>,
+    /// What the file contains and is not drawn, in words.
+    pub(super) not_drawn: String,
+    /// Why nothing of it can be seen, in words; empty where something may be.
+    pub(super) why_empty: String,
     file_bytes: u64,
-    loading: Duration,
-}
-
-enum Base {
-    Chapter(String),
-    Model(Box<Framed>),
+    pub(super) loading_s: Option<f64>,
 }
 
 pub(super) struct Maker {
     /// As it stands where it is not turned, culled as asked.
     pub(super) scene: Scene,
-    base: Base,
+    pub(super) model: Framed,
     aspect: f64,
     cull: Option<Cull>,
 }
 
 impl Maker {
-    /// Nothing for a scene of the book.
-    fn framed(&self) -> Option<&Framed> {
-        match &self.base {
-            Base::Chapter(_) => None,
-            Base::Model(framed) => Some(framed),
-        }
-    }
-
-    pub(super) fn loading_s(&self) -> Option<f64> {
-        self.framed().map(|framed| framed.loading.as_secs_f64())
-    }
-
-    /// What the file of a model contains and is not drawn, in words.
-    pub(super) fn not_drawn(&self) -> &str {
-        self.framed().map_or("", |framed| &framed.not_drawn)
-    }
-
-    /// Why nothing of a model can be seen, in words; empty where something may be.
-    pub(super) fn why_empty(&self) -> &str {
-        self.framed().map_or("", |framed| &framed.why_empty)
-    }
-
-    pub(super) fn origins(&self) -> &[Origin] {
-        self.framed().map_or(&[], |framed| &framed.origins)
-    }
-
     /// The scene, turned by a share of a full turn.
     pub(super) fn turned(&self, turn: f64) -> Scene {
-        match &self.base {
-            Base::Chapter(name) => chapter(name, self.aspect, turn, self.cull),
-            Base::Model(framed) => {
-                let mut scene = self.scene.clone();
-                let turn = turn_y(turn * std::f64::consts::TAU);
-                for item in &mut scene.items {
-                    item.model = about(framed.centre, turn) * item.model;
-                }
-                scene
-            }
+        if self.model.loading_s.is_none() {
+            return chapter(&self.scene.name, self.aspect, turn, self.cull);
         }
+        let mut scene = self.scene.clone();
+        let turn = turn_y(turn * std::f64::consts::TAU);
+        for item in &mut scene.items {
+            item.model = about(self.model.centre, turn) * item.model;
+        }
+        scene
     }
 }
 

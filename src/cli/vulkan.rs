@@ -1,7 +1,7 @@
 //! `rasterproof verify --engine vulkan:0`: a Vulkan device on the stand; and which devices there are.
 
 use rasterproof_vulkan::device::find;
-use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
+use rasterproof_vulkan::gpu::campaign;
 use rasterproof_vulkan::gpu::choice::OnLadder;
 use rasterproof_vulkan::gpu::engine::{Gpu, PREFIX};
 use rasterproof_vulkan::gpu::look;
@@ -55,7 +55,7 @@ impl Job<'_> {
 }
 
 pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
-    let gpu = Gpu::named(job.engine).map_err(usage)?;
+    let gpu = Gpu::named(job.engine)?;
     let limited = job.options.time_limit.is_some();
     let cases = job.cases.unwrap_or(if limited { u64::MAX / 4 } else { CASES });
     let options = job.options.clone().cases(cases);
@@ -74,21 +74,11 @@ pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
     }
     let judged = stand.verdict.families.iter().map(|row| row.cases).max().unwrap_or(0);
     let cases = if limited { judged } else { cases };
-    print(job, &stand, cases, streams)?;
-    Ok(if stand.agrees() { exit::AGREES } else { exit::DISAGREES })
-}
-
-fn print(
-    job: &Job<'_>,
-    stand: &DeviceReport,
-    cases: u64,
-    streams: &mut Streams<'_>,
-) -> Result<(), InputError> {
     let (command, all) = (job.command(), job.all(cases));
     let repeat = |family: &str, index: u64| format!("{command} --family {family} --case {index}");
-    let report = text::report(stand, &format!("{command}{all}"), &repeat);
+    let report = text::report(&stand, &format!("{command}{all}"), &repeat);
     let page = job.page.page("vulkan.html");
-    show(report, Shown::screen_or_json(job.json), page, streams)
+    show(report, Shown::screen_or_json(job.json), page, exit::of(stand.agrees()), streams)
 }
 
 /// The hits of triangles in a window as a device draws them.
@@ -99,7 +89,7 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
 }
 
 pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, InputError> {
-    Ok(Box::new(OnLadder::new(engine).map_err(usage)?))
+    Ok(Box::new(OnLadder::new(engine)?))
 }
 
 /// The devices that there are, or why there are none.

@@ -26,7 +26,6 @@ struct Mark {
 }
 
 /// A table for each measure of the error, for each kind of time and for each count of work.
-#[must_use]
 pub fn tables(board: &Board) -> Vec<Table> {
     let of_measure = |(number, measure)| {
         block(board, title(measure), &|choice, column| error_cell(board, choice, column, number))
@@ -200,7 +199,6 @@ fn dominated(board: &Board) -> Vec<String> {
 }
 
 /// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
-#[must_use]
 pub fn price(boards: &[Board]) -> Option<Table> {
     let prices = prices(boards);
     let columns =
@@ -217,7 +215,6 @@ pub fn price(boards: &[Board]) -> Option<Table> {
 }
 
 /// What was measured, with plots that are given.
-#[must_use]
 pub fn report(recorded: &Recorded, figures: Vec<Figure>) -> Report {
     let Recorded { version, repeat, seed, quick, boards } = recorded;
     let quick = if *quick { ", quick" } else { "" };

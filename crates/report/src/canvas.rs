@@ -39,7 +39,6 @@ pub struct Drawing {
 
 // Writing to a string does not fail.
 impl Drawing {
-    #[must_use]
     pub fn new(title: &str, size: [f64; 2]) -> Self {
         Self { title: escape(title), size, inks: [PAPER].into(), body: String::new() }
     }
@@ -129,7 +128,6 @@ pub fn svg(drawing: &Drawing) -> String {
 }
 
 /// The same drawing for wide and for narrow pages, as a figure.
-#[must_use]
 pub fn figure(caption: &str, [wide, narrow]: [Drawing; 2]) -> Figure {
     Figure { caption: caption.to_owned(), svg: svg(&wide), narrow: Some(svg(&narrow)) }
 }

@@ -177,7 +177,6 @@ pub fn judged_shapes(verdict: &Verdict) -> String {
 }
 
 /// The verdict in a word and a sentence, with the counts that `verify` prints.
-#[must_use]
 pub fn outcome(verdict: &Verdict) -> Outcome {
     let (good, judged) = (verdict.agrees(), judged_shapes(verdict));
     let wrong = verdict.mismatches();
@@ -224,7 +223,6 @@ fn quotas(verdict: &Verdict) -> Option<String> {
 }
 
 /// A sentence for each pair that disagrees, and for oracles that are wrong by themselves.
-#[must_use]
 pub fn disagreements(verdict: &Verdict) -> Vec<String> {
     let mut out = Vec::new();
     for f in &verdict.families {

@@ -7,7 +7,6 @@ use rasterproof_registry::published_check::{specimen_coverage, specimen_line_cov
 use rasterproof_verify::cases::{Case, Shape};
 
 /// The hits of a specimen; nothing where it does not draw such shapes.
-#[must_use]
 pub fn by_specimen(entry: &Entry, case: &Case) -> Option<Hits> {
     match (&case.shape, entry.specimen) {
         (Shape::Triangles { list, .. }, Some(Specimen::Triangle(specimen))) => {

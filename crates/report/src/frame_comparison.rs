@@ -37,7 +37,6 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.wrong_pixels == 0 && self.wrong_depths == 0
     }
@@ -51,7 +50,6 @@ const YELLOW: Colour = [255, 200, 0, 255];
 /// that [`tolerance`] derives for the two rasterizers, with depths from 0 to 1, and one step of the
 /// format. Where ties are known, what they excuse is no difference; the targets then hold every
 /// sample of the frames.
-#[must_use]
 pub fn compare(
     a: (&Frame<Colour>, &Target),
     b: (&Frame<Colour>, &Target),

@@ -31,6 +31,7 @@ const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 
 /// What the page shows; sections that are empty are left out.
+#[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     pub title: String,
@@ -97,14 +98,12 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    #[must_use]
     pub fn new(good: bool, word: &str, sentence: impl Into<String>) -> Self {
         let (word, answer) = (word.to_owned(), String::new());
         Self { good, word, answer, sentence: sentence.into() }
     }
 
     /// The outcome of a comparison: `AGREES` or `DISAGREES`.
-    #[must_use]
     pub fn of(agrees: bool, sentence: impl Into<String>) -> Self {
         Self::new(agrees, word(agrees), sentence)
     }
@@ -115,7 +114,6 @@ impl Outcome {
     }
 
     /// The outcome where there was nothing to compare.
-    #[must_use]
     pub fn not_compared(reason: &str) -> Self {
         Self::new(false, "NOT COMPARED", format!("{reason} Nothing was compared."))
     }
@@ -170,20 +168,17 @@ pub struct PictureLayer {
 
 impl PictureLayer {
     /// A picture; it is kept as PNG in a `data:` address. An empty one is shown as one pixel.
-    #[must_use]
     pub fn new(name: &str, image: &RgbImage) -> Self {
         let one = RgbImage::new(1, 1);
         let is_empty = image.width() == 0 || image.height() == 0;
         Self::from_png(name, &picture::png(if is_empty { &one } else { image }))
     }
 
-    #[must_use]
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
         Self { name: name.to_owned(), png: data_address("image/png", bytes), is_map: false }
     }
 
     /// A picture whose colours mark pixels of another layer.
-    #[must_use]
     pub fn map(name: &str, image: &RgbImage) -> Self {
         Self { is_map: true, ..Self::new(name, image) }
     }
@@ -349,7 +344,6 @@ fn about(report: &Report) -> String {
 }
 
 /// Whether a page is an index that [`index`] made.
-#[must_use]
 pub fn is_index(page: &str) -> bool {
     page.contains("<title>Pages of rasterproof</title>")
 }

@@ -16,7 +16,6 @@ use rasterproof_verify::cases::Kind;
 use rasterproof_verify::comparison::{Verdict, shrink};
 
 /// What `--json` prints: lines that can be read, or one line for what is as long as the plan of a large model.
-#[must_use]
 pub fn text(data: &Value) -> String {
     const MOST_READ_BYTES: usize = 1 << 16;
     let line = data.to_string();
@@ -62,7 +61,6 @@ pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value
 }
 
 /// Everything that was found of a program.
-#[must_use]
 pub fn judgement(
     verdict: &Judgement,
     repeat_all: &str,
@@ -116,7 +114,6 @@ pub fn digest(seed: u64, cases: u64, parts: &[DigestRow], all: &str) -> Value {
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the choices that nobody needs.
 /// [`Recorded::read`] takes it back.
-#[must_use]
 pub fn cost(recorded: &Recorded) -> Value {
     let boards = &recorded.boards;
     let verdicts: Vec<_> = boards

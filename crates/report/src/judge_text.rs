@@ -21,7 +21,6 @@ const MOST_INCIDENTS: usize = 2;
 
 /// The verdict as a terminal shows it: the answer, what each program says of itself, the smallest failing cases, why it is wrong, a row for each
 /// danger, both scores, and the table of families where something is wrong or it is asked for.
-#[must_use]
 pub fn report(
     verdict: &Verdict,
     repeat_all: &str,
@@ -75,7 +74,6 @@ pub fn report(
 }
 
 /// The same with what JSON and a page hold beside it: everything that was found, and each failing case as it is drawn.
-#[must_use]
 pub fn whole(
     verdict: &Verdict,
     repeat_all: &str,
@@ -124,7 +122,6 @@ fn why_in_short(verdict: &Verdict) -> String {
 }
 
 /// The verdict on a tessellator: what is wrong with the smallest polygons.
-#[must_use]
 pub fn of_polygons(
     declared: &Declared,
     report: &partition::Verdict,
@@ -342,7 +339,6 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
 
 /// A failing case: what was asked and answered, with its pixel grid. `drawn_by` names the one or the two programs; `command`
 /// repeats it, or is empty.
-#[must_use]
 pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt {
     let (family, index) = (failure.family, failure.index);
     let (property, what) = (failure.evidence.property, &failure.what);

@@ -17,7 +17,6 @@ const SHADES: u32 = 4;
 
 impl Size {
     /// Width and height of the cell of a character, in picture pixels.
-    #[must_use]
     pub fn cell(self) -> [u32; 2] {
         match self {
             Self::Small => [7, 16],

@@ -41,7 +41,6 @@ pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(
 }
 
 /// The pixels of a frame as a picture of the same size, of their first three channels.
-#[must_use]
 pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
     let bounds = frame.bounds();
     RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {

@@ -532,7 +532,6 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
 }
 
 /// Everything that was found. `about` says of what, `commands` say more about each question, and `command` repeats it.
-#[must_use]
 pub fn report(
     subject: &Places<'_>,
     found: &Found<'_>,

@@ -121,7 +121,6 @@ pub(super) fn judged(caption: &str, rows: Vec<Row>) -> Table {
 }
 
 /// A row for each danger that was judged, then one for the values.
-#[must_use]
 pub fn table(verdict: &Verdict) -> Table {
     let dangers = DANGERS.iter().map(|danger| (danger, sum(danger, verdict)));
     let dangers = dangers.filter(|(_, sum)| sum.cases > 0);

@@ -1,10 +1,11 @@
 //! Tables as values, from which both the text of a terminal and the tables of a page are written.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 
 use super::words::mark;
 
 /// A table with a header and a row head in its first column.
+#[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     pub caption: String,
@@ -18,6 +19,7 @@ pub struct Table {
     pub is_judged: bool,
 }
 
+#[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Column {
     pub label: String,
@@ -35,7 +37,6 @@ pub struct Column {
 /// Columns as a line, parted by ` | `. Each has a label, its least width in a terminal, and what it is about. Before the
 /// label stand `>` where the cells are numbers and `~` where a terminal has no head; without a width the cells stand below
 /// their row there, with `:` each behind the label.
-#[must_use]
 pub fn columns(all: &str) -> Vec<Column> {
     let column = |text: &str| {
         let (text, is_number) = text.strip_prefix('>').map_or((text, false), |text| (text, true));
@@ -57,30 +58,27 @@ pub fn columns(all: &str) -> Vec<Column> {
 }
 
 impl Column {
-    #[must_use]
     pub fn words(label: &str) -> Self {
         Self { label: label.to_owned(), short: label.to_owned(), ..Self::default() }
     }
 
     /// A column of numbers; `about` says what is counted.
-    #[must_use]
     pub fn numbers(label: &str, about: &str) -> Self {
         Self { about: about.to_owned(), is_number: true, ..Self::words(label) }
     }
 
     /// The same with a column in a terminal, of so many characters at least.
-    #[must_use]
     pub fn least(self, least: usize) -> Self {
         Self { least, ..self }
     }
 
     /// The same with another head in a terminal.
-    #[must_use]
     pub fn short(self, label: impl Into<String>) -> Self {
         Self { short: label.into(), ..self }
     }
 }
 
+#[must_use]
 #[derive(Clone, Debug, Default)]
 pub struct Row {
     /// Where there are fewer cells than columns, the last one takes the rest of the row.
@@ -90,6 +88,17 @@ pub struct Row {
     pub search: Option<String>,
     /// The columns of its cells that are as good as can be, shown in green.
     pub good: Vec<usize>,
+}
+
+impl Row {
+    pub fn of(cells: &[&dyn Display]) -> Self {
+        Self::from(cells.iter().map(ToString::to_string).collect::<Vec<_>>())
+    }
+
+    /// The same with the mark of a row that was judged.
+    pub fn marked(self, is_right: bool) -> Self {
+        Self { mark: if is_right { Mark::Plain } else { Mark::Wrong }, ..self }
+    }
 }
 
 impl From<Vec<String>> for Row {
@@ -109,32 +118,27 @@ pub enum Mark {
 
 impl Table {
     /// A table with columns as [`columns`] reads them.
-    #[must_use]
     pub fn new(caption: &str, columns: &str, rows: Vec<Row>) -> Self {
         let (caption, columns) = (caption.to_owned(), self::columns(columns));
         Self { caption, columns, rows, ..Self::default() }
     }
 
-    #[must_use]
     pub fn noted(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
 
     /// The same with a tick or a cross before each row, by its mark.
-    #[must_use]
     pub fn judged(self) -> Self {
         Self { is_judged: true, ..self }
     }
 
     /// A caption and notes, without rows.
-    #[must_use]
     pub fn of_notes(caption: &str, notes: Vec<String>) -> Self {
         Self { caption: caption.to_owned(), notes, ..Self::default() }
     }
 
     /// The table in a terminal: a line of heads, and for each row a line of cells side by side, then a line for
     /// each of its other cells that is not empty. Rows begin at column `rows`, their other cells at column `below`.
-    #[must_use]
     pub fn text(&self, [rows, below]: [usize; 2], colour: bool) -> String {
         let heads = self.columns.iter().map(|column| match column.least {
             0 => String::new(),
@@ -204,10 +208,11 @@ mod tests {
 
     #[test]
     fn text_stands_in_columns() {
-        let row =
-            |cells: &[&str]| Row::from(cells.iter().map(ToString::to_string).collect::<Vec<_>>());
-        let rows =
-            vec![row(&["a", "12345", "one\ntwo"]), row(&["b", "not run"]), row(&["c", "7", ""])];
+        let rows = vec![
+            Row::of(&[&"a", &12345, &"one\ntwo"]),
+            Row::of(&[&"b", &"not run"]),
+            Row::of(&[&"c", &7, &""]),
+        ];
         let mut table = Table::new("", "name 6 | >pixels 3 covered ones | :why", rows);
         assert_eq!((table.columns[1].is_number, &*table.columns[1].about), (true, "covered ones"));
         table.columns[1].short = "px".to_owned();

@@ -15,7 +15,6 @@ pub const WIDTH: usize = 100;
 
 /// What it is about, the answers, below them the first screen or all of it, how to repeat it, and the verdict in a word, in
 /// lines of at most so many columns.
-#[must_use]
 pub fn text(report: &Report, all: bool, colour: bool, columns: usize) -> String {
     let (screen, columns) = (columns.min(SCREEN), columns.min(WIDTH));
     let verdict = report.outcome.as_ref().filter(|outcome| outcome.is_verdict());
@@ -70,7 +69,6 @@ fn answers(answers: &[Statement], columns: usize) -> String {
 }
 
 /// A case with its pixels, what is said of it, and where to go on.
-#[must_use]
 pub fn excerpt(of: &Excerpt, columns: usize) -> String {
     let mut out = String::new();
     of.title.lines().for_each(|line| lines(&mut out, line, columns, ["", "  "]));
