@@ -6,7 +6,7 @@ use clap::builder::{OsStringValueParser, TypedValueParser};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::files::{self, Output, Use, written};
+use super::files::{self, Use, written};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -81,16 +81,12 @@ pub struct CostArguments {
 }
 
 impl CostArguments {
-    /// Plots go into the folder of pages.
-    fn plot_file(&self, name: &str) -> Output {
-        self.page.place.output(format!("{name}.svg"))
-    }
-
     /// Refuses names of plots and pages that are the file of --from or each other's.
     fn check_files(&self, ladders: &[Ladder]) -> Result<(), InputError> {
         let page = self.page.page("cost.html");
         let names = ladders.iter().map(|&ladder| plot_name(ladder)).chain([PRICE.to_owned()]);
-        let plots: Vec<_> = names.map(|name| self.plot_file(&name)).collect();
+        let plots = names.map(|name| self.page.place.output(format!("{name}.svg")));
+        let plots: Vec<_> = plots.collect();
         let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
         let plots = plots.iter().map(|output| written("a plot in --out", output));
         files::check(from.into_iter().chain(plots).chain(as_file(&page)))
@@ -114,8 +110,8 @@ impl CostArguments {
 pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let ladders = match &arguments.what {
         Some(Scenes::Model(path)) => {
-            if let Some(option) = typed.given(&["from", "seed", "engine", "report", "out", "force"])
-            {
+            let of_groups = ["from", "seed", "engine", "report", "out", "force"];
+            if let Some(option) = typed.given(&of_groups) {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
             }
             let how = (arguments.once.effort(arguments.quick), arguments.json);
@@ -136,13 +132,18 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
             boards: measure_all(ladders, arguments, streams.progress)?,
         },
     };
-    let plots = plots(&recorded.boards);
-    let written = write_plots(&plots, arguments, streams).join(", ");
-    let figures = plots.into_iter().map(|(_, figure)| figure).collect();
+    let place = &arguments.page.place;
+    let (mut written, mut figures) = (Vec::new(), Vec::new());
+    for (name, figure) in plots(&recorded.boards) {
+        if streams.save(&place.output(format!("{name}.svg")), figure.svg.as_bytes()) {
+            written.push(name);
+        }
+        figures.push(figure);
+    }
     let mut report = board::report(&recorded, figures);
     report.command = typed.line();
     if !written.is_empty() {
-        let folder = printable_path(&arguments.page.place.out);
+        let (folder, written) = (printable_path(&place.out), written.join(", "));
         report.notes.push(format!("drawn in {folder}, as SVG: {written}"));
     }
     let page = arguments.page.page("cost.html");
@@ -179,28 +180,12 @@ fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
         (plot_name(board.ladder), canvas::figure(&caption, drawn))
     };
     let prices = prices(boards);
-    let price = || {
+    let price = (!prices.is_empty()).then(|| {
         let caption = "What exact coverage costs over the cheapest choice";
         let drawn = [800.0, 400.0].map(|width| cost_plots::price(&prices, width));
         (PRICE.to_owned(), canvas::figure(caption, drawn))
-    };
-    let price = (!prices.is_empty()).then(price);
+    });
     price.into_iter().chain(boards.iter().rev().map(of_board)).collect()
-}
-
-/// Writes the plots and returns the names of those that were written.
-fn write_plots(
-    plots: &[(String, Figure)],
-    arguments: &CostArguments,
-    streams: &mut Streams<'_>,
-) -> Vec<String> {
-    let mut written = Vec::new();
-    for (name, figure) in plots {
-        if streams.save(&arguments.plot_file(name), figure.svg.as_bytes()) {
-            written.push(name.clone());
-        }
-    }
-    written
 }
 
 fn measure_all(
@@ -213,15 +198,11 @@ fn measure_all(
     let CostArguments { seed, quick, .. } = *arguments;
     let timing = Some(if quick { Timing::QUICK } else { Timing::USUAL });
     let options = CostOptions { seed, quick, timing };
-    let boards = ladders
-        .iter()
-        .enumerate()
-        .map(|(done, &ladder)| {
-            measure_with(ladder, &options, &mut external, &|share, what| {
-                let all = (done as f64 + share) / ladders.len() as f64;
-                progress.at((all * 100.0) as u64, what);
-            })
+    let measured = |(done, &ladder): (usize, &Ladder)| {
+        measure_with(ladder, &options, &mut external, &|share, what| {
+            let all = (done as f64 + share) / ladders.len() as f64;
+            progress.at((all * 100.0) as u64, what);
         })
-        .collect();
-    Ok(boards)
+    };
+    Ok(ladders.iter().enumerate().map(measured).collect())
 }

@@ -4,7 +4,7 @@
 //! concerns the others.
 
 use std::ffi::{OsStr, OsString};
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
@@ -22,7 +22,7 @@ use rasterproof_judge::text::printable;
 use rasterproof_program::group::{self, Group};
 use rasterproof_program::{Limits, Program};
 use rasterproof_report::json::pretty;
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 use rasterproof_report::{formats, text};
 use rasterproof_teaching::course::examine::{self, Amount};
 use rasterproof_teaching::course::progress::{self, Progress};
@@ -155,12 +155,11 @@ struct Grades {
     submissions: Vec<Grade>,
 }
 
-impl Grades {
-    fn new(submissions: Vec<Grade>, arguments: &GradeArguments) -> Self {
-        let GradeArguments { seed, cases, .. } = *arguments;
-        let version = env!("CARGO_PKG_VERSION").to_owned();
-        Self { version, seed, cases, submissions }
-    }
+/// The same as JSON.
+fn json(submissions: Vec<Grade>, arguments: &GradeArguments) -> String {
+    let GradeArguments { seed, cases, .. } = *arguments;
+    let version = env!("CARGO_PKG_VERSION").to_owned();
+    pretty(&Grades { version, seed, cases, submissions })
 }
 
 pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
@@ -172,11 +171,16 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     let submissions = match &arguments.folder {
         Some(folder) => submissions(folder, arguments.run.as_deref())?,
         None => {
-            let (folder, run) = (PathBuf::from("."), arguments.command.clone());
+            let run = arguments.command.clone();
             let words: Vec<_> = run.iter().map(|word| word.to_string_lossy()).collect();
             let name = printable(words.join(" ").as_bytes(), 200);
-            let id = OsString::from(".");
-            vec![Ok(Submission { id, name, folder, build: Vec::new(), run })]
+            vec![Ok(Submission {
+                id: ".".into(),
+                name,
+                folder: ".".into(),
+                build: Vec::new(),
+                run,
+            })]
         }
     };
     if let Some(row) = &arguments.row {
@@ -185,8 +189,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     group::end_groups_on_ctrl_c();
     let is_table = arguments.format == Format::Text && arguments.folder.is_some();
     if is_table {
-        let heads = row("submission", |at| (at + 1).to_string(), "points");
-        streams.output.write_all(heads.as_bytes())?;
+        streams.output.write_all(row("submission", |at| at + 1, &"points").as_bytes())?;
     }
     let mut grades = Vec::new();
     let shown = Shown::new(streams.progress, "submissions", Some(submissions.len() as u64));
@@ -197,8 +200,8 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         };
         if is_table {
             // Rows that were judged stay, whatever happens to the rest.
-            let mark = |at| if grade.has_passed(at) { "+" } else { "-" }.to_owned();
-            let text = row(&grade.name, mark, &grade.points.to_string());
+            let mark = |at| if grade.has_passed(at) { "+" } else { "-" };
+            let text = row(&grade.name, mark, &grade.points);
             shown.without_bar(|| {
                 streams.output.write_all(text.as_bytes())?;
                 streams.output.flush()
@@ -213,7 +216,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     let text = match arguments.format {
         Format::Text => text(&grades, is_table),
         Format::Gradescope => pretty(&gradescope(&grades[0])),
-        Format::Json => pretty(&Grades::new(grades, arguments)),
+        Format::Json => json(grades, arguments),
     };
     streams.output.write_all(text.as_bytes())?;
     Ok(match (unjudged, all) {
@@ -249,12 +252,10 @@ fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Inpu
         }
         if let Some(template) = template {
             let word = |word: &str| {
-                let parts: Vec<_> = word.split("{}").map(OsStr::new).collect();
-                parts.join(path.as_os_str())
+                word.split("{}").map(OsStr::new).collect::<Vec<_>>().join(path.as_os_str())
             };
             let run = template.split_whitespace().map(word).collect();
-            let folder = PathBuf::from(".");
-            return Ok(Submission { id, name, folder, build: Vec::new(), run });
+            return Ok(Submission { id, name, folder: ".".into(), build: Vec::new(), run });
         }
         match Progress::read(&path) {
             Ok(Some(Progress { build, run, .. })) => {
@@ -307,15 +308,11 @@ fn apart(submission: &Submission, arguments: &GradeArguments, mark: &str) -> Res
         command.arg(option).arg(number.to_string());
     }
     // A name may begin as an option does.
-    let with = |option: &str, value: &OsStr| {
-        let mut word = OsString::from(option);
-        word.push(value);
-        word
-    };
-    command.arg(with("--row=", &submission.id));
+    let with = |option: &str, value: &OsStr| [OsStr::new(option), value].join(OsStr::new("="));
+    command.arg(with("--row", &submission.id));
     if let Some(folder) = &arguments.folder {
-        command.arg(with("--folder=", folder.as_os_str()));
-        command.args(arguments.run.iter().map(|run| with("--run=", OsStr::new(run))));
+        command.arg(with("--folder", folder.as_os_str()));
+        command.args(arguments.run.iter().map(|run| with("--run", OsStr::new(run))));
     } else {
         command.arg("--").args(&arguments.command);
     }
@@ -375,15 +372,12 @@ fn answer(mut command: Command, _: Instant) -> std::io::Result<Vec<u8>> {
 /// What a judge wrote, if it came to its end.
 fn ended(status: Option<ExitStatus>, text: Vec<u8>) -> std::io::Result<Vec<u8>> {
     let verdicts = [exit::AGREES, exit::DISAGREES, exit::USAGE].map(|code| Some(i32::from(code)));
-    match status {
-        Some(status) if verdicts.contains(&status.code()) => Ok(text),
-        status => {
-            let how = status.map_or_else(String::new, |status| format!(" ({status})"));
-            Err(std::io::Error::other(format!(
-                "its judge was ended{how}: does it send signals to its parent?"
-            )))
-        }
+    if status.is_some_and(|status| verdicts.contains(&status.code())) {
+        return Ok(text);
     }
+    let how = status.map_or_else(String::new, |status| format!(" ({status})"));
+    let why = format!("its judge was ended{how}: does it send signals to its parent?");
+    Err(std::io::Error::other(why))
 }
 
 /// The judge of one submission: its grade as JSON, for the process that started it.
@@ -399,7 +393,7 @@ fn judge_row(
     let submission = submission.ok_or_else(|| usage("the submission is gone"))?;
     let grade = grade(&submission, arguments);
     let agrees = grade.points == STEPS.len();
-    streams.output.write_all(pretty(&Grades::new(vec![grade], arguments)).as_bytes())?;
+    streams.output.write_all(json(vec![grade], arguments).as_bytes())?;
     Ok(exit::of(agrees))
 }
 
@@ -418,22 +412,16 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
     match started(submission, &bounds, arguments) {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
+            let GradeArguments { cases, seed, .. } = *arguments;
+            let patience = Duration::from_secs(1).min(seconds / 24);
+            let amount = Amount { cases, seed, end: start + seconds, patience };
             for step in STEPS.iter() {
-                let amount = Amount {
-                    cases: arguments.cases,
-                    seed: arguments.seed,
-                    end: start + seconds,
-                    patience: Duration::from_secs(1).min(seconds / 24),
-                };
                 let outcome = examine::examine(&mut program, step, &amount);
                 let report = verdict::report(step, &outcome, "the program");
+                let output = text::text(&report, true, false, text::WIDTH);
                 let (step, passed) = (step.name.clone(), outcome.passes());
                 grade.points += usize::from(passed);
-                grade.steps.push(Judged {
-                    step,
-                    passed,
-                    output: text::text(&report, true, false, text::WIDTH),
-                });
+                grade.steps.push(Judged { step, passed, output });
             }
         }
     }
@@ -459,19 +447,21 @@ fn started(
 }
 
 /// A row of the table of submissions by steps, as it is printed when it is known.
-fn row(name: &str, of_step: impl Fn(usize) -> String, points: &str) -> String {
+fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Display) -> String {
     let columns = format!("~name 40{} | >~points 7", " | >~step 3".repeat(STEPS.len()));
-    let steps = (0..STEPS.len()).map(of_step);
-    let cells = [name.to_owned()].into_iter().chain(steps).chain([points.to_owned()]);
-    Table::new("", &columns, vec![cells.collect::<Vec<_>>().into()]).text([0, 0], false)
+    let steps: Vec<_> = (0..STEPS.len()).map(of_step).collect();
+    let mut cells: Vec<&dyn Display> = vec![&name];
+    cells.extend(steps.iter().map(|step| step as &dyn Display));
+    cells.push(points);
+    Table::new("", &columns, vec![Row::of(&cells)]).text([0, 0], false)
 }
 
 /// What follows the rows of a table, or what came of each step of one program.
 fn text(grades: &[Grade], is_table: bool) -> String {
     let mut out = String::new();
     if is_table {
-        let passed = |at| grades.iter().filter(|grade| grade.has_passed(at)).count().to_string();
-        out += &row("passed by", passed, "");
+        let passed = |at| grades.iter().filter(|grade| grade.has_passed(at)).count();
+        out += &row("passed by", passed, &"");
     }
     for grade in grades {
         if let Some(error) = &grade.error {

@@ -39,7 +39,7 @@ struct Common {
     /// Move everything by this many pixels, for example --offset-px=-2048,2048
     #[arg(long, global = true, value_name = "X,Y", value_parser = parse_offset, default_value = "0,0",
           allow_hyphen_values = true)]
-    offset_px: Offset,
+    offset_px: [i32; 2],
     /// Only part I of N, I from 0
     #[arg(long, global = true, value_name = "I/N", value_parser = super::verify::parse_shard, default_value = "0/1")]
     shard: (u64, u64),
@@ -110,18 +110,15 @@ pub struct MergeArguments {
     seed: Option<u64>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Offset([i32; 2]);
-
-fn parse_offset(text: &str) -> Result<Offset, String> {
+fn parse_offset(text: &str) -> Result<[i32; 2], &'static str> {
     let numbers =
         text.trim().split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
-    numbers.map(Offset).ok_or_else(|| "expected X,Y in whole pixels, for example 2048,0".to_owned())
+    numbers.ok_or("expected X,Y in whole pixels, for example 2048,0")
 }
 
 impl ExhaustArguments {
     fn plan(&self) -> Plan {
-        let (offset_px, plant) = (self.common.offset_px.0, self.common.plant.clone());
+        let (offset_px, plant) = (self.common.offset_px, self.common.plant.clone());
         match self.what {
             What::Triangles { window: window_px, subpixel_bits, all_orders } => {
                 Plan::Triangles(Triangles {
@@ -153,7 +150,8 @@ impl ExhaustArguments {
 pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let plan = arguments.plan();
     plan.check()?;
-    let shard = Shard { part: arguments.common.shard.0, parts: arguments.common.shard.1 };
+    let (part, parts) = arguments.common.shard;
+    let shard = Shard { part, parts };
     let certificate_file = arguments.common.output.as_deref().map(Output::typed);
     let certificate_file = certificate_file.as_ref();
     // Whether it is a checkpoint is seen when it is read.
@@ -165,7 +163,6 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     files::check(kept.into_iter().chain(output))?;
     let cases = Counts::of(&plan, shard.chunks(&plan)).cases;
     if cases == 0 {
-        let Shard { part, parts } = shard;
         let all = plan.enumeration().expected_cases();
         return Err(usage(format!(
             "shard {part} of {parts} holds none of the {all} cases, so nothing would be judged; merge \
@@ -175,11 +172,9 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     // Another process that resumed and saved the same state would count chunks twice or lose them.
     let _lock = Lock::acquire(path).map_err(|error| usage(format!("the checkpoint {error}")))?;
     let start = match kept_state(path)? {
-        Some(state) if !arguments.common.restart => Some(resume(state, path, &plan, shard)?),
-        _ => None,
+        Some(state) if !arguments.common.restart => resume(state, path, &plan, shard)?,
+        _ => run::Progress::new(&plan, shard),
     };
-    let start = start.unwrap_or_else(|| run::Progress::new(&plan, shard));
-
     let progress = Progress::new(streams.progress, "cases", Some(cases));
     progress.resume_at(start.tally.cases);
     let save = |progressed: &run::Progress| {
@@ -218,10 +213,9 @@ fn kept_state(path: &Path) -> Result<Option<run::Progress>, InputError> {
         read => read.map_err(|error| usage(format!("the checkpoint {error}")))?,
     };
     serde_json::from_str(&text).map(Some).map_err(|error| {
-        let error = error.to_string();
         usage(format!(
             "{name} is not a checkpoint ({}); name another file by --checkpoint, or remove this one",
-            printable(&error)
+            printable(&error.to_string())
         ))
     })
 }
@@ -233,16 +227,13 @@ fn resume(
     plan: &Plan,
     shard: Shard,
 ) -> Result<run::Progress, InputError> {
-    let name = printable_path(path);
+    let is_not = |why: String| {
+        usage(format!("the checkpoint {} was {why}; --restart ignores it", printable_path(path)))
+    };
     if !progress.belongs_to(plan, shard) {
-        let what = "was made by other options or other code; --restart ignores it";
-        return Err(usage(format!("the checkpoint {name} {what}")));
+        return Err(is_not("made by other options or other code".to_owned()));
     }
-    progress.check().map_err(|error| {
-        usage(format!(
-            "the checkpoint {name} was changed or is damaged: {error}; --restart ignores it"
-        ))
-    })?;
+    progress.check().map_err(|error| is_not(format!("changed or is damaged: {error}")))?;
     Ok(progress)
 }
 
@@ -253,19 +244,14 @@ fn issue(certificate: &Certificate, file: Option<&Output>, streams: &mut Streams
     }
     let done = &certificate.done;
     let wrong = done.examples.iter().map(|example| format!("wrong: {}", printable(&example.what)));
-    let Shard { part, parts } = certificate.shard;
+    let (Shard { part, parts }, timing) = (certificate.shard, &certificate.timing);
     let whole = parts == 1;
     let agrees = certificate.agrees() && (!whole || certificate.is_complete());
-    let sentence = format!(
-        "{} of {} cases{}, {} comparisons, {} wrong, {:.1} s on {} threads",
-        done.cases,
-        certificate.expected.cases,
-        if whole { String::new() } else { format!(" (shard {part} of {parts})") },
-        done.comparisons,
-        done.mismatches,
-        certificate.timing.seconds,
-        certificate.timing.threads,
-    );
+    let shard = if whole { String::new() } else { format!(" (shard {part} of {parts})") };
+    let (cases, expected) = (done.cases, certificate.expected.cases);
+    let counts = format!("{} comparisons, {} wrong", done.comparisons, done.mismatches);
+    let time = format!("{:.1} s on {} threads", timing.seconds, timing.threads);
+    let sentence = format!("{cases} of {expected} cases{shard}, {counts}, {time}");
     let report = Report {
         about: certificate.identity.plan.enumeration().words(),
         notes: wrong.collect(),

@@ -49,7 +49,7 @@ pub struct InspectArguments {
     #[arg(long, value_name = "FAULT", value_parser = rasterproof_faults::planted::names(), hide_possible_values = true)]
     plant: Option<String>,
     /// Explain this pixel: edge values, ties, the rule, the span
-    #[arg(long, value_name = "X,Y", value_parser = parse_pixel_option, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel, allow_hyphen_values = true)]
     pixel: Option<PixelPoint>,
     #[command(flatten)]
     view: ViewArguments,
@@ -63,10 +63,6 @@ pub struct InspectArguments {
 /// Largest side of a window to look at: every engine gets a panel of the picture.
 const MOST_SIDE_PX: u32 = 2048;
 
-fn parse_pixel_option(text: &str) -> Result<PixelPoint, String> {
-    parse_pixel(text).map_err(|failure| failure.to_string())
-}
-
 fn parse_window(text: &str) -> Result<PixelRect, String> {
     let wrong = || {
         format!(
@@ -75,40 +71,21 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
     };
     let (origin, size) = text.trim().rsplit_once(',').map_or((None, text), |(o, s)| (Some(o), s));
     let (width, height) = size.split_once('x').ok_or_else(wrong)?;
-    let side = |text: &str| text.parse::<u32>().ok().filter(|s| (1..=MOST_SIDE_PX).contains(s));
-    let (width, height) = (side(width).ok_or_else(wrong)?, side(height).ok_or_else(wrong)?);
-    let (x0, y0) = match origin {
-        None => (0, 0),
-        Some(origin) => {
-            let (x, y) = origin.split_once(',').ok_or_else(wrong)?;
-            (x.parse::<i32>().map_err(|_| wrong())?, y.parse::<i32>().map_err(|_| wrong())?)
-        }
+    let (x0, y0) = origin.unwrap_or("0,0").split_once(',').ok_or_else(wrong)?;
+    let range = |start: &str, side: &str| {
+        let side = side.parse().ok().filter(|side| (1..=MOST_SIDE_PX as i32).contains(side))?;
+        let start = start.parse::<i32>().ok()?;
+        Some((start, start.checked_add(side)?))
     };
-    let end = |start: i32, side: u32| start.checked_add(side as i32).ok_or_else(wrong);
-    Ok(PixelRect { x0, y0, x1: end(x0, width)?, y1: end(y0, height)? })
+    let (x0, x1) = range(x0, width).ok_or_else(wrong)?;
+    let (y0, y1) = range(y0, height).ok_or_else(wrong)?;
+    Ok(PixelRect { x0, y0, x1, y1 })
 }
 
 /// Whether the case has other corners than those typed, by the grid.
 fn is_snapped(case: &Case, typed: &[FreeCorners]) -> bool {
     let Shape::Triangles { list, .. } = &case.shape else { return false };
     list.iter().map(|triangle| FreeCorners::from(triangle.corners())).ne(typed.iter().copied())
-}
-
-/// A pixel that is to be explained lies in what is drawn.
-fn in_window(window: PixelRect, at: PixelPoint) -> Result<(), InputError> {
-    if window.contains(at.x, at.y) {
-        return Ok(());
-    }
-    Err(usage(format!(
-        "pixel {},{} lies outside the window: add --window X,Y,WIDTHxHEIGHT",
-        at.x, at.y
-    )))
-}
-
-/// A planted fault that has no part in a case cannot be shown by it.
-fn no_part(plant: Option<&String>) -> InputError {
-    let name = plant.map_or("", String::as_str);
-    usage(format!("{name} is in no engine that draws this case. See: {} list", program()))
 }
 
 pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<'_>) -> Status {
@@ -157,8 +134,10 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         case.window = window;
     }
     let w = case.window;
-    if let Some(at) = arguments.pixel {
-        in_window(w, at)?;
+    if let Some(PixelPoint { x, y }) = arguments.pixel.filter(|at| !w.contains(at.x, at.y)) {
+        return Err(usage(format!(
+            "pixel {x},{y} lies outside the window: add --window X,Y,WIDTHxHEIGHT"
+        )));
     }
     about.push(title.clone());
     about.push(format!("window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1));
@@ -168,7 +147,10 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     let judged = case_view::judged(arguments.plant.as_deref());
     let mut shown = case_view::draw(&case, &judged);
     if shown.is_empty() {
-        return Err(no_part(arguments.plant.as_ref()));
+        let (name, program) = (arguments.plant.as_deref().unwrap_or_default(), program());
+        return Err(usage(format!(
+            "{name} is in no engine that draws this case. See: {program} list"
+        )));
     }
     let specimen = add_specimen(arguments, &case, &mut shown)?;
     #[cfg(feature = "vulkan")]
@@ -208,13 +190,10 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     }
     let agrees = rows.iter().all(|row| row.mark != Mark::Wrong);
     report.tables = vec![Table::new("", "~found 1", rows).judged()];
-    report.outcome = Some(match (is_compared, agrees) {
-        (false, _) => {
-            let why = "No pixel of this window is drawn; name another --window.";
-            Outcome::not_compared(why)
-        }
-        (_, true) => Outcome::of(true, "every engine draws what the oracle draws"),
-        (_, false) => Outcome::of(false, "not every engine draws what the oracle draws"),
+    let not = if agrees { "" } else { "not " };
+    report.outcome = Some(match is_compared {
+        true => Outcome::of(agrees, format!("{not}every engine draws what the oracle draws")),
+        false => Outcome::not_compared("No pixel of this window is drawn; name another --window."),
     });
     let unasked = arguments.page.place.output("inspect.png");
     let picture = picture::png(&shown.picture(&title, &case));
@@ -238,20 +217,19 @@ fn explained(
 ) -> Option<Excerpt> {
     let at = arguments.pixel?;
     let hits = shown.map(|shown| format!("hits of ({}, {}): {}", at.x, at.y, shown.hits(at)));
-    let notes = hits.into_iter().collect();
-    Some(Excerpt { grid: explain::pixel(case, at), notes, ..Excerpt::default() })
+    let (grid, notes) = (explain::pixel(case, at), Vec::from_iter(hits));
+    Some(Excerpt { grid, notes, ..Excerpt::default() })
 }
 
 /// What everybody draws, as characters.
 fn drawn(title: &str, notes: Option<String>, shown: &case_view::Shown, columns: usize) -> Excerpt {
     let grid = ascii::side_by_side(&shown.blocks(), columns);
-    let (title, notes) = (title.to_owned(), notes.into_iter().collect());
+    let (title, notes) = (title.to_owned(), Vec::from_iter(notes));
     Excerpt { title, grid, notes, ..Excerpt::default() }
 }
 
 fn finding(is_right: bool, what: String) -> Row {
-    let mark = if is_right { Mark::Plain } else { Mark::Wrong };
-    Row { cells: vec![what], mark, ..Row::default() }
+    Row::of(&[&what]).marked(is_right)
 }
 
 /// Draws the case on the Vulkan device that is named: how it stands to the oracle.
@@ -307,21 +285,19 @@ fn cropped(case: &Case, arguments: &InspectArguments, is_face: bool) -> Vec<Stri
     let w = case.window;
     let mut out = Vec::new();
     let is_around = arguments.window.is_none() && (is_face || words(&arguments.case).len() > 1);
+    let (columns, rows) = (w.width(), w.height());
     if is_around && !is_whole(case) {
         let all = box_of(case);
         let [width, height] =
             [(all.x0, all.x1), (all.y0, all.y1)].map(|(from, to)| to.saturating_sub(from) - 3);
         out.push(format!(
-            "cropped: the shape is {width} x {height} px, the window {} x {}; see more with --window",
-            w.width(),
-            w.height()
+            "cropped: the shape is {width} x {height} px, the window {columns} x {rows}; see more with --window"
         ));
     }
-    if w.width() > ascii::MOST_COLUMNS || w.height() > ascii::MOST_ROWS {
+    let (shown, high) = (columns.min(ascii::MOST_COLUMNS), rows.min(ascii::MOST_ROWS));
+    if (shown, high) != (columns, rows) {
         out.push(format!(
-            "cropped: the grids show {} x {} pixels from the first that differs or is drawn",
-            w.width().min(ascii::MOST_COLUMNS),
-            w.height().min(ascii::MOST_ROWS)
+            "cropped: the grids show {shown} x {high} pixels from the first that differs or is drawn"
         ));
     }
     out

@@ -66,29 +66,22 @@ pub(super) fn find(arguments: &CaseArguments) -> Result<Found, InputError> {
         [word] => called(word, arguments)?,
         _ => triangles(&words, arguments.exact, None)?,
     };
-    if !arguments.exact {
-        return Ok(found);
-    }
-    off_lattice(found)
+    if arguments.exact { off_lattice(found) } else { Ok(found) }
 }
 
 /// The same corners, for those who do not snap.
 pub(super) fn off_lattice(found: Found) -> Result<Found, InputError> {
     match found {
-        Found::Case {
-            title,
-            case: Case { window, shape: Shape::Triangles { list, .. } },
-            typed,
-            ..
-        } => {
-            let snapped = || list.iter().map(|t| FreeCorners::from(t.corners())).collect();
-            let triangles = if typed.is_empty() { snapped() } else { typed };
-            Ok(plain(title, Case::unsnapped(window, triangles)))
-        }
-        Found::Case { case: Case { shape: Shape::Lines(_), .. }, .. } => {
-            Err(usage("lines join whole pixels: leave out --exact"))
-        }
-        found => Ok(found),
+        Found::Case { title, case, expected, typed } => match case.shape {
+            Shape::Triangles { list, .. } => {
+                let snapped = || list.iter().map(|t| FreeCorners::from(t.corners())).collect();
+                let triangles = if typed.is_empty() { snapped() } else { typed };
+                Ok(plain(title, Case::unsnapped(case.window, triangles)))
+            }
+            Shape::Lines(_) => Err(usage("lines join whole pixels: leave out --exact")),
+            Shape::Unsnapped { .. } => Ok(Found::Case { title, case, expected, typed }),
+        },
+        found @ Found::Refused { .. } => Ok(found),
     }
 }
 
@@ -125,7 +118,8 @@ fn lines(words: &[String]) -> Result<Found, InputError> {
         _ => format!("{} lines", list.len()),
     };
     let ends = list.iter().flat_map(|line| line.ends.map(|end| [end.pixel.x, end.pixel.y]));
-    let window = around(ends);
+    let all = all_around(ends);
+    let window = PixelRect { x1: cut(all.x0, all.x1), y1: cut(all.y0, all.y1), ..all };
     Ok(plain(title, Case { window, shape: Shape::Lines(list) }))
 }
 
@@ -348,12 +342,6 @@ fn window_of(list: &[Triangle], screen: Option<PixelRect>) -> PixelRect {
 /// The end of a window that begins here.
 fn cut(start: i32, end: i32) -> i32 {
     end.min(start.saturating_add(MOST_AROUND_PX))
-}
-
-/// The pixels around these, with one to spare, and no more than are shown.
-fn around(pixels: impl Iterator<Item = [i32; 2]> + Clone) -> PixelRect {
-    let all = all_around(pixels);
-    PixelRect { x1: cut(all.x0, all.x1), y1: cut(all.y0, all.y1), ..all }
 }
 
 /// The pixels around these, with one to spare.

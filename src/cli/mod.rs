@@ -40,7 +40,8 @@ mod vulkan;
 pub mod wrap;
 
 use std::error::Error;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
+use std::fmt::Display;
 use std::io::{self, BufRead, Write};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -59,6 +60,7 @@ use typed::Typed;
 use wrap::Folded;
 
 use rasterproof_registry::engines;
+use rasterproof_render::scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases;
@@ -202,16 +204,15 @@ pub struct Streams<'a> {
     pub delivery: Delivery,
 }
 
-/// Whether a word is a coordinate such as -1.5,3, which is no option.
-fn is_coordinate(word: &str) -> bool {
-    let number = |c: char| c.is_ascii_digit() || c == '.';
-    word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
+/// Whether a word is a negative number such as -1 or -1/2, which is no option.
+fn is_negative(word: &str) -> bool {
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
+    word.strip_prefix('-').is_some_and(|rest| rest.starts_with(is_of_number))
 }
 
-/// Whether a word is a negative number such as -1 or -1/2, which is no option either.
-fn is_negative(word: &str) -> bool {
-    word.strip_prefix('-')
-        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
+/// Whether a word is a coordinate such as -1.5,3, which is no option either.
+fn is_coordinate(word: &str) -> bool {
+    word.contains(',') && is_negative(word)
 }
 
 /// The arguments, and the same as a command that can be printed.
@@ -223,57 +224,43 @@ fn parse(words: Vec<OsString>) -> Result<(Arguments, Typed), clap::Error> {
     for word in words {
         let text = word.to_str().unwrap_or_default();
         ours &= text != "--";
-        let option = given.last().and_then(|last| last.to_str());
-        let option = option.filter(|last| last.starts_with("--") && !last.contains('='));
+        let option = given.last_mut().filter(|_| ours && is_negative(text));
+        let is_option = |last: &OsStr| {
+            last.to_str().is_some_and(|last| last.starts_with("--") && !last.contains('='))
+        };
         if ours && is_coordinate(text) {
             given.push(format!(" {text}").into());
-        } else if ours
-            && is_negative(text)
-            && let Some(option) = option
-        {
-            let joined = format!("{option}={text}");
-            given.pop();
-            given.push(joined.into());
+        } else if let Some(option) = option.filter(|last| is_option(last)) {
+            option.push(format!("={text}"));
         } else {
             given.push(word);
         }
     }
-    let words = given;
     let mut command = Arguments::command();
-    let matches = command.try_get_matches_from_mut(words)?;
+    let matches = command.try_get_matches_from_mut(given)?;
     let arguments =
         Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
     Ok((arguments, Typed::of(&command, &matches)))
 }
 
-/// What is printed for a command line that is not run: help and the version, which were asked for, or an error.
-struct Refusal {
-    words: String,
-    is_error: bool,
-}
-
-/// What the parser says of words that it refuses. It repeats them as they are, so they are made
-/// printable before.
-fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
+/// What the parser says of words that it refuses, or that ask for help or the version. It repeats them as they are, so they are
+/// made printable before.
+fn refusal(mut error: clap::Error, words: &[OsString]) -> String {
     let shown = |word: &OsString| printable(&word.to_string_lossy()).into_owned();
-    let is_error = error.use_stderr();
-    let not_text = words.iter().filter(|word| word.to_str().is_none());
-    let not_text: Vec<_> = not_text.map(shown).collect();
     let is_not_text = error.kind() == ErrorKind::InvalidUtf8;
     let has_hidden = |word: &OsString| word.to_string_lossy().chars().any(is_hidden);
-    let error = if words.iter().any(has_hidden) && !is_not_text {
-        parse(words.iter().map(|word| shown(word).into()).collect()).err().unwrap_or(error)
-    } else {
-        error
-    };
+    if words.iter().any(has_hidden) && !is_not_text {
+        error = parse(words.iter().map(|word| shown(word).into()).collect()).err().unwrap_or(error);
+    }
     let mut text = printable_lines(&error.render().to_string()).into_owned();
     if is_not_text {
-        text += &format!("not UTF-8: {}\n", not_text.join(", "));
+        let not_text = words.iter().filter(|word| word.to_str().is_none()).map(shown);
+        text += &format!("not UTF-8: {}\n", not_text.collect::<Vec<_>>().join(", "));
     }
     if matches!(error.kind(), ErrorKind::MissingRequiredArgument | ErrorKind::UnknownArgument) {
         text += &examples(words);
     }
-    Refusal { words: text, is_error }
+    text
 }
 
 /// The first examples of the help of the command that is called, for who has not said enough.
@@ -299,19 +286,20 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let (arguments, typed) = match parse(words.clone()) {
         Ok(parsed) => parsed,
         Err(error) => {
+            let is_error = error.use_stderr();
             let text = refusal(error, &words);
             let output = &mut Delivered::new(streams.output, &delivery);
             let errors = &mut Delivered::new(streams.errors, &delivery);
-            let (stream, columns): (&mut Delivered<'_>, _) = match text.is_error {
+            let (stream, columns): (&mut Delivered<'_>, _) = match is_error {
                 true => (errors, error_columns),
                 // Help is laid out for the usual width.
                 false if columns < wrap::USUAL => (output, columns),
                 false => (output, usize::MAX),
             };
             let mut folded = Folded::new(stream, columns, wrap::NO_COMMAND.to_owned());
-            let _ = folded.write_all(text.words.as_bytes()).and_then(|()| folded.flush());
+            let _ = folded.write_all(text.as_bytes()).and_then(|()| folded.flush());
             report_loss(output, errors);
-            return delivery.status(if text.is_error { exit::USAGE } else { exit::AGREES });
+            return delivery.status(if is_error { exit::USAGE } else { exit::AGREES });
         }
     };
     quiet_engines();
@@ -451,15 +439,12 @@ pub fn quiet_engines() {
 
 fn list(streams: &mut Streams<'_>) -> Status {
     let speaking = engines::ENTRIES.iter().chain(&engines::SPECIMENS);
-    let speaking = speaking.map(|entry| (entry.name.to_owned(), entry.about));
-    let owned = |(name, about): (&str, &'static str)| (name.to_owned(), about);
-    let families = cases::families().map(|f| owned((f.name, f.about)));
-    let off_grid = cases::unsnapped::FAMILIES.iter().map(|f| owned((f.name, f.about)));
-    let named = rasterproof_render::scene::named::named().into_iter();
-    let named = named.map(|case| owned((case.name, case.about)));
-    let faults = rasterproof_faults::planted::all().map(owned);
-    let scenes = rasterproof_render::scene::chapters::entries();
-    let scenes = scenes.map(|entry| owned((entry.name, entry.about)));
+    let speaking = speaking.map(|entry| (entry.name, entry.about));
+    let families = cases::families().map(|f| (f.name, f.about));
+    let off_grid = cases::unsnapped::FAMILIES.iter().map(|f| (f.name, f.about));
+    let named = scene::named::named().into_iter().map(|case| (case.name, case.about));
+    let faults = rasterproof_faults::planted::all();
+    let scenes = scene::chapters::entries().map(|entry| (entry.name, entry.about));
     #[allow(unused_mut, reason = "with devices there are more")]
     let mut tables = vec![
         listed("Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER)", families),
@@ -476,9 +461,9 @@ fn list(streams: &mut Streams<'_>) -> Status {
 }
 
 /// A list under a title, what an entry is about beside its name.
-fn listed<'a>(title: &str, entries: impl Iterator<Item = (String, &'a str)>) -> Table {
-    let row = |(name, about): (String, &str)| Row::of(&[&name, &about]);
-    Table::new(title, "~name 1 | ~about 1", entries.map(row).collect())
+fn listed<'a>(title: &str, entries: impl Iterator<Item = (impl Display, &'a str)>) -> Table {
+    let rows = entries.map(|(name, about)| Row::of(&[&name, &about]));
+    Table::new(title, "~name 1 | ~about 1", rows.collect())
 }
 
 fn write_file(output: &Output, bytes: &[u8]) -> Result<(), InputError> {
@@ -522,15 +507,11 @@ fn did_you_mean(word: &str, names: impl Iterator<Item = &'static str>) -> String
 
 /// Refuses a name that promises another format than the bytes have.
 fn ends_in(path: &Path, wanted: &str, what: &str) -> Result<(), InputError> {
-    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted)) {
-        true => Ok(()),
-        false => {
-            let (path, format) = (printable_path(path), wanted.to_ascii_uppercase());
-            Err(usage(format!(
-                "{path}: {what} is written as {format}: end its name with .{wanted}"
-            )))
-        }
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted)) {
+        return Ok(());
     }
+    let (path, format) = (printable_path(path), wanted.to_ascii_uppercase());
+    Err(usage(format!("{path}: {what} is written as {format}: end its name with .{wanted}")))
 }
 
 /// Writes a picture and returns where, in words: a file that was asked for, or else one that costs a warning, and not the

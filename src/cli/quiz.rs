@@ -63,24 +63,18 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
         return paper(&asked, count.into(), arguments, language, streams);
     }
     let is_file = arguments.answers.as_os_str() != "-";
-    if !is_file {
+    let (mut text, mut name) = (String::new(), "standard input".to_owned());
+    if is_file {
+        text = input::read_text(&arguments.answers, limits::NOTE_BYTES)
+            .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?;
+        name = printable_path(&arguments.answers);
+    } else {
         read_files::note_standard_input();
     }
-    let text = if is_file {
-        input::read_text(&arguments.answers, limits::NOTE_BYTES)
-            .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?
-    } else {
-        String::new()
-    };
-    let mut file = text.as_bytes();
     let mut quiz = Quiz {
-        input: if is_file { &mut file } else { &mut *streams.input },
+        input: if is_file { &mut text.as_bytes() } else { &mut *streams.input },
         output: &mut *streams.output,
-        name: if is_file {
-            printable_path(&arguments.answers)
-        } else {
-            "standard input".to_owned()
-        },
+        name,
         line: 0,
         is_watched: streams.progress && !is_file,
         language,
@@ -157,28 +151,20 @@ const PHRASES: [[&str; 3]; 2] = [["Right", "No", "Passed"], ["对", "不对", "�
 
 impl Quiz<'_> {
     fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Status {
-        let (mut answered, mut right, all) = (0, 0, asked.len());
-        for (i, &(chapter, exercise)) in asked.iter().enumerate() {
-            let head = format!("{} / {all}  {}", i + 1, chapter.name(self.language));
-            match self.ask(&head, exercise)? {
-                None => break,
-                Some(is_right) => {
-                    answered += 1;
-                    right += usize::from(is_right);
-                }
-            }
+        let (mut left, mut right, all) = (asked.len(), 0, asked.len());
+        for (number, &(chapter, exercise)) in (1..).zip(asked) {
+            let head = format!("{number} / {all}  {}", chapter.name(self.language));
+            let Some(is_right) = self.ask(&head, exercise)? else { break };
+            left -= 1;
+            right += usize::from(is_right);
         }
-        let left = all - answered;
-        match self.language {
-            Language::English => {
-                let rest = if left > 0 { format!(", {left} not answered") } else { String::new() };
-                writeln!(self.output, "{right} of {all} right{rest}")?;
-            }
-            Language::Chinese => {
-                let rest = if left > 0 { format!("，{left} 题未答") } else { String::new() };
-                writeln!(self.output, "{all} 题答对 {right} 题{rest}")?;
-            }
-        }
+        let said = match (self.language, left) {
+            (Language::English, 0) => format!("{right} of {all} right"),
+            (Language::English, left) => format!("{right} of {all} right, {left} not answered"),
+            (Language::Chinese, 0) => format!("{all} 题答对 {right} 题"),
+            (Language::Chinese, left) => format!("{all} 题答对 {right} 题，{left} 题未答"),
+        };
+        writeln!(self.output, "{said}")?;
         Ok(exit::of(right == all))
     }
 

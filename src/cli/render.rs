@@ -28,7 +28,7 @@ use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::thousands;
 use rasterproof_report::{json, picture};
 use rasterproof_study::ties::classify;
@@ -147,10 +147,8 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let mut drawings = draw(arguments, scene, &progress)?;
     let picture = picture::png(&picture::of_frame(&drawings[0].rendered.picture));
     let comparison = compare(scene, &drawings, arguments.plan.is_some())?;
-    let by_rounding = match arguments.wireframe {
-        true => None,
-        false => Some(by_rounding(scene, &drawings[0].target)?),
-    };
+    let by_rounding =
+        (!arguments.wireframe).then(|| by_rounding(scene, &drawings[0].target)).transpose()?;
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
     // What a plan changes in both frames alike is no difference between them.
@@ -168,16 +166,11 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     if arguments.json {
         // With its scene the plan can be drawn by.
         drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
-        let (name, names, first) = (&scene.name, names(&drawings), &drawings[0].rendered);
-        data = json::value(&Data {
-            scene: name,
-            engines: names,
-            times: &times,
-            counters: &first.counters,
-            plan: &first.plan,
-            comparison: &comparison,
-            by_rounding: &by_rounding,
-        });
+        let Rendered { counters, plan, .. } = &drawings[0].rendered;
+        let (scene, engines, times) = (&scene.name, names(&drawings), &times);
+        let (comparison, by_rounding) = (&comparison, &by_rounding);
+        data =
+            json::value(&Data { scene, engines, times, counters, plan, comparison, by_rounding });
     }
     let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
     if is_empty(&drawings[0].rendered) {
@@ -231,13 +224,10 @@ fn compare(
     if is_nothing_drawn(drawings) {
         return Ok(None);
     }
-    let ties = if a.is_complete && b.is_complete {
-        let engines = [Engine::Scanline, Engine::EdgeFunction];
-        let drawn = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawings[i].target });
-        Some(undecided::find(scene, drawn)?)
-    } else {
-        None
-    };
+    let drawn = [(Engine::Scanline, a), (Engine::EdgeFunction, b)];
+    let drawn = drawn.map(|(engine, drawing)| Drawn { engine, target: &drawing.target });
+    let is_complete = a.is_complete && b.is_complete;
+    let ties = is_complete.then(|| undecided::find(scene, drawn)).transpose()?;
     let (first, second) = ((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
     let mut comparison = frame_comparison::compare(first, second, ties.as_ref());
     comparison.wrong_pixels += a.unplanned + b.unplanned;
@@ -267,8 +257,8 @@ const ROUNDING_IN_TILES: [&str; 2] =
 fn rounding(found: ByRounding, [what, reach]: [&str; 2]) -> Option<String> {
     let (x, y) = found.first?;
     let pixels = match found.pixels {
-        1 => "1 pixel has".to_owned(),
-        count => format!("{count} pixels have"),
+        1 => "1 pixel has",
+        count => &format!("{count} pixels have"),
     };
     Some(format!(
         "ROUNDING: {pixels} two surfaces nearer to each other than {reach}; {what} decides which one is \
@@ -286,8 +276,7 @@ fn outcome(
         return is_nothing_drawn(drawings).then(|| Outcome::not_compared(NOTHING_DRAWN));
     };
     let names = names(drawings).join(" and ");
-    let (wrong, pixels, wrong_depths, depths) =
-        (c.wrong_pixels, c.pixels, c.wrong_depths, c.depths);
+    let Comparison { wrong_pixels: wrong, pixels, wrong_depths, depths, .. } = c;
     let sentence = if c.agrees() {
         format!("{names}, {pixels} pixels and {depths} depths, 0 differ")
     } else if is_plan_alone(c, drawings) {
@@ -486,11 +475,6 @@ fn draw_in_tiles(
     let mut target = arguments.what.view.target()?;
     let size = target.size();
     let scene = &maker.scene;
-    let exact = || {
-        let mut target = arguments.what.view.target()?;
-        let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
-        Ok::<_, InputError>(exact?.picture)
-    };
     let division = Division::new(scene, size.width(), size.height())?;
     let handed_over = division.handed_over;
     let start = Instant::now();
@@ -507,18 +491,15 @@ fn draw_in_tiles(
         _ => "tiles and scanline",
     };
     let mut notes = vec![times_text(&times, &[name])];
-    for (count, reason) in [
+    let beyond_f32 = "are of an item with values beyond 2^62, which may overflow in f32";
+    let reasons = [
         (handed_over.in_shadows, "are in a scene with shadows"),
         (handed_over.not_opaque, "are of a material that is not opaque"),
         (handed_over.physical, "are of a physical material"),
-        (
-            handed_over.beyond_f32,
-            "are of an item with values beyond 2^62, which may overflow in f32",
-        ),
-    ] {
-        if count > 0 {
-            notes.push(format!("{count} of {all} triangles {reason}: handed to scanline"));
-        }
+        (handed_over.beyond_f32, beyond_f32),
+    ];
+    for (count, reason) in reasons.into_iter().filter(|(count, _)| *count > 0) {
+        notes.push(format!("{count} of {all} triangles {reason}: handed to scanline"));
     }
     let is_handed_over = handed_over.triangles() == all;
     if streams.save(output, &picture::png(&picture::of_frame(&picture))) {
@@ -527,7 +508,9 @@ fn draw_in_tiles(
         notes.push(format!("drawn {}in {path}", if is_handed_over { "" } else { &tiles }));
     }
     if !is_handed_over {
-        let differing = frame_comparison::differing(&picture, &exact()?);
+        let mut other = arguments.what.view.target()?;
+        let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut other)?;
+        let differing = frame_comparison::differing(&picture, &exact.picture);
         if differing > 0 {
             let pixels = u64::from(size.width()) * u64::from(size.height());
             notes.push(format!("{differing} of {pixels} pixels differ from those of scanline"));
@@ -554,8 +537,10 @@ fn map(
     streams: &mut Streams<'_>,
 ) -> Status {
     let mut target = arguments.what.view.target()?;
-    let edges = arguments.engine == DrawnBy::EdgeFunction;
-    let drawer = if edges { Drawer::EdgeFunction } else { Drawer::Scanline };
+    let drawer = match arguments.engine {
+        DrawnBy::EdgeFunction => Drawer::EdgeFunction,
+        _ => Drawer::Scanline,
+    };
     let effects = arguments.effects.unwrap_or(Effects::PLANNED);
     let (rendered, map) = drawer.render_mapped(scene, &effects, &mut target)?;
     let title = format!("{}: what each pixel pays for", scene.name);
@@ -563,7 +548,7 @@ fn map(
     let drawn_in = saved(output, &picture, streams);
     let row = |effect: Effect| {
         let paid = frame_comparison::paid(&map.effects, effect);
-        vec![effect.name().to_owned(), thousands(paid)].into()
+        Row::of(&[&effect.name(), &thousands(paid)])
     };
     let amounts = [("fragments", &map.fragments), ("effects of fragments", &map.payments)];
     let notes = amounts.map(|(what, counts)| {
@@ -616,13 +601,9 @@ fn spin(
         }
     }
     let drawn_in = saved(output, &bytes, streams);
-    let mut notes = Vec::new();
-    for (pixels, what) in [(undecided, "where surfaces tie"), (far, "by large texture coordinates")]
-    {
-        if pixels > 0 {
-            notes.push(format!("UNDECIDED: {pixels} pixels, {what}"));
-        }
-    }
+    let open = [(undecided, "where surfaces tie"), (far, "by large texture coordinates")];
+    let open = open.into_iter().filter(|(pixels, _)| *pixels > 0);
+    let notes = open.map(|(pixels, what)| format!("UNDECIDED: {pixels} pixels, {what}")).collect();
     let agrees = arguments.engine != DrawnBy::Both || wrong == 0;
     let outcome = (arguments.engine == DrawnBy::Both).then(|| match is_compared {
         false => Outcome::not_compared(NOTHING_DRAWN),

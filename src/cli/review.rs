@@ -9,7 +9,7 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::io::Cursor;
+use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, RgbImage};
@@ -22,7 +22,7 @@ use rasterproof_host::text::{printable, printable_path, printable_short};
 use super::files::{self, Output, Use, written};
 use super::page::{self, Place};
 use super::{Status, Streams, exit, program, usage};
-use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report, TextDiff};
+use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report, TextDiff};
 use rasterproof_report::table::{Row, Table};
 
 #[derive(clap::Args, Debug)]
@@ -54,6 +54,7 @@ struct Pending {
     shown: Shown,
 }
 
+#[derive(Clone)]
 enum Shown {
     Picture(Vec<PictureLayer>),
     Text { old: Option<String>, new: String },
@@ -78,16 +79,14 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     found.sort();
     found.dedup();
     let mut left_px = limits::REVIEWED_PX;
-    let (mut pending, mut accepted) = (Vec::new(), 0);
-    let mut left_out = 0;
+    let (mut pending, mut accepted, mut left_out) = (Vec::new(), 0, 0);
     for path in &found {
         if pending.len() == MOST_LISTED {
             left_out += 1;
-            continue;
-        }
-        match look(path, &mut left_px) {
-            Some(one) => pending.push(one),
-            None => accepted += 1,
+        } else if let Some(one) = look(path, &mut left_px) {
+            pending.push(one);
+        } else {
+            accepted += 1;
         }
     }
     let default = || arguments.place.output("review.html");
@@ -99,8 +98,7 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     for warning in unread.iter().take(MOST_UNREAD) {
         writeln!(streams.errors, "warning: not looked into: {warning}")?;
     }
-    if unread.len() > MOST_UNREAD {
-        let more = unread.len() - MOST_UNREAD;
+    if let Some(more @ 1..) = unread.len().checked_sub(MOST_UNREAD) {
         writeln!(streams.errors, "warning: {more} more folders could not be looked into")?;
     }
     let mut notes = Vec::new();
@@ -124,7 +122,7 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     page::show(report, page::Shown::All, Some(output), status, streams)
 }
 
-fn cannot_read(folder: &Path, error: &std::io::Error) -> String {
+fn cannot_read(folder: &Path, error: &io::Error) -> String {
     format!("cannot read {}: {error}", printable_path(folder))
 }
 
@@ -133,47 +131,32 @@ fn cannot_read(folder: &Path, error: &std::io::Error) -> String {
 fn walk(top: &Path, found: &mut Vec<PathBuf>, unread: &mut Vec<String>) {
     let mut folders = vec![top.to_owned()];
     while let Some(folder) = folders.pop() {
-        let entries = match fs::read_dir(&folder) {
-            Ok(entries) => entries,
-            Err(error) => {
-                unread.push(cannot_read(&folder, &error));
-                continue;
-            }
-        };
-        for entry in entries {
-            let kind = entry.and_then(|entry| Ok((entry.file_type()?, entry)));
-            let (kind, entry) = match kind {
-                Ok(both) => both,
-                Err(error) => {
-                    unread.push(cannot_read(&folder, &error));
-                    continue;
-                }
-            };
-            let name = entry.file_name();
-            if kind.is_dir() && name != "target" && name != ".git" {
+        let mut look_at = |entry: io::Result<fs::DirEntry>| {
+            let entry = entry?;
+            let (is_dir, name) = (entry.file_type()?.is_dir(), entry.file_name());
+            if is_dir && name != "target" && name != ".git" {
                 folders.push(entry.path());
-            } else if !kind.is_dir() && name.to_string_lossy().ends_with(".snap.new") {
+            } else if !is_dir && name.to_string_lossy().ends_with(".snap.new") {
                 found.push(entry.path());
             }
-        }
+            Ok(())
+        };
+        let failed = match fs::read_dir(&folder) {
+            Ok(entries) => entries.filter_map(|entry| look_at(entry).err()).collect(),
+            Err(error) => vec![error],
+        };
+        unread.extend(failed.iter().map(|error| cannot_read(&folder, error)));
     }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    input::read(path, DOCUMENT_BYTES)
-}
-
-fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
-    match read(path) {
+/// The bytes of the file whose name is a path with an ending behind it, where there is one.
+fn read_if_there(path: &Path, ending: &str) -> Result<Option<Vec<u8>>, FileError> {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    match input::read(Path::new(&name), DOCUMENT_BYTES) {
         Err(error) if error.missing => Ok(None),
         other => other.map(Some),
     }
-}
-
-fn with_ending(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(ending);
-    PathBuf::from(name)
 }
 
 /// Lines end in a line feed alone, as insta compares them.
@@ -200,52 +183,51 @@ fn field<'a>(head: &'a str, name: &str) -> Option<&'a str> {
 /// listed with the reason, since it may hide a change.
 fn look(new_path: &Path, left_px: &mut u64) -> Option<Pending> {
     let path = new_path.with_extension("");
-    look_into(new_path, &path, left_px).unwrap_or_else(|error| {
-        let what = format!("cannot be shown: {error}");
-        Some(Pending { path, source: String::new(), what, shown: Shown::Nothing })
-    })
+    let mut source = String::new();
+    let found = match look_into(new_path, &path, &mut source, left_px) {
+        Err(error) => Some((format!("cannot be shown: {error}"), Shown::Nothing)),
+        Ok(found) => found,
+    };
+    found.map(|(what, shown)| Pending { path, source, what, shown })
 }
 
+/// What changed, and how it is shown; the test file goes into `source`.
 fn look_into(
     new_path: &Path,
     path: &Path,
+    source: &mut String,
     left_px: &mut u64,
-) -> Result<Option<Pending>, FileError> {
-    let text = text_of(&read(new_path)?);
+) -> Result<Option<(String, Shown)>, FileError> {
+    let text = text_of(&input::read(new_path, DOCUMENT_BYTES)?);
     let (head, new) = parse(&text);
-    let source = field(head, "source").unwrap_or("").to_owned();
-    let path = path.to_owned();
+    source.push_str(field(head, "source").unwrap_or(""));
     if field(head, "snapshot_kind") == Some("binary") {
         let ending = field(head, "extension").unwrap_or("bin");
         let shown_ending = printable_short(ending, 20);
         // It names a file beside this one, and no other.
         if ending.contains(['/', '\\']) {
             let what = format!("the ending {shown_ending} of its file is no ending");
-            return Ok(Some(Pending { path, source, what, shown: Shown::Nothing }));
+            return Ok(Some((what, Shown::Nothing)));
         }
         let ending = format!(".{ending}");
-        let bytes = read_if_there(&with_ending(new_path, &ending))?;
-        let old = read_if_there(&with_ending(&path, &ending))?;
-        let (what, shown) = match bytes {
+        let old = read_if_there(path, &ending)?;
+        return Ok(Some(match read_if_there(new_path, &ending)? {
             None if old.is_some() => return Ok(None),
             None => (format!("the new file X.snap.new.{shown_ending} is missing"), Shown::Nothing),
             Some(bytes) if ending == ".png" => pictures(old.as_deref(), &bytes, left_px),
             Some(bytes) => (format!("{} bytes that are no picture", bytes.len()), Shown::Nothing),
-        };
-        return Ok(Some(Pending { path, source, what, shown }));
+        }));
     }
-    let old = read_if_there(&path)?.map(|old| parse(&text_of(&old)).1.to_owned());
+    let old = read_if_there(path, "")?.map(|old| parse(&text_of(&old)).1.to_owned());
     if old.as_ref().is_some_and(|old| old.trim_end() == new.trim_end()) {
         return Ok(None);
     }
     let longest = old.as_ref().map_or(0, String::len).max(new.len());
-    let (what, shown) = if longest > limits::COMPARED_TEXT_BYTES {
-        (format!("a text of {longest} bytes, too long to show"), Shown::Nothing)
-    } else {
-        let what = if old.is_some() { "a changed text" } else { "a new text" };
-        (what.to_owned(), Shown::Text { old, new: new.to_owned() })
-    };
-    Ok(Some(Pending { path, source, what, shown }))
+    if longest > limits::COMPARED_TEXT_BYTES {
+        return Ok(Some((format!("a text of {longest} bytes, too long to show"), Shown::Nothing)));
+    }
+    let what = if old.is_some() { "a changed text" } else { "a new text" };
+    Ok(Some((what.to_owned(), Shown::Text { old, new: new.to_owned() })))
 }
 
 /// A picture of at most [`limits::SHOWN_SIDE_PX`] a side.
@@ -256,10 +238,8 @@ fn decode(bytes: &[u8], left_px: &mut u64) -> Result<RgbImage, String> {
         return Err(format!("{width} x {height} px is too large to show"));
     }
     *left_px = left_px.checked_sub(u64::from(width) * u64::from(height)).ok_or_else(|| {
-        format!(
-            "not looked into: the pictures before it have {} million pixels",
-            limits::REVIEWED_PX >> 20
-        )
+        let millions = limits::REVIEWED_PX >> 20;
+        format!("not looked into: the pictures before it have {millions} million pixels")
     })?;
     Ok(reader().decode().map_err(|e| e.to_string())?.to_rgb8())
 }
@@ -270,18 +250,16 @@ fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, Shown
         Ok(image) => image,
         Err(reason) => return (format!("no readable PNG: {reason}"), Shown::Nothing),
     };
-    let new_layer = PictureLayer::new("new", &image);
-    match old.map(|old| decode(old, left_px)) {
-        None => ("a new picture".to_owned(), Shown::Picture(vec![new_layer])),
-        Some(Err(reason)) => (
-            format!("a picture; the old one is not readable: {reason}"),
-            Shown::Picture(vec![new_layer]),
-        ),
-        Some(Ok(before)) => (
-            difference(&before, &image),
-            Shown::Picture(vec![PictureLayer::new("old", &before), new_layer]),
-        ),
-    }
+    let mut layers = vec![PictureLayer::new("new", &image)];
+    let what = match old.map(|old| decode(old, left_px)) {
+        None => "a new picture".to_owned(),
+        Some(Err(reason)) => format!("a picture; the old one is not readable: {reason}"),
+        Some(Ok(before)) => {
+            layers.insert(0, PictureLayer::new("old", &before));
+            difference(&before, &image)
+        }
+    };
+    (what, Shown::Picture(layers))
 }
 
 fn difference(old: &RgbImage, new: &RgbImage) -> String {
@@ -341,26 +319,18 @@ fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
     };
     let mut rows = Vec::new();
     for one in pending {
-        let name = printable_path(&one.path);
-        let cells = vec![format!("{name}: {}", one.what), accept(one), update(one)];
+        let (name, about, command) = (printable_path(&one.path), one.what.clone(), accept(one));
+        let row = Row::of(&[&format!("{name}: {about}"), &command, &update(one)]);
         let search = matches!(one.shown, Shown::Picture(_)).then(|| name.clone());
-        rows.push(Row { cells, search, ..Row::default() });
-        let (about, command) = (one.what.clone(), accept(one));
-        match &one.shown {
-            Shown::Picture(layers) => report.frames.push(PictureView {
-                name,
-                about,
-                command,
-                layers: layers.clone(),
-                ..PictureView::default()
-            }),
-            Shown::Text { old, new } => report.diffs.push(TextDiff {
-                name,
-                about,
-                command,
-                old: old.clone(),
-                new: new.clone(),
-            }),
+        rows.push(Row { search, ..row });
+        match one.shown.clone() {
+            Shown::Picture(layers) => {
+                let chapter = Chapter::default();
+                report.frames.push(PictureView { name, about, command, chapter, layers });
+            }
+            Shown::Text { old, new } => {
+                report.diffs.push(TextDiff { name, about, command, old, new });
+            }
             Shown::Nothing => {}
         }
     }

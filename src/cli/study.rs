@@ -341,8 +341,7 @@ pub(super) fn verify(
     let engine = |(name, fault): &(&'static str, Option<Fault>)| {
         let face = fault.as_ref().and_then(|fault| fault.triangle);
         let face = face.map(|one| face_of(&studied.scene, studied.origins, one));
-        let what = fault.as_ref().map(|fault| fault.what.clone());
-        json::Engine { engine: name, fault: what, face }
+        json::Engine { engine: name, fault: fault.as_ref().map(|fault| fault.what.clone()), face }
     };
     let row = |(name, fault): &(&str, Option<Fault>)| {
         let what = fault.as_ref().map_or("agrees", |fault| &fault.what);

@@ -7,7 +7,7 @@ use rasterproof_invariants::acceptance::rules::{RULES, Rule};
 use rasterproof_invariants::acceptance::{Acceptance, Row, report};
 use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, Ink, RED};
 use rasterproof_report::html::Report as Page;
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row as Cells, Table};
 use rasterproof_report::{cost_plots, json};
 
 use super::files::Output;
@@ -57,16 +57,12 @@ fn page(seed: u64, report: &Acceptance) -> Page {
     let (faults, right) = (report.faults.len(), report.right.len());
     let caught = sets(report).map(|(title, rows, scenes, visible)| {
         let row = |(rule, row): (&Rule, &Row)| {
-            let of = |part: u64, whole: u64| format!("{part}/{whole}");
-            vec![
-                rule.name.to_owned(),
-                of(row.caught.len() as u64, faults as u64),
-                of(row.refused_pictures, row.wrong_pictures),
-                of(row.refused_right.len() as u64, right as u64),
-                of(row.refused_right_pictures, row.right_pictures),
-                row.unusable_pictures.to_string(),
-            ]
-            .into()
+            let caught = format!("{}/{faults}", row.caught.len());
+            let wrong = format!("{}/{}", row.refused_pictures, row.wrong_pictures);
+            let refused = format!("{}/{right}", row.refused_right.len());
+            let pictures = format!("{}/{}", row.refused_right_pictures, row.right_pictures);
+            let unused = &row.unusable_pictures;
+            Cells::of(&[&rule.name, &caught, &wrong, &refused, &pictures, unused])
         };
         let columns = "rule 15 | >caught 8 faults that it refuses in at least one picture | >wrong refused 8 of the pictures \
                        that a fault changes | >right refused 8 right rasterizers that it refuses in at least one picture | \
@@ -78,8 +74,7 @@ fn page(seed: u64, report: &Acceptance) -> Page {
     let passes = sets(report).map(|(title, rows, ..)| {
         let row = |(rule, row): (&Rule, &Row)| {
             let Some((smallest, worst)) = row.smallest().zip(row.most_harmful()) else {
-                return vec![rule.name.to_owned(), "no fault that changes a pixel".to_owned()]
-                    .into();
+                return Cells::of(&[&rule.name, &"no fault that changes a pixel"]);
             };
             let of = |name: &str, wrong: u64, all: u64| format!("{name}, {wrong} of {all} px");
             let share = 100.0 * worst.wrong_pixels as f64 / worst.pixels as f64;
@@ -87,15 +82,15 @@ fn page(seed: u64, report: &Acceptance) -> Page {
                 let what = of(one.name, one.wrong_pixels, one.pixels);
                 format!("{what}: {}", one.scene)
             });
-            let smallest = of(smallest.name, smallest.wrong_pixels, smallest.pixels);
-            let worst = of(worst.name, worst.wrong_pixels, worst.pixels);
-            vec![rule.name.to_owned(), smallest, format!("{worst} ({share:.2}%)"), picture].into()
+            let [smallest, worst] =
+                [smallest, worst].map(|one| of(one.name, one.wrong_pixels, one.pixels));
+            Cells::of(&[&rule.name, &smallest, &format!("{worst} ({share:.2}%)"), &picture])
         };
         let columns = "~rule 15 | :smallest | :most harmful | :one picture";
         let rows = RULES.iter().zip(rows).map(row).collect();
         Table::new(&format!("What passes, on {title}"), columns, rows)
     });
-    let rule = |rule: &Rule| vec![rule.name.to_owned(), rule.about.to_owned()].into();
+    let rule = |rule: &Rule| Cells::of(&[&rule.name, &rule.about]);
     let rules = Table::new("The rules", "rule 15 | accepts 1", RULES.iter().map(rule).collect());
     Page {
         about: format!(

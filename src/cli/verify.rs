@@ -16,7 +16,7 @@ use super::{InputError, Status, Streams, exit, invariant, program, study, usage,
 use rasterproof_registry::comparison::Judged;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::{Excerpt, Report};
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 use rasterproof_report::{differential, json, page_cases, picture, summary};
 use rasterproof_verify::cases::{self, Case, Kind, Shape};
 use rasterproof_verify::comparison::{self, FamilyReport, Options, PairReport, Shard, Verdict};
@@ -114,17 +114,15 @@ impl TypedValueParser for EngineName {
         value: &std::ffi::OsStr,
     ) -> Result<String, clap::Error> {
         if let Some(name) = value.to_str().filter(|name| name.starts_with(VULKAN)) {
-            return match cfg!(feature = "vulkan") {
-                true => Ok(name.to_owned()),
-                false => Err(clap::Error::raw(
-                    clap::error::ErrorKind::InvalidValue,
-                    format!(
-                        "this program was built without Vulkan devices; build it with them:\n  \
-                         cargo run --features vulkan -- verify --engine {name}\n"
-                    ),
-                )
-                .with_cmd(command)),
-            };
+            if cfg!(feature = "vulkan") {
+                return Ok(name.to_owned());
+            }
+            let why = format!(
+                "this program was built without Vulkan devices; build it with them:\n  \
+                 cargo run --features vulkan -- verify --engine {name}\n"
+            );
+            let kind = clap::error::ErrorKind::InvalidValue;
+            return Err(clap::Error::raw(kind, why).with_cmd(command));
         }
         PossibleValuesParser::new(judged_names()).parse_ref(command, argument, value)
     }
@@ -235,10 +233,8 @@ fn judge(judged: &Judged, options: &Options, on_terminal: bool) -> Verdict {
     let families = families.flat_map(|((_, families), _)| *families).filter(|f| {
         options.families.is_empty() || options.families.iter().any(|n| n.as_str() == f.name)
     });
-    let total = options
-        .time_limit
-        .is_none()
-        .then(|| (families.count() as u64).saturating_mul(options.cases) / options.shard.parts());
+    let cases = (families.count() as u64).saturating_mul(options.cases) / options.shard.parts();
+    let total = options.time_limit.is_none().then_some(cases);
     let progress = Progress::new(on_terminal, "cases", total);
     judged.judge(options, &|cases| progress.done(cases))
 }
@@ -289,12 +285,7 @@ impl Run<'_> {
             title: "Verdict of rasterproof".to_owned(),
             about: format!("rasterproof {version}, seed {seed}{shard}"),
             outcome: Some(differential::outcome(verdict)),
-            excerpts: verdict
-                .failures
-                .first()
-                .map(|first| self.excerpt(first))
-                .into_iter()
-                .collect(),
+            excerpts: Vec::from_iter(verdict.failures.first().map(|first| self.excerpt(first))),
             command: self.repeat_all().line(),
             repeat: self.repeat_all().without_output().line(),
             first_screen,
@@ -308,19 +299,14 @@ impl Run<'_> {
     /// The smallest failure with its pixels.
     fn excerpt(&self, failure: &comparison::Failure) -> Excerpt {
         let shown = case_view::draw(&failure.case, &self.judged);
-        let blocks = shown.judged_blocks(&failure.evidence.pair[0]);
-        let grid = blocks.map_or(String::new(), |blocks| {
+        let engine = &failure.evidence.pair[0];
+        let grid = shown.judged_blocks(engine).map_or(String::new(), |blocks| {
             format!("{}\n{}", ascii::side_by_side(&blocks, 60), ascii::LEGEND)
         });
         Excerpt {
             title: failure.to_string(),
             grid,
-            notes: self
-                .judged
-                .cause(&failure.evidence.pair[0])
-                .map(|cause| cause.headline())
-                .into_iter()
-                .collect(),
+            notes: Vec::from_iter(self.judged.cause(engine).map(|cause| cause.headline())),
             places: vec![
                 ("repeat with", self.repeat(failure.family, failure.index)),
                 ("explain it", self.explain(failure)),
@@ -336,7 +322,7 @@ impl Run<'_> {
         let row = |failure: &comparison::Failure| {
             let case = format!("{}#{}", failure.family, failure.index);
             let what = format!("{}: {} on", failure.evidence.pair[0], failure.what);
-            vec![case, what, comparison::shrink::describe(&failure.case)].into()
+            Row::of(&[&case, &what, &comparison::shrink::describe(&failure.case)])
         };
         let caption = "The smallest case of each other family";
         let columns = "~case 23 | ~what is wrong 1 | corners";
@@ -352,13 +338,13 @@ impl Run<'_> {
             Shape::Unsnapped { list, .. } => (list.len(), "--exact "),
         };
         let points = comparison::shrink::describe(&failure.case);
-        let plant = self.arguments.plant.as_ref().map(|name| format!(" --plant {name}"));
-        let plant = plant.unwrap_or_default();
         let comparison::Failure { family, index, seed, .. } = failure;
-        match list == 1 && comparison::shrink::has_plain_values(&failure.case) {
-            true => format!("{} inspect {words}{points}{plant}", program()),
-            false => format!("{} inspect {family}#{index} --seed {seed}{plant}", program()),
-        }
+        let case = match list == 1 && comparison::shrink::has_plain_values(&failure.case) {
+            true => format!("{words}{points}"),
+            false => format!("{family}#{index} --seed {seed}"),
+        };
+        let plant = self.arguments.plant.as_ref().map(|name| format!(" --plant {name}"));
+        format!("{} inspect {case}{}", program(), plant.unwrap_or_default())
     }
 
     /// The cases whose values came closest to their bounds, each with its family and the engine.
@@ -389,22 +375,22 @@ impl Run<'_> {
     /// verdict stands.
     fn write_sheet(&self, streams: &mut Streams<'_>) -> Result<Option<String>, InputError> {
         let drawn =
-            |title: String, case: &Case| case_view::draw(case, &self.judged).picture(&title, case);
+            |title: &str, case: &Case| case_view::draw(case, &self.judged).picture(title, case);
         let (name, pictures): (_, Vec<RgbImage>) = if self.verdict.agrees() {
             let worst = self.worst().into_iter().filter_map(|(family, pair)| {
                 let (name, index, engine) = (&family.family, pair.worst_case, &pair.actual);
-                let case =
-                    cases::families().find(|f| f.name == name)?.case(self.arguments.seed, index);
+                let family = cases::families().find(|f| f.name == name)?;
                 let title = format!("{name}#{index}: {engine} at {:.2} of a bound", pair.worst());
-                Some(drawn(title, &case))
+                Some(drawn(&title, &family.case(self.arguments.seed, index)))
             });
             ("worst.png", worst.collect())
         } else {
+            let drawn = |failure: &comparison::Failure| {
+                let text = failure.to_string();
+                drawn(text.lines().next().unwrap_or_default(), &failure.case)
+            };
             let failures = self.verdict.failures.iter().take(MOST_DRAWN);
-            (
-                "failures.png",
-                failures.map(|failure| drawn(heading(failure), &failure.case)).collect(),
-            )
+            ("failures.png", failures.map(drawn).collect())
         };
         if pictures.is_empty() {
             return Ok(None);
@@ -412,9 +398,4 @@ impl Run<'_> {
         let png = picture::png(&picture::stack(&pictures));
         write_picture(None, &self.arguments.page.place.output(name), &png, streams)
     }
-}
-
-/// The first line of what is said of a failure.
-fn heading(failure: &impl std::fmt::Display) -> String {
-    failure.to_string().lines().next().unwrap_or_default().to_owned()
 }

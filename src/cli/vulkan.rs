@@ -83,9 +83,7 @@ pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
 
 /// The hits of triangles in a window as a device draws them.
 pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Coverage, InputError> {
-    let failed = |error: rasterproof_vulkan::device::Error| usage(error.to_string());
-    let mut gpu = Gpu::named(engine).map_err(failed)?;
-    look::coverage(&mut gpu, list, window).map_err(failed)
+    Ok(look::coverage(&mut Gpu::named(engine)?, list, window)?)
 }
 
 pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, InputError> {

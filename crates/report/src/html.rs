@@ -225,28 +225,20 @@ pub fn page(report: &Report) -> String {
         }
     };
     let last = Instant::now() + limits::ALL_DIFFS_TIME;
-    let diffs: Vec<_> = report
-        .diffs
-        .iter()
-        .filter_map(|diff| {
-            kept(&diff.name, text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME)))
-        })
-        .collect();
-    let figures: Vec<_> =
-        report.figures.iter().filter_map(|f| kept(&f.caption, figure(f))).collect();
-    let cases: Vec<_> =
-        report.cases.iter().filter_map(|case| kept(&case.name, json(case))).collect();
-    let frames: Vec<_> =
-        report.frames.iter().filter_map(|view| kept(&view.name, json(view))).collect();
-    let data = format!(
-        "{{\"docs\":{},\"cases\":[{}],\"frames\":[{}]}}",
-        json(&report.docs),
-        cases.join(","),
-        frames.join(",")
-    );
-    let run = run(report, left_out);
-    let sections =
-        [("Plots", figures.concat()), ("Summary", tables), ("Texts", diffs.concat()), ("Run", run)];
+    let diff = |diff: &TextDiff| {
+        kept(&diff.name, text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME)))
+    };
+    let diffs: String = report.diffs.iter().filter_map(diff).collect();
+    let figures = report.figures.iter().filter_map(|one| kept(&one.caption, figure(one)));
+    let figures: String = figures.collect();
+    let cases = report.cases.iter().filter_map(|case| kept(&case.name, json(case)));
+    let cases = cases.collect::<Vec<_>>().join(",");
+    let frames = report.frames.iter().filter_map(|view| kept(&view.name, json(view)));
+    let frames = frames.collect::<Vec<_>>().join(",");
+    let docs = json(&report.docs);
+    let data = format!("{{\"docs\":{docs},\"cases\":[{cases}],\"frames\":[{frames}]}}");
+    let run = command(&report.command) + &notes(&report.notes, &left_out);
+    let sections = [("Plots", figures), ("Summary", tables), ("Texts", diffs), ("Run", run)];
     let has_cases = !cases.is_empty() || !frames.is_empty();
     let titles = sections.iter().filter(|(_, inside)| !inside.is_empty()).map(|(title, _)| *title);
     let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
@@ -270,14 +262,12 @@ pub fn page(report: &Report) -> String {
 
 /// The template with each `{{name}}` replaced once: what is put in is not looked at again.
 fn fill(part: impl Fn(&str) -> String) -> String {
-    let mut pieces = TEMPLATE.split("{{");
-    let mut out = pieces.next().unwrap_or("").to_owned();
-    for piece in pieces {
+    let (first, pieces) = TEMPLATE.split_once("{{").unwrap_or((TEMPLATE, ""));
+    let pieces = pieces.split("{{").map(|piece| {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        out.push_str(&part(name));
-        out.push_str(rest);
-    }
-    out
+        part(name) + rest
+    });
+    first.to_owned() + &pieces.collect::<String>()
 }
 
 /// JSON that cannot end the script element it stands in.
@@ -330,10 +320,6 @@ fn head(report: &Report) -> String {
     out
 }
 
-fn run(report: &Report, left_out: Vec<String>) -> String {
-    command(&report.command) + &notes(&report.notes, &left_out)
-}
-
 /// What an index says of a page stands in its head.
 const ABOUT: &str = "<meta name=\"rasterproof\" content=\"";
 
@@ -351,20 +337,18 @@ pub fn is_index(page: &str) -> bool {
 /// The index of the pages in a folder, each given by its file name and its text; nothing is said of
 /// what is no page of this program.
 pub fn index(pages: &[(String, String)]) -> String {
-    let rows: String = pages
-        .iter()
-        .filter_map(|(name, text)| {
-            let between = |from: &str, to: &str| {
-                let (_, rest) = text.split_once(from)?;
-                rest.split_once(to).map(|(inside, _)| inside).filter(|t| !t.contains('<'))
-            };
-            let (said, title) = (between(ABOUT, "\">")?, between("<title>", "</title>")?);
-            let name = escape(name);
-            Some(format!(
-                "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>\n"
-            ))
-        })
-        .collect();
+    let row = |(name, text): &(String, String)| {
+        let between = |from: &str, to: &str| {
+            let (_, rest) = text.split_once(from)?;
+            rest.split_once(to).map(|(inside, _)| inside).filter(|t| !t.contains('<'))
+        };
+        let (said, title) = (between(ABOUT, "\">")?, between("<title>", "</title>")?);
+        let name = escape(name);
+        Some(format!(
+            "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>\n"
+        ))
+    };
+    let rows: String = pages.iter().filter_map(row).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -441,9 +425,9 @@ fn rows(table: &Table) -> String {
             Mark::Sum => " class=\"sum\"",
         };
         let _ = write!(out, "<tr{class}>");
+        let rest = table.columns.len().saturating_sub(row.cells.len());
         for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
             let text = escape(cell);
-            let rest = table.columns.len() - row.cells.len().min(table.columns.len());
             let number = match column.is_number {
                 _ if rest > 0 && i + 1 == row.cells.len() => format!(" colspan=\"{}\"", rest + 1),
                 true => " class=\"number\"".to_owned(),
@@ -534,18 +518,13 @@ fn text_diff(diff: &TextDiff, deadline: Instant) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{Column, Row};
+    use crate::table::Row;
 
     /// Found line by line, the differences of these take minutes.
     #[test]
     fn texts_too_different_are_not_compared_to_the_end() {
         let text = |a: u32| (0..50_000u32).map(|i| format!("{}\n", (i * a) % 9973)).collect();
-        let diff = TextDiff {
-            name: "x".to_owned(),
-            old: Some(text(7)),
-            new: text(11),
-            ..TextDiff::default()
-        };
+        let diff = TextDiff { old: Some(text(7)), new: text(11), ..TextDiff::default() };
         let begin = Instant::now();
         let page = page(&Report { diffs: vec![diff; 20], ..Report::default() });
         assert!(page.contains("of 50000 and of 50000 lines, are too different to show"), "{page}");
@@ -555,21 +534,14 @@ mod tests {
 
     #[test]
     fn a_page_stays_small_whatever_it_lists() {
-        let row = |i: usize| Row::from(vec![format!("{i}"), "x".repeat(200)]);
-        let columns = ["a", "b"].map(Column::words).to_vec();
-        let rows = (0..20_000).map(row).collect();
-        let table = Table { caption: "many".to_owned(), columns, rows, ..Table::default() };
-        let diff = |i: usize| TextDiff {
-            name: format!("text {i}"),
-            new: "x\n".repeat(100),
-            ..TextDiff::default()
+        let rows = (0..20_000).map(|i| Row::of(&[&i, &"x".repeat(200)]));
+        let tables = vec![Table::new("many", "a | b", rows.collect())];
+        let diff = |i: usize| {
+            let (name, new) = (format!("text {i}"), "x\n".repeat(100));
+            TextDiff { name, new, ..TextDiff::default() }
         };
-        let report = Report {
-            tables: vec![table],
-            diffs: (0..20_000).map(diff).collect(),
-            ..Report::default()
-        };
-        let page = page(&report);
+        let diffs = (0..20_000).map(diff).collect();
+        let page = page(&Report { tables, diffs, ..Report::default() });
         assert!(page.len() < limits::PAGE_BYTES, "{}", page.len());
         assert!(page.contains(" more rows are left out") && page.contains(" more.</p>"), "{page}");
     }

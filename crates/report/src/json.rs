@@ -170,15 +170,10 @@ pub struct Engine {
 pub fn study(subject: &Places<'_>, found: &Found<'_>, answers: &impl Serialize) -> Value {
     let (scene, hard) = (subject.scene, found.hard);
     json!({
-        "scene": scene.name,
-        "triangles": scene.triangles(),
-        "pieces": found.pieces,
-        "loading_s": found.loading_s,
-        "answers": answers,
-        "hard_cases": hard_cases(subject, hard),
-        "decided": hard.classes,
-        "effects": needs(found.needs, found.not_drawn),
-        "costs": costs(subject, found.costs),
+        "scene": scene.name, "triangles": scene.triangles(), "pieces": found.pieces,
+        "loading_s": found.loading_s, "answers": answers,
+        "hard_cases": hard_cases(subject, hard), "decided": hard.classes,
+        "effects": needs(found.needs, found.not_drawn), "costs": costs(subject, found.costs),
     })
 }
 
@@ -197,18 +192,13 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
     };
     let cases = found.cases.iter().map(|case| {
         json!({
-            "kind": case.kind.name(),
-            "count": case.count,
-            "in_view": case.in_view,
-            "pixels": case.pixels,
-            "note": case.note,
+            "kind": case.kind.name(), "count": case.count, "in_view": case.in_view,
+            "pixels": case.pixels, "note": case.note,
             "faces": case.triangles.iter().map(face).collect::<Vec<_>>(),
         })
     });
     json!({
-        "cases": cases.collect::<Vec<_>>(),
-        "w": found.w,
-        "f32_pixels": found.f32_pixels,
+        "cases": cases.collect::<Vec<_>>(), "w": found.w, "f32_pixels": found.f32_pixels,
         "is_cut_short": found.is_cut_short,
     })
 }
@@ -225,35 +215,25 @@ pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
             let measures = 0..group.measures.len();
             let exact: Vec<_> = measures.filter(|one| group.is_exact(choice, *one)).collect();
             json!({
-                "name": choice.name,
-                "about": choice.about,
-                "errors": choice.errors,
-                "exact": exact,
-                "first_wrong": first,
-                "margin": choice.margin.filter(|margin| margin.is_finite()),
-                "time_ns": time,
-                "bytes": choice.bytes,
-                "refused": choice.refused,
+                "name": choice.name, "about": choice.about, "errors": choice.errors,
+                "exact": exact, "first_wrong": first,
+                "margin": choice.margin.filter(|margin| margin.is_finite()), "time_ns": time,
+                "bytes": choice.bytes, "refused": choice.refused,
             })
         };
         let measures: Vec<_> = group.measures.iter().map(|measure| measure.title).collect();
-        let name = |number: usize| group.choices[number].name.clone();
+        let name = |number: usize| &*group.choices[number].name;
         let best = (0..measures.len()).map(|number| group.cheapest_exact(number).map(name));
         let names = |all: &[usize]| all.iter().map(|&number| name(number)).collect::<Vec<_>>();
         let compared = group.best.iter().map(|best| {
-            best.as_ref().map(|best| {
-                json!({
-                    "choice": name(best.choice),
-                    "equally_fast": names(&best.equal),
-                    "undecided": names(&best.undecided),
-                    "rounds": best.rounds,
-                })
-            })
+            let best = best.as_ref()?;
+            Some(json!({
+                "choice": name(best.choice), "equally_fast": names(&best.equal),
+                "undecided": names(&best.undecided), "rounds": best.rounds,
+            }))
         });
         json!({
-            "title": group.title,
-            "measures": measures,
-            "not_judged": group.not_judged,
+            "title": group.title, "measures": measures, "not_judged": group.not_judged,
             "timed": { "triangles": group.timed[0], "pixels": group.timed[1] },
             "choices": group.choices.iter().map(choice).collect::<Vec<_>>(),
             "cheapest_exact": best.collect::<Vec<_>>(),
@@ -266,20 +246,15 @@ pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
 fn needs(needs: &Needs, not_drawn: &str) -> Value {
     let one = |need: &Need| {
         json!({
-            "effect": need.effect.name(),
-            "called_for": need.state() == State::CalledFor,
-            "paid_for": need.is_paid_for,
-            "materials": need.materials,
-            "reasons": need.reasons,
-            "pixels": need.pixels,
-            "wrong_without": need.wrong,
+            "effect": need.effect.name(), "called_for": need.state() == State::CalledFor,
+            "paid_for": need.is_paid_for, "materials": need.materials, "reasons": need.reasons,
+            "pixels": need.pixels, "wrong_without": need.wrong,
             "otherwise_ns": [need.otherwise.low, need.otherwise.median, need.otherwise.high],
         })
     };
     json!({
         "effects": needs.needs.iter().map(one).collect::<Vec<_>>(),
         "planned_ns": [needs.planned.low, needs.planned.median, needs.planned.high],
-        "textures": needs.textures,
-        "not_supported": not_drawn,
+        "textures": needs.textures, "not_supported": not_drawn,
     })
 }

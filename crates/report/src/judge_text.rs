@@ -2,17 +2,18 @@
 
 use super::html::{Chapter, Excerpt, Outcome, Report};
 use super::json;
-use super::table::{Mark, Row, Table};
+use super::table::{Row, Table};
 use super::words::{of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::check::Check;
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::failures::Failure;
+use rasterproof_judge::failures::{Exchange, Failure};
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
-use rasterproof_judge::run::{self, Found, MOST_DEATHS, Row as FamilyRow, Sides};
+use rasterproof_judge::run::{Found, MOST_DEATHS, MOST_DEATHS_IN_ALL, Row as FamilyRow, Sides};
 use rasterproof_judge::verdict::{self, Score, Scores as _, Verdict, per_million};
+use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::judge::ascii;
 use rasterproof_verify::partition::{self, Polygon};
 
@@ -28,7 +29,7 @@ pub fn report(
     with_table: bool,
 ) -> Report {
     let (d, agrees) = (&verdict.more.declared, verdict.agrees());
-    let names = verdict.more.against.as_ref().map(|second| against::names([d, second]));
+    let names = names(verdict);
     let mut about = vec![by(verdict.options.seed)];
     if let (Some([first, second]), Some(other)) = (&names, &verdict.more.against) {
         about.extend([speaks(first, d), speaks(second, other)]);
@@ -80,16 +81,17 @@ pub fn whole(
     repeat: &dyn Fn(&str, u64) -> String,
     with_table: bool,
 ) -> Report {
-    let names = verdict
-        .more
-        .against
-        .as_ref()
-        .map(|second| against::names([&verdict.more.declared, second]));
     Report {
-        cases: views(verdict, names.as_ref(), repeat),
+        cases: views(verdict, repeat),
         data: json::judgement(verdict, repeat_all, repeat),
         ..report(verdict, repeat_all, repeat, with_table)
     }
+}
+
+/// The names of two programs that are compared.
+fn names(verdict: &Verdict) -> Option<[String; 2]> {
+    let second = verdict.more.against.as_ref()?;
+    Some(against::names([&verdict.more.declared, second]))
 }
 
 /// Who judged.
@@ -238,9 +240,11 @@ fn scores(verdict: &Verdict) -> Table {
             notes.push(format!("to be judged by it: --declare '{declare}'{turned}"));
         }
     }
-    let row = |(what, score): (&str, String)| vec![what.to_owned(), score].into();
-    let rows = [("as declared:", score(verdict.as_declared(), 0)), ("by its convention:", found)];
-    Table::new("", "~score 22 | ~found 1", rows.map(row).to_vec()).noted(notes)
+    let rows = vec![
+        Row::of(&[&"as declared:", &score(verdict.as_declared(), 0)]),
+        Row::of(&[&"by its convention:", &found]),
+    ];
+    Table::new("", "~score 22 | ~found 1", rows).noted(notes)
 }
 
 /// Why it is wrong, where that was looked for.
@@ -254,13 +258,10 @@ fn families(verdict: &Verdict) -> Table {
     let columns = "property 18 | >cases 8 | >shapes 8 | >pixels 8 | >missing 8 | >extra 8 | >twice 8 | >order 8 | \
                    >refused 8 | >wrong 7";
     let row = |row: &FamilyRow| {
-        let t = &row.tally;
-        let numbers =
-            [row.cases, row.shapes, row.pixels, t.missing, t.extra, t.twice, t.order, row.refused];
-        let mut cells = vec![row.name.to_owned()];
-        cells.extend(numbers.map(|n| n.to_string()));
-        cells.push(format!("{:.2}%", 100.0 * row.share()));
-        cells.into()
+        let FamilyRow { name, cases, shapes, pixels, refused, tally, .. } = row;
+        let Tally { missing, extra, twice, order, .. } = tally;
+        let share = format!("{:.2}%", 100.0 * row.share());
+        Row::of(&[name, cases, shapes, pixels, missing, extra, twice, order, refused, &share])
     };
     let mut notes = vec![
         "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
@@ -274,15 +275,12 @@ fn families(verdict: &Verdict) -> Table {
             verdict.more.declared.tolerance
         ));
     }
-    let stopped = verdict.families.iter().filter(|row| row.stopped);
-    notes.extend(
-        stopped
-            .map(|r| format!("{}: given up after {MOST_DEATHS} times without an answer", r.name)),
-    );
+    for FamilyRow { name, .. } in verdict.families.iter().filter(|row| row.stopped) {
+        notes.push(format!("{name}: given up after {MOST_DEATHS} times without an answer"));
+    }
     if verdict.more.found.gave_up {
-        let most = run::MOST_DEATHS_IN_ALL;
         notes.push(format!(
-            "given up for good: {most} times without an answer, or no answer at all"
+            "given up for good: {MOST_DEATHS_IN_ALL} times without an answer, or no answer at all"
         ));
     }
     Table::new("", columns, by_share(verdict).into_iter().map(row).collect()).noted(notes)
@@ -295,10 +293,9 @@ pub(super) fn excerpts(
     property: Option<&str>,
 ) -> Vec<Excerpt> {
     let is_asked = |name: &str| property.is_none_or(|one| one == name);
-    let more = &verdict.more;
-    let names = more.against.as_ref().map(|second| against::names([&more.declared, second]));
+    let names = names(verdict);
     let drawn_by =
-        names.as_ref().map_or(vec!["judged"], |names| names.iter().map(|name| &**name).collect());
+        names.as_ref().map_or(vec!["judged"], |names| names.each_ref().map(|name| &**name).into());
     let broken = if is_asked("protocol") { incidents(verdict, repeat) } else { Vec::new() };
     let failures = verdict.failures.iter().filter(|f| is_asked(f.evidence.property));
     let failures = failures.map(|f| excerpt(f, &drawn_by, repeat(f.family, f.index)));
@@ -316,15 +313,14 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
         }
         shown.push(word);
         let (family, index) = (incident.family, incident.index);
-        let place = match family {
-            "" => "before the families".to_owned(),
-            _ => format!("{family} #{index}"),
+        let (place, places) = match family {
+            "" => ("before the families".to_owned(), Vec::new()),
+            _ => (format!("{family} #{index}"), vec![("repeat with", repeat(family, index))]),
         };
-        let of_family = Some(family).filter(|family| !family.is_empty());
         out.push(Excerpt {
             title: format!("{place}: it {}", incident.what),
             exchanges: vec![("request", incident.request.clone())],
-            places: of_family.map(|_| ("repeat with", repeat(family, index))).into_iter().collect(),
+            places,
             ..Excerpt::default()
         });
     }
@@ -343,16 +339,11 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
     let (family, index) = (failure.family, failure.index);
     let (property, what) = (failure.evidence.property, &failure.what);
     let exchanges = failure.evidence.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
-        let lines = [
-            ("request", &exchange.request),
-            ("answer", &exchange.answer),
-            ("other", &exchange.other),
-            ("expected", &exchange.expected),
-        ];
-        lines
-            .into_iter()
-            .filter(|(_, line)| !line.is_empty())
-            .map(|(what, line)| (what, line.clone()))
+        let Exchange { request, answer, other, expected } = exchange;
+        let lines =
+            [("request", request), ("answer", answer), ("other", other), ("expected", expected)];
+        let lines = lines.into_iter().filter(|(_, line)| !line.is_empty());
+        lines.map(|(what, line)| (what, line.clone()))
     });
     let more = failure.evidence.exchanges.len().saturating_sub(MOST_EXCHANGES);
     let mut notes = Vec::new();
@@ -368,10 +359,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
         exchanges: exchanges.collect(),
         grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
         notes,
-        places: Some(("repeat with", command))
-            .into_iter()
-            .filter(|one| !one.1.is_empty())
-            .collect(),
+        places: Vec::from_iter((!command.is_empty()).then_some(("repeat with", command))),
     }
 }
 
@@ -403,7 +391,7 @@ fn who_is_right(sides: &Sides, [first, second]: &[String; 2]) -> Table {
         (sides.both, "cases: both are right as they declare".to_owned()),
         (sides.same_but_wrong, "cases: they answer the same, and it is wrong".to_owned()),
     ];
-    let row = |(n, what): (u64, String)| vec![thousands(n), what].into();
+    let row = |(n, what)| Row::of(&[&thousands(n), &what]);
     let rows = lines.into_iter().filter(|(n, _)| *n > 0).map(row).collect();
     Table::new("", ">~cases 9 | ~who is right 1", rows)
 }
@@ -413,12 +401,8 @@ fn sides(verdict: &Verdict) -> Table {
     let columns =
         "property 18 | >cases 7 | >differ 7 | >1st right 7 | >2nd right 7 | >neither 7 | >both 7";
     let row = |row: &FamilyRow| {
-        let sides = row.sides.unwrap_or_default();
-        let numbers =
-            [row.cases, row.wrong_cases, sides.first, sides.second, sides.neither, sides.both];
-        let mut cells = vec![row.name.to_owned()];
-        cells.extend(numbers.map(|n| n.to_string()));
-        cells.into()
+        let Sides { first, second, neither, both, .. } = row.sides.unwrap_or_default();
+        Row::of(&[&row.name, &row.cases, &row.wrong_cases, &first, &second, &neither, &both])
     };
     Table::new("", columns, by_share(verdict).into_iter().map(row).collect())
 }
@@ -439,35 +423,25 @@ fn closing(verdict: &Verdict) -> String {
         true => format!(", {cases} of {of_cases} cases in full when the time was up"),
         false => String::new(),
     };
-    let what = format!(
-        "{} triangles and {} lines, {wrong} wrong pixels{until}",
-        verdict.shapes(false),
-        verdict.shapes(true)
-    );
+    let [triangles, lines] = [false, true].map(|lines| verdict.shapes(lines));
+    let what = format!("{triangles} triangles and {lines} lines, {wrong} wrong pixels{until}");
     let known =
         verdict.more.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
     let known = match known.count() {
         0 => String::new(),
         n => format!(", {n} properties fail as the baseline says"),
     };
-    match failing.as_slice() {
-        [] => format!("{what}{known}"),
-        names => format!(
-            "{what}{known}; {} of {} properties fail: {}",
-            names.len(),
-            verdict.more.properties.len(),
-            names.join(", ")
-        ),
+    let (count, all) = (failing.len(), verdict.more.properties.len());
+    match count {
+        0 => format!("{what}{known}"),
+        _ => format!("{what}{known}; {count} of {all} properties fail: {}", failing.join(", ")),
     }
 }
 
 /// What each program draws of each failing case.
-fn views(
-    verdict: &Verdict,
-    names: Option<&[String; 2]>,
-    repeat: &dyn Fn(&str, u64) -> String,
-) -> Vec<page_cases::CaseView> {
-    let programs = match names {
+fn views(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<page_cases::CaseView> {
+    let names = names(verdict);
+    let programs = match &names {
         Some([first, second]) => vec![first.as_str(), second],
         None => vec![verdict.more.declared.name.as_str()],
     };
@@ -496,20 +470,12 @@ fn views(
 }
 
 fn properties(verdict: &Verdict) -> Table {
-    let row = |p: &verdict::Property| Row {
-        cells: vec![
-            p.name.to_owned(),
-            if p.outcome.is_good() { "holds" } else { "fails" }.to_owned(),
-            p.about.clone(),
-            p.detail.clone(),
-        ],
-        mark: if p.outcome.is_good() { Mark::Plain } else { Mark::Wrong },
-        search: verdict
-            .failures
-            .iter()
-            .any(|f| f.evidence.property == p.name)
-            .then(|| p.name.to_owned()),
-        ..Row::default()
+    let row = |p: &verdict::Property| {
+        let is_good = p.outcome.is_good();
+        let word = if is_good { "holds" } else { "fails" };
+        let has_case = verdict.failures.iter().any(|f| f.evidence.property == p.name);
+        let row = Row::of(&[&p.name, &word, &p.about, &p.detail]).marked(is_good);
+        Row { search: has_case.then(|| p.name.to_owned()), ..row }
     };
     let (bad, good): (Vec<_>, Vec<_>) =
         verdict.more.properties.iter().partition(|p| !p.outcome.is_good());

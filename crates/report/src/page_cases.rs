@@ -115,15 +115,12 @@ pub fn of_verdict(
 /// For each family the case whose values came closest to their bound, the closest family first.
 fn closest(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
     let seed = verdict.options.seed;
-    let mut worst: Vec<_> = verdict
-        .families
-        .iter()
-        .filter_map(|f| {
-            let pairs = f.pairs.iter().filter(|p| p.is_by_oracle() && p.values > 0);
-            let pair = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst()))?;
-            (pair.worst() > 0.0 && pair.worst() <= 1.0).then_some((f, pair))
-        })
-        .collect();
+    let closest = verdict.families.iter().filter_map(|f| {
+        let pairs = f.pairs.iter().filter(|p| p.is_by_oracle() && p.values > 0);
+        let pair = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst()))?;
+        (pair.worst() > 0.0 && pair.worst() <= 1.0).then_some((f, pair))
+    });
+    let mut worst: Vec<_> = closest.collect();
     worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
     let views = worst.into_iter().filter_map(|(report, pair)| {
         let family = cases::families().find(|f| f.name == report.family)?;
@@ -250,41 +247,24 @@ fn unique(views: &mut [CaseView]) {
 
 /// A case, drawn by those that are judged, the other engines, the oracle and the specimens.
 pub fn of_case(name: String, about: String, kind: Kind, case: &Case, judged: &Judged) -> CaseView {
-    let oracle = ("oracle".to_owned(), Role::Oracle, Ok(oracle_hits(case)));
+    let truth = oracle_hits(case);
+    let oracle = ("oracle".to_owned(), Role::Oracle, Ok(truth.clone()));
     let specimens = SPECIMENS.iter().filter_map(|entry| {
         Some((entry.name.to_owned(), Role::Specimen, drawn::by_specimen(entry, case)?))
     });
     let engines = judged.with_others().hits(case).into_iter();
     let drawn = engines.map(with_role).chain([oracle]).chain(specimens);
     let shape = match &case.shape {
-        Shape::Triangles { list, .. } => ShapeView::Triangles(
-            list.iter().map(|t| t.corners().map_array(|p| [p.x, p.y])).collect(),
-        ),
+        Shape::Triangles { list, .. } => {
+            let corners = list.iter().map(|t| t.corners().map_array(|p| [p.x, p.y]));
+            ShapeView::Triangles(corners.collect())
+        }
         Shape::Lines(list) => {
             let ends = list.iter().map(|l| l.ends.map_array(|e| [e.pixel.x, e.pixel.y]));
             ShapeView::Lines(ends.collect())
         }
         Shape::Unsnapped { list, .. } => ShapeView::Free(list.iter().map(|t| t.px()).collect()),
     };
-    view(name, about, kind, case.window, shape, drawn.collect())
-}
-
-fn with_role((name, hits): (String, Hits)) -> Drawn {
-    let role = if planted::about(&name).is_some() { Role::Planted } else { Role::Engine };
-    (name, role, hits)
-}
-
-fn view(
-    name: String,
-    about: String,
-    kind: Kind,
-    window: PixelRect,
-    shape: ShapeView,
-    drawn: Vec<Drawn>,
-) -> CaseView {
-    let oracle = drawn.iter().position(|(_, role, _)| *role == Role::Oracle);
-    let truth = oracle.and_then(|i| drawn[i].2.clone().ok());
-    let truth = truth.unwrap_or_else(|| Coverage::new(window, 0));
     let mut layers: Vec<Layer> = Vec::new();
     for (name, role, hits) in drawn {
         let layer = layer(name, role, hits, &truth);
@@ -299,22 +279,25 @@ fn view(
             None => layers.push(layer),
         }
     }
-    let start = start(&layers);
+    let (start, window) = (start(&layers), case.window);
     let [found, command, pictured] = [const { String::new() }; 3];
     let chapter = chapter(kind, &shape);
     CaseView { name, about, kind, found, command, chapter, pictured, window, shape, layers, start }
 }
 
+fn with_role((name, hits): (String, Hits)) -> Drawn {
+    let role = if planted::about(&name).is_some() { Role::Planted } else { Role::Engine };
+    (name, role, hits)
+}
+
 /// Where the docs derive what decides such a case.
 fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
+    const RULE: &str = "ch02-edge-functions.md#the-derivation-the-top-left-rule";
     let (title, path) = match (kind, shape) {
         (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md"),
         (_, ShapeView::Free(_)) => ("off the grid", "offgrid.md"),
         (Kind::Closest, _) => ("chapter 3, values at the pixels", "ch03.md"),
-        _ => (
-            "chapter 2, the top-left rule",
-            "ch02-edge-functions.md#the-derivation-the-top-left-rule",
-        ),
+        _ => ("chapter 2, the top-left rule", RULE),
     };
     Chapter { title, path }
 }

@@ -57,35 +57,28 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
         panel(&words, (shown, zoom, true), &outlines, &colour)
     });
     let panels = panels.collect();
-    let owned =
-        (1..).zip(OWNERS).map(|(number, colour)| (colour, format!("right: triangle {number}")));
+    let owned = (1..).zip(OWNERS).filter(|(_, colour)| occurring.contains(&colour.0));
+    let owned = owned.map(|(number, colour)| (vec![colour], format!("right: triangle {number}")));
+    let edges = if is_line { "the line itself" } else { "edges" };
     let words = [
-        (AGREES, "as the oracle"),
-        (MISSING, "missing"),
-        (EXTRA, "extra"),
-        (TWICE, "hit too often"),
-        (OVERLAP, "rightly more than once"),
+        (occurring.contains(&AGREES.0), AGREES, "as the oracle"),
+        (occurring.contains(&MISSING.0), MISSING, "missing"),
+        (occurring.contains(&EXTRA.0), EXTRA, "extra"),
+        (occurring.contains(&TWICE.0), TWICE, "hit too often"),
+        (occurring.contains(&OVERLAP.0), OVERLAP, "rightly more than once"),
+        (true, EDGE, edges),
+        (zoom >= SAMPLED, SAMPLE, "samples"),
     ];
-    let words = words.map(|(colour, text)| (colour, text.to_owned()));
-    let samples = (zoom >= SAMPLED).then_some((SAMPLE, "samples"));
-    let others =
-        [(EDGE, if is_line { "the line itself" } else { "edges" })].into_iter().chain(samples);
-    let others = others.map(|(colour, text)| (colour, text.to_owned()));
-    let entries = owned.chain(words).filter(|(c, _)| occurring.contains(&c.0)).chain(others);
-    let entries: Vec<Entry> = entries.map(|(colour, text)| (vec![colour], text)).collect();
-    let note = if shown == window {
-        String::new()
-    } else {
-        format!(
-            "columns {} to {}, rows {} to {} of {} x {} px",
-            shown.x0,
-            shown.x1 - 1,
-            shown.y0,
-            shown.y1 - 1,
-            window.width(),
-            window.height()
-        )
-    };
+    let words = words.into_iter().filter(|(occurs, ..)| *occurs);
+    let words = words.map(|(_, colour, text)| (vec![colour], text.to_owned()));
+    let entries: Vec<Entry> = owned.chain(words).collect();
+    let mut note = String::new();
+    if shown != window {
+        let (x, y) = (shown.x1 - 1, shown.y1 - 1);
+        let PixelRect { x0, y0, .. } = shown;
+        let (width, height) = (window.width(), window.height());
+        note = format!("columns {x0} to {x}, rows {y0} to {y} of {width} x {height} px");
+    }
     arranged(&[(title.to_owned(), Size::Heading, INK)], panels, columns, &entries, &note)
 }
 
@@ -161,8 +154,8 @@ fn crop(
     let is_hit = hit.is_some();
     for (i, p) in outline.iter().flatten().enumerate() {
         let at = |v: i32, origin: i32, end: i32| v.saturating_add(origin).clamp(origin, end - 1);
-        let (x, y) = (at(p.x, window.x0, window.x1), at(p.y, window.y0, window.y1));
-        let spare = wider(PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 }, 1, window);
+        let place = (at(p.x, window.x0, window.x1), at(p.y, window.y0, window.y1));
+        let spare = wider(pixel(place), 1, window);
         shape = if i == 0 && !is_hit { spare } else { union(shape, spare) };
     }
     let is_small = |r: &PixelRect| r.width().max(r.height()) <= MOST_CROPPED_PX;
@@ -176,13 +169,12 @@ fn union(a: PixelRect, b: PixelRect) -> PixelRect {
 
 /// The box around the pixels of a kind, some to spare, within the window.
 fn around(window: PixelRect, is_in: impl Fn(i32, i32) -> bool, spare: i32) -> Option<PixelRect> {
-    let boxes = pixels(window).filter(|&(x, y)| is_in(x, y)).map(|(x, y)| PixelRect {
-        x0: x,
-        y0: y,
-        x1: x + 1,
-        y1: y + 1,
-    });
+    let boxes = pixels(window).filter(|&(x, y)| is_in(x, y)).map(pixel);
     Some(wider(boxes.reduce(union)?, spare, window))
+}
+
+fn pixel((x0, y0): (i32, i32)) -> PixelRect {
+    PixelRect { x0, y0, x1: x0 + 1, y1: y0 + 1 }
 }
 
 /// A box with some to spare, within the window.

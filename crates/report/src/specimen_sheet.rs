@@ -166,23 +166,23 @@ fn image_of(bounds: PixelRect, colour: impl Fn(i32, i32) -> Rgb<u8>) -> Image {
 
 fn versions(card: &Card) -> Option<Panels> {
     let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
-    Some(match (&card.exhibit, specimen) {
-        (Exhibit::Scene(_, draw), _) => Panels {
+    match (&card.exhibit, specimen) {
+        (Exhibit::Scene(_, draw), _) => Some(Panels {
             published: draw(Version::Published, Setting::Exposing),
             repaired: draw(Version::Repaired, Setting::Exposing),
             background: BLACK,
             outline: Vec::new(),
             has_samples: false,
             has_values: false,
-        },
+        }),
         (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen))) => {
-            triangle_panels(card.name, specimen, case)
+            Some(triangle_panels(card.name, specimen, case))
         }
         (Exhibit::Lines([case, _]), Some(Specimen::Line(specimen))) => {
-            line_panels(specimen, &line_case(case))?
+            line_panels(specimen, &line_case(case))
         }
-        _ => return None,
-    })
+        _ => None,
+    }
 }
 
 fn hits_image(hits: &Coverage) -> Image {

@@ -39,6 +39,10 @@ impl Places<'_> {
     pub fn command(&self, triangle: u32) -> String {
         (self.inspect)(face_of(self.scene, self.origins, triangle))
     }
+
+    fn face(&self, triangle: u32) -> String {
+        format!("face {}", face_of(self.scene, self.origins, triangle))
+    }
 }
 
 /// By group the choices that get triangles of a kind wrong, with how many samples.
@@ -69,14 +73,15 @@ fn compared_in(costs: &[Group]) -> Option<String> {
 /// What is said of all hard cases together, a line each.
 fn about_hard_cases(found: &HardCases, costs: &[Group]) -> Vec<String> {
     let mut lines: Vec<String> = compared_in(costs).into_iter().collect();
-    let missing: Vec<&str> =
-        Kind::ALL.into_iter().filter(|kind| found.of(*kind).is_none()).map(Kind::name).collect();
+    let missing = Kind::ALL.into_iter().filter(|kind| found.of(*kind).is_none());
+    let missing: Vec<&str> = missing.map(Kind::name).collect();
     if !missing.is_empty() && !found.cases.is_empty() {
         lines.push(format!("none: {}", missing.join(", ")));
     }
     if found.is_cut_short {
-        let what = "overlaps and T-junctions were looked for in a part of it";
-        lines.push(format!("the model is so large that {what}"));
+        let why =
+            "the model is so large that overlaps and T-junctions were looked for in a part of it";
+        lines.push(why.to_owned());
     }
     if let Some([near, far]) = found.w {
         let [near, far] = [near, far].map(|w| number(w, 9));
@@ -169,11 +174,10 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
     let classes = &found.classes;
     let mut sentence = match classes.first {
         Some(TiedPair { pixel: [x, y], triangles }) => {
-            let [a, b] = triangles.map(|one| face_of(subject.scene, subject.origins, one));
+            let [a, b] = triangles.map(|one| subject.face(one));
+            let pixels = count(classes.by_rounding, "px is", "px are");
             format!(
-                "{} px {} decided by rounding alone, the first at {x},{y}, between face {a} and face {b}.",
-                thousands(classes.by_rounding),
-                if classes.by_rounding == 1 { "is" } else { "are" }
+                "{pixels} decided by rounding alone, the first at {x},{y}, between {a} and {b}."
             )
         }
         None => "No pixel is decided by rounding alone.".to_owned(),
@@ -184,14 +188,12 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
         None => write!(sentence, " No other hard case is seen in this view."),
         Some(most) => {
             let (name, pixels) = (most.kind.name(), thousands(most.pixels));
+            let seen = "seen in this view";
             match others.len() {
-                1 => write!(
-                    sentence,
-                    " The only others seen in this view are {name}, in {pixels} px."
-                ),
+                1 => write!(sentence, " The only others {seen} are {name}, in {pixels} px."),
                 kinds => write!(
                     sentence,
-                    " {kinds} other kinds are seen in this view, in most pixels {name}, in {pixels}."
+                    " {kinds} other kinds are {seen}, in most pixels {name}, in {pixels}."
                 ),
             }
         }
@@ -233,60 +235,51 @@ const MOST_ROWS: usize = 4;
 
 /// What is seen, what is called for, and the cheapest exact choices: a table for each question.
 fn first_screen(subject: &Places<'_>, found: &Found<'_>) -> Vec<Table> {
-    let short = |columns: &str, mut rows: Vec<Row>, note: &str| {
+    let short = |columns: &str, mut rows: Vec<Row>, note: Option<String>| {
         let left_out = rows.len().saturating_sub(MOST_ROWS);
         rows.truncate(MOST_ROWS);
         let more = (left_out > 0).then(|| format!("and {left_out} more"));
-        let note = (!note.is_empty()).then(|| note.to_owned());
         Table::new("", columns, rows).noted(more.into_iter().chain(note).collect())
+    };
+    let listed = |about: &str, all: &[String]| {
+        (!all.is_empty()).then(|| format!("{about}: {}", all.join(", ")))
     };
     let mut seen: Vec<_> = found.hard.in_view().collect();
     seen.sort_by_key(|case| std::cmp::Reverse(case.pixels));
     let row = |case: &&HardCase| {
-        let face = case.triangles.first();
-        let face =
-            face.map(|one| format!("face {}", face_of(subject.scene, subject.origins, *one)));
+        let face = case.triangles.first().map_or(String::new(), |one| subject.face(*one));
         let [number, pixels] = [case.in_view, case.pixels].map(thousands);
-        vec![case.kind.name().to_owned(), number, pixels, face.unwrap_or_default()].into()
+        Row::of(&[&case.kind.name(), &number, &pixels, &face])
     };
     let columns = "hard cases in this view 32 | >number 11 | >px 11 | first or worst 14";
     let hidden = found.hard.cases.iter().filter(|case| case.in_view == 0);
     let hidden: Vec<_> =
         hidden.map(|case| format!("{} {}", thousands(case.count), case.kind.name())).collect();
-    let hidden = match hidden.len() {
-        0 => String::new(),
-        _ => format!("only in the mesh: {}", hidden.join(", ")),
-    };
-    let seen = short(columns, seen.iter().map(row).collect(), &hidden);
+    let hidden = listed("only in the mesh", &hidden);
+    let seen = short(columns, seen.iter().map(row).collect(), hidden);
     let of = |state: State| found.needs.needs.iter().filter(move |need| need.state() == state);
     let row = |need: &Need| {
         let time = takes(found.needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
-        vec![need.effect.name().to_owned(), thousands(need.wrong), time].into()
+        Row::of(&[&need.effect.name(), &thousands(need.wrong), &time])
     };
     let columns = "effects called for 32 | >px wrong without 17 | >takes ms 11";
     let mut called: Vec<_> = of(State::CalledFor).collect();
     called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
-    let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name()).collect();
-    let safe = match safe.len() {
-        0 => String::new(),
-        _ => format!("paid for to be safe, though no pixel changes here: {}", safe.join(", ")),
-    };
-    let rows = called.into_iter().map(row).collect();
-    let called = short(columns, rows, &safe);
+    let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name().to_owned()).collect();
+    let safe = listed("paid for to be safe, though no pixel changes here", &safe);
+    let called = short(columns, called.into_iter().map(row).collect(), safe);
     let row = |group: &Group| {
         let measure = group.measures.len() - 1;
-        let mut cells = vec![group.title.to_owned()];
-        cells.push(group.cheapest_exact(measure).map_or("none".to_owned(), |best| {
+        let cheapest = group.cheapest_exact(measure);
+        let name = cheapest.map_or("none".to_owned(), |best| {
             let others = if tied(group, measure).is_empty() { "" } else { " or others" };
             format!("{}{others}", group.choices[best].name)
-        }));
-        let time = |choice: Option<usize>| group.choices[choice?].time;
-        let best = time(group.cheapest_exact(measure)).map(|time| time.median);
-        let least = time(group.cheapest(&|_| true)).map(|time| time.median);
-        cells.push(best.map_or("-".to_owned(), ms));
+        });
+        let time = |choice: Option<usize>| Some(group.choices[choice?].time?.median);
+        let (best, least) = (time(cheapest), time(group.cheapest(&|_| true)));
         let times = best.zip(least).map(|(best, least)| number(best / least, 6));
-        cells.push(times.unwrap_or("-".to_owned()));
-        cells.into()
+        let [best, times] = [best.map(ms), times].map(|cell| cell.unwrap_or("-".to_owned()));
+        Row::of(&[&group.title, &name, &best, &times])
     };
     let columns = "what exactness costs 26 | cheapest exact 33 | >ms 7 | >times 7";
     let rows = found.costs.iter().map(row).collect();
@@ -327,14 +320,10 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
                 if is_wrong && (is_cheaper || choice.margin.is_some()) =>
             {
                 let cheaper = if is_cheaper { "cheaper and " } else { "" };
-                let mut line = format!("{} is {cheaper}wrong, first at {x},{y}", choice.name);
-                if let Some(triangle) = triangle {
-                    let _ = write!(line, ": {}", subject.place(triangle));
-                    lines.push(line);
-                    lines.push(subject.command(triangle));
-                } else {
-                    lines.push(line);
-                }
+                let place = triangle.map(|one| format!(": {}", subject.place(one)));
+                let place = place.unwrap_or_default();
+                lines.push(format!("{} is {cheaper}wrong, first at {x},{y}{place}", choice.name));
+                lines.extend(triangle.map(|one| subject.command(one)));
             }
             _ => {}
         }
@@ -399,7 +388,7 @@ fn takes(needs: &Needs, need: &Need) -> Option<f64> {
         .then(|| (planned.median - without.median) / 1e6)
 }
 
-/// The materials that call for an effect, the most visible first.
+/// `by` the materials that call for an effect, the most visible first; nothing where none does.
 fn by_whom(need: &Need) -> String {
     const MOST: usize = 3;
     let name = |(name, pixels): &(String, u64)| {
@@ -414,36 +403,25 @@ fn by_whom(need: &Need) -> String {
     if more > 0 {
         names.push(format!("{more} more"));
     }
-    names.join(", ")
-}
-
-fn reasons(need: &Need) -> String {
-    let reasons: Vec<_> = need.reasons.iter().map(|(reason, _)| reason.as_str()).collect();
-    reasons.join("; ")
+    if names.is_empty() { String::new() } else { format!("by {}", names.join(", ")) }
 }
 
 /// What follows from the effects, a sentence each.
 pub fn effects_advice(needs: &Needs) -> Vec<String> {
     let mut lines = Vec::new();
-    let idle: Vec<_> = needs
-        .needs
-        .iter()
-        .filter(|need| !need.is_paid_for && need.otherwise.low > needs.planned.high)
-        .map(|need| {
-            let more = need.otherwise.median / needs.planned.median - 1.0;
-            format!("{} {:.0}%", need.effect.name(), 100.0 * more)
-        })
-        .collect();
+    let is_idle = |need: &&Need| !need.is_paid_for && need.otherwise.low > needs.planned.high;
+    let more = |need: &Need| {
+        let more = need.otherwise.median / needs.planned.median - 1.0;
+        format!("{} {:.0}%", need.effect.name(), 100.0 * more)
+    };
+    let idle: Vec<_> = needs.needs.iter().filter(is_idle).map(more).collect();
     if !idle.is_empty() {
         lines.push(format!(
             "not called for, and if they were paid for all the same, the frame would take more: {}",
             idle.join(", ")
         ));
     }
-    let time = |name: &str| {
-        let found = needs.antialiasing.iter().find(|(other, _)| *other == name);
-        found.map(|(_, ns)| *ns)
-    };
+    let time = |name: &str| Some(needs.antialiasing.iter().find(|(other, _)| *other == name)?.1);
     for texture in &needs.textures {
         let name = printable_short(&texture.material, 40);
         let mut line = format!("texture of {name}: {} texels a pixel", number(texture.texels, 9));
@@ -481,10 +459,9 @@ fn figures(found: &Found<'_>) -> Vec<Figure> {
             true => Some((without.median - planned.median) / 1e6),
             false => takes(found.needs, need),
         };
-        (need.effect.name(), ms, saved, need.wrong)
+        (ms.is_some() || need.wrong > 0).then(|| (need.effect.name(), ms, saved, need.wrong))
     };
-    let bars: Vec<_> = found.needs.needs.iter().map(bar).collect();
-    let bars: Vec<_> = bars.into_iter().filter(|(_, ms, _, px)| ms.is_some() || *px > 0).collect();
+    let bars: Vec<_> = found.needs.needs.iter().filter_map(bar).collect();
     vec![
         canvas::figure(
             "Error against time of each choice on the triangles of this view",
@@ -507,7 +484,7 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
     for pixel in marked.pixels_mut() {
         *pixel = Rgb(pixel.0.map(|channel| channel / 2));
     }
-    for (x, y) in (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (x, y))) {
+    for (x, y, _) in picture.enumerate_pixels() {
         let [x_px, y_px] = [x as i32, y as i32];
         if !hard.touches(x_px, y_px) {
             continue;
@@ -541,10 +518,13 @@ pub fn report(
 ) -> Report {
     let classes = &found.hard.classes;
     let in_view = found.hard.in_view().count();
-    let sentence = match in_view {
-        0 => "No hard case is seen in this view.".to_owned(),
-        1 => "One kind of hard case is seen in this view.".to_owned(),
-        kinds => format!("{kinds} kinds of hard cases are seen in this view."),
+    let outcome = match in_view {
+        0 => Outcome::new(true, "CLEAN", "No hard case is seen in this view."),
+        1 => Outcome::new(false, "HARD CASES", "One kind of hard case is seen in this view."),
+        kinds => {
+            let sentence = format!("{kinds} kinds of hard cases are seen in this view.");
+            Outcome::new(false, "HARD CASES", sentence)
+        }
     };
     let mut hard = hard_cases(subject, found.hard, found.costs);
     hard.notes.push(ties(subject, classes));
@@ -572,10 +552,7 @@ pub fn report(
     });
     Report {
         title: format!("A study of {}", subject.scene.name),
-        outcome: Some(match in_view {
-            0 => Outcome::new(true, "CLEAN", sentence),
-            _ => Outcome::new(false, "HARD CASES", sentence),
-        }),
+        outcome: Some(outcome),
         about,
         answers,
         first_screen: first_screen(subject, found),
@@ -604,10 +581,9 @@ pub fn report(
 /// The hard cases with what is said of them, and the choices that are wrong on them where costs were measured.
 pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> Table {
     let row = |case: &HardCase| {
-        let (mut place, command) = match case.triangles.first() {
-            Some(&triangle) => (subject.place(triangle), subject.command(triangle)),
-            None => (String::new(), String::new()),
-        };
+        let first = case.triangles.first();
+        let mut place = first.map_or(String::new(), |one| subject.place(*one));
+        let command = first.map_or(String::new(), |one| subject.command(*one));
         if !case.note.is_empty() {
             let _ = write!(place, "; {}", case.note);
         }
@@ -617,8 +593,8 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> T
         };
         let [in_view, others, pixels] =
             [case.in_view, case.count - case.in_view, case.pixels].map(thousands);
-        let (kind, about) = (case.kind.name().to_owned(), case.kind.about().to_owned());
-        vec![kind, in_view, others, pixels, about, place, command, wrong].into()
+        let (kind, about) = (case.kind.name(), case.kind.about());
+        Row::of(&[&kind, &in_view, &others, &pixels, &about, &place, &command, &wrong])
     };
     let caption = if found.cases.is_empty() { "Hard cases: none" } else { "Hard cases" };
     let columns = "kind 32 | >in view 11 how many are seen | >only in the mesh 17 how many are culled, hidden or outside | \
@@ -630,11 +606,10 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> T
 fn needs_table(needs: &Needs, state: State) -> Table {
     let row = |need: &Need| {
         let time = takes(needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
+        let (name, wrong) = (need.effect.name(), thousands(need.wrong));
         let pixels = need.pixels.map_or("-".to_owned(), thousands);
-        let (name, wrong) = (need.effect.name().to_owned(), thousands(need.wrong));
-        let who = by_whom(need);
-        let who = if who.is_empty() { who } else { format!("by {who}") };
-        vec![name, pixels, wrong, time, who, reasons(need)].into()
+        let reasons: Vec<_> = need.reasons.iter().map(|(reason, _)| reason.as_str()).collect();
+        Row::of(&[&name, &pixels, &wrong, &time, &by_whom(need), &reasons.join("; ")])
     };
     let is_here = |need: &&Need| need.state() == state;
     let columns = "effect 28 | >pixels 11 pixels that pay for it | >wrong without 17 pixels that change when it is \
@@ -651,11 +626,10 @@ pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Vec<Table> {
 fn cost_table(subject: &Places<'_>, group: &Group) -> Table {
     let least = group.cheapest(&|_| true).and_then(|best| group.choices[best].time);
     let row = |choice: &Choice| {
-        let mut cells = vec![choice.name.clone()];
         if let Some(why) = &choice.refused {
-            cells.push(format!("not run: {why}"));
-            return cells.into();
+            return Row::of(&[&choice.name, &format!("not run: {why}")]);
         }
+        let mut cells = vec![choice.name.clone()];
         let or_none =
             |value: Option<f64>, width| value.map_or("-".to_owned(), |value| number(value, width));
         cells.extend(choice.errors.iter().map(|error| or_none(*error, 9)));
