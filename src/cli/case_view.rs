@@ -2,6 +2,7 @@
 
 use image::RgbImage;
 
+use super::explain::point;
 use super::{InputError, usage};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -122,28 +123,22 @@ pub fn facts(case: &Case) -> Vec<String> {
         };
         let ((bx, by), (cx, cy)) = (d(b), d(c));
         let area = bx * cy - by * cx;
-        let extent =
-            |v: [i32; 3]| v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0));
+        let extent = |[a, b, c]: [i32; 3]| a.max(b).max(c).abs_diff(a.min(b).min(c));
         let word = match WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y))) {
             WordWidth::I32 => "32 bits",
             WordWidth::I64 => "64 bits",
             WordWidth::I128 => "128 bits",
         };
-        let points = corners.map(|p| {
-            let (x, y) = p.to_px();
-            format!("({x}, {y})")
-        });
+        let points = corners.map(point).join(" ");
         let winding = match area.signum() {
             1 => "clockwise",
             -1 => "counter-clockwise",
             _ => "degenerate",
         };
         let ties = samples_on_boundary(&corners, case.window) as u64;
+        let (area, ties) = (area as f64 / 131_072.0, count(ties, "sample", "samples"));
         format!(
-            "triangle {}: {winding}, area {} px, edge functions in {word}, {} on its boundary",
-            points.join(" "),
-            area as f64 / 131_072.0,
-            count(ties, "sample", "samples")
+            "triangle {points}: {winding}, area {area} px, edge functions in {word}, {ties} on its boundary"
         )
     };
     match &case.shape {
@@ -157,10 +152,8 @@ pub fn facts(case: &Case) -> Vec<String> {
                 let [a, b] = line.ends.map(|end| end.pixel);
                 let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
                 let (steps, along) = (dx.max(dy), if dx >= dy { "x" } else { "y" });
-                format!(
-                    "line ({}, {}) to ({}, {}): {steps} steps along {along}",
-                    a.x, a.y, b.x, b.y
-                )
+                let [a, b] = [a, b].map(|end| format!("({}, {})", end.x, end.y));
+                format!("line {a} to {b}: {steps} steps along {along}")
             };
             lines.iter().map(of_line).collect()
         }

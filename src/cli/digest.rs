@@ -6,7 +6,7 @@ use super::{Status, Streams, exit};
 use rasterproof_registry::digest::{self, DigestOptions, DigestRow};
 use rasterproof_report::html::Report;
 use rasterproof_report::json;
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
@@ -32,9 +32,8 @@ pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     let parts = digest::digest(options, engine, &|more| progress.done(more));
     drop(progress);
     let total = digest::total(&parts);
-    let row =
-        |of: &DigestRow| vec![of.engine.to_owned(), of.what.to_owned(), of.sha256.clone()].into();
-    let all = vec![format!("seed {seed}, {cases} cases"), String::new(), total.clone()].into();
+    let row = |of: &DigestRow| Row::of(&[&of.engine, &of.what, &of.sha256]);
+    let all = Row::of(&[&format!("seed {seed}, {cases} cases"), &"", &total]);
     let rows = parts.iter().map(row).chain([all]).collect();
     let report = Report {
         tables: vec![Table::new("", "engine 19 | what 8 | SHA-256 64", rows)],

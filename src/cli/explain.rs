@@ -21,25 +21,25 @@ const MOST: usize = 8;
 /// The explanation of a pixel of the case's window, in lines of at most 100 columns.
 pub fn pixel(case: &Case, at: PixelPoint) -> String {
     let mut out = format!("pixel ({}, {})", at.x, at.y);
-    let rest = match &case.shape {
+    let count = match &case.shape {
         Shape::Triangles { list, .. } => {
             let [x, y] = centre(at);
             let _ = writeln!(out, ": its sample is the centre, ({x}, {y})");
             list.iter().take(MOST).for_each(|t| triangle(&mut out, t, case.window, at));
-            list.len().saturating_sub(MOST)
+            list.len()
         }
         Shape::Lines(list) => {
             out.push('\n');
             list.iter().take(MOST).for_each(|l| line(&mut out, l, case.window, at));
-            list.len().saturating_sub(MOST)
+            list.len()
         }
         Shape::Unsnapped { list, .. } => {
             let _ = writeln!(out, ": its sample is the centre, {}", free_point(centre(at)));
             list.iter().take(MOST).for_each(|t| free_triangle(&mut out, t, case.window, at));
-            list.len().saturating_sub(MOST)
+            list.len()
         }
     };
-    if rest > 0 {
+    if let Some(rest @ 1..) = count.checked_sub(MOST) {
         let _ = writeln!(out, "and {rest} more");
     }
     out
@@ -53,7 +53,7 @@ fn free_point([x, y]: [f64; 2]) -> String {
     format!("({x:?}, {y:?})")
 }
 
-fn point(p: SubpixelPoint) -> String {
+pub fn point(p: SubpixelPoint) -> String {
     let (x, y) = p.to_px();
     format!("({x}, {y})")
 }
@@ -74,11 +74,9 @@ fn side(sign: Ordering, (name, owns): (&str, bool)) -> (String, bool) {
     match sign {
         Ordering::Greater => ("inside".to_owned(), true),
         Ordering::Less => ("outside".to_owned(), false),
-        Ordering::Equal if owns => {
-            (format!("a tie: the sample lies on {name}, which owns it: inside"), true)
-        }
         Ordering::Equal => {
-            (format!("a tie: the sample lies on {name}, which does not own it: outside"), false)
+            let what = if owns { "owns it: inside" } else { "does not own it: outside" };
+            (format!("a tie: the sample lies on {name}, which {what}"), owns)
         }
     }
 }
@@ -182,12 +180,9 @@ fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {
         return;
     }
     // The line at u is a[minor] + rise / du.
-    let (du, rise) = (
-        i128::from(b[major] - a[major]).abs().max(1),
-        i128::from(b[minor] - a[minor])
-            * i128::from(u - a[major])
-            * i128::from((b[major] - a[major]).signum()),
-    );
+    let [along, across, done] =
+        [b[major] - a[major], b[minor] - a[minor], u - a[major]].map(i128::from);
+    let (du, rise) = (along.abs().max(1), across * done * along.signum());
     let exact = i128::from(a[minor]) * du + rise;
     let (whole, part) = (exact.div_euclid(du), exact.rem_euclid(du));
     let fraction = if part == 0 { String::new() } else { format!(" and {part}/{du}") };

@@ -17,12 +17,9 @@ use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::html::Report;
 use rasterproof_report::json::pretty;
 use rasterproof_report::league;
-use rasterproof_report::table::Table;
+use rasterproof_report::table::{Row, Table};
 
 const ADAPTERS: &str = "adapters/league.json";
-/// Where it is written, as data and as a page.
-const JSON: &str = "league.json";
-const PAGES: [(&str, bool); 2] = [("league.md", false), ("league.zh.md", true)];
 
 pub fn run(
     names: &[String],
@@ -46,7 +43,7 @@ pub fn run(
         let program = match Program::start(&adapter.command, &[], limits) {
             Ok(program) => program,
             Err(why) => {
-                shown.push(vec![adapter.name.clone(), format!("skipped: {why}")].into());
+                shown.push(Row::of(&[&adapter.name, &format!("skipped: {why}")]));
                 continue;
             }
         };
@@ -66,11 +63,11 @@ pub fn run(
             None => ["-".to_owned(), "-".to_owned()],
             Some(kind) => {
                 let found = kind.by_convention.map(|score| score.wrong.to_string());
-                let found = found.unwrap_or_else(|| "unexplained".to_owned());
-                [kind.as_declared.wrong.to_string(), found]
+                [kind.as_declared.wrong.to_string(), found.unwrap_or("unexplained".to_owned())]
             }
         });
-        shown.push([vec![adapter.name.clone()], found.concat()].concat().into());
+        let [[triangles, by_rule], [lines, lines_by_rule]] = &found;
+        shown.push(Row::of(&[&adapter.name, triangles, by_rule, lines, lines_by_rule]));
         rows.push(standing);
     }
     if rows.is_empty() {
@@ -80,15 +77,13 @@ pub fn run(
                    pixels as declared | >by its rule 11 by its own convention";
     let tables = vec![Table::new("Wrong pixels of each library", columns, shown)];
     print(Report { tables, ..Report::default() }, exit::AGREES, streams)?;
-    let all = League {
-        rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
-        seed: options.seed,
-        cases: options.cases,
-        rows,
-    };
-    let json = pretty(&all);
-    let pages = PAGES.map(|(path, chinese)| (path, league::tables(&all, chinese)));
-    for (name, text) in [(JSON, json)].into_iter().chain(pages) {
+    let Options { seed, cases, .. } = *options;
+    let all = League { rasterproof: env!("CARGO_PKG_VERSION").to_owned(), seed, cases, rows };
+    for (name, text) in [
+        ("league.json", pretty(&all)),
+        ("league.md", league::tables(&all, false)),
+        ("league.zh.md", league::tables(&all, true)),
+    ] {
         let output = place.output(name);
         if streams.save(&output, text.as_bytes()) {
             writeln!(streams.errors, "league: {}", printable_path(&output.path))?;

@@ -6,12 +6,13 @@
 use std::ffi::{OsStr, OsString};
 
 use clap::ArgMatches;
+use clap::parser::ValueSource;
 use rasterproof_host::shell;
 
 use super::program;
 
 /// A subcommand with the options that were given for it; options with default values are left out.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Typed {
     name: String,
     positional: Vec<OsString>,
@@ -28,24 +29,15 @@ impl Typed {
         let found = inner.and_then(|(name, inner)| Some((command.find_subcommand(name)?, inner)));
         let (name, (command, matches)) =
             (inner.map_or("verify", |(name, _)| name), found.unwrap_or((command, matches)));
-        let mut typed = Self {
-            name: name.to_owned(),
-            positional: Vec::new(),
-            options: Vec::new(),
-            after: Vec::new(),
-        };
+        let mut typed = Self { name: name.to_owned(), ..Self::default() };
         let is_typed = |arg: &clap::Arg| {
             matches.ids().any(|id| id == arg.get_id())
-                && matches.value_source(arg.get_id().as_str())
-                    == Some(clap::parser::ValueSource::CommandLine)
+                && matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine)
         };
         for arg in command.get_arguments().filter(|arg| is_typed(arg)) {
-            let each: Vec<Vec<OsString>> = matches
-                .get_raw_occurrences(arg.get_id().as_str())
-                .into_iter()
-                .flatten()
-                .map(|values| values.map(OsStr::to_owned).collect())
-                .collect();
+            let each = matches.get_raw_occurrences(arg.get_id().as_str()).into_iter().flatten();
+            let each = each.map(|values| values.map(OsStr::to_owned).collect());
+            let each: Vec<Vec<OsString>> = each.collect();
             match arg.get_long() {
                 Some(long) if arg.get_action().takes_values() => {
                     typed.options.extend(each.into_iter().map(|values| (long.to_owned(), values)));
@@ -62,20 +54,19 @@ impl Typed {
     }
 
     /// The same with this value of an option, at the place where the option was given, or at the end.
-    pub fn set(mut self, option: &str, value: impl ToString) -> Self {
+    pub fn set(self, option: &str, value: impl ToString) -> Self {
         let at = self.options.iter().position(|(name, _)| name == option);
-        let at = at.unwrap_or(self.options.len());
-        self = self.without(&[option]);
-        self.options.insert(
-            at.min(self.options.len()),
-            (option.to_owned(), vec![value.to_string().into()]),
-        );
-        self
+        self.insert(at.unwrap_or(usize::MAX), option, value)
     }
 
     pub fn first(self, option: &str, value: impl ToString) -> Self {
+        self.insert(0, option, value)
+    }
+
+    fn insert(self, at: usize, option: &str, value: impl ToString) -> Self {
         let mut typed = self.without(&[option]);
-        typed.options.insert(0, (option.to_owned(), vec![value.to_string().into()]));
+        let at = at.min(typed.options.len());
+        typed.options.insert(at, (option.to_owned(), vec![value.to_string().into()]));
         typed
     }
 
@@ -166,24 +157,8 @@ mod tests {
     }
 
     /// Words that some option takes; each option is given the first that its parser accepts.
-    const VALUES: [&str; 16] = [
-        "a b'$(x)\u{1b}.png",
-        "-7.5",
-        "7",
-        "3",
-        "1/4",
-        "64x48",
-        "-3,3",
-        "vulkan:0",
-        "+clip",
-        "x",
-        "T2",
-        "512",
-        "0.5,32",
-        "0.5",
-        "2,9",
-        "depth",
-    ];
+    const VALUES: &str =
+        "a_b'$(x)\u{1b}.png -7.5 7 3 1/4 64x48 -3,3 vulkan:0 +clip x T2 512 0.5,32 0.5 2,9 depth";
 
     /// The words that give an option, in all forms that its parser accepts.
     fn forms(arg: &clap::Arg) -> Vec<Vec<String>> {
@@ -193,7 +168,7 @@ mod tests {
         }
         let possible = arg.get_possible_values();
         let names = possible.iter().map(|value| value.get_name().to_owned());
-        let values = names.chain(VALUES.map(str::to_owned));
+        let values = names.chain(VALUES.split(' ').map(|value| value.replace('_', " ")));
         let mut forms: Vec<_> = values.map(|value| vec![format!("--{long}={value}")]).collect();
         if matches!(arg.get_action(), clap::ArgAction::Append) {
             forms.extend(forms.clone().into_iter().map(|form| [form.clone(), form].concat()));
@@ -214,14 +189,11 @@ mod tests {
         for subcommand in pages {
             let name = subcommand.get_name().to_owned();
             // Words without which nothing is parsed.
-            let required: &[&[&str]] =
-                &[&[], &["T2"], &["cube"], &["--", "./a b", "-x", "it's"], &["-1,2", "-x.obj"]];
-            let bases: Vec<Vec<String>> = required
-                .iter()
-                .map(|more| std::iter::once(&*name).chain(more.iter().copied()))
-                .map(|words| words.map(str::to_owned).collect())
-                .filter(|words: &Vec<String>| parsed(words).is_some())
-                .collect();
+            let required: [&[&str]; 5] =
+                [&[], &["T2"], &["cube"], &["--", "./a b", "-x", "it's"], &["-1,2", "-x.obj"]];
+            let words = |more: &[&str]| [&[&*name], more].concat().into_iter().map(str::to_owned);
+            let mut bases: Vec<Vec<String>> = required.map(|more| words(more).collect()).into();
+            bases.retain(|words| parsed(words).is_some());
             let with = |words: &[String], form: &[String]| {
                 let at = words.iter().position(|word| word == "--").unwrap_or(words.len());
                 [&words[..at], form, &words[at..]].concat()

@@ -49,12 +49,11 @@ pub fn tables(board: &Board) -> Vec<Table> {
 }
 
 fn title(measure: &Measure) -> String {
+    let title = &measure.title;
     match measure.goal {
-        Some(0.0) => format!("{} (0 is exact, * the cheapest such)", measure.title),
-        Some(goal) => {
-            format!("{} (up to {goal:.4} is +, * the cheapest such)", measure.title)
-        }
-        None => measure.title.to_string(),
+        Some(0.0) => format!("{title} (0 is exact, * the cheapest such)"),
+        Some(goal) => format!("{title} (up to {goal:.4} is +, * the cheapest such)"),
+        None => title.to_string(),
     }
 }
 
@@ -153,12 +152,8 @@ fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<M
         Column::numbers(name, "").short(head).least(cell_width(board))
     };
     let first = Column::words("choice").short("").least(NAME - INDENT);
-    Table {
-        caption,
-        columns: [first].into_iter().chain(columns.iter().map(head)).collect(),
-        rows: choices.clone().filter(has_cell).map(row).collect(),
-        ..Table::default()
-    }
+    let columns = [first].into_iter().chain(columns.iter().map(head)).collect();
+    Table::of(&caption, columns, choices.clone().filter(has_cell).map(row).collect())
 }
 
 /// Says which columns nobody ran and why, and why single cells were not run.
@@ -207,8 +202,8 @@ pub fn price(boards: &[Board]) -> Option<Table> {
         p.as_ref().map_or("not run".to_owned(), |p| format!("{} {:.2}x", p.name, p.ratio))
     };
     let row = |price: &Price| {
-        let costs = [&price.unpromised, &price.snapped, &price.given].map(cell);
-        [price.column.to_string()].into_iter().chain(costs).collect::<Vec<_>>().into()
+        let [floats, snapped, given] = [&price.unpromised, &price.snapped, &price.given].map(cell);
+        Row::of(&[&price.column, &floats, &snapped, &given])
     };
     let caption = "Exact coverage over the cheapest choice, by ns for each covered pixel";
     (!prices.is_empty()).then(|| Table::new(caption, columns, prices.iter().map(row).collect()))

@@ -1,6 +1,7 @@
 //! The verdict as tables: a line for each family, a column for each pair, of triangles, of lines, and of triangles
 //! off the lattice.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::html::Outcome;
@@ -82,18 +83,13 @@ fn table(families: &[&FamilyReport]) -> Table {
         columns.push(column.short(format!("{}:{}", letter(actual), letter(target))));
     }
     // Two more of each engine: its worst value and depth, or its decisions and those in doubt.
+    let worst = "the largest difference from the exact one, as a fraction of its bound";
     let more = match first.kind {
         Kind::Unsnapped => [
             ("decisions", "decided", "by floats, and in exact arithmetic"),
             ("doubts", "exact", "decisions that took exact arithmetic"),
         ],
-        _ => ["values", "depths"].map(|what| {
-            (
-                what,
-                &what[..3],
-                "the largest difference from the exact one, as a fraction of its bound",
-            )
-        }),
+        _ => [("values", "val", worst), ("depths", "dep", worst)],
     };
     for (what, short, about) in more {
         columns.extend(judged(first).map(|PairReport { actual, .. }| {
@@ -150,8 +146,7 @@ fn rows(
 ) -> Vec<Row> {
     let one = |family: &&FamilyReport| {
         let (cells, is_wrong) = row(family);
-        let mark = if is_wrong { Mark::Wrong } else { Mark::Plain };
-        Row { search: Some(cells[0].clone()), cells, mark, ..Row::default() }
+        Row { search: Some(cells[0].clone()), ..Row::from(cells).marked(!is_wrong) }
     };
     let mut rows: Vec<Row> = families.iter().map(one).collect();
     if let [first, others @ ..] = families
@@ -201,14 +196,10 @@ pub fn outcome(verdict: &Verdict) -> Outcome {
 pub fn refused() -> Table {
     let rows = named::named().into_iter().filter_map(|named| {
         let Input::Refused(triangles) = named.input else { return None };
-        let mut reasons: Vec<String> = triangles
-            .iter()
-            .flatten()
-            .filter_map(|&[x, y]| SubpixelPoint::from_px(x, y).err().map(|r| r.to_string()))
-            .collect();
-        reasons.sort();
-        reasons.dedup();
-        Some(vec![named.name.to_owned(), named.about.to_owned(), reasons.join("; ")].into())
+        let reason = |&[x, y]: &[f64; 2]| Some(SubpixelPoint::from_px(x, y).err()?.to_string());
+        let reasons: BTreeSet<String> = triangles.iter().flatten().filter_map(reason).collect();
+        let reasons = reasons.into_iter().collect::<Vec<_>>().join("; ");
+        Some(Row::of(&[&named.name, &named.about, &reasons]))
     });
     let columns = "case 6 | input | answer";
     Table::new("Inputs that are refused, with the reason given", columns, rows.collect())
@@ -234,14 +225,14 @@ pub fn disagreements(verdict: &Verdict) -> Vec<String> {
                 "{family}: {actual} against {target}: wrong in {wrong_cases} of {cases} cases{kinds}"
             ));
         }
-        if f.oracle_faults > 0 {
-            let pixels = f.oracle_faults;
-            out.push(match f.kind {
-                Kind::Unsnapped => format!(
-                    "{family}: the oracle does not hit {pixels} pixels of tiled windows exactly once"
-                ),
-                _ => format!("{family}: the oracle hits {pixels} pixels of disjoint shapes twice"),
-            });
+        if let pixels @ 1.. = f.oracle_faults {
+            let fault = match f.kind {
+                Kind::Unsnapped => {
+                    format!("does not hit {pixels} pixels of tiled windows exactly once")
+                }
+                _ => format!("hits {pixels} pixels of disjoint shapes twice"),
+            };
+            out.push(format!("{family}: the oracle {fault}"));
         }
     }
     out

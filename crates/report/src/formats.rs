@@ -94,20 +94,23 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
         let case = format!("<testcase classname=\"{name}\" name=\"{}\" time=\"0\"", xml(p.name));
         let text = xml(&message(verdict, p, repeat));
         let about = xml(&p.detail);
-        let _ = match p.outcome {
-            Outcome::Pass => writeln!(out, "    {case}/>"),
-            Outcome::ExpectedFailure => {
-                writeln!(out, "    {case}><skipped message=\"known: {about}\"/></testcase>")
+        let kind = match p.outcome {
+            Outcome::Pass => {
+                let _ = writeln!(out, "    {case}/>");
+                continue;
             }
-            Outcome::UnexpectedPass => writeln!(
-                out,
-                "    {case}><failure type=\"unexpected pass\" message=\"{about}\">{text}</failure></testcase>"
-            ),
-            Outcome::Fail => writeln!(
-                out,
-                "    {case}><failure type=\"disagrees\" message=\"{about}\">{text}</failure></testcase>"
-            ),
+            Outcome::ExpectedFailure => {
+                let _ =
+                    writeln!(out, "    {case}><skipped message=\"known: {about}\"/></testcase>");
+                continue;
+            }
+            Outcome::UnexpectedPass => "unexpected pass",
+            Outcome::Fail => "disagrees",
         };
+        let _ = writeln!(
+            out,
+            "    {case}><failure type=\"{kind}\" message=\"{about}\">{text}</failure></testcase>"
+        );
     }
     if !verdict.more.complaints.is_empty() {
         let text = xml(&verdict.more.complaints.join("\n"));

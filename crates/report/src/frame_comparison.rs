@@ -56,21 +56,29 @@ pub fn compare(
     ties: Option<&Ties>,
 ) -> Comparison {
     let bounds = a.0.bounds();
-    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
-    let mut picture = Frame::new(bounds, [0; 4]);
-    let (mut wrong_pixels, mut undecided_differ, mut far_texture) = (0, 0, 0);
+    let (depths, wrong) = compare_depths(a.1, b.1, ties);
+    let mut found = Comparison {
+        pixels: u64::from(bounds.width()) * u64::from(bounds.height()),
+        wrong_pixels: 0,
+        depths,
+        wrong_depths: wrong.len() as u64,
+        undecided: ties.map_or(0, Ties::count),
+        undecided_differ: 0,
+        far_texture: 0,
+        picture: Frame::new(bounds, [0; 4]),
+    };
     for y_px in bounds.y0..bounds.y1 {
         let rows = a.0.row(y_px).iter().zip(b.0.row(y_px));
         for (x_px, (pixel, (first, second))) in
-            (bounds.x0..).zip(picture.row_mut(y_px).iter_mut().zip(rows))
+            (bounds.x0..).zip(found.picture.row_mut(y_px).iter_mut().zip(rows))
         {
             let ties = ties.filter(|ties| ties.is_undecided(x_px, y_px));
             let differs = first != second;
             let is_excused = differs && ties.is_some_and(|t| only_ties(t, [a.1, b.1], x_px, y_px));
-            wrong_pixels += u64::from(differs && !is_excused);
+            found.wrong_pixels += u64::from(differs && !is_excused);
             let is_far = is_excused && ties.is_some_and(|t| t.is_far_texture(x_px, y_px));
-            undecided_differ += u64::from(is_excused && !is_far);
-            far_texture += u64::from(is_far);
+            found.undecided_differ += u64::from(is_excused && !is_far);
+            found.far_texture += u64::from(is_far);
             *pixel = match (differs, is_excused, ties) {
                 (true, true, _) => YELLOW,
                 (true, false, _) => RED,
@@ -79,22 +87,11 @@ pub fn compare(
             };
         }
     }
-    let (depths, wrong) = compare_depths(a.1, b.1, ties);
     let scale = a.1.antialias().scale() as i32;
-    for (x_px, y_px) in &wrong {
-        picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = RED;
+    for (x_px, y_px) in wrong {
+        found.picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = RED;
     }
-    let (wrong_depths, undecided) = (wrong.len() as u64, ties.map_or(0, Ties::count));
-    Comparison {
-        pixels,
-        wrong_pixels,
-        depths,
-        wrong_depths,
-        undecided,
-        undecided_differ,
-        far_texture,
-        picture,
-    }
+    found
 }
 
 /// Whether the samples of a pixel differ in colour only where ties excuse it, and somewhere do.
@@ -118,11 +115,8 @@ fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
 
 /// How many pixels of two frames of the same size differ.
 pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
-    a.rows()
-        .zip(b.rows())
-        .flat_map(|((_, a), (_, b))| a.iter().zip(b))
-        .filter(|(a, b)| a != b)
-        .count() as u64
+    let pixels = a.rows().zip(b.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
+    pixels.filter(|(a, b)| a != b).count() as u64
 }
 
 /// How many depths were compared, and the samples where they differ.
@@ -246,12 +240,11 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
         Some(cell(effect.name(), paint.map_array(|c| c / 2), words, &|x, y| {
             let [r, g, b, _] = picture.get(x, y).unwrap_or_default();
             let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
+            // The frame shows through.
+            let lit = |c: u8| (u32::from(c) * (160 + grey * 3 / 8) / 256).min(255) as u8;
             match map.get(x, y).unwrap_or(0) & (1 << effect as u32) {
                 0 => [(40 + grey / 5) as u8; 3],
-                // The frame shows through.
-                _ => {
-                    paint.map_array(|c| (u32::from(c) * (160 + grey * 3 / 8) / 256).min(255) as u8)
-                }
+                _ => paint.map_array(lit),
             }
         }))
     });

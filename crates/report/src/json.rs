@@ -33,7 +33,6 @@ pub fn pretty(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
-/// What can be serialised, as a value.
 pub fn value(of: &impl Serialize) -> Value {
     // Numbers and strings only: this cannot fail.
     serde_json::to_value(of).unwrap_or_default()

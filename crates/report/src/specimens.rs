@@ -2,6 +2,7 @@
 
 use super::table::{self, Column, Row, Table};
 use rasterproof_registry::published_check::{Counts, SpecimenReport};
+use rasterproof_verify::comparison::Tally;
 
 const UNITS: &str = "\
 differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong \
@@ -30,42 +31,35 @@ fn of_specimens(reports: &[&SpecimenReport]) -> Table {
             rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal)
         });
         let worst = worst.map_or(String::new(), |(name, c)| format!("{name} {:.0}%", c.percent()));
+        let from = format!("{}: {}", r.source, r.fault);
+        let shown_by = format!("{}: {} pixels", r.case, r.case_wrong);
         let mut cells = cells(r.name, &r.all);
-        cells.extend([
-            worst,
-            format!("{}: {}", r.source, r.fault),
-            r.cure.to_owned(),
-            format!("{}: {} pixels", r.case, r.case_wrong),
-        ]);
+        cells.extend([worst, from, r.cure.to_owned(), shown_by]);
         Row { search: Some(r.name.to_owned()), ..cells.into() }
     };
     let mut columns = counted("specimen 16");
     columns.extend(table::columns(":worst family | from, and its fault | :cure | :shown by"));
-    Table {
-        caption: "Published algorithms and how often each is wrong, worst first".to_owned(),
-        columns,
-        rows: reports.iter().map(row).collect(),
-        notes: vec![UNITS.to_owned()],
-        ..Table::default()
-    }
+    let caption = "Published algorithms and how often each is wrong, worst first";
+    let table = Table::of(caption, columns, reports.iter().map(row).collect());
+    table.noted(vec![UNITS.to_owned()])
 }
 
 /// One specimen: its card, every family, every recorded input.
 fn detail(report: &SpecimenReport) -> Vec<Table> {
     let r = report;
-    let mut notes = vec![
+    let (case, wrong, harmless) = (&r.case, r.case_wrong, r.harmless_wrong);
+    let notes = vec![
         format!("cure: {}", r.cure),
-        format!(
-            "shown by: {}: {} pixels; harmless case: {} pixels",
-            r.case, r.case_wrong, r.harmless_wrong
-        ),
+        format!("shown by: {case}: {wrong} pixels; harmless case: {harmless} pixels"),
+        match r.families.is_empty() {
+            true => {
+                "no rasterizer and no line drawer: its fault shows in its case alone".to_owned()
+            }
+            false => {
+                format!("{UNITS}; pixels, values: percent with a wrong pixel, with a wrong value")
+            }
+        },
     ];
-    notes.extend(match r.families.is_empty() {
-        true => vec!["no rasterizer and no line drawer: its fault shows in its case alone".into()],
-        false => {
-            vec![format!("{UNITS}; pixels, values: percent with a wrong pixel, with a wrong value")]
-        }
-    });
     let mut columns = counted("family 21");
     columns.extend(table::columns(">pixels 6 | >values 6"));
     let row = |(name, c): (&str, &Counts)| {
@@ -77,23 +71,18 @@ fn detail(report: &SpecimenReport) -> Vec<Table> {
     let rows = families.chain(all).map(row).collect();
     let caption = format!("{}: {}: {}", r.name, r.source, r.fault);
     let recorded = r.recorded.iter().map(|(name, c)| {
-        let tally = &c.tally;
+        let Tally { extra, missing, twice, .. } = c.tally;
         let what = match c.refused {
-            0 => format!(
-                "{} covered, {} extra, {} missing, {} twice",
-                c.pixels, tally.extra, tally.missing, tally.twice
-            ),
+            0 => format!("{} covered, {extra} extra, {missing} missing, {twice} twice", c.pixels),
             _ => "refused: undefined in the published code, or without end".to_owned(),
         };
-        vec![(*name).to_owned(), what].into()
+        Row::of(&[name, &what])
     });
     let title = "Recorded inputs of the book's code";
     let recorded = Table::new(title, "input 22 | wrong pixels 12", recorded.collect());
-    let recorded = Some(recorded).filter(|table| !table.rows.is_empty());
-    [Table { caption, columns, rows, notes, ..Table::default() }]
-        .into_iter()
-        .chain(recorded)
-        .collect()
+    let mut tables = vec![Table::of(&caption, columns, rows).noted(notes), recorded];
+    tables.retain(|table| !table.rows.is_empty() || !table.notes.is_empty());
+    tables
 }
 
 /// A column for what was counted of, as it is written, and those of the counts.
@@ -148,11 +137,7 @@ fn by_family(reports: Vec<&SpecimenReport>, shapes: &str) -> Option<Table> {
         let cells = counts.map(|c| format!("{:.1}", c.percent_of(c.wrong_pixels)));
         [(*family).to_owned()].into_iter().chain(cells).collect::<Vec<_>>().into()
     });
-    Some(Table {
-        caption: format!("{shapes} with a wrong pixel in percent, by family"),
-        columns: [Column::words("family").least(16)].into_iter().chain(columns).collect(),
-        rows: rows.collect(),
-        notes: vec![legend.join(", ")],
-        ..Table::default()
-    })
+    let caption = format!("{shapes} with a wrong pixel in percent, by family");
+    let columns = [Column::words("family").least(16)].into_iter().chain(columns).collect();
+    Some(Table::of(&caption, columns, rows.collect()).noted(vec![legend.join(", ")]))
 }

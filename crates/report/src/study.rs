@@ -655,6 +655,5 @@ fn cost_table(subject: &Places<'_>, group: &Group) -> Table {
     let measures = group.measures.iter();
     let mut notes: Vec<_> = measures.map(|m| format!("{}: {}", m.short, m.title)).collect();
     notes.extend(advice(subject, group));
-    let rows = group.choices.iter().map(row).collect();
-    Table { caption, columns, rows, notes, ..Table::default() }
+    Table::of(&caption, columns, group.choices.iter().map(row).collect()).noted(notes)
 }

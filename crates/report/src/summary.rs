@@ -1,7 +1,7 @@
 //! The verdict for people: a line for each danger, with what came of it and where to read on; at most
 //! 60 columns.
 
-use super::table::{Mark, Row, Table};
+use super::table::{Row, Table};
 use super::words::{of_bound, thousands};
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
@@ -111,8 +111,7 @@ impl Sum {
 /// A row for something that was judged; what there is to say beyond a line stands below it.
 pub(super) fn row(is_right: bool, name: &str, what: &str) -> Row {
     let (first, more) = what.split_once('\n').unwrap_or((what, ""));
-    let mark = if is_right { Mark::Plain } else { Mark::Wrong };
-    Row { cells: [name, first, more].map(str::to_owned).to_vec(), mark, ..Row::default() }
+    Row::of(&[&name, &first, &more]).marked(is_right)
 }
 
 /// Rows that [`row`] made, as a table of the first screen.

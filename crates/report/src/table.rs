@@ -119,8 +119,11 @@ pub enum Mark {
 impl Table {
     /// A table with columns as [`columns`] reads them.
     pub fn new(caption: &str, columns: &str, rows: Vec<Row>) -> Self {
-        let (caption, columns) = (caption.to_owned(), self::columns(columns));
-        Self { caption, columns, rows, ..Self::default() }
+        Self::of(caption, self::columns(columns), rows)
+    }
+
+    pub fn of(caption: &str, columns: Vec<Column>, rows: Vec<Row>) -> Self {
+        Self { caption: caption.to_owned(), columns, rows, ..Self::default() }
     }
 
     pub fn noted(self, notes: Vec<String>) -> Self {
