@@ -246,16 +246,17 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
             _ => 0.0,
         };
         let cracked = cracks > 0.0;
-        let label =
-            if cracked { format!("{} ({cracks})", info.name) } else { info.name.to_string() };
         let good = board.meets(choice, column, 0) == Some(true);
-        let snapped = info.promises.contains(&1) && !good;
-        let above = (first > 0.0).then_some(first);
         // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
         // vertices as given is the error of snapping, a line of its own.
-        let label = if snapped { format!("{} (snapped)", info.name) } else { label };
-        let error = above.filter(|_| !snapped);
-        let (good, hollow) = (good || snapped, snapped);
+        let hollow = info.promises.contains(&1) && !good;
+        let label = match (hollow, cracked) {
+            (true, _) => format!("{} (snapped)", info.name),
+            (_, true) => format!("{} ({cracks})", info.name),
+            _ => info.name.to_string(),
+        };
+        let error = (first > 0.0 && !hollow).then_some(first);
+        let good = good || hollow;
         let best = board.best(column, 0).and_then(|best| best.good) == Some(choice);
         dots.push(Dot { label, time, quartiles, error, good, hollow, cracked, best });
     }
@@ -270,10 +271,9 @@ struct Axis {
 
 impl Axis {
     fn new(values: impl Iterator<Item = f64>, margin: f64, places: [f64; 2]) -> Self {
-        let (low, high) = values
-            .map(f64::log10)
-            .fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
-        let (low, high) = if low > high { (0.0, 1.0) } else { (low, high) };
+        let ends = values.map(f64::log10).map(|v| (v, v));
+        let ends = ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (low, high) = ends.unwrap_or((0.0, 1.0));
         Self { values: [low - margin, high + margin], places }
     }
 
@@ -438,32 +438,29 @@ fn labelled(
             [high + 10.0, low - 10.0 - room, over].map(|x| [x, at[1] + down])
         });
         let area = |[x, y]: [f64; 2]| [x, y - 6.0, x + room, y + 6.0];
-        let leader = |place: [f64; 2]| {
-            if place[0] > at[0] {
-                [*at, [place[0] - 2.0, place[1]]]
-            } else if place[0] + room < at[0] {
-                [*at, [place[0] + room + 2.0, place[1]]]
-            } else {
-                let edge = if place[1] > at[1] { -6.0 } else { 6.0 };
-                [*at, [at[0], place[1] + edge]]
-            }
+        let leader = |[x, y]: [f64; 2]| {
+            let edge = if y > at[1] { -6.0 } else { 6.0 };
+            let to = match (x > at[0], x + room < at[0]) {
+                (true, _) => [x - 2.0, y],
+                (_, true) => [x + room + 2.0, y],
+                _ => [at[0], y + edge],
+            };
+            [*at, to]
         };
         let is_free = |place: [f64; 2], strict: bool| {
-            let area = area(place);
+            let (area, own) = (area(place), around(*at));
             let is_high = area[1] >= y0 && area[3] <= y1;
             let inside = area[0] >= x0 && area[2] <= x1 && is_high == dot.error.is_some();
-            let inside = inside && !overlap(&area, &around(*at));
             let clear =
                 |other: &Area| !(overlap(&area, other) || strict && crosses(leader(place), other));
-            inside && taken.iter().filter(|other| **other != around(*at)).all(clear)
+            inside && !overlap(&area, &own) && taken.iter().filter(|one| **one != own).all(clear)
         };
         let [low, high] = ends(dot, time);
         drawing.wide_line([low, at[1]], [high, at[1]], SOFT);
         let ink = mark(drawing, *at, dot);
         // Better a line across something than no label, and better across the quartiles.
-        let found = [true, false]
-            .into_iter()
-            .find_map(|strict| shifts.clone().find(|&place| is_free(place, strict)));
+        let found = |strict| shifts.clone().find(|&place| is_free(place, strict));
+        let found = found(true).or_else(|| found(false));
         let place = found.unwrap_or([(high + 10.0).min(x1 - room), at[1]]);
         if (place[1] - at[1]).abs() > 1.0 {
             let [from, to] = leader(place);

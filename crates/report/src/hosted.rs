@@ -94,13 +94,13 @@ impl Job {
             "family" if family_names().contains(&value) => {
                 self.options.families.push(value.to_owned());
             }
-            "language" => self.is_python = value == "python",
-            "call" => self.call = value.to_owned(),
-            "declare" => self.declare = value.to_owned(),
             "family" => {
                 let names = family_names().join(", ");
                 return Err(format!("no family is {value}; expected {names}"));
             }
+            "language" => self.is_python = value == "python",
+            "call" => self.call = value.to_owned(),
+            "declare" => self.declare = value.to_owned(),
             _ => {
                 let known = "cases, seed, case, seconds, family or declare";
                 return Err(format!("no option is {option}; expected {known}"));
@@ -116,11 +116,13 @@ impl Job {
 
     /// The call that judges these cases.
     fn line(&self, cases: &[(&str, String)]) -> String {
-        let declare =
-            (!self.declare.is_empty()).then(|| ("declare", format!("'{}'", self.declare)));
-        let seed = ("seed", self.options.seed.to_string());
-        let all = cases.iter().cloned().chain([seed]).chain(declare);
-        let all: Vec<_> = all.map(|(name, value)| format!("{name}{}{value}", self.is())).collect();
+        let mut all = cases.to_vec();
+        all.push(("seed", self.options.seed.to_string()));
+        if !self.declare.is_empty() {
+            all.push(("declare", format!("'{}'", self.declare)));
+        }
+        let all: Vec<_> =
+            all.iter().map(|(name, value)| format!("{name}{}{value}", self.is())).collect();
         let [open, close] = if self.is_python { ["", ""] } else { ["{ ", " }"] };
         format!("{}, {open}{}{close})", self.call, all.join(", "))
     }
@@ -129,12 +131,12 @@ impl Job {
         let one = |family: &str, index: u64| {
             self.line(&[("family", format!("'{family}'")), ("case", index.to_string())])
         };
-        let families = match self.options.families.as_slice() {
-            [] => None,
-            names => Some(("family", format!("['{}']", names.join("', '")))),
-        };
-        let cases = ("cases", self.options.cases.to_string());
-        let all = self.line(&families.into_iter().chain([cases]).collect::<Vec<_>>());
+        let mut all = vec![("cases", self.options.cases.to_string())];
+        if !self.options.families.is_empty() {
+            let names = self.options.families.join("', '");
+            all.insert(0, ("family", format!("['{names}']")));
+        }
+        let all = self.line(&all);
         if declared.partition {
             let report = polygons::judge(&mut Host(declared.clone()), &self.options)?;
             let said = judge_text::of_polygons(&declared, &report, &all, &one);
@@ -150,8 +152,8 @@ impl Job {
         if let Some(why) = verdict.judged_nothing() {
             return Err(why);
         }
-        let text =
-            text::text(&judge_text::report(&verdict, &all, &one, false), false, false, text::WIDTH);
+        let report = judge_text::report(&verdict, &all, &one, false);
+        let text = text::text(&report, false, false, text::WIDTH);
         Ok((verdict.agrees(), text.replace("--declare '", &format!("declare{}'", self.is()))))
     }
 }

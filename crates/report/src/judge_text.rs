@@ -8,7 +8,7 @@ use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::check::Check;
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::failures::{Exchange, Failure};
+use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{Found, MOST_DEATHS, MOST_DEATHS_IN_ALL, Row as FamilyRow, Sides};
@@ -178,26 +178,24 @@ fn dangers(verdict: &Verdict) -> Table {
     let is_good =
         |name: &str| verdict.more.properties.iter().all(|p| p.name != name || p.outcome.is_good());
     let mut out = Vec::new();
+    let winding = verdict.more.declared.convention.winding.word();
     for p in verdict.more.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
         let what = match (p.name, p.outcome.is_good()) {
-            ("winding", true) => {
-                format!("{}, as it declares", verdict.more.declared.convention.winding.word())
-            }
-            _ => p.detail.clone(),
+            ("winding", true) => &format!("{winding}, as it declares"),
+            _ => &p.detail,
         };
-        out.push(summary::row(p.outcome.is_good(), p.name, &what));
+        out.push(summary::row(p.outcome.is_good(), p.name, what));
     }
     let rows = &verdict.families;
     for danger in summary::DANGERS {
-        let of = || rows.iter().filter(|row| danger.families.contains(&row.name));
-        let mut sum = summary::Sum::default();
-        for row in of() {
+        let (mut sum, mut is_right, mut is_judged) = (summary::Sum::default(), true, false);
+        for row in rows.iter().filter(|row| danger.families.contains(&row.name)) {
             sum.cases += row.cases;
             sum.wrong_cases += row.wrong_cases;
             sum.tally += row.tally;
+            (is_right, is_judged) = (is_right && is_good(row.name), true);
         }
-        if of().next().is_some() {
-            let is_right = of().all(|row| is_good(row.name));
+        if is_judged {
             out.push(summary::row(is_right, danger.name, &sum.describe()));
         }
     }
@@ -266,14 +264,10 @@ fn families(verdict: &Verdict) -> Table {
     let mut notes = vec![
         "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
     ];
-    for row in verdict.families.iter().filter(|row| row.values > 0) {
-        notes.push(format!(
-            "{}: {} compared, {}, which is {:e}",
-            row.name,
-            row.values,
-            of_bound(row.worst).replace("bound", "tolerance"),
-            verdict.more.declared.tolerance
-        ));
+    let tolerance = verdict.more.declared.tolerance;
+    for FamilyRow { name, values, worst, .. } in verdict.families.iter().filter(|r| r.values > 0) {
+        let worst = of_bound(*worst).replace("bound", "tolerance");
+        notes.push(format!("{name}: {values} compared, {worst}, which is {tolerance:e}"));
     }
     for FamilyRow { name, .. } in verdict.families.iter().filter(|row| row.stopped) {
         notes.push(format!("{name}: given up after {MOST_DEATHS} times without an answer"));
@@ -446,16 +440,14 @@ fn views(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<page_ca
         None => vec![verdict.more.declared.name.as_str()],
     };
     let view = |f: &Failure| {
-        let name = format!("{}#{}", f.family, f.index);
-        let about = format!(
-            "{}: found in {} #{}, {}",
-            f.evidence.property, f.family, f.index, f.evidence.shrunk
-        );
-        let mut view =
-            page_cases::of_program(name, about, &f.case, &programs, f.evidence.picture.as_ref());
+        let Failure { family, index, evidence, .. } = f;
+        let Exchanged { property, shrunk, picture, check, .. } = evidence;
+        let name = format!("{family}#{index}");
+        let about = format!("{property}: found in {family} #{index}, {shrunk}");
+        let mut view = page_cases::of_program(name, about, &f.case, &programs, picture.as_ref());
         view.found.clone_from(&f.what);
-        view.command = repeat(f.family, f.index);
-        let chapter = match f.evidence.check {
+        view.command = repeat(family, *index);
+        let chapter = match check {
             Check::Depth => Some(("chapter 6, depth", "ch06.md")),
             Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),
             Check::Samples => Some(("GAMES101, four samples", "games101.md")),

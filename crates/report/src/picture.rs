@@ -84,12 +84,8 @@ const STACK_GAP: u32 = 12;
 /// Stacks pictures under each other on white, with a gap between.
 pub fn stack(pictures: &[RgbImage]) -> RgbImage {
     let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
-    let height = pictures
-        .iter()
-        .map(|p| p.height() + STACK_GAP)
-        .sum::<u32>()
-        .saturating_sub(STACK_GAP)
-        .max(1);
+    let height: u32 = pictures.iter().map(|picture| picture.height() + STACK_GAP).sum();
+    let height = height.saturating_sub(STACK_GAP).max(1);
     let mut sheet = RgbImage::from_pixel(width, height, Rgb([255, 255, 255]));
     let mut top = 0;
     for picture in pictures {

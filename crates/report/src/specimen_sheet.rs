@@ -112,18 +112,13 @@ fn legend(shown: &[Panels]) -> Vec<Entry> {
 
 /// Published, repaired and their difference, below the name, the fault and its cure.
 fn strip(card: &Card, legend: &[Entry]) -> RgbImage {
-    let Some(panels) = versions(card) else {
-        return RgbImage::new(1, 1);
-    };
+    let Some(panels) = versions(card) else { return RgbImage::new(1, 1) };
     let bounds = panels.published.bounds();
     let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
     let outline = scaled(&panels.outline, bounds, zoom);
     let difference = difference(&panels);
-    let all = [
-        ("published", &panels.published),
-        ("repaired", &panels.repaired),
-        ("difference", &difference),
-    ];
+    let Panels { published, repaired, .. } = &panels;
+    let all = [("published", published), ("repaired", repaired), ("difference", &difference)];
     let cells = all.map(|(title, picture)| {
         let colour = |x_px, y_px| Rgb(picture.get(x_px, y_px).unwrap_or_default());
         let shown = (bounds, zoom, panels.has_samples);
@@ -252,8 +247,8 @@ fn value_images(
     let shown = |f: &Fragment<DVec2>| {
         shade(if by_depth { (f.depth - low) / (high - low) } else { f.varying.x })
     };
-    let [mut published, mut repaired] =
-        [(); 2].map_array(|()| -> Image { Frame::new(window, BACKGROUND.0) });
+    let mut published: Image = Frame::new(window, BACKGROUND.0);
+    let mut repaired = published.clone();
     let put = |image: &mut Image, f: &Fragment<DVec2>| {
         image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = shown(f);
     };
