@@ -29,16 +29,16 @@ fn programs_that_draw_the_same_do_not_differ() {
 /// Each kind of question finds its difference, and who is right, whichever program stands first.
 #[test]
 fn who_is_right_is_told() {
-    for (wrong, right, property) in [
-        ("exclusive-edges", "scanline", "half-integer"),
-        ("exclusive-edges", "scanline", "samples4"),
-        ("bottom-right-rule", "scanline", "half-integer"),
-        ("affine-attributes", "scanline", "values"),
-        ("line-draws-backwards", "dda", "line-octants"),
+    for (wrong, right, property, families) in [
+        ("exclusive-edges", "scanline", "half-integer", ["half-integer", "fan"]),
+        ("exclusive-edges", "scanline", "samples4", ["half-integer", "fan"]),
+        ("bottom-right-rule", "scanline", "half-integer", ["half-integer", "fan"]),
+        ("affine-attributes", "scanline", "values", ["uniform", "fan"]),
+        ("line-draws-backwards", "dda", "line-octants", ["line-octants", "line-clipped"]),
     ] {
         for swap in [false, true] {
             let [first, second] = if swap { [right, wrong] } else { [wrong, right] };
-            let verdict = compared(first, second, &[]);
+            let verdict = compared(first, second, &families);
             assert!(!verdict.agrees(), "{first} {second}");
             let sides = verdict.sides();
             let [of_right, of_wrong] =
@@ -71,24 +71,24 @@ fn the_answer_comes_first_and_is_a_status() {
     assert_eq!(same.status, Some(0), "{}", same.out);
     assert!(same.out.contains("scanline and edge-function answer the same in"), "{}", same.out);
 
-    let differ = against("scanline", "games101-strict", "--family half-integer");
+    let differ = against("scanline", "exclusive-edges", "--family half-integer");
     assert_eq!(differ.status, Some(1), "{}", differ.out);
     let first = differ.out.lines().next().unwrap();
-    assert!(first.contains("games101-strict and scanline differ in 25 of 45 cases"), "{first}");
+    assert!(first.contains("exclusive-edges and scanline differ in 26 of 50 cases"), "{first}");
     for part in [
-        "25 cases: scanline is right and games101-strict is not",
-        "of the wrong triangles of games101-strict:",
-        "games101-strict   scanline   expected",
+        "26 cases: scanline is right and exclusive-edges is not",
+        "of the wrong triangles of exclusive-edges:",
+        "exclusive-edges   scanline   expected",
         "  other:    C 1 ",
         "--against",
     ] {
         assert!(differ.out.contains(part), "{part}: {}", differ.out);
     }
 
-    let json = against("scanline", "games101-strict", "--family half-integer --json");
+    let json = against("scanline", "exclusive-edges", "--family half-integer --json");
     let json: Value = serde_json::from_str(&json.out).unwrap();
     assert_eq!(json["against"]["program"], "scanline");
-    assert_eq!(json["against"]["sides"]["second"], 25);
+    assert_eq!(json["against"]["sides"]["second"], 26);
     assert!(json["failures"][0]["exchanges"][0]["other"].is_string());
 
     // A triangle and a line have nothing in common.

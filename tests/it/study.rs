@@ -440,14 +440,14 @@ fn faces_are_those_of_the_file() {
     let folder = Folder::new("study-faces");
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 0\n";
     let kinds = |faces: &str| {
-        folder.put("m.obj", format!("{square}{faces}"));
+        let found = cases(&folder, &format!("{square}{faces}"));
         let kinds = [
             "duplicate faces",
             "coplanar overlaps",
             "open borders",
             "edges of more than two faces",
         ];
-        kinds.map(|kind| numbers(&folder, "m.obj", kind).map_or(0, |[count, ..]| count))
+        kinds.map(|kind| found.iter().find(|case| case.0 == kind).map_or(0, |case| case.1))
     };
     assert_eq!(kinds("f 1 2 3 4\nf 1 2 3 5\n"), [0, 1, 4, 0]);
     assert_eq!(kinds("f 1 2 3 4\nf 3 4 1 2\n"), [1, 0, 4, 0]);
@@ -465,8 +465,8 @@ fn render_and_study_count_the_same_pixels() {
     for (model, view) in [
         (&ties, "--size 160x120 --yaw 0 --pitch 45"),
         (&ties, "--size 64x48 --aa msaa4"),
-        (&lod, "--pitch 5"),
-        (&lod, "--pitch 5 --aa ssaa2"),
+        (&lod, "--size 320x240 --pitch 5"),
+        (&lod, "--size 160x120 --pitch 5 --aa ssaa2"),
     ] {
         let model = model.to_str().unwrap();
         let run = |command: &str| {
@@ -505,7 +505,7 @@ fn pixels_that_rounding_decides_are_a_hard_case() {
         cases(&folder, &folder.text("m.obj")).into_iter().map(|(kind, ..)| kind).collect();
     assert_eq!(kinds, [ROUNDING]);
     folder
-        .check("study m.obj --once --report --out .", 0)
+        .check("study m.obj --size 320x240 --once --report --out .", 0)
         .prints("decided by rounding alone, the first at");
     let page = folder.text("study.html");
     assert!(page.contains("<strong>HARD CASES</strong>") && !page.contains("CLEAN"));
@@ -525,7 +525,13 @@ fn gaps_between_levels_of_detail_are_found_with_their_pixels() {
         (0..4).map(|i| format!("f {} {} {}\n", 21 + i, 27 + 2 * i, 22 + i)).collect();
     folder.put("closed.obj", format!("{model}usemtl gap\n{closing}"));
     let mut all = 0;
-    for view in ["", " --pitch 60", " --yaw 200 --pitch 20", " --size 1200x900", " --aa ssaa2"] {
+    for (size, view) in [
+        ("640x480", ""),
+        ("320x240", " --pitch 60"),
+        ("320x240", " --yaw 200 --pitch 20"),
+        ("480x360", " --aa ssaa2"),
+    ] {
+        let view = format!(" --size {size}{view}");
         let [count, in_view, pixels] =
             numbers(&folder, &format!("m.obj{view}"), "gaps between borders").unwrap();
         let picture = |name: &str| {
@@ -556,7 +562,7 @@ fn effects_are_called_for_where_they_change_a_pixel() {
         "m.obj",
         std::fs::read_to_string(root().join("tests/data/models/lod-border.obj")).unwrap(),
     );
-    let json = folder.check("study m.obj --once --json", 0).json();
+    let json = folder.check("study m.obj --size 320x240 --once --json", 0).json();
     let effects = json["effects"]["effects"].as_array().unwrap();
     for effect in effects {
         let changes = effect["wrong_without"].as_u64() > Some(0);
@@ -566,7 +572,7 @@ fn effects_are_called_for_where_they_change_a_pixel() {
     let safe: Vec<_> =
         effects.iter().filter(is_safe).map(|e| e["effect"].as_str().unwrap()).collect();
     assert!(safe.contains(&"depth"), "{safe:?}");
-    let text = folder.check("study m.obj --once --all", 0).out;
+    let text = folder.check("study m.obj --size 320x240 --once --all", 0).out;
     let (_, lists) = text.split_once("Effects called for").unwrap();
     let (called, rest) = lists.split_once("Effects paid for to be safe").unwrap();
     for name in safe {
@@ -615,7 +621,8 @@ fn a_study_answers_in_three_sentences_that_other_commands_confirm() {
     let lod = std::fs::read_to_string(root().join("tests/data/models/lod-border.obj")).unwrap();
     folder.put("m.obj", lod);
     folder.put("m.gltf", panes(true));
-    for words in ["m.obj", "m.obj --pitch 5", "m.gltf --size 200x150"] {
+    let small = ["m.obj --size 320x240", "m.obj --pitch 5 --size 320x240", "m.gltf --size 200x150"];
+    for words in small {
         let json = |command: &str| folder.check(&*format!("{command} {words} --json"), 0).json();
         let (study, verify, cost) = (json("study --once"), json("verify"), json("cost --once"));
         let plan = json("plan --rounds 1");

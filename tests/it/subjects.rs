@@ -30,14 +30,15 @@ fn is_whole(message: &str, [case, picture, repeat]: [&str; 3]) {
 fn messages_about_engines_and_tessellators_are_whole() {
     let parts = [", shrunk)\n", "  judged ", "repeat with: Options"];
     let options = Options::default().cases(40);
-    for mutant in [TriangleMutant::InclusiveEdges, TriangleMutant::HoleInLongRows] {
-        let verdict = judge_coverage(&mutant, &options).unwrap();
-        is_whole(&verdict.check().unwrap_err().to_string(), parts);
-    }
+    let verdict = judge_coverage(&TriangleMutant::InclusiveEdges, &options).unwrap();
+    is_whole(&verdict.check().unwrap_err().to_string(), parts);
     let verdict = judge_lines(&LineMutant::DirectedTies, &options).unwrap();
     is_whole(&verdict.check().unwrap_err().to_string(), parts);
-    let verdict = judge_exact(&ExactMutant::ALL[0], &options).unwrap();
-    is_whole(&verdict.check().unwrap_err().to_string(), parts);
+    // Of this one the search recognises no cause, because small triangles are right.
+    let verdict = judge_exact(&ExactMutant::PlainF64, &options).unwrap();
+    let message = verdict.check().unwrap_err().to_string();
+    is_whole(&message, parts);
+    assert!(message.contains("no cause was recognised"), "{message}");
     let verdict =
         judge_values(&TriangleMutant::AffineAttributes, tolerance::SCANLINE, &options).unwrap();
     is_whole(&verdict.check().unwrap_err().to_string(), parts);
