@@ -16,7 +16,7 @@ use super::pixels::masks_of;
 use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::frame::Frame;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Fragment};
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
@@ -119,7 +119,151 @@ pub fn mistakes(
             predicted.first().is_some_and(|p| agree(question, answer, p, tolerance))
         }));
     }
-    of_answers(hypotheses, &is_wrong)
+    let mut found = of_answers(hypotheses, &is_wrong)?;
+    if !found.is_known() {
+        found.common = Common::of(&all, tolerance).sentences();
+    }
+    Some(found)
+}
+
+/// What holds of every wrong pixel and of every wrong polygon so far.
+#[derive(Default)]
+struct Common {
+    /// Sentences, and whether they still hold.
+    facts: Vec<(String, bool)>,
+}
+
+impl Common {
+    fn of(all: &[Answered], tolerance: f64) -> Self {
+        let mut common = Self::default();
+        for Answered { questions, answers, .. } in all.iter().filter(|a| a.is_wrong) {
+            for (question, answer) in questions.iter().zip(answers) {
+                match (&question.of, answer) {
+                    (Asked::Values(triangle), Answer::Values(fragments)) => {
+                        fragments.iter().for_each(|f| {
+                            common.add_value(triangle, f, window_of(question), tolerance);
+                        });
+                    }
+                    (Asked::Samples(_), _) => common.add_masks(question, answer),
+                    (Asked::Depth(list), _) => {
+                        let layers = layers(list, window_of(question), CENTRE);
+                        common.add_seen(&layers, answer);
+                    }
+                    (of, _) => {
+                        let Some(triangle) = asked(of) else { continue };
+                        let of_kind = |count| {
+                            let near: Plane = |[_, _, z, w, _]| z + w;
+                            behind(&clip_corners(&triangle), near) == count
+                        };
+                        for count in 1..3 {
+                            let said = format!(
+                                "Every wrong triangle has {count} of its corners behind z = -w."
+                            );
+                            common.note(&said, of_kind(count));
+                        }
+                        let is_negative =
+                            clip_corners(&triangle).iter().any(|corner| corner[3] < 0.0);
+                        common
+                            .note("Every wrong triangle has a corner of negative w.", is_negative);
+                    }
+                }
+            }
+        }
+        common
+    }
+
+    fn note(&mut self, said: &str, holds: bool) {
+        match self.facts.iter_mut().find(|(fact, _)| fact == said) {
+            Some((_, all)) => *all &= holds,
+            None => self.facts.push((said.to_owned(), holds)),
+        }
+    }
+
+    fn add_pixel(&mut self, pixel: [i32; 2], corners: &Corners, window: PixelRect) {
+        for (holds, place) in WHERE {
+            self.note(&format!("All wrong pixels are {place}."), holds(pixel, corners));
+        }
+        let [x, y] = pixel;
+        for (holds, border) in [
+            (y == window.y0, "first row"),
+            (y == window.y1 - 1, "last row"),
+            (x == window.x0, "first column"),
+            (x == window.x1 - 1, "last column"),
+        ] {
+            self.note(&format!("All wrong pixels are in the {border} of the window."), holds);
+        }
+    }
+
+    fn add_value(&mut self, t: &Triangle, f: &Fragment<DVec2>, window: PixelRect, tolerance: f64) {
+        let is_right = |parts: &[usize]| {
+            let [right, given] = values::pixel_of(t, f);
+            let predict = |_| {
+                let mut other = given;
+                parts.iter().for_each(|&i| other[i] = right[i]);
+                Some(other)
+            };
+            are_near(t, std::slice::from_ref(f), &predict, tolerance)
+        };
+        if is_right(&[0, 1, 2]) {
+            return;
+        }
+        self.add_pixel([f.x_px, f.y_px], &t.corners(), window);
+        self.note("Depth is right in all of them.", is_right(&[0]));
+        self.note("Both attributes are right in all of them.", is_right(&[1, 2]));
+        self.note("The first attribute is right in all of them.", is_right(&[1]));
+        self.note("The second attribute is right in all of them.", is_right(&[2]));
+    }
+
+    fn add_masks(&mut self, question: &Question, answer: &Answer) {
+        let Some((corners, window, drawn)) = masks_drawn(question, answer) else { return };
+        let Some(right) = masks_at(&Oracle, *corners, window, &SAMPLES) else { return };
+        for ((y, right), (_, drawn)) in right.rows().zip(drawn.rows()) {
+            for (x, (right, drawn)) in (window.x0..).zip(right.iter().zip(drawn)) {
+                if right == drawn {
+                    continue;
+                }
+                self.add_pixel([x, y], corners, window);
+                self.note("Samples are missing, and none is extra.", drawn & !right == 0);
+                self.note("Samples are extra, and none is missing.", right & !drawn == 0);
+                self.note("Pixels of which no sample is covered are right.", *right != 0);
+                self.note("Pixels of which all samples are covered are right.", *right != 15);
+                for bit in 0..4 {
+                    let said = format!("The sample with the number {bit} alone is wrong.");
+                    self.note(&said, right ^ drawn == 1 << bit);
+                }
+            }
+        }
+    }
+
+    fn add_seen(&mut self, layers: &Layers<'_>, answer: &Answer) {
+        for (here, shown) in layers.of_pixels.iter().zip(shown(layers, answer)) {
+            let Some(nearest) = here.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)) else {
+                continue;
+            };
+            let seen = here.iter().find(|layer| layer.number as u8 + 1 == shown);
+            // Of equal depths any may be shown.
+            if seen.is_some_and(|seen| seen.depth <= nearest.depth) {
+                continue;
+            }
+            self.add_pixel(nearest.pixel, &nearest.triangle.corners(), layers.window);
+            self.note("Wrong pixels show nothing.", shown == 0);
+            let is = |order: fn(&usize, &usize) -> bool| {
+                seen.is_some_and(|seen| order(&seen.number, &nearest.number))
+            };
+            self.note(
+                "Wrong pixels show a triangle that was drawn after the nearest one.",
+                is(usize::gt),
+            );
+            self.note(
+                "Wrong pixels show a triangle that was drawn before the nearest one.",
+                is(usize::lt),
+            );
+        }
+    }
+
+    fn sentences(self) -> Vec<String> {
+        self.facts.into_iter().filter(|(_, holds)| *holds).map(|(said, _)| said).collect()
+    }
 }
 
 fn hypotheses<'a>(
@@ -167,6 +311,10 @@ fn hypothesis<'a>(
 fn agree(question: &Question, answer: &Answer, predicted: &Answer, tolerance: f64) -> bool {
     match (&question.of, answer, predicted) {
         (Asked::Values(triangle), Answer::Values(here), Answer::Values(there)) => {
+            // What a program does not draw has no values to compare.
+            if here.len() != there.len() {
+                return false;
+            }
             let at = |pixel: (i32, i32)| {
                 let found = there.iter().find(|t| (t.x_px, t.y_px) == pixel)?;
                 Some([found.depth, found.varying.x, found.varying.y])
@@ -213,8 +361,34 @@ fn of_values<'a>(all: &'a [Answered], is_wrong: &[bool], tolerance: f64) -> Vec<
             _ => true,
         })
     };
-    values::of_values(values::scaled(&pixels)).into_iter().map(of).collect()
+    let chosen = chosen_by(is_wrong).into_iter().map(|i| &all[i]);
+    let triangles: Vec<_> = chosen
+        .flat_map(|a| a.questions.iter().zip(&a.answers))
+        .filter_map(|(question, answer)| {
+            let (Asked::Values(triangle), Answer::Values(fragments)) = (&question.of, answer)
+            else {
+                return None;
+            };
+            let right = |pixel| Some(values::right_at(triangle, pixel));
+            Some((triangle, !are_near(triangle, fragments, &right, tolerance)))
+        })
+        .collect();
+    values::of_values(values::scaled(&pixels), &triangles).into_iter().map(of).collect()
 }
+
+/// Whether it holds of a pixel of a triangle.
+type Holds = fn([i32; 2], &Corners) -> bool;
+/// Where a mistake may be alone, and how that is said.
+const WHERE: [(Holds, &str); 8] = [
+    (|_, corners| area2(corners) < 0, "of counterclockwise triangles"),
+    (|_, corners| area2(corners) > 0, "of clockwise triangles"),
+    (|[_, y], _| y % 2 == 0, "in rows of even numbers"),
+    (|[_, y], _| y % 2 == 1, "in rows of odd numbers"),
+    (|[x, _], _| x % 2 == 0, "in columns of even numbers"),
+    (|[x, _], _| x % 2 == 1, "in columns of odd numbers"),
+    (|[x, y], _| (x + y) % 2 == 0, "where row and column add up to an even number"),
+    (|[x, y], _| (x + y) % 2 == 1, "where row and column add up to an odd number"),
+];
 
 /// Places of the four samples in 1/16 px, in the order of their bits.
 type Pattern = [(i32, i32); 4];
@@ -280,6 +454,26 @@ fn gates() -> Vec<(Gate, u8, String)> {
             "draws all four samples of a pixel where its centre is covered".to_owned(),
         ),
     ];
+    all.push((
+        |mask, _, _, _| if mask < 16 { mask & 15 } else { 15 },
+        0,
+        "draws all four samples of a pixel where its centre is covered, and those that are covered elsewhere"
+            .to_owned(),
+    ));
+    for bit in 0..4 {
+        all.push((
+            |mask, _, _, bit| mask & 15 & if mask < 16 { !(1 << bit) } else { 15 },
+            bit,
+            format!(
+                "draws the sample with the number {bit} only in pixels whose centre is covered"
+            ),
+        ));
+        all.push((
+            |mask, _, _, bit| mask & 15 | if mask < 16 { 0 } else { 1 << bit },
+            bit,
+            format!("draws the sample with the number {bit} also where the centre is covered"),
+        ));
+    }
     for least in 1..=4 {
         let samples = ["any is", "two are", "three are", "all four are"][usize::from(least) - 1];
         all.push((
@@ -335,7 +529,11 @@ const LOOKED_AT: usize = 24;
 
 /// Where the samples seem to be tested, each on its own among all places of the pixel.
 fn found_pattern(all: &[Answered], is_wrong: &[bool]) -> Option<Pattern> {
-    let places: Vec<(i32, i32)> = (0..=16).flat_map(|y| (0..=16).map(move |x| (x, y))).collect();
+    let mut places: Vec<(i32, i32)> =
+        (0..=16).flat_map(|y| (0..=16).map(move |x| (x, y))).collect();
+    // The right places of the pixels around it, too.
+    let around = (0..9).map(|k| (k % 3 * 16 - 16, k / 3 * 16 - 16)).filter(|by| *by != (0, 0));
+    places.extend(around.flat_map(|(dx, dy)| SAMPLES.map(|(x, y)| (x + dx, y + dy))));
     let mut left = vec![15_u8; places.len()];
     for (corners, window, drawn) in all_masks(all, is_wrong, LOOKED_AT) {
         let open: Vec<usize> = (0..places.len()).filter(|&place| left[place] > 0).collect();
@@ -390,7 +588,66 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
         })
         .chain(rules)
         .chain(table)
+        .chain(samples_somewhere(all))
+        .chain(samples_on_grid(all))
         .collect()
+}
+
+/// That the samples are wrong in some pixels alone.
+fn samples_somewhere(all: &[Answered]) -> impl Iterator<Item = Hypothesis<'_>> {
+    let mirrored = |by: fn((i32, i32)) -> (i32, i32)| SAMPLES.map(by);
+    let wrong = [
+        (None, "draws no sample"),
+        (Some([(8, 8); 4]), "tests all four samples at the centre"),
+        (Some(mirrored(|(x, y)| (16 - x, y))), "tests samples that are mirrored left to right"),
+        (Some(mirrored(|(x, y)| (x, 16 - y))), "tests samples that are mirrored upside down"),
+        (Some(mirrored(|(x, y)| (16 - x, 16 - y))), "tests samples that are turned by half a turn"),
+        (Some(mirrored(|(x, y)| (y, x))), "tests samples with x and y exchanged"),
+    ];
+    let each = wrong.into_iter().flat_map(|wrong| WHERE.map(|place| (wrong, place)));
+    let kinds = each.flat_map(|(wrong, place)| [false, true].map(|partly| (wrong, place, partly)));
+    kinds.map(|((pattern, does), (holds, place), partly)| {
+        let of_partly = if partly { ", of pixels that are covered in part" } else { "" };
+        let says = Explanation::new(
+            "samples in some pixels",
+            format!("{does} {place}{of_partly}"),
+            "test the same four places in every pixel of every triangle",
+            "games101",
+            "such a pixel with the right mask",
+        );
+        let places = [SAMPLES, pattern.unwrap_or(SAMPLES)].concat();
+        masks_become(all, says, places, move |mask, at, corners| match mask & 15 {
+            right if !holds(at, corners) || (partly && right == 15) => right,
+            _ if pattern.is_none() => 0,
+            _ => mask >> 4,
+        })
+    })
+}
+
+/// That corners reach a coarser grid before samples are tested.
+fn samples_on_grid(all: &[Answered]) -> impl Iterator<Item = Hypothesis<'_>> {
+    let grids = [(16, "1/16 px"), (64, "1/4 px"), (256, "whole pixels")];
+    let kinds = grids.into_iter().flat_map(|grid| [(grid, true), (grid, false)]);
+    kinds.map(|((step, grid), is_cut)| {
+        let says = Explanation::new(
+            "places of the samples",
+            format!(
+                "tests samples of corners that are {} to {grid}",
+                if is_cut { "cut" } else { "rounded" }
+            ),
+            "test samples of the corners by which pixels are covered",
+            "games101",
+            "a sample between two edges of a corner off that grid",
+        );
+        by_masks(all, says, move |corners, window, drawn| {
+            let to_grid = |v: i32| {
+                let half = if is_cut { 0 } else { step / 2 };
+                v.saturating_add(half).div_euclid(step) * step
+            };
+            let moved = corners.map(|c| SubpixelPoint::new(to_grid(c.x), to_grid(c.y)));
+            masks_at(&Oracle, moved, window, &SAMPLES).is_none_or(|masks| masks == *drawn)
+        })
+    })
 }
 
 /// The mask that is drawn for each right one, and the mask of which none was seen as it is.
@@ -535,6 +792,7 @@ fn window_of(question: &Question) -> PixelRect {
 struct Layer<'a> {
     number: usize,
     depth: f64,
+    pixel: [i32; 2],
     triangle: &'a Triangle,
 }
 
@@ -547,8 +805,29 @@ struct DepthMistake {
     key: fn(&Layer<'_>) -> f64,
     /// Whether of equal ones the last is seen, or the first; nothing where it may be either.
     last: Option<bool>,
-    /// Where in the pixel depth is computed.
-    place: [f64; 2],
+    /// Where depth is computed.
+    place: Place,
+}
+
+/// Where depth is computed, from the pixel and the first one of its row.
+#[derive(Clone, Copy)]
+enum Place {
+    /// At this place of the pixel.
+    Pixel([f64; 2]),
+    /// At the place of a block of so many pixels.
+    Block(i32, f64),
+    /// At the centre of the first pixel of the row.
+    Row,
+}
+
+impl Place {
+    fn of(self, x: i32, y: i32, first: i32) -> [f64; 2] {
+        match self {
+            Self::Pixel(place) => [f64::from(x) + place[0], f64::from(y) + place[1]],
+            Self::Block(side, place) => [x, y].map(|v| f64::from(v / side * side) + place),
+            Self::Row => [f64::from(first) + 0.5, f64::from(y) + 0.5],
+        }
+    }
 }
 
 fn extreme(t: &Triangle, start: f64, of: fn(f64, f64) -> f64) -> f64 {
@@ -585,7 +864,7 @@ fn mantissa(depth: f64, bits: i32) -> f64 {
 /// Depth buffers of more bits are not distinguished.
 const MOST_BITS: i32 = 24;
 
-const CENTRE: [f64; 2] = [0.5, 0.5];
+const CENTRE: Place = Place::Pixel([0.5, 0.5]);
 const DEPTHS: &[DepthMistake] = &[
     DepthMistake {
         does: "shows the farthest triangle",
@@ -676,6 +955,30 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
+        does: "turns the sign of the depths of counterclockwise triangles",
+        repair: "divide the weighted sum by the area with its sign",
+        refuted: "a counterclockwise triangle that lies behind and is not seen",
+        key: |a| if area2(&a.triangle.corners()) < 0 { -a.depth } else { a.depth },
+        last: None,
+        place: CENTRE,
+    },
+    DepthMistake {
+        does: "adds the slope of depth to the depths of a triangle (a bias for shadows)",
+        repair: "compare the depths themselves",
+        refuted: "a steep triangle that lies a little nearer than another and is seen",
+        key: |a| a.depth + slope(a.triangle),
+        last: None,
+        place: CENTRE,
+    },
+    DepthMistake {
+        does: "takes the slope of depth off the depths of a triangle (a bias of lines on faces)",
+        repair: "compare the depths themselves",
+        refuted: "a steep triangle that lies a little farther than another and is not seen",
+        key: |a| a.depth - slope(a.triangle),
+        last: None,
+        place: CENTRE,
+    },
+    DepthMistake {
         does: "sorts whole triangles by their middle corner",
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
@@ -689,7 +992,14 @@ const DEPTHS: &[DepthMistake] = &[
     },
 ];
 
-fn at_another_place(place: [f64; 2], at: &str) -> (String, DepthMistake) {
+/// How fast depth changes along x or y, whichever is faster.
+fn slope(t: &Triangle) -> f64 {
+    let at = |place| sum(weights(&t.corners(), place), depths(t));
+    let from = at([0.0, 0.0]);
+    (at([1.0, 0.0]) - from).abs().max((at([0.0, 1.0]) - from).abs())
+}
+
+fn at_another_place(place: Place, at: &str) -> (String, DepthMistake) {
     let mistake = DepthMistake {
         does: "",
         repair: "compute depth where coverage is sampled",
@@ -712,7 +1022,17 @@ const DIGITS: [f64; 3] = [1.0, 2.0, 5.0];
 fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
     let mut hypotheses = Vec::new();
     let plain = DEPTHS.iter().map(|mistake| (mistake.does.to_owned(), *mistake));
-    let elsewhere = values::PLACES[1..].iter().map(|&(place, at)| at_another_place(place, at));
+    let elsewhere =
+        values::PLACES[1..].iter().map(|&(place, at)| at_another_place(Place::Pixel(place), at));
+    let blocks = [2, 4, 8].into_iter().flat_map(|side| {
+        let place = |place: f64, at| {
+            let at = format!(", once for a block of {side} x {side} px, {at}");
+            at_another_place(Place::Block(side, place), &at)
+        };
+        [place(0.5, "in its first pixel"), place(f64::from(side) / 2.0, "in its middle")]
+    });
+    let row = at_another_place(Place::Row, " in the first pixel of a row, for all of the row");
+    let elsewhere = elsewhere.chain(blocks).chain([row]);
     for (does, mistake) in plain.chain(elsewhere) {
         let DepthMistake { repair, refuted, key, last, place, .. } = mistake;
         for is_last in
@@ -766,6 +1086,47 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
             }));
         }
     }
+    // What wraps around, is not compared, or is compared the other way round in some pixels.
+    for (times, bits) in (1..6).flat_map(|times| [0, 16].map(|bits| (times, bits))) {
+        let shorter =
+            if bits == 0 { String::new() } else { format!(" and are cut to {bits} bits") };
+        let says = Explanation::new(
+            "depth wraps around",
+            format!("keeps depths that begin again at 0 after every 1/{}{shorter}", 1 << times),
+            "scale depths to what a word holds, and clamp what goes beyond",
+            "ch06",
+            "two triangles on both sides of such a depth that are shown in the right order",
+        );
+        let key = move |layer: &Layer<'_>| {
+            let wrapped = (layer.depth * f64::from(1 << times)).rem_euclid(1.0);
+            if bits == 0 { wrapped } else { (wrapped * 65536.0).floor() }
+        };
+        hypotheses.push(of_piles(&piles, says, move |layers, answer| {
+            is_seen(layers, answer, &|a, b| key(b) < key(a))
+        }));
+    }
+    let turned: [(Replaces, &str); 3] = [
+        (|_, _, _| true, "draws without a test of depth"),
+        (|a, b, _| b.depth > a.depth, "shows the farther triangle"),
+        (|_, _, _| false, "draws nothing over what is there"),
+    ];
+    for ((holds, place), (replaces, does)) in
+        WHERE.into_iter().flat_map(|place| turned.map(|turned| (place, turned)))
+    {
+        let says = Explanation::new(
+            "depth in some pixels",
+            format!("{does} {place}"),
+            "compare depths in every pixel of every triangle in the same way",
+            "ch06",
+            "such a pixel that shows the nearest triangle before another",
+        );
+        hypotheses.push(of_piles(&piles, says, move |layers, answer| {
+            is_seen(layers, answer, &|a, b| match holds(b.pixel, &b.triangle.corners()) {
+                true => replaces(a, b, 0.0),
+                false => b.depth < a.depth,
+            })
+        }));
+    }
     for (buffer, does, repair) in BUFFERS {
         for (is_last, which) in [(false, ""), (true, ", a tie going to the later one")] {
             let says = Explanation::new(
@@ -797,7 +1158,7 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
     let (least, most) = (of(true).reduce(f64::min), of(true).reduce(f64::max));
     let nearer = of(false).filter(|lost| least.is_some_and(|least| *lost < least));
     let farther = of(false).filter(|lost| most.is_some_and(|most| *lost > most));
-    let middle = |lost: Option<f64>, seen: Option<f64>| Some(simplest(lost?, seen?));
+    let middle = |lost: Option<f64>, seen: Option<f64>| Some(values::simplest(lost?, seen?));
     let low = middle(nearer.reduce(f64::max), least);
     let high = middle(farther.reduce(f64::min), most);
     let ranges = [
@@ -860,16 +1221,6 @@ const BUFFERS: [(Buffer, &str, &str); 2] = [
     ),
 ];
 
-/// The number with the fewest digits between two.
-fn simplest(a: f64, b: f64) -> f64 {
-    let rounded = (0..9).map(|digits| {
-        let unit = f64::from(10).powi(digits);
-        ((a + b) / 2.0 * unit).round() / unit
-    });
-    let mut between = rounded.filter(|v| (a - v) * (b - v) <= 0.0);
-    between.next().unwrap_or((a + b) / 2.0)
-}
-
 /// A hypothesis about what is shown of piles.
 fn of_piles<'a>(
     piles: &Rc<Vec<Option<Pile<'a>>>>,
@@ -897,7 +1248,7 @@ struct Layers<'a> {
     of_pixels: Vec<Vec<Layer<'a>>>,
 }
 
-fn layers(list: &[Triangle], window: PixelRect, place: [f64; 2]) -> Layers<'_> {
+fn layers(list: &[Triangle], window: PixelRect, place: Place) -> Layers<'_> {
     let width = window.width() as usize;
     let mut of_pixels = vec![Vec::new(); width * window.height() as usize];
     for (number, triangle) in list.iter().enumerate() {
@@ -905,9 +1256,11 @@ fn layers(list: &[Triangle], window: PixelRect, place: [f64; 2]) -> Layers<'_> {
         Oracle.spans(corners, window, &mut |span| {
             let row = (span.y_px - window.y0) as usize * width;
             for x in span.x0_px..span.x1_px {
-                let at = [f64::from(x) + place[0], f64::from(span.y_px) + place[1]];
+                let at = place.of(x, span.y_px, span.x0_px);
                 let depth = sum(weights(&corners, at), depths(triangle));
-                of_pixels[row + (x - window.x0) as usize].push(Layer { number, depth, triangle });
+                let pixel = [x, span.y_px];
+                let layer = Layer { number, depth, pixel, triangle };
+                of_pixels[row + (x - window.x0) as usize].push(layer);
             }
         });
     }
@@ -1098,6 +1451,12 @@ const NEAR: &[NearMistake] = &[
         clip: |c, _| clip(c, |[_, _, z, _, _]| z + 1.0, between),
     },
     NearMistake {
+        does: "clips at z = -|w|: the sign of w is lost",
+        repair: "clip at z = -w, and keep the sign of w",
+        refuted: "a corner of negative w that is cut off",
+        clip: |c, _| clip(c, |[_, _, z, w, _]| z + w.abs(), between),
+    },
+    NearMistake {
         does: "divides x, y, z and w by w where only the clipped polygon should be divided",
         repair: "clip in clip space, and leave the division to the stage after it",
         refuted: "a corner whose w is not 1",
@@ -1227,7 +1586,7 @@ impl Edge {
 
 /// What a new corner gets in place of a number.
 type New = fn(&Edge, usize) -> f64;
-const NEW: [(New, &str); 22] = [
+const NEW: [(New, &str); 26] = [
     (|e, k| e.kept[k], "keeps {} of the corner that stays at a new corner"),
     (|e, k| e.lost[k], "keeps {} of the corner that is cut off at a new corner"),
     (
@@ -1282,6 +1641,10 @@ const NEW: [(New, &str); 22] = [
     ),
     (|e, k| values::rounded(e.with(k, e.t), 2), "keeps {} of a new corner in floats of 16 bits"),
     (|e, k| values::rounded(e.with(k, e.t), 0), "keeps {} of a new corner in floats of 32 bits"),
+    (|e, k| e.with(k, e.t).max(0.1), "raises {} of a new corner to 0.1 at least"),
+    (|e, k| e.with(k, e.t).max(0.01), "raises {} of a new corner to 0.01 at least"),
+    (|e, k| e.with(k, e.t).max(1.0), "raises {} of a new corner to 1 at least"),
+    (|e, k| e.with(k, e.t).clamp(0.0, 1.0), "clamps {} of a new corner to 0 to 1"),
     (|e, k| e.with([1, 0, 2, 3, 4][k], e.t), "exchanges {} of a new corner"),
 ];
 

@@ -257,18 +257,31 @@ pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
 type Metric = fn(&Corners) -> i64;
 
 /// What may be measured, in which unit that is said, and how much it is.
-pub(super) const METRICS: [(&str, &str, Metric); 8] = [
+pub(super) const METRICS: [(&str, &str, Metric); 9] = [
     ("area", "square px", |corners| i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32)),
     ("width", "px", |corners| extent(xs(corners))),
     ("height", "px", |corners| extent(ys(corners))),
     ("longer side", "px", |corners| extent(xs(corners)).max(extent(ys(corners)))),
     ("shorter side", "px", |corners| extent(xs(corners)).min(extent(ys(corners)))),
+    ("ratio of twice the area to the square of the longest side", "", |corners| {
+        let points = points(corners).map_array(|p| p.map_array(|v| v as f64));
+        let longest = (0..3)
+            .map(|i| {
+                let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % 3]);
+                (bx - ax).powi(2) + (by - ay).powi(2)
+            })
+            .fold(1.0, f64::max);
+        (area2(corners).abs() as f64 / longest * RATIOS as f64) as i64
+    }),
     ("farthest coordinate", "px", |corners| farthest(xs(corners)).max(farthest(ys(corners)))),
     ("farthest x", "px", |corners| farthest(xs(corners))),
     ("farthest y", "px", |corners| farthest(ys(corners))),
 ];
 /// The first of the metrics that are coordinates; those before it are sizes.
-pub(super) const FARTHEST: usize = 5;
+pub(super) const FARTHEST: usize = 6;
+/// The one that is a ratio, in so many parts, and no size.
+pub(super) const RATIO: usize = 5;
+pub(super) const RATIOS: i64 = 1 << 20;
 
 pub(super) fn metric(corners: &Corners, which: usize) -> i64 {
     METRICS[which].2(corners)
@@ -425,12 +438,21 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
         9 => is_inside(x, y, [true, false]),
         10 => is_inside(x, y, [false, true]),
         7 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
+        11 => has(x + side / 2, y + side / 2) || corners_of(x, y, last).any(|(x, y)| has(x, y)),
+        12 | 13 => corners_of(x, y, last).all(|(x, y)| has(x, y)),
+        14 => x + side <= window.x1 && y + side <= window.y1,
         _ => has(x, y),
     };
     for y in (window.y0..window.y1).step_by(side as usize) {
         for x in (window.x0..window.x1).step_by(side as usize) {
-            let (rows, mut columns) = (y..(y + side).min(window.y1), x..(x + side).min(window.x1));
+            let (mut rows, mut columns) =
+                (y..(y + side).min(window.y1), x..(x + side).min(window.x1));
             let mut kept = is_kept(x, y);
+            match test {
+                12 => columns = x + last..columns.end,
+                13 => rows = y + last..rows.end,
+                _ => (),
+            }
             if test == 6 {
                 // The last column of the triangle in a tile that is not full.
                 let count = |x: i32| rows.clone().filter(|&y| full.has(x, y)).count();
@@ -557,11 +579,120 @@ pub(super) fn groups(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i
             8 if y >= y0 + (y1 - y0).max(0) / n * n => [end, end],
             9 if y >= window.y1 / n * n => [end, end],
             10 => [first, x0 / n * n + (x1 - x0 / n * n).max(0) / n * n],
+            11 => [first / n * n, end / n * n],
             _ => [first, end],
         };
         for x in window.x0..window.x1 {
-            let is_added = p / 4 == 6 || p / 4 == 7;
+            let is_added = matches!(p / 4, 6 | 7 | 11);
             mask.put(x, y, start <= x && x < stop && (is_added || mask.has(x, y)));
+        }
+    }
+}
+
+/// Sets of neighbours of a pixel, and how they are said.
+pub(super) const NEIGHBOURS: [(&[[i32; 2]], &str); 4] = [
+    (&[[1, 0], [-1, 0], [0, 1], [0, -1]], "its four neighbours"),
+    (
+        &[[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [1, -1], [-1, 1], [-1, -1]],
+        "its eight neighbours",
+    ),
+    (&[[1, 0], [-1, 0]], "the pixels left and right of it"),
+    (&[[0, 1], [0, -1]], "the pixels above and below it"),
+];
+
+/// Pixels of which any neighbour is covered, or without those of which any is not; see the table.
+pub(super) fn grown(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+    let mut grown = base.mask(corners, window).unwrap_or_default();
+    for [x, y] in NEIGHBOURS[(p / 2) as usize].0 {
+        let beside = base.mask(&moved(corners, [-256 * x, -256 * y]), window).unwrap_or_default();
+        if p % 2 == 0 {
+            grown.add(&beside);
+        } else {
+            grown = grown.shared(&beside);
+        }
+    }
+    grown
+}
+
+fn moved(corners: &Corners, [x, y]: [i32; 2]) -> Corners {
+    corners.map_array(|c| SubpixelPoint::new(c.x.saturating_add(x), c.y.saturating_add(y)))
+}
+
+/// Every second row or column by a sample of its own; see the table.
+pub(super) fn alternating(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+    let [which, way, far] = [p % 4, p / 4 % 4, p / 16];
+    let by = [[1, 0], [-1, 0], [0, 1], [0, -1]][way as usize].map_array(|v| v * (128 << far));
+    let mut mask = base.mask(corners, window).unwrap_or_default();
+    let other = base.mask(&moved(corners, by), window).unwrap_or_default();
+    for y in window.y0..window.y1 {
+        for x in window.x0..window.x1 {
+            if i64::from(if which < 2 { y } else { x } % 2) == which % 2 {
+                mask.put(x, y, other.has(x, y));
+            }
+        }
+    }
+    mask
+}
+
+/// What a search for covered pixels leaves out that ends too early; see the table.
+pub(super) fn searched(mask: &mut Mask, window: PixelRect, p: i64) {
+    let full = *mask;
+    let mut is_ended = [false; 2];
+    let [mut first, mut end] = [window.x0, window.x1];
+    for y in window.y0..window.y1 {
+        let [from, to] = match span(&full, window, y) {
+            Some([from, to]) => {
+                is_ended[0] = true;
+                [from, to]
+            }
+            None => {
+                is_ended[1] |= is_ended[0];
+                continue;
+            }
+        };
+        first = if p == 1 { first.max(from) } else { window.x0 };
+        end = if p == 2 { end.min(to) } else { window.x1 };
+        if (p == 0 && is_ended[1]) || first > from || end < to {
+            let is_lost = |x: i32| (p == 0 && is_ended[1]) || x < first || x >= end;
+            (from..to).filter(|x| is_lost(*x)).for_each(|x| mask.put(x, y, false));
+        }
+    }
+}
+
+/// Rows that begin left of the window begin at its side and keep their length.
+pub(super) fn slid(mask: &mut Mask, corners: &Corners, window: PixelRect, base: &Convention) {
+    let points = points(corners);
+    let left = points.iter().map(|p| p[0].div_euclid(256)).min().unwrap_or(0);
+    if left >= i64::from(window.x0) || area2(corners) == 0 {
+        return;
+    }
+    let sign = i128::from(area2(corners).signum());
+    let (owns, sample) = (owned(corners, base), super::sample_of(base));
+    for y in window.y0..window.y1 {
+        // The first sample on the inner side of every edge, and the one after the last.
+        let [mut first, mut end] = [left, i64::MAX].map_array(i128::from);
+        for i in 0..3 {
+            let [p, q] = [points[i], points[(i + 1) % 3]].map_array(|p| p.map_array(i128::from));
+            let [a, b] = [sign * (p[1] - q[1]), sign * (q[0] - p[0])];
+            let at = i128::from(sample[0]) - p[0];
+            let rest = a * at + b * (256 * i128::from(y) + i128::from(sample[1]) - p[1]);
+            // It is drawn where 256 a x + rest is at least this.
+            let least = i128::from(!owns[i]) - rest;
+            match a.signum() {
+                1 => first = first.max(-(-least).div_euclid(256 * a)),
+                -1 => end = end.min((-least).div_euclid(-256 * a) + 1),
+                _ if least > 0 => end = first,
+                _ => (),
+            }
+        }
+        let side = i128::from(window.x0);
+        if first < side && end > side {
+            let more = (side - first).min(i128::from(window.x1)) as i32;
+            let end = end.min(i128::from(window.x1)) as i32;
+            (end..end.saturating_add(more).min(window.x1)).for_each(|x| mask.set(x, y));
+        } else if first < side && first < end {
+            let more = (end - first).min(i128::from(window.x1)) as i32;
+            (window.x0..more.min(window.x1)).for_each(|x| mask.set(x, y));
         }
     }
 }
@@ -625,7 +756,7 @@ pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention,
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 25] = [
+pub(super) const FORMULAS: [&str; 31] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -651,6 +782,12 @@ pub(super) const FORMULAS: [&str; 25] = [
     "two barycentric weights from differences to the last corner, whose sum may be 1 at most",
     "two barycentric weights from dot products of the edges, whose sum may be 1 at most",
     "the edge function as a x + b y + c with an exact c that is rounded once",
+    "barycentric weights that are divided by the area, the first being 1 minus the others",
+    "barycentric weights that are divided by the area, the second being 1 minus the others",
+    "barycentric weights times the reciprocal of the area, the first being 1 minus the others",
+    "barycentric weights times the reciprocal of the area, the second being 1 minus the others",
+    "the edge function as a x + b y + c, where a and b are divided by the length of the edge",
+    "two barycentric weights from dot products of the edges and a reciprocal, whose sum may be 1 at most",
 ];
 
 /// One of `FORMULAS`, rounded after every operation. Of corners that turn the other way, two are
@@ -701,7 +838,7 @@ pub(super) fn float(
         base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))]
     });
     // Weights that are divided by the area have its sign already.
-    let sign = if matches!(formula, 3..6 | 9..18 | 21..24) { 1.0 } else { sign };
+    let sign = if matches!(formula, 3..=5 | 9..=17 | 21..=23 | 25..=28 | 30) { 1.0 } else { sign };
     let passes = |value: f64, owns: bool| sign * value > 0.0 || (value == 0.0 && owns);
     let [a, b, c] = corners;
     let area = edge(a, b, c);
@@ -736,9 +873,10 @@ pub(super) fn float(
     }
     let reciprocal = r(1.0 / area);
     // The weights of two corners and what is left for a third one, each at the side opposite to its corner.
+    let is_sum = matches!(formula, 21..=23 | 30);
     let opposite = |rest: usize, v: f64, w: f64| {
         let mut values = [w; 3];
-        values[(rest + 1) % 3] = if formula > 20 { 1.0 - r(v + w) } else { r(r(1.0 - v) - w) };
+        values[(rest + 1) % 3] = if is_sum { 1.0 - r(v + w) } else { r(r(1.0 - v) - w) };
         values[(rest + 2) % 3] = v;
         values
     };
@@ -746,13 +884,17 @@ pub(super) fn float(
         let at = px(at);
         let values = match formula {
             0 | 7 | 8 => sides.map_array(|[i, j]| edge(corners[i], corners[j], at)),
-            1 | 19 | 24 => sides.map_array(|[i, j]| {
+            1 | 19 | 24 | 29 => sides.map_array(|[i, j]| {
                 let [mut p, mut q] = [corners[i], corners[j]];
                 let turns = formula == 19 && p[1] > q[1];
                 if turns {
                     (p, q) = (q, p);
                 }
-                let [a, b] = [r(p[1] - q[1]), r(q[0] - p[0])];
+                let [mut a, mut b] = [r(p[1] - q[1]), r(q[0] - p[0])];
+                if formula == 29 {
+                    let length = r(r(r(a * a) + r(b * b)).sqrt());
+                    [a, b] = [a, b].map_array(|v| r(v * r(1.0 / length)));
+                }
                 let c = match formula {
                     // Of coordinates that floats of 64 bits hold with their products.
                     24 => r(p[0] * q[1] - p[1] * q[0]),
@@ -771,6 +913,14 @@ pub(super) fn float(
                 let [u, v] = [weight(1, 2), weight(2, 0)];
                 [r(r(1.0 - u) - v), u, v]
             }
+            25..=28 => {
+                let rest = (formula - 25) % 2;
+                let weight = |i: usize| {
+                    let value = edge(corners[(i + 1) % 3], corners[(i + 2) % 3], at);
+                    if formula < 27 { r(value / area) } else { r(value * reciprocal) }
+                };
+                opposite(rest, weight((rest + 1) % 3), weight((rest + 2) % 3))
+            }
             11..=15 | 21 | 22 => {
                 // Of which corner the weight is left over.
                 let rest =
@@ -786,7 +936,7 @@ pub(super) fn float(
                 };
                 opposite(rest, part(cross(at, c)), part(cross(b, at)))
             }
-            16 | 17 | 23 => {
+            16 | 17 | 23 | 30 => {
                 let [a, b, c] = corners;
                 let minus = |p: [f64; 2]| [r(p[0] - a[0]), r(p[1] - a[1])];
                 let [b, c, at] = [minus(b), minus(c), minus(at)];
@@ -794,8 +944,9 @@ pub(super) fn float(
                 let [bb, bc, cc] = [dot(b, b), dot(b, c), dot(c, c)];
                 let [ab, ac] = [dot(at, b), dot(at, c)];
                 let whole = r(r(bb * cc) - r(bc * bc));
-                let part =
-                    |v: f64| if formula == 17 { r(v * r(1.0 / whole)) } else { r(v / whole) };
+                let part = |v: f64| {
+                    if matches!(formula, 17 | 30) { r(v * r(1.0 / whole)) } else { r(v / whole) }
+                };
                 let v = part(r(r(cc * ab) - r(bc * ac)));
                 opposite(0, v, part(r(r(bb * ac) - r(bc * ab))))
             }

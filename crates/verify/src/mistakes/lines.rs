@@ -208,7 +208,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "treat this kind as any other",
         page: "ch03",
         refuted: "a line of that kind that is drawn",
-        parameters: Parameters::Below(10),
+        parameters: Parameters::Below(KINDS.len() as i64),
         draws: Stroke::Instead(|ends, window, p| {
             (!KINDS[p as usize].1(ends, window)).then_some(ends).into_iter().collect()
         }),
@@ -307,18 +307,18 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
     Mistake {
         name: "the error term is off",
         sentence: |p| {
-            let (_, start) = STARTS[(p % 8) as usize];
-            let (up, down) = [("2b", "2a"), ("b", "2a"), ("2b", "a")][(p / 8 % 3) as usize];
-            let from = ["the first end", "the left end"][(p / 48) as usize];
+            let (_, start) = STARTS[(p % 9) as usize];
+            let (up, down) = [("2b", "2a"), ("b", "2a"), ("2b", "a")][(p / 9 % 3) as usize];
+            let from = ["the first end", "the left end"][(p / 54) as usize];
             format!(
                 "begins the error term at {start}, adds {up} for a step and takes away {down} where it is {} 0 (a is the longer side of the line and b the shorter one, seen from {from}); 2b - a, 2b and 2a are right",
-                ["above", "at least"][(p / 24 % 2) as usize]
+                ["above", "at least"][(p / 27 % 2) as usize]
             )
         },
         repair: "derive the error term from the distances of both pixels to the line",
         page: "ch03",
         refuted: "a line whose middle step is where it should be",
-        parameters: Parameters::Below(96),
+        parameters: Parameters::Below(108),
         draws: Stroke::Own(error_term),
     },
     Mistake {
@@ -372,6 +372,13 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         name: "ends overflow",
         sentence: |p| {
             let (what, far) = match p / 100 {
+                2 => {
+                    let bits = p % 100;
+                    return format!(
+                        "keeps coordinates in {bits} bits without a sign: ends beyond 0 to {} px wrap around",
+                        (1_i64 << bits) - 1
+                    );
+                }
                 0 => ("coordinates", "ends beyond"),
                 _ => ("the differences of both ends", "lines of more than"),
             };
@@ -381,8 +388,11 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "clip first, or use a longer word",
         page: "stability",
         refuted: "a line with an end out there that is drawn rightly",
-        parameters: Parameters::Fixed(&[8, 12, 16, 108, 112, 116]),
+        parameters: Parameters::Fixed(&[8, 12, 16, 108, 112, 116, 208, 216]),
         draws: Stroke::Instead(|ends, _, p| {
+            if p >= 200 {
+                return vec![ends.map_array(|end| end.map_array(|v| v & ((1 << (p - 200)) - 1)))];
+            }
             let shift = 64 - (p % 100) as u32;
             let from = if p < 100 { [0; 2] } else { ends[0] };
             let word = |end: [i64; 2]| {
@@ -397,13 +407,91 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "compare the bounds of the loop with the rule for ends: one of them is one off in this direction",
         page: "ch03",
         refuted: "a line of that direction with both ends right",
-        parameters: Parameters::Fixed(&[0, 1, 2, 3, 4, 5, 6, 7]),
+        parameters: Parameters::Below(ENDS.len() as i64),
         draws: Stroke::Changed(|mask, ends, window, p| {
-            let (_, last, is_one) = ENDS[p as usize];
-            let [x, y] = ends[usize::from(last)];
+            let (_, is_last, is_one) = ENDS[p as usize];
+            let [x, y] = ends[usize::from(is_last(ends))];
             if is_one(ends) {
                 mask.retain(window, &|px, py| [i64::from(px), i64::from(py)] != [x, y]);
             }
+        }),
+    },
+    Mistake {
+        name: "each axis is rounded in its own way",
+        sentence: |p| {
+            let ways = ["down", "up", "to the nearest, halves up", "to the nearest, halves down"];
+            format!(
+                "rounds y of flat lines {} and x of steep ones {}",
+                ways[(p % 4) as usize],
+                ways[(p / 4) as usize]
+            )
+        },
+        repair: "round both coordinates to the nearest pixel in the same way",
+        page: "ch03",
+        refuted: "a steep line with the pixels of a flat one, turned",
+        parameters: Parameters::Below(16),
+        draws: Stroke::Own(|ends @ [[x0, y0], [x1, y1]], _, p| {
+            let way = if is_steep(ends) { p / 4 } else { p % 4 };
+            // The same for both is a convention.
+            let steps = (x1 - x0).abs().max((y1 - y0).abs());
+            if p % 4 == p / 4 || steps > MOST_STEPS {
+                return Vec::new();
+            }
+            let at = |from: i64, to: i64, i: i64| {
+                let (part, whole) = ((to - from) * i, steps.max(1));
+                from + match way {
+                    0 => part.div_euclid(whole),
+                    1 => -(-part).div_euclid(whole),
+                    2 => (2 * part + whole).div_euclid(2 * whole),
+                    _ => -(whole - 2 * part).div_euclid(2 * whole),
+                }
+            };
+            (0..=steps).map(|i| [at(x0, x1, i), at(y0, y1, i)]).collect()
+        }),
+    },
+    Mistake {
+        name: "steps without the sign",
+        sentence: |p| {
+            format!(
+                "steps as often as the larger of dx and dy says, whose signs are kept, so that lines {}",
+                [
+                    "to the left and up are lost and others to the left or up have gaps",
+                    "to the left and up are a point and others to the left or up have gaps"
+                ][p as usize]
+            )
+        },
+        repair: "take the larger of the absolute values of dx and dy",
+        page: "ch03",
+        refuted: "a line to the left without gaps",
+        parameters: Parameters::Below(2),
+        draws: Stroke::Own(|[[x0, y0], [x1, y1]], _, p| {
+            let steps = (x1 - x0).max(y1 - y0);
+            if steps <= 0 || steps > MOST_STEPS {
+                let is_drawn = steps == 0 || (p == 1 && steps < 0);
+                return if is_drawn { vec![[x0, y0]] } else { Vec::new() };
+            }
+            let at = |from: i64, to: i64, i: i64| {
+                from + (2 * (to - from) * i + steps).div_euclid(2 * steps)
+            };
+            (0..=steps).map(|i| [at(x0, x1, i), at(y0, y1, i)]).collect()
+        }),
+    },
+    Mistake {
+        name: "long lines end early",
+        sentence: |p| format!("ends every line after {p} pixels"),
+        repair: "step as often as the line is long",
+        page: "ch03",
+        refuted: "a longer line that reaches its second end",
+        parameters: Parameters::Fixed(&[
+            64, 100, 127, 128, 200, 255, 256, 500, 511, 512, 1000, 1023, 1024, 2000, 2047, 2048,
+            4095, 4096, 8191, 8192, 10_000,
+        ]),
+        draws: Stroke::Changed(|mask, ends, window, p| {
+            let ([x0, y0], steep) = (ends[0], is_steep(ends));
+            mask.retain(window, &|x, y| {
+                let step = if steep { i64::from(y) - y0 } else { i64::from(x) - x0 };
+                step.abs() < p
+            });
         }),
     },
     Mistake {
@@ -540,7 +628,7 @@ fn range(place: i64, side: i64) -> [i64; 2] {
 }
 
 type IsKind = fn(Ends, PixelRect) -> bool;
-const KINDS: [(&str, IsKind); 10] = [
+const KINDS: [(&str, IsKind); 15] = [
     ("with any end outside the window", |e, w| e.iter().any(|&p| is_outside(w, p))),
     ("with both ends outside the window", |e, w| e.iter().all(|&p| is_outside(w, p))),
     ("with their first end outside the window", |e, w| is_outside(w, e[0])),
@@ -551,20 +639,65 @@ const KINDS: [(&str, IsKind); 10] = [
     ("that are upright", |[a, b], _| a[0] == b[0]),
     ("that are level", |[a, b], _| a[1] == b[1]),
     ("between a pixel and itself", |[a, b], _| a == b),
+    ("that are upright and run up", |[a, b], _| a[0] == b[0] && b[1] < a[1]),
+    ("that are upright and run down", |[a, b], _| a[0] == b[0] && b[1] > a[1]),
+    ("that are level and run to the left", |[a, b], _| a[1] == b[1] && b[0] < a[0]),
+    ("that are level and run to the right", |[a, b], _| a[1] == b[1] && b[0] > a[0]),
+    ("that run to the left and up", |[a, b], _| b[0] < a[0] && b[1] < a[1]),
 ];
 
 type OfEnds = fn(Ends) -> bool;
 /// What is lost, whether that is the second end, and of which lines.
-const ENDS: [(&str, bool, OfEnds); 8] = [
-    ("loses the last pixel of steep lines", true, is_steep),
-    ("loses the last pixel of flat lines", true, |e| !is_steep(e)),
-    ("loses the last pixel of lines to the left", true, |[a, b]| b[0] < a[0]),
-    ("loses the last pixel of lines that run up", true, |[a, b]| b[1] < a[1]),
-    ("loses the first pixel of steep lines", false, is_steep),
-    ("loses the first pixel of lines to the left", false, |[a, b]| b[0] < a[0]),
-    ("loses the last pixel of upright lines", true, |[a, b]| a[0] == b[0]),
-    ("loses the last pixel of level lines", true, |[a, b]| a[1] == b[1]),
+const ENDS: [(&str, OfEnds, OfEnds); 15] = [
+    ("loses the last pixel of steep lines", |_| true, is_steep),
+    ("loses the last pixel of flat lines", |_| true, |e| !is_steep(e)),
+    ("loses the last pixel of lines to the left", |_| true, |[a, b]| b[0] < a[0]),
+    ("loses the last pixel of lines that run up", |_| true, |[a, b]| b[1] < a[1]),
+    ("loses the first pixel of steep lines", |_| false, is_steep),
+    ("loses the first pixel of lines to the left", |_| false, |[a, b]| b[0] < a[0]),
+    ("loses the last pixel of upright lines", |_| true, is_upright),
+    ("loses the last pixel of level lines", |_| true, is_level),
+    ("loses the last pixel of level and of upright lines", |_| true, is_straight),
+    (
+        "loses the right end of level lines and the lower end of upright ones",
+        is_forward,
+        is_straight,
+    ),
+    (
+        "loses the left end of level lines and the upper end of upright ones",
+        |e| !is_forward(e),
+        is_straight,
+    ),
+    ("loses the right end of level lines", is_forward, is_level),
+    ("loses the lower end of upright lines", is_forward, is_upright),
+    (
+        "loses the last pixel of slanted lines, which are neither level nor upright",
+        |_| true,
+        |e| !is_straight(e),
+    ),
+    (
+        "loses the last pixel of diagonal lines",
+        |_| true,
+        |[a, b]| (b[0] - a[0]).abs() == (b[1] - a[1]).abs(),
+    ),
 ];
+
+fn is_upright([a, b]: Ends) -> bool {
+    a[0] == b[0]
+}
+
+fn is_level([a, b]: Ends) -> bool {
+    a[1] == b[1]
+}
+
+fn is_straight(ends: Ends) -> bool {
+    is_upright(ends) || is_level(ends)
+}
+
+/// Whether it runs to the right, or down where it is upright.
+fn is_forward([a, b]: Ends) -> bool {
+    b > a
+}
 
 /// Longer lines are not expected: their steps are walked one by one.
 const MOST_STEPS: i64 = 1 << 16;
@@ -815,7 +948,7 @@ fn sloped(ends: Ends, how: i64, precision: i64) -> Vec<[i64; 2]> {
 
 /// What an error term may begin at, from the longer and the shorter side.
 type Start = fn(i64, i64) -> i64;
-const STARTS: [(Start, &str); 8] = [
+const STARTS: [(Start, &str); 9] = [
     (|a, b| 2 * b - a, "2b - a"),
     (|a, b| 2 * (b - a), "2b - 2a"),
     (|_, b| 2 * b, "2b"),
@@ -824,6 +957,7 @@ const STARTS: [(Start, &str); 8] = [
     (|_, _| 0, "0"),
     (|a, _| a, "a"),
     (|a, _| -a, "-a"),
+    (|a, b| 2 * b - a / 2, "2b - a/2"),
 ];
 
 /// Steps by an error of both axes, of which one moves at a time: x is tested first, or y with p mod 2; p / 2 is whether a tie
@@ -850,21 +984,21 @@ fn staircase([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> 
     pixels
 }
 
-/// p mod 8 is where the error term begins, p / 8 mod 3 what is added and taken away, p / 24 mod 2 what happens at 0, and from 48
+/// p mod 9 is where the error term begins, p / 9 mod 3 what is added and taken away, p / 27 mod 2 what happens at 0, and from 54
 /// on lines are seen from the left. What is right draws nothing, as it is a convention.
 fn error_term(ends: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
-    let [[mut x, mut y], [x1, y1]] = from_left(ends, p >= 48);
+    let [[mut x, mut y], [x1, y1]] = from_left(ends, p >= 54);
     let [dx, dy] = [(x1 - x).abs(), (y1 - y).abs()];
     let (sx, sy) = ((x1 - x).signum(), (y1 - y).signum());
     let (a, b) = (dx.max(dy), dx.min(dy));
-    if a > MOST_STEPS || (p % 8 == 0 && p / 8 % 3 == 0) {
+    if a > MOST_STEPS || (p % 9 == 0 && p / 9 % 3 == 0) {
         return Vec::new();
     }
-    let [up, down] = [[2 * b, 2 * a], [b, 2 * a], [2 * b, a]][(p / 8 % 3) as usize];
-    let mut error = STARTS[(p % 8) as usize].0(a, b);
+    let [up, down] = [[2 * b, 2 * a], [b, 2 * a], [2 * b, a]][(p / 9 % 3) as usize];
+    let mut error = STARTS[(p % 9) as usize].0(a, b);
     let mut pixels = vec![[x, y]];
     for _ in 0..a {
-        let across = error > 0 || (error == 0 && p / 24 % 2 == 1);
+        let across = error > 0 || (error == 0 && p / 27 % 2 == 1);
         if across {
             error -= down;
         }

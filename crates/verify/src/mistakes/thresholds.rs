@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::fills::{FARTHEST, decimal};
+use super::fills::{FARTHEST, RATIO, decimal};
 use super::questions::{LONGEST_PX, Room};
 use super::{Explanation, lines, sample_of};
 use crate::convention::{
@@ -301,7 +301,7 @@ pub(super) fn near(
 ) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, 4);
     let mut questions = Vec::new();
-    for (metric, _, limit) in limits {
+    for (metric, _, limit) in limits.filter(|(metric, ..)| *metric != RATIO) {
         // Twice the area is the product of two sides.
         let side = if metric == 0 { (limit as f64).sqrt() as i64 } else { limit };
         let steps = (side / room.grain).max(1);

@@ -588,27 +588,35 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "the box misses a corner",
         sentence: |p| {
             format!(
-                "looks for pixels in a box whose {} comes from two of the corners, without the {}{}",
-                ["left side", "upper side", "right side", "lower side"][(p % 4) as usize],
-                ["first", "second", "third"][(p / 4 % 3) as usize],
-                exchanged(p / 12)
+                "looks for pixels in a box whose {} from two of the corners, without the {}{}",
+                [
+                    "left side comes",
+                    "upper side comes",
+                    "right side comes",
+                    "lower side comes",
+                    "left and right side come",
+                    "upper and lower side come",
+                ][(p % 6) as usize],
+                ["first", "second", "third"][(p / 6 % 3) as usize],
+                exchanged(p / 18)
             )
         },
         repair: "the box holds all three corners",
         page: "games101",
         refuted: "a covered pixel near that corner that is drawn",
-        parameters: Parameters::Below(12 * ORDERS.len() as i64),
+        parameters: Parameters::Below(18 * ORDERS.len() as i64),
         draws: Fill::Changed(|mask, corners, window, p| {
-            let ordered = in_order(corners, p / 12, area2(corners) > 0);
-            let without = (p / 4 % 3) as usize;
+            let ordered = in_order(corners, p / 18, area2(corners) > 0);
+            let (side, without) = (p % 6, (p / 6 % 3) as usize);
             let ends = [0, 1].map_array(|i: usize| {
                 let c = ordered[(without + 1 + i) % 3];
-                if p % 2 == 0 { c.x } else { c.y }
+                if side % 2 == 0 { c.x } else { c.y }
             });
             let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
             mask.retain(window, &|x, y| {
-                let at = if p % 2 == 0 { x } else { y };
-                if p % 4 < 2 { at >= low.div_euclid(256) } else { at <= high.div_euclid(256) }
+                let at = if side % 2 == 0 { x } else { y };
+                let is_after = at >= low.div_euclid(256) || matches!(side, 2 | 3);
+                is_after && (at <= high.div_euclid(256) || side < 2)
             });
         }),
     },
@@ -646,6 +654,10 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "skips tiles of {} px that do not lie in the triangle with all four corner pixels",
                 "tests each edge with the wrong corner of tiles of {} px, whose x is that of another one",
                 "tests each edge with the wrong corner of tiles of {} px, whose y is that of another one",
+                "skips tiles of {} px of whose corner pixels and middle none is covered",
+                "loses the last column of tiles of {} px that are not covered at all four corner pixels",
+                "loses the last row of tiles of {} px that are not covered at all four corner pixels",
+                "skips tiles of {} px that do not lie wholly in the window",
             ][(p / 100) as usize];
             tested.replace("{}", &format!("{side} x {side}"))
         },
@@ -693,13 +705,14 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 "loses the last rows of the box around a triangle that do not fill a group of {}",
                 "loses the last rows of the window that do not fill a group of {}",
                 "begins the box around a triangle at the multiple of {} before it and loses the last columns that do not fill a group",
+                "begins and ends every row at the multiple of {} before",
             ][kind as usize];
             what.replace("{}", &n.to_string())
         },
         repair: "draw what is left after the last whole group pixel by pixel, or by a mask",
         page: "speed",
         refuted: "a row whose length is no multiple of the group and that is right",
-        parameters: Parameters::Below(44),
+        parameters: Parameters::Below(48),
         draws: Fill::Changed(fills::groups),
     },
     Mistake {
@@ -745,6 +758,12 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "parts of the window are never drawn",
         sentence: |p| {
             let (axis, every, rest) = (p / 10_000, p / 100 % 100, p % 100);
+            if axis == 2 {
+                return format!(
+                    "draws a checkerboard: no pixel whose row and column add up to an {} number",
+                    ["even", "odd"][rest as usize]
+                );
+            }
             format!(
                 "never draws every {every}{} {} of the window (number {rest} from 0)",
                 suffix(every),
@@ -757,7 +776,70 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         parameters: Parameters::Fixed(&GROUPS),
         draws: Fill::Changed(|mask, _, window, p| {
             let (axis, every, rest) = (p / 10_000, p / 100 % 100, p % 100);
-            mask.retain(window, &|x, y| i64::from(if axis == 0 { y } else { x }) % every != rest);
+            mask.retain(window, &|x, y| i64::from([y, x, x + y][axis as usize]) % every != rest);
+        }),
+    },
+    Mistake {
+        name: "neighbours of covered pixels",
+        sentence: |p| {
+            let of = fills::NEIGHBOURS[(p / 2) as usize].1;
+            match p % 2 {
+                0 => format!("draws a pixel also where any of {of} is covered"),
+                _ => format!("draws a pixel only where {of} are covered, too"),
+            }
+        },
+        repair: "test the sample of the pixel alone",
+        page: "ch02",
+        refuted: "a pixel at an edge that is drawn rightly",
+        parameters: Parameters::Below(2 * fills::NEIGHBOURS.len() as i64),
+        draws: Fill::Ruled(fills::grown),
+    },
+    Mistake {
+        name: "every second row or column is moved",
+        sentence: |p| {
+            format!(
+                "tests samples {} px further {} in {} of {} numbers",
+                ["1/2", "1"][(p / 16) as usize],
+                ["left", "right", "up", "down"][(p / 4 % 4) as usize],
+                ["rows", "columns"][(p / 2 % 2) as usize],
+                ["even", "odd"][(p % 2) as usize]
+            )
+        },
+        repair: "test the same place in every pixel",
+        page: "ch02",
+        refuted: "a pixel at an edge in such a row or column that is drawn rightly",
+        parameters: Parameters::Below(32),
+        draws: Fill::Ruled(fills::alternating),
+    },
+    Mistake {
+        name: "the search for pixels ends too early",
+        sentence: |p| {
+            [
+                "stops at the first row without a covered sample after one with some",
+                "looks for the first pixel of a row from that of the row before on, so that edges to the left are lost",
+                "looks for the last pixel of a row up to that of the row before, so that edges to the right are lost",
+            ][p as usize]
+                .to_owned()
+        },
+        repair: "look through the whole box, or walk back to where the edge lies",
+        page: "speed",
+        refuted: "a covered pixel that lies there and is drawn",
+        parameters: Parameters::Below(3),
+        draws: Fill::Changed(|mask, _, window, p| fills::searched(mask, window, p)),
+    },
+    Mistake {
+        name: "rows keep their length at the window",
+        sentence: |_| {
+            "begins rows at the left side of the window that begin left of it, and keeps their length, so that they end too far right".to_owned()
+        },
+        repair: "clip both ends of a row, and take its length after that",
+        page: "ch07",
+        refuted: "a row that begins left of the window and ends where it should",
+        parameters: Parameters::Fixed(&[0]),
+        draws: Fill::Ruled(|corners, window, base, _| {
+            let mut mask = base.mask(corners, window).unwrap_or_default();
+            fills::slid(&mut mask, corners, window, base);
+            mask
         }),
     },
     Mistake {
@@ -1050,8 +1132,12 @@ pub(super) fn size(p: i64) -> (usize, bool, i64) {
 fn size_said(p: i64) -> (&'static str, String) {
     let (metric, _, limit) = size(p);
     let (what, unit, _) = fills::METRICS[metric];
-    let per_unit = if metric == 0 { 131_072 } else { 256 };
-    (what, format!("{} {unit}", fills::decimal(limit, per_unit)))
+    let per_unit = match metric {
+        0 => 131_072,
+        fills::RATIO => fills::RATIOS,
+        _ => 256,
+    };
+    (what, format!("{} {unit}", fills::decimal(limit, per_unit)).trim_end().to_owned())
 }
 
 type IsKind = fn(&Corners, PixelRect) -> bool;
@@ -1149,10 +1235,10 @@ const BOXES: [(&str, Bounds); 8] = [
     }),
 ];
 
-/// Every 4th, 8th and 16th row or column, the first or the last of them.
-const GROUPS: [i64; 16] = [
-    200, 201, 10_200, 10_201, 400, 403, 10_400, 10_403, 800, 807, 10_800, 10_807, 1600, 1615,
-    11_600, 11_615,
+/// Every 2nd, 4th, 8th and 16th row or column, the first or the last of them; and checkerboards.
+const GROUPS: [i64; 18] = [
+    20_200, 20_201, 200, 201, 10_200, 10_201, 400, 403, 10_400, 10_403, 800, 807, 10_800, 10_807,
+    1600, 1615, 11_600, 11_615,
 ];
 
 fn suffix(number: i64) -> &'static str {
@@ -1163,10 +1249,10 @@ fn suffix(number: i64) -> &'static str {
 }
 
 /// Sides and tests of tiles.
-const TILES: [i64; 53] = {
-    let mut all = [0; 53];
+const TILES: [i64; 73] = {
+    let mut all = [0; 73];
     let (mut i, mut n) = (0, 0);
-    while i < 55 {
+    while i < 75 {
         let side = 2 << (i % 5);
         // A tile as large as the window has its middle or first pixel beyond, or is all.
         if side < 32 || i / 5 == 0 || i / 5 > 2 {

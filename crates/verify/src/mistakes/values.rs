@@ -368,6 +368,41 @@ const VALUES: &[ValueMistake] = &[
         },
     },
     ValueMistake {
+        name: "depth in place of w",
+        does: "weights the corners by 1/z where 1/w is right",
+        repair: "weight the corners by 1/w: z after the division by w is no distance",
+        page: "ch05",
+        refuted: "a triangle with unequal w and right attributes",
+        values: |t, l| {
+            let parts = [0, 1, 2].map(|i| l[i] / t.vertices[i].depth);
+            let whole: f64 = parts.iter().sum();
+            with(sum(l, depths(t)), attributes(t, parts.map(|part| part / whole)))
+        },
+    },
+    ValueMistake {
+        name: "one w for a triangle",
+        does: "interpolates a/w and multiplies by the mean of w for the whole triangle",
+        repair: "divide by the interpolated 1/w at every pixel",
+        page: "ch05",
+        refuted: "a triangle with unequal w and right attributes",
+        values: |t, l| {
+            let mean = t.vertices.iter().map(|v| 1.0 / v.inv_w).sum::<f64>() / 3.0;
+            let over_w = [0, 1, 2].map(|i| l[i] * t.vertices[i].inv_w * mean);
+            with(sum(l, depths(t)), attributes(t, over_w))
+        },
+    },
+    ValueMistake {
+        name: "weights are squared",
+        does: "squares the weights of the corners and divides them by their sum",
+        repair: "use the weights as they are: they add up to 1",
+        page: "ch02",
+        refuted: "a pixel away from corners and middles with right values",
+        values: |t, l| {
+            let whole: f64 = l.iter().map(|part| part * part).sum();
+            right_values(t, l.map(|part| part * part / whole))
+        },
+    },
+    ValueMistake {
         name: ELSEWHERE,
         does: "computes right values",
         repair: "compute values where coverage is sampled",
@@ -418,7 +453,8 @@ const CORNERS: [(Moved, &str); 5] = [
 ];
 
 /// Numbers in which something is kept, with so many bits, and how that is said.
-type Kept = (fn(f64, i32) -> f64, &'static [i32], &'static str);
+type Keep = fn(f64, i32) -> f64;
+type Kept = (Keep, &'static [i32], &'static str);
 const KEPT: [Kept; 9] = [
     (
         |v, bits| mantissa(v, bits, f64::round),
@@ -522,15 +558,123 @@ pub struct ValueHypothesis {
     scaled: [[f64; 2]; 3],
     /// Pixels of a block that have one value, and the place in the block.
     block: Option<(i32, f64)>,
-    /// Pixels of a row between which attributes are linear, and whether these are counted from the first pixel of the row;
-    /// nothing where all pixels of a row have the values of the first one.
-    steps: Option<(Option<i32>, bool)>,
+    /// How values go on along a row.
+    along: Along,
+    /// What becomes of the attributes of the corners.
+    corner: Option<(Keep, i32)>,
+    /// Whether the first sample of a row has the values of the left edge, and the first row those of the top corner; and
+    /// whether the first ones are those in the window.
+    unstepped: [bool; 3],
+    /// The triangles that it is in, by a number of [`SIZES`] and the ends of a range; the others are right.
+    only: Option<(usize, [f64; 2])>,
+}
+
+/// How values go on along a row of pixels.
+#[derive(Clone, Copy)]
+enum Along {
+    /// Each pixel has its own.
+    Pixels,
+    /// All pixels have the values of the first one.
+    First,
+    /// Attributes are linear between every so many pixels; these are counted from the first pixel of the row, or from the
+    /// side of the window.
+    Steps(i32, bool),
+    /// Attributes are linear between the left and the right edge.
+    Edges,
+}
+
+/// The ends of the part of a row of which no weight is negative, and the weights that are 0 there; of the weights at two places
+/// of it, 0 and 1.
+fn ends_of_row(at_0: [f64; 3], at_1: [f64; 3]) -> [(f64, usize); 2] {
+    let (mut left, mut right) = ((f64::MIN, 0), (f64::MAX, 0));
+    for i in 0..3 {
+        let change = at_1[i] - at_0[i];
+        let zero = -at_0[i] / change;
+        if change > 0.0 && zero > left.0 {
+            left = (zero, i);
+        } else if change < 0.0 && zero < right.0 {
+            right = (zero, i);
+        }
+    }
+    [left, right]
+}
+
+type Size = fn(&Triangle) -> f64;
+/// By what triangles may be told of which attributes are not corrected.
+const SIZES: [(Size, &str); 4] = [
+    (
+        |t| {
+            let all = t.vertices.map(|v| v.inv_w);
+            all.into_iter().fold(f64::MIN, f64::max) / all.into_iter().fold(f64::MAX, f64::min)
+        },
+        "whose largest w is {} times the smallest one",
+    ),
+    (|t| twice_px(t).abs() / 2.0, "whose area is {} square pixels"),
+    (|t| extent(t, 0), "whose width is {} px"),
+    (|t| extent(t, 1), "whose height is {} px"),
+];
+
+fn extent(t: &Triangle, axis: usize) -> f64 {
+    let all = t.corners().map(|corner| px(corner)[axis]);
+    all.into_iter().fold(f64::MIN, f64::max) - all.into_iter().fold(f64::MAX, f64::min)
+}
+
+/// The number with the fewest digits between two.
+#[must_use]
+pub fn simplest(a: f64, b: f64) -> f64 {
+    let rounded = (0..9).map(|digits| {
+        let unit = f64::from(10).powi(digits);
+        ((a + b) / 2.0 * unit).round() / unit
+    });
+    let mut between = rounded.filter(|v| (a - v) * (b - v) <= 0.0);
+    between.next().unwrap_or((a + b) / 2.0)
+}
+
+/// The ranges of sizes that hold the wrong ones of some triangles, and how they are said: all up to a limit, or all from one on.
+fn ranges(triangles: &[(&Triangle, bool)]) -> Vec<(usize, [f64; 2], String)> {
+    let mut all = Vec::new();
+    for (number, (size, said)) in SIZES.into_iter().enumerate() {
+        let of = |wrong: bool| {
+            let some = triangles.iter().filter(move |(_, is_wrong)| *is_wrong == wrong);
+            some.map(move |(t, _)| size(t))
+        };
+        let (Some(least), Some(most)) = (of(true).reduce(f64::min), of(true).reduce(f64::max))
+        else {
+            continue;
+        };
+        let said = |words: &str, limit: f64| said.replace("{}", &format!("{words} {limit}"));
+        let above = of(false).filter(|size| *size > most).reduce(f64::min);
+        if let Some(above) = above {
+            let limit = simplest(most, above);
+            all.push((number, [f64::MIN, limit], said("at most about", limit)));
+        }
+        let below = of(false).filter(|size| *size < least).reduce(f64::max);
+        if let Some(below) = below {
+            let limit = simplest(least, below);
+            all.push((number, [limit, f64::MAX], said("at least about", limit)));
+        }
+    }
+    all
 }
 
 impl ValueHypothesis {
     /// Depth and both attributes that it predicts at a pixel; nothing of moved corners without area.
     #[must_use]
     pub fn predict(&self, triangle: &Triangle, (x_px, y_px): (i32, i32)) -> Option<[f64; 3]> {
+        let right = right_at(triangle, (x_px, y_px));
+        let is_in = |(number, [from, to]): (usize, [f64; 2])| {
+            (from..to).contains(&(SIZES[number].0)(triangle))
+        };
+        if !self.only.is_none_or(is_in) {
+            return Some(right);
+        }
+        let mut changed = *triangle;
+        if let Some((keep, bits)) = self.corner {
+            for v in &mut changed.vertices {
+                v.varying = DVec2::new(keep(v.varying.x, bits), keep(v.varying.y, bits));
+            }
+        }
+        let triangle = &changed;
         let corners =
             triangle.corners().map(|p| SubpixelPoint::new((self.moved)(p.x), (self.moved)(p.y)));
         if area2(&corners) == 0 {
@@ -539,16 +683,7 @@ impl ValueHypothesis {
         let in_bits = |kept: Option<(Kept, i32)>| {
             move |v: f64| kept.map_or(v, |((keep, ..), bits)| keep(v, bits))
         };
-        let weights_at = |x: i32| {
-            let at = [x, y_px];
-            let at = match self.block {
-                None => [0, 1].map(|i| f64::from(at[i]) + self.place[i]),
-                Some((side, place)) => at.map(|v| f64::from(v / side * side) + place),
-            };
-            weights(&corners, at).map(in_bits(self.weights))
-        };
-        let at = |x: i32| {
-            let l = weights_at(x);
+        let values_of = |l: [f64; 3]| {
             let mut values = (self.values)(triangle, l).map(in_bits(self.kept));
             if let Some(((keep, ..), bits, is_w)) = self.divisor {
                 let whole = sum(l, triangle.vertices.map(|v| v.inv_w));
@@ -567,28 +702,63 @@ impl ValueHypothesis {
             }
             [0, 1, 2].map(|i| values[i] * self.scaled[i][0] + self.scaled[i][1])
         };
-        let mut values = at(x_px);
-        if let Some((steps, from_first)) = self.steps {
-            let is_in = |x: i32| weights_at(x).iter().all(|weight| *weight >= 0.0);
-            let first = match from_first {
-                true => (0..x_px).rev().find(|&x| !is_in(x)).map_or(0, |x| x + 1),
-                false => 0,
+        let weights_at = |x: i32| {
+            let at = [x, y_px];
+            let at = match self.block {
+                None => [0, 1].map(|i| f64::from(at[i]) + self.place[i]),
+                Some((side, place)) => at.map(|v| f64::from(v / side * side) + place),
             };
-            match steps {
-                None => values = at(first),
-                Some(steps) => {
-                    let start = first + (x_px - first) / steps * steps;
-                    let (from, to) = (at(start), at(start + steps));
-                    let part = f64::from(x_px - start) / f64::from(steps);
-                    for i in [1, 2] {
-                        values[i] = from[i] + (to[i] - from[i]) * part;
-                    }
-                }
+            weights(&corners, at).map(in_bits(self.weights))
+        };
+        let at = |x: i32| values_of(weights_at(x));
+        let first = |is_counted: bool| {
+            let is_in = |x: i32| weights_at(x).iter().all(|weight| *weight >= 0.0);
+            let outside = (0..x_px).rev().find(|&x| !is_in(x)).filter(|_| is_counted);
+            outside.map_or(0, |x| x + 1)
+        };
+        let middle = f64::from(y_px) + 0.5;
+        let row =
+            || ends_of_row(weights(&corners, [0.0, middle]), weights(&corners, [1.0, middle]));
+        let values = match self.along {
+            Along::Pixels if self.unstepped == [false; 3] => at(x_px),
+            Along::Pixels => {
+                let [of_row, of_top, is_clipped] = self.unstepped;
+                // From where the first sample should have been to where it is.
+                let back = |start: f64| {
+                    // A sample on the edge is the first one, whatever rounding makes of the edge.
+                    let first = (start - 0.5 - 1e-9).ceil();
+                    (if is_clipped { first.max(0.0) } else { first }) + 0.5 - start
+                };
+                let top = corners.map(|corner| px(corner)[1]).into_iter().fold(f64::MAX, f64::min);
+                let x = f64::from(x_px) + 0.5 - if of_row { back(row()[0].0) } else { 0.0 };
+                values_of(weights(&corners, [x, middle - if of_top { back(top) } else { 0.0 }]))
             }
-        }
-        let right = right_at(triangle, (x_px, y_px));
+            Along::First => at(first(true)),
+            Along::Steps(steps, from_first) => {
+                let first = first(from_first);
+                let start = first + (x_px - first) / steps * steps;
+                let part = f64::from(x_px - start) / f64::from(steps);
+                linear(at(x_px), at(start), at(start + steps), part)
+            }
+            Along::Edges => {
+                let [left, right] = row();
+                let end = |(x, opposite): (f64, usize)| {
+                    let mut weights = weights(&corners, [x, middle]);
+                    weights[opposite] = 0.0;
+                    values_of(weights)
+                };
+                let part = (f64::from(x_px) + 0.5 - left.0) / (right.0 - left.0);
+                linear(at(x_px), end(left), end(right), part)
+            }
+        };
         Some([0, 1, 2].map(|i| if self.parts[i] { values[i] } else { right[i] }))
     }
+}
+
+/// Values whose attributes are linear between two places.
+fn linear(values: [f64; 3], from: [f64; 3], to: [f64; 3], part: f64) -> [f64; 3] {
+    let between = |i: usize| from[i] + (to[i] - from[i]) * part;
+    with(values[0], [between(1), between(2)])
 }
 
 /// Right values at a pixel and given ones.
@@ -636,9 +806,10 @@ pub fn are_explained(
     off_right <= 1.0 || 2.0 * off <= off_right
 }
 
-/// Every mistake, from all corners, at all places, in all values or in some; and that values are scaled in such a way.
+/// Every mistake, from all corners, at all places, in all values or in some; and that values are scaled in such a way. The
+/// limits of those that are in some triangles alone are read off `triangles`, of which it is known whether they are wrong.
 #[must_use]
-pub fn of_values(scaled: [[f64; 2]; 3]) -> Vec<ValueHypothesis> {
+pub fn of_values(scaled: [[f64; 2]; 3], triangles: &[(&Triangle, bool)]) -> Vec<ValueHypothesis> {
     let mut all = Vec::new();
     let mut add = |mistake: &ValueMistake, does: String, of: ValueHypothesis| {
         let ValueMistake { name, repair, page, refuted, .. } = *mistake;
@@ -658,7 +829,10 @@ pub fn of_values(scaled: [[f64; 2]; 3]) -> Vec<ValueHypothesis> {
         of_corners: None,
         scaled: [[1.0, 0.0]; 3],
         block: None,
-        steps: None,
+        along: Along::Pixels,
+        corner: None,
+        unstepped: [false; 3],
+        only: None,
     };
     for (i, (moved, from)) in CORNERS.into_iter().enumerate() {
         for (k, (place, at)) in PLACES.into_iter().enumerate() {
@@ -712,8 +886,47 @@ pub fn of_values(scaled: [[f64; 2]; 3]) -> Vec<ValueHypothesis> {
             "corrects attributes for perspective at every {steps}th pixel, counted from {}, and interpolates linearly between",
             if from_first { "the first one of the row" } else { "the left side of the window" }
         );
-        let steps = Some((Some(steps), from_first));
-        add(&STEPS, does, ValueHypothesis { steps, ..right([true; 3]) });
+        let along = Along::Steps(steps, from_first);
+        add(&STEPS, does, ValueHypothesis { along, ..right([true; 3]) });
+    }
+    let does = "corrects attributes for perspective along the edges, and interpolates linearly along the row between".to_owned();
+    add(&STEPS, does, ValueHypothesis { along: Along::Edges, ..right([true; 3]) });
+    for (of_row, of_top) in [(true, false), (false, true), (true, true)] {
+        let first = match [of_row, of_top] {
+            [true, false] => "gives the first sample of a row the values of the left edge",
+            [false, true] => "gives the first row the values of the top corner's height",
+            _ => {
+                "gives the first row the values of the top corner's height, and the first sample of a row those of the left edge"
+            }
+        };
+        for (is_clipped, clipped) in [(false, ""), (true, ", also where the window begins there")] {
+            for (parts, said) in [PARTS[0], PARTS[3], PARTS[4]] {
+                let unstepped = [of_row, of_top, is_clipped];
+                let does = format!("{first}{clipped}{said}");
+                add(&UNSTEPPED, does, ValueHypothesis { unstepped, ..right(parts) });
+            }
+        }
+    }
+    for (power, said) in [(22, "2.2"), (20, "2"), (-22, "1/2.2"), (-20, "1/2")] {
+        for (parts, of) in PARTS.into_iter().skip(1).take(3) {
+            let does = format!(
+                "raises attributes of corners to the power of {said}, interpolates, and undoes that{of}"
+            );
+            let kept = Some(((powered as Keep, &[][..], ""), -power));
+            let corner = Some((powered as Keep, power));
+            add(&POWERS, does, ValueHypothesis { kept, corner, ..right(parts) });
+        }
+    }
+    for (kept, bits) in KEPT.iter().flat_map(|kept| kept.1.iter().map(move |bits| (*kept, *bits))) {
+        let numbers = kept.2.replace("{}", &bits.to_string());
+        let does = format!("keeps the attributes of corners in {numbers}");
+        add(&FEW_BITS, does, ValueHypothesis { corner: Some((kept.0, bits)), ..right([true; 3]) });
+    }
+    for (number, ends, said) in ranges(triangles) {
+        let affine = &VALUES[0];
+        let does = format!("{}, of triangles {said} alone", affine.does);
+        let (values, only) = (affine.values, Some((number, ends)));
+        add(affine, does, ValueHypothesis { values, only, ..right([true; 3]) });
     }
     let off: Vec<String> = ["depth", "the first attribute", "the second attribute"]
         .into_iter()
@@ -730,7 +943,7 @@ pub fn of_values(scaled: [[f64; 2]; 3]) -> Vec<ValueHypothesis> {
     }
     for (parts, said) in [PARTS[0], PARTS[3], PARTS[4]] {
         let does = format!("gives the pixels of a row the values of the first one{said}");
-        add(&BLOCKS, does, ValueHypothesis { steps: Some((None, true)), ..right(parts) });
+        add(&BLOCKS, does, ValueHypothesis { along: Along::First, ..right(parts) });
     }
     all
 }
@@ -777,6 +990,30 @@ const STEPS: ValueMistake = ValueMistake {
     refuted: "a pixel between two of these with the attributes of its place",
     values: right_values,
 };
+
+const UNSTEPPED: ValueMistake = ValueMistake {
+    name: "values without the first part of a step",
+    does: "",
+    repair: "move values from the edge to the first sample by the part of a pixel that lies between",
+    page: "ch05",
+    refuted: "a pixel away from such a corner or edge with the values of its sample",
+    values: right_values,
+};
+const POWERS: ValueMistake = ValueMistake {
+    name: "values in another space",
+    does: "",
+    repair: "interpolate attributes as they are given, and encode colours where they are stored",
+    page: "ch05",
+    refuted: "a pixel between corners of different attributes with right ones",
+    values: right_values,
+};
+
+/// A power of a number that keeps its sign, in tenths; or such a root.
+fn powered(v: f64, tenths: i32) -> f64 {
+    let power = f64::from(tenths.abs()) / 10.0;
+    let size = v.abs().powf(if tenths < 0 { 1.0 / power } else { power });
+    if v < 0.0 { -size } else { size }
+}
 
 /// What right values are multiplied by, and what is added, as most of some pixels have it: a right value and the given one each.
 #[must_use]
@@ -842,5 +1079,10 @@ pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mis
             are_explained(triangle, &mut fragments.iter(), &predict, &allowed)
         }),
     };
-    of_answers(of_values(scaled(&pixels)).into_iter().map(hypothesis).collect(), &is_wrong)
+    let triangles: Vec<_> =
+        chosen_by(&is_wrong).iter().map(|&i| (&all[i].0, is_wrong[i])).collect();
+    of_answers(
+        of_values(scaled(&pixels), &triangles).into_iter().map(hypothesis).collect(),
+        &is_wrong,
+    )
 }
