@@ -576,6 +576,72 @@ const FILLS: &[(&str, Fill)] = &[
             start + bits(a, b) * f64::from(row - first.max(0))
         });
     }),
+    ("crossings are stepped", |mut c, w, out| {
+        // From the lowest row upwards, by slopes that are divided, with samples at whole numbers.
+        c.sort_by_key(|p| -p.y);
+        let p = c.map_array(|p| [p.x, p.y].map(|v| v as f32 / 256.0 - 0.5));
+        let rows = p.map_array(|p| p[1].ceil() as i32);
+        let slope = |i: usize, k: usize| match p[i][1] - p[k][1] {
+            0.0 => 0.0,
+            height => (p[i][0] - p[k][0]) / height,
+        };
+        let first = |i: usize, slope: f32| p[i][0] - slope * (p[i][1] - (rows[i] - 1) as f32);
+        let mut long = first(0, slope(0, 2));
+        for (i, k) in [(0, 1), (1, 2)] {
+            let mut short = first(i, slope(i, k));
+            for y in (rows[k]..rows[i]).rev() {
+                let ends = [long.min(short), long.max(short)].map(|v| v.ceil() as i32);
+                if (0..w.y1).contains(&y) {
+                    (ends[0].max(0)..ends[1].min(w.x1)).for_each(|x| light(out, x, y));
+                }
+                (long, short) = (long - slope(0, 2), short - slope(i, k));
+            }
+        }
+    }),
+    ("crossings are stepped", |c, w, out| {
+        // Through numbers from -1 to 1, in which it is clipped; downwards, by products with a reciprocal.
+        let side = [w.x1 as f32, w.y1 as f32];
+        let mut polygon: Vec<[f32; 2]> =
+            c.iter().map(|p| [p.x, p.y].map(|v| v as f32 / 256.0)).collect();
+        polygon.iter_mut().for_each(|p| *p = [0, 1].map(|k| 2.0 / side[k] * p[k] - 1.0));
+        for (k, border) in [(0, 1.0_f32), (0, -1.0), (1, -1.0), (1, 1.0)] {
+            let within = |p: [f32; 2]| 1.0 - border * p[k];
+            let mut kept = Vec::new();
+            for (i, to) in polygon.iter().enumerate() {
+                let from = polygon[(i + polygon.len() - 1) % polygon.len()];
+                if (within(from) < 0.0) != (within(*to) < 0.0) {
+                    let part = within(from) / (within(from) - within(*to));
+                    kept.push([0, 1].map(|k| from[k] * (1.0 - part) + to[k] * part));
+                }
+                if within(*to) >= 0.0 {
+                    kept.push(*to);
+                }
+            }
+            polygon = kept;
+        }
+        polygon.iter_mut().for_each(|p| {
+            *p = [0, 1].map(|k| side[k] / 2.0 + p[k] * (side[k] / 2.0));
+        });
+        for i in 2..polygon.len() {
+            let mut p = [polygon[0], polygon[i - 1], polygon[i]];
+            p.sort_by(|a, b| a[1].total_cmp(&b[1]));
+            let row = |i: usize| (p[i][1] - 0.5).ceil();
+            let slope = |i: usize, k: usize| match p[k][1] - p[i][1] {
+                0.0 => 0.0,
+                height => (p[k][0] - p[i][0]) * (1.0 / height),
+            };
+            let first = |i: usize, slope: f32| p[i][0] + slope * (row(i) + 0.5 - p[i][1]);
+            let mut long = first(0, slope(0, 2));
+            for (i, k) in [(0, 1), (1, 2)] {
+                let mut short = first(i, slope(i, k));
+                for y in row(i) as i32..row(k) as i32 {
+                    let ends = [long.min(short), long.max(short)].map(|v| (v - 0.5).ceil() as i32);
+                    (ends[0].max(0)..ends[1].min(w.x1)).for_each(|x| light(out, x, y));
+                    (long, short) = (long + slope(0, 2), short + slope(i, k));
+                }
+            }
+        }
+    }),
     ("corners are sorted by whole rows", |mut c, w, out| {
         c.sort_by_key(|p| p.y >> 8);
         let first = |p: SubpixelPoint| (p.y + 127).div_euclid(256);
@@ -1246,6 +1312,77 @@ const STROKES: &[(&str, Stroke)] = &[
             }
         }
         bresenham([p, q], emit);
+    }),
+    ("lines are cut in whole numbers", |[mut p, mut q], last, emit| {
+        // As older versions of gd do, and what was made of them: the sum is cut.
+        for k in [0, 1] {
+            let slope = f64::from(q[1 - k] - p[1 - k]) / f64::from(q[k] - p[k]);
+            if (p[k] < 0 && q[k] < 0) || (p[k] > last[k] && q[k] > last[k]) {
+                return;
+            }
+            for end in [&mut p, &mut q] {
+                let to = end[k].clamp(0, last[k]);
+                if end[k] != to {
+                    let sum = f64::from(end[1 - k]) + slope * f64::from(to - end[k]);
+                    (end[k], end[1 - k]) = (to, sum as i32);
+                }
+            }
+        }
+        bresenham([p, q], emit);
+    }),
+    ("lines are cut in whole numbers", |[mut p, mut q], last, emit| {
+        // As gd does: the sum is cut for the far ends of lines across the window, and a part for the others.
+        for k in [0, 1] {
+            let slope = f64::from(q[1 - k] - p[1 - k]) / f64::from(q[k] - p[k]);
+            if (p[k] < 0 && q[k] < 0) || (p[k] > last[k] && q[k] > last[k]) {
+                return;
+            }
+            let across = p[k] < 0 && q[k] > last[k];
+            for (end, is_sum) in [(&mut p, false), (&mut q, across)] {
+                let to = end[k].clamp(0, last[k]);
+                if end[k] != to {
+                    let part = slope * f64::from(to - end[k]);
+                    end[1 - k] = match is_sum {
+                        true => (f64::from(end[1 - k]) + part) as i32,
+                        false => end[1 - k] + part as i32,
+                    };
+                    end[k] = to;
+                }
+            }
+        }
+        bresenham([p, q], emit);
+    }),
+    ("steps are added up in floats", |[a, b], last, emit| {
+        // Through numbers from -1 to 1, clipped by the four sides in turn, to pixels with a half that is added; from end to end.
+        let side = last.map(|v| (v + 1) as f32);
+        let unit = |p: [i32; 2]| [0, 1].map(|k| 2.0 / side[k] * (p[k] as f32 + 0.5) - 1.0);
+        let (a, b) = (unit(a), unit(b));
+        let (mut p, mut q) = (a, b);
+        for k in [0, 1] {
+            for border in [-1.0_f32, 1.0] {
+                let beyond = |v: f32| if border < 0.0 { v < border } else { v > border };
+                if beyond(p[k]) && beyond(q[k]) {
+                    return;
+                }
+                let at = (border - a[k]) / (b[k] - a[k]);
+                let cut = [0, 1].map(|k| a[k] + at * (b[k] - a[k]));
+                if beyond(p[k]) {
+                    p = cut;
+                } else if beyond(q[k]) {
+                    q = cut;
+                }
+            }
+        }
+        let back = |p: [f32; 2]| {
+            [0, 1].map(|k| (side[k] / 2.0 + p[k] * (side[k] / 2.0) + 0.5).floor() - 1.0)
+        };
+        let (from, to) = (back(p), back(q));
+        let steps = (to[0] - from[0]).abs().max((to[1] - from[1]).abs());
+        let mut at = from.map(|v| v + 0.5);
+        for _ in 0..=steps as i32 {
+            emit(at[0] as i32, at[1] as i32);
+            at = [0, 1].map(|k| at[k] + (to[k] - from[k]) / steps.max(1.0));
+        }
     }),
     ("one step at a time", |[[mut x, mut y], [x1, y1]], _, emit| {
         let [dx, dy] = [i64::from((x1 - x).abs()), i64::from((y1 - y).abs())];

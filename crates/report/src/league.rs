@@ -11,7 +11,11 @@ struct Words {
     header: &'static str,
     as_declared: &'static str,
     unexplained: &'static str,
+    /// No convention explains it, and a mistake does.
+    by_mistake: &'static str,
     mistake: &'static str,
+    /// Before what is said of the convention, where a mistake explains more.
+    besides: &'static str,
     unscored: &'static str,
     unanswered: &'static str,
     kinds: [&'static str; 2],
@@ -27,7 +31,9 @@ const ENGLISH: Words = Words {
              theirs | from either end |",
     as_declared: "the same",
     unexplained: "unexplained",
+    by_mistake: "a mistake",
     mistake: "Its mistake: it ",
+    besides: "As a convention",
     unscored: "Left out, since the convention says nothing of them",
     unanswered: "Requests refused, and not answered",
     kinds: ["Triangles", "Lines"],
@@ -45,7 +51,9 @@ const CHINESE: Words = Words {
     header: "| 库 | 版本 | 日期 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 |",
     as_declared: "相同",
     unexplained: "未能解释",
+    by_mistake: "已知的错误",
     mistake: "它的错误：",
+    besides: "作为约定",
     unscored: "约定对之无所断言、未计入的图形",
     unanswered: "被拒绝的请求与没有回答的请求",
     kinds: ["三角形", "直线"],
@@ -103,7 +111,15 @@ fn one(out: &mut String, row: &Ranked, words: &Words) {
         });
         if !kind.sentence.is_empty() {
             let said = (words.say)(&kind.sentence);
-            let _ = writeln!(out, "  - {about}{colon}{said}{left_out}{mistake}");
+            // What is known comes before what no convention explains.
+            let all = match kind.by_convention {
+                None if !mistake.is_empty() => {
+                    let besides = words.besides;
+                    format!("{}{gap}{besides}{colon}{said}", mistake.trim_start())
+                }
+                _ => format!("{said}{left_out}{mistake}"),
+            };
+            let _ = writeln!(out, "  - {about}{colon}{all}");
         }
     }
     if refused + died > 0 {
@@ -118,6 +134,7 @@ fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
     let found = match kind.by_convention {
         Some(score) => share(score),
         None if kind.sentence.is_empty() => words.as_declared.to_owned(),
+        None if kind.mistake.is_some() => words.by_mistake.to_owned(),
         None => words.unexplained.to_owned(),
     };
     [share(kind.as_declared), found]

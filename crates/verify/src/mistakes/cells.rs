@@ -6,7 +6,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
-type Place = [f64; 2];
+pub(super) type Place = [f64; 2];
 
 /// The corners in pixels, in their order.
 pub(super) fn places(corners: &Corners) -> [Place; 3] {

@@ -57,6 +57,13 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         sentence: |p| {
             let how = ["cut toward zero", "cut down", "rounded to the nearest"][(p % 3) as usize];
             let from = ["", ", counted from the end that is cut", ", counted from the other end"];
+            if p >= SUMS {
+                let which = ["the far ends of lines across the window are", "all new ends are"];
+                return format!(
+                    "cuts lines at the window, first in x, and draws the rest as a line of its own, whose new ends are counted from the end that is cut, by a part that is cut toward zero; {} cut as a sum: the rest takes other pixels",
+                    which[(p - SUMS) as usize]
+                );
+            }
             if p >= 84 {
                 let (axis, rest) = (["y", "x"][((p - 84) / 36) as usize], (p - 84) % 36);
                 return format!(
@@ -83,7 +90,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "clip the line, and keep the error term of the unclipped one",
         page: "ch07",
         refuted: "a line across the border with the pixels of the whole line",
-        parameters: Parameters::Below(84 + 2 * 36),
+        parameters: Parameters::Below(SUMS + 2),
         draws: Stroke::Instead(|ends, window, p| cut(ends, window, p).into_iter().collect()),
     },
     Mistake {
@@ -280,6 +287,19 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         name: "steps are added up in floats",
         sentence: |p| {
             let (how, bits) = (p / 3, ["32", "64", "16"][(p % 3) as usize]);
+            if how >= NORMALISED {
+                let [up, centre, whole] =
+                    [1, 2, 4].map(|bit| usize::from(how - NORMALISED & bit > 0));
+                return format!(
+                    "brings ends to numbers from -1 to 1, clips in them, comes back {} and cuts them to whole pixels, which rounding may move, and adds up steps{}, beginning {}, in floats of {bits} bits",
+                    ["with half a pixel added", "to the centres"][centre],
+                    ["", " upwards"][up],
+                    [
+                        "half a step after the first end, without the last pixel",
+                        "half a pixel ahead"
+                    ][whole]
+                );
+            }
             [
                 "adds up steps in floats of {} bits, rounded to the nearest: the height drifts along the line",
                 "adds up steps in floats of {} bits, cut toward zero: the height drifts along the line",
@@ -301,7 +321,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
         repair: "count in integers, as Bresenham's algorithm does",
         page: "ch03",
         refuted: "a long line whose height is right at the far end",
-        parameters: Parameters::Below(42),
+        parameters: Parameters::Below(3 * (NORMALISED + 8)),
         draws: Stroke::Own(floats),
     },
     Mistake {
@@ -707,6 +727,10 @@ fn from_left(ends: Ends, left: bool) -> Ends {
     if left && ends[0] > ends[1] { [ends[1], ends[0]] } else { ends }
 }
 
+/// From here on parts are products with a slope in floats, and a sum is cut in place of a part: of second ends beyond the far
+/// side, where the first one lay before the near side, or of all ends.
+const SUMS: i64 = 84 + 2 * 36;
+
 /// The part within the window by Cohen and Sutherland, in whole numbers: p mod 3 is the rounding, p / 3 mod 2 is whether x
 /// is cut before y, p / 6 mod 2 is whether the first end is cut before the second, p / 12 mod 3 is from where a new end is
 /// counted, and from 36 on a line is turned round whose second end was cut.
@@ -715,7 +739,9 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
         return cut_both([a, b], window, p - 72);
     }
     // From 84 on one axis is cut alone.
+    let sums = p - SUMS;
     let (p, axes) = match p {
+        SUMS.. => (15, [false; 2]),
         84.. => ((p - 84) % 36, [p < 120, p >= 120]),
         _ => (p, [false; 2]),
     };
@@ -725,6 +751,7 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
     let mut turns = false;
     // The way of the line, and the axis along which it was cut last.
     let (mut way, mut cut_along) = ([0; 2], 2);
+    let mut began_before = false;
     // Each end is cut at most twice.
     for _ in 0..5 {
         let outside = |p: [i64; 2], k: usize| !axes[k] && (p[k] < 0 || p[k] > last[k]);
@@ -751,13 +778,17 @@ fn cut([mut a, mut b]: Ends, window: PixelRect, p: i64) -> Option<Ends> {
         // Where each end is moved from itself, the way is that before both.
         if p / 12 % 3 != 1 || cut_along != k {
             (way, cut_along) = ([b[0] - a[0], b[1] - a[1]], k);
+            began_before = first && moved[k] < 0;
         }
+        let is_sum = sums == 1 || (sums == 0 && began_before && !first);
         let (part, whole) = (way[1 - k] * (to - from[k]), way[k]);
         let (part, whole) = if whole < 0 { (-part, -whole) } else { (part, whole) };
         let along = match p % 3 {
             // As a product with a slope in floats, which need not be exact.
             0 if p / 12 % 3 == 1 => {
-                (way[1 - k] as f64 / way[k] as f64 * (to - from[k]) as f64) as i64
+                let kept = if is_sum { from[1 - k] } else { 0 };
+                let part = way[1 - k] as f64 / way[k] as f64 * (to - from[k]) as f64;
+                (kept as f64 + part) as i64 - kept
             }
             0 => part / whole,
             1 => part.div_euclid(whole),
@@ -881,8 +912,12 @@ fn fixed_slope([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]
         .collect()
 }
 
-fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
+fn floats(ends: Ends, window: PixelRect, p: i64) -> Vec<[i64; 2]> {
     let (how, precision) = (p / 3, p % 3);
+    if how >= NORMALISED {
+        return normalised(ends, window, how - NORMALISED, precision).unwrap_or_default();
+    }
+    let [[x0, y0], [x1, y1]] = ends;
     let r = |v: f64| rounded(v, precision);
     let steps = (x1 - x0).abs().max((y1 - y0).abs());
     if steps > MOST_STEPS {
@@ -924,6 +959,58 @@ fn floats([[x0, y0], [x1, y1]]: Ends, _: PixelRect, p: i64) -> Vec<[i64; 2]> {
         (x, y) = (r(x + sx), r(y + sy));
     }
     pixels
+}
+
+/// From here on, ways of adding up steps go through numbers from -1 to 1.
+const NORMALISED: i64 = 14;
+
+/// Ends go through numbers from -1 to 1, in which the line is clipped by Liang and Barsky, and are cut to whole pixels. Bit 0 of
+/// `how` is whether y runs upwards, bit 1 whether no half is added before the cut, and bit 2 whether steps begin at the first end.
+fn normalised(ends: Ends, window: PixelRect, how: i64, precision: i64) -> Option<Vec<[i64; 2]>> {
+    let r = |v: f64| rounded(v, precision);
+    let sides = [window.x1, window.y1].map_array(f64::from);
+    let signs = [1.0, if how & 1 == 1 { -1.0 } else { 1.0 }];
+    let [from, to] = ends.map_array(|end| {
+        [0, 1]
+            .map_array(|k: usize| signs[k] * r(r(r(2.0 / sides[k]) * r(end[k] as f64 + 0.5)) - 1.0))
+    });
+    let way = [0, 1].map_array(|k: usize| r(to[k] - from[k]));
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for k in [0, 1] {
+        for (left, ahead) in [(r(1.0 - from[k]), way[k]), (r(1.0 + from[k]), -way[k])] {
+            let part = r(left / ahead);
+            if ahead > 0.0 {
+                last = last.min(part);
+            } else if ahead < 0.0 {
+                first = first.max(part);
+            } else if left < 0.0 {
+                return None;
+            }
+        }
+    }
+    if first > last {
+        return None;
+    }
+    let pixel = |part: f64, end: [f64; 2]| {
+        [0, 1].map_array(|k: usize| {
+            // An end inside stays as it is.
+            let v = if part == 0.0 || part == 1.0 { end[k] } else { r(from[k] + r(part * way[k])) };
+            let at = r(sides[k] / 2.0 + r(v * sides[k] / 2.0));
+            if how & 2 == 0 { r(at + 0.5).floor() - 1.0 } else { at.floor() }
+        })
+    };
+    let [from, to] = [pixel(first, from), pixel(last, to)];
+    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    let steps = dx.abs().max(dy.abs());
+    let (begin, more) = if how & 4 == 0 { (0.5, 0) } else { (0.0, 1) };
+    let step = [dx, dy].map_array(|d| if steps == 0.0 { 0.0 } else { r(d / steps) });
+    let mut at = [0, 1].map_array(|k: usize| r(from[k] + 0.5 + r(step[k] * begin)));
+    let all = (0..steps as i64 + more).map(|_| {
+        let [x, y] = at.map_array(|v| v as i64);
+        at = [0, 1].map_array(|k: usize| r(at[k] + step[k]));
+        [x, if how & 1 == 1 { i64::from(window.y1) - 1 - y } else { y }]
+    });
+    Some(all.collect())
 }
 
 /// Each step from a slope in floats: 4, as y = m x + b; 5, from the first end; 6, from the left end.

@@ -21,6 +21,7 @@ mod weigh;
 use std::cell::OnceCell;
 use std::fmt;
 
+use crate::comparison::area2;
 use crate::convention::{
     Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
     LineQuestion, LineRounding, LineTie, Mask, Shape, Ties, TriangleQuestion, Windings,
@@ -378,7 +379,9 @@ fn explain(
             Parameters::Sizes => limits(answered),
             Parameters::Clamps => triangles::clamps(&clamped(answered)),
             Parameters::Scans(is_one) => {
-                let all = scans.get_or_init(|| scans::fitting(&near(answered, &is_wrong)));
+                let all = scans.get_or_init(|| {
+                    scans::fitting(&near(answered, &is_wrong, &bases[0].convention))
+                });
                 all.iter().copied().filter(|p| is_one(*p)).collect()
             }
             others => numbers(others),
@@ -683,9 +686,18 @@ fn fill(
             let corners = corners.map_array(|c| SubpixelPoint::new(on_grid(c.x), on_grid(c.y)));
             draw(&corners, window, base, p)
         }
-        Fill::Own(draw) => draw(corners, window, p),
+        Fill::Own(draw) if is_faced(base, corners) => draw(corners, window, p),
+        Fill::Own(_) => Mask::default(),
     };
     Some([drawn, twice])
+}
+
+/// Whether a convention draws triangles that turn like this one; those without area are drawn where both windings are.
+fn is_faced(convention: &Convention, corners: &Corners) -> bool {
+    match area2(corners) {
+        0 => convention.draws == Windings::Both,
+        area => convention.draws.draws(area > 0),
+    }
 }
 
 /// Where samples may lie in a pixel, in subpixels, and how that is said.
@@ -790,14 +802,18 @@ fn limits(answered: &[Answered<TriangleQuestion>]) -> Vec<i64> {
 const FITTED: usize = 240;
 
 /// Some of the answers that hypotheses are chosen by: those of triangles that are small, so that slopes do not matter much.
-fn near<'a>(
-    answered: &'a [Answered<TriangleQuestion>],
+fn near(
+    answered: &[Answered<TriangleQuestion>],
     is_wrong: &[bool],
-) -> Vec<scans::Drawn<'a>> {
-    let small = |i: &usize| fills::metric(&answered[*i].question.corners, 3) < 64 * 256;
+    declared: &Convention,
+) -> Vec<scans::Drawn> {
+    let small = |i: &usize| {
+        let corners = &answered[*i].question.corners;
+        fills::metric(corners, 3) < 64 * 256 && is_faced(declared, corners)
+    };
     let all = chosen_by(is_wrong).into_iter().filter(small).map(|i| {
         let Answered { question, drawn, .. } = &answered[i];
-        (&question.corners, question.window, *drawn)
+        (cells::places(&question.corners), question.window, *drawn)
     });
     all.take(FITTED).collect()
 }

@@ -1,9 +1,10 @@
 //! Wrong fills row by row between the crossings of rows with edges, as functions of the corners in subpixels (1/256 px).
 
-use super::fills::{Digits, MOST_ROWS, Point, points, wrap};
+use super::cells::{Place, places};
+use super::fills::{Digits, MOST_ROWS, wrap};
 use crate::convention::Mask;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
 /// In which numbers the crossing of an edge with a row is computed.
@@ -11,6 +12,8 @@ use rasterproof_core::triangle::Corners;
 enum Slope {
     /// The slope is added row by row, in single precision or in double.
     Added(bool),
+    /// The same in single precision, from a product with the reciprocal of the height.
+    AddedReciprocal,
     /// Not added: computed for each row in single precision.
     Computed,
     /// The same, from a reciprocal of the height.
@@ -30,7 +33,7 @@ enum Slope {
     Fixed { bits: u32, cut: i64, start: i64 },
 }
 
-const SLOPES: [Slope; 21] = [
+const SLOPES: [Slope; 22] = [
     Slope::Between(false),
     Slope::Added(true),
     Slope::Added(false),
@@ -52,6 +55,7 @@ const SLOPES: [Slope; 21] = [
     Slope::Mantissa(11),
     Slope::Mantissa(12),
     Slope::Mantissa(16),
+    Slope::AddedReciprocal,
 ];
 const BITS: [u32; 6] = [16, 8, 10, 12, 14, 6];
 const CUTS: [&str; 4] = [
@@ -80,7 +84,23 @@ impl Slope {
 
     /// Whether a step is added for each row, so that it matters where edges begin.
     fn is_added(self) -> bool {
-        matches!(self, Self::Added(_) | Self::Fixed { .. })
+        matches!(self, Self::Fixed { .. }) || self.is_added_in_floats()
+    }
+
+    fn is_added_in_floats(self) -> bool {
+        matches!(self, Self::Added(_) | Self::AddedReciprocal)
+    }
+
+    /// Whether it is computed in single precision, without words of fewer bits.
+    fn is_single(self) -> bool {
+        matches!(
+            self,
+            Self::Added(true)
+                | Self::AddedReciprocal
+                | Self::Computed
+                | Self::Reciprocal
+                | Self::Between(true)
+        )
     }
 
     fn about(self) -> String {
@@ -88,6 +108,10 @@ impl Slope {
         match self {
             Self::Added(single) => {
                 format!("adds the slope of an edge row by row in floats of {} bits", bits(single))
+            }
+            Self::AddedReciprocal => {
+                "adds the slope of an edge, a product with the reciprocal of its height, row by row in floats of 32 bits"
+                    .to_owned()
             }
             Self::Computed => {
                 "computes each crossing from a slope that is rounded to floats of 32 bits"
@@ -152,6 +176,10 @@ pub(super) struct Scan {
     sorted: i64,
     /// 1 where each row gets a pixel at least, the one that would be its first.
     least: i64,
+    /// 1 where edges begin at their lower ends and rows are walked upwards.
+    up: i64,
+    /// What is added to coordinates before they are rounded, so that samples lie at whole numbers: one of `MOVED`.
+    moved: i64,
 }
 
 const WHOLE: [&str; 5] = [
@@ -193,6 +221,13 @@ const RIGHT: [&str; 9] = [
 ];
 const SORTED: [&str; 4] = ["", "cut down", "rounded", "rounded up"];
 
+/// In pixels, and in words.
+const MOVED: [(f64, &str); 3] = [
+    (0.0, ""),
+    (0.5, ", after half a pixel was added to all coordinates"),
+    (-0.5, ", after half a pixel was taken from all coordinates"),
+];
+
 const LOWER: [&str; 4] = [
     "",
     ", begins anew at the middle corner",
@@ -201,26 +236,47 @@ const LOWER: [&str; 4] = [
 ];
 
 /// How many values each digit has, in the order of the fields.
-const DIGITS: Digits<11> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2]);
+const DIGITS: Digits<13> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2, 2, 3]);
 
 impl Scan {
     fn of(p: i64) -> Self {
-        let [slope, lower, above, whole, rows, height, left, right, level, sorted, least] =
-            DIGITS.digits(p);
+        let [slope, lower, above, whole, rows, height, left, right, rest @ ..] = DIGITS.digits(p);
+        let [level, sorted, least, up, moved] = rest;
         let slope = Slope::of(slope);
-        Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least }
+        Self {
+            slope,
+            lower,
+            above,
+            whole,
+            rows,
+            height,
+            left,
+            right,
+            level,
+            sorted,
+            least,
+            up,
+            moved,
+        }
     }
 
     /// The sentence, after 'it'.
     pub(super) fn sentence(p: i64) -> String {
+        if p >= CLIPPED {
+            return format!(
+                "brings corners to numbers from -1 to 1, clips in them and comes back, all in floats of 32 bits, and {}",
+                Self::sentence(p - CLIPPED)
+            );
+        }
         if p >= COLUMNS {
             return format!(
                 "goes column by column, and with x and y exchanged {}",
                 Self::sentence(p - COLUMNS)
             );
         }
-        let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, least } =
+        let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, .. } =
             Self::of(p);
+        let Self { least, up, moved, .. } = Self::of(p);
         let mut words = WHOLE[whole as usize].to_owned();
         if sorted > 0 && whole > 0 {
             words += "sorts them by their exact heights, ";
@@ -232,6 +288,8 @@ impl Scan {
             );
         } else if slope != SLOPES[0] {
             words += &slope.about();
+            words += ["", ", upwards from the lower end of each edge"][up as usize];
+            words += MOVED[moved as usize].1;
             words += [
                 "",
                 ", begins in row 0 with the crossing of a first row above the window",
@@ -285,8 +343,8 @@ impl Scan {
     fn within(frame: i64) -> Vec<i64> {
         let base = Self::of(frame);
         // The places of the last three digits.
-        let [level_at, sorted_at, least_at] =
-            [8, 9, 10].map(|i| DIGITS.0[..i].iter().product::<i64>());
+        let [level_at, sorted_at, least_at, up_at, moved_at] =
+            [8, 9, 10, 11, 12].map(|i| DIGITS.0[..i].iter().product::<i64>());
         let mut all = Vec::new();
         // Of whole corners there are level triangles, and corners that were sorted before.
         let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
@@ -312,16 +370,27 @@ impl Scan {
             if base.whole == 0 {
                 all.extend((1..4).map(|sorted| frame + sorted * sorted_at));
                 all.push(frame + least_at);
+                all.extend((0..SLOPES.len() as i64).flat_map(|slope| {
+                    // Where nothing is added, upwards is the same, nearly.
+                    let is_added = SLOPES[slope as usize].is_added_in_floats();
+                    let is_single = SLOPES[slope as usize].is_single();
+                    let ways = (0..6).filter(move |way| is_added || way % 2 == 0);
+                    ways.flat_map(move |way| {
+                        let p = frame + slope + way % 2 * up_at + way / 2 * moved_at;
+                        let within = (is_added && way > 0).then_some(p);
+                        within.into_iter().chain(is_single.then_some(p + CLIPPED))
+                    })
+                }));
             }
         }
         all
     }
 
     /// How many pixels of what was drawn it does not predict, up to a number.
-    fn missed(self, drawn: &[Drawn<'_>], most: u32) -> u32 {
+    fn missed(self, drawn: &[Drawn], most: u32) -> u32 {
         let mut missed = 0;
         for (corners, window, seen) in drawn {
-            missed += seen.differs(&scan(corners, *window, self)).count();
+            missed += seen.differs(&scan(*corners, *window, self)).count();
             if missed >= most {
                 break;
             }
@@ -329,23 +398,35 @@ impl Scan {
         missed
     }
 
-    fn first_row(&self, y: i64) -> i64 {
-        (y + [127, 0, 255, 128][(self.rows / 2) as usize]).div_euclid(256)
+    fn first_row(&self, y: f64) -> i64 {
+        let row = match self.rows / 2 {
+            0 => (y - 0.5).ceil(),
+            1 => y.floor(),
+            2 => y.ceil(),
+            _ => (y + 0.5).floor(),
+        };
+        row as i64
     }
 
-    /// How far a row lies below the corner where an edge begins, in subpixels.
-    fn ahead(&self, row: i64, first_row: i64, from: i64) -> i64 {
+    /// How far a row lies below the corner where an edge begins, in pixels.
+    fn ahead(&self, row: i64, first_row: i64, from: f64) -> f64 {
         match self.height {
-            0 => row * 256 + 128 - from,
-            1 => row * 256 - from,
-            2 => (row - first_row) * 256,
-            _ => (row - from.div_euclid(256)) * 256,
+            0 => row as f64 + 0.5 - from,
+            1 => row as f64 - from,
+            2 => (row - first_row) as f64,
+            _ => row as f64 - from.floor(),
         }
+    }
+
+    /// The height of an edge, which is not 0, in the direction in which rows are walked.
+    fn height_of(&self, from: Place, to: Place) -> f64 {
+        let dy = to[1] - from[1];
+        if self.up == 1 { dy.min(-1.0 / 256.0) } else { dy.max(1.0 / 256.0) }
     }
 }
 
 /// A triangle with what was drawn of it.
-pub(super) type Drawn<'a> = (&'a Corners, PixelRect, Mask);
+pub(super) type Drawn = ([Place; 3], PixelRect, Mask);
 /// The parameters of a frame: slopes, and where edges begin.
 const WITHIN: i64 = DIGITS.0[0] * DIGITS.0[1] * DIGITS.0[2];
 /// Frames that are tried with all ways of rounding, for each of two slopes.
@@ -353,13 +434,10 @@ const FRAMES: usize = 10;
 
 /// The parameters whose frames (rows, heights and ends of rows) come nearest to what was drawn: with exact crossings, and with
 /// the slope and the beginning that are best in the first of these.
-pub(super) fn fitting(rows: &[Drawn<'_>]) -> Vec<i64> {
-    let corners: Vec<_> =
-        rows.iter().map(|(corners, window, _)| turned(corners, *window)).collect();
-    let columns: Vec<Drawn<'_>> = corners
+pub(super) fn fitting(rows: &[Drawn]) -> Vec<i64> {
+    let columns: Vec<Drawn> = rows
         .iter()
-        .zip(rows)
-        .map(|((corners, window), (.., drawn))| (corners, *window, drawn.turned()))
+        .map(|(corners, window, drawn)| (exchanged(*corners), turned(*window), drawn.turned()))
         .collect();
     let (least, all) = frames(rows, 0, u32::MAX);
     // Where crossings are rounded, both may miss as many.
@@ -372,9 +450,9 @@ pub(super) fn fitting(rows: &[Drawn<'_>]) -> Vec<i64> {
 }
 
 /// All that is near the best frames with exact crossings.
-fn around(drawn: &[Drawn<'_>], mut all: Vec<i64>) -> Vec<i64> {
+fn around(drawn: &[Drawn], mut all: Vec<i64>) -> Vec<i64> {
     let mut best = (u32::MAX, 0);
-    for p in Scan::within(all[0]) {
+    for p in Scan::within(all[0]).into_iter().filter(|p| *p < COLUMNS) {
         let missed = Scan::of(p).missed(drawn, best.0);
         if missed < best.0 {
             best = (missed, p);
@@ -391,7 +469,7 @@ fn around(drawn: &[Drawn<'_>], mut all: Vec<i64>) -> Vec<i64> {
 
 /// The best frames with a slope and where edges begin, the best first, that miss fewer pixels than `most`; and how many the first
 /// misses.
-fn frames(drawn: &[Drawn<'_>], slope: i64, most: u32) -> (u32, Vec<i64>) {
+fn frames(drawn: &[Drawn], slope: i64, most: u32) -> (u32, Vec<i64>) {
     let mut best: Vec<(u32, i64)> = Vec::new();
     for frame in (0..DIGITS.0[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
         let how = Scan::of(frame);
@@ -417,8 +495,8 @@ fn frames(drawn: &[Drawn<'_>], slope: i64, most: u32) -> (u32, Vec<i64>) {
 struct Walk {
     x: f64,
     slope: f64,
-    from: Point,
-    to: Point,
+    from: Place,
+    to: Place,
     first_row: i64,
     /// The row of `x`.
     row: i64,
@@ -428,34 +506,41 @@ fn single(v: f64) -> f64 {
     f64::from(v as f32)
 }
 
-fn px(v: i64) -> f64 {
-    v as f64 / 256.0
+/// A multiple of 1/256 px in subpixels.
+fn subpixels(v: f64) -> i64 {
+    (v * 256.0) as i64
 }
 
 impl Walk {
     /// Of an edge whose first row is given, from a later row on.
-    fn new(from: Point, to: Point, [first_row, begin]: [i64; 2], how: &Scan) -> Self {
+    fn new(from: Place, to: Place, [first_row, begin]: [i64; 2], how: &Scan) -> Self {
         let begin = if how.above == 2 { begin.max(0) } else { begin };
         let ahead = how.ahead(begin, first_row, from[1]);
-        let [dx, dy] = [to[0] - from[0], (to[1] - from[1]).max(1)];
+        let [dx, dy] = [to[0] - from[0], how.height_of(from, to)];
+        let start = from[0] + MOVED[how.moved as usize].0;
+        let first = |slope: f64| single(single(start) + single(slope * single(ahead)));
         let (x, slope) = match how.slope {
             Slope::Added(true) | Slope::Computed => {
-                let slope = single(single(px(dx)) / single(px(dy)));
-                (single(single(px(from[0])) + single(slope * single(px(ahead)))), slope)
+                let slope = single(single(dx) / single(dy));
+                (first(slope), slope)
             }
-            Slope::Reciprocal => (0.0, single(single(px(dx)) * single(1.0 / single(px(dy))))),
-            Slope::Half => (0.0, super::values::rounded(px(dx) / px(dy), 2)),
+            Slope::AddedReciprocal | Slope::Reciprocal => {
+                let slope = single(single(dx) * single(1.0 / single(dy)));
+                (first(slope), slope)
+            }
+            Slope::Half => (0.0, super::values::rounded(dx / dy, 2)),
             Slope::Inverse(bits) => {
                 let unit = 1_i64 << bits;
-                (0.0, px(dx) * (unit / dy) as f64 * 256.0 / unit as f64)
+                (0.0, dx * (unit / subpixels(dy)) as f64 * 256.0 / unit as f64)
             }
             Slope::Mantissa(bits) => {
-                let cut = f64::from(1.0 / px(dy) as f32).to_bits() >> (52 - bits) << (52 - bits);
-                (0.0, single(px(dx) * f64::from_bits(cut)))
+                let cut = f64::from(1.0 / dy as f32).to_bits() >> (52 - bits) << (52 - bits);
+                (0.0, single(dx * f64::from_bits(cut)))
             }
             Slope::Fixed { bits, cut, start } => {
                 let unit = 1_i128 << bits;
-                let [wide, dx, dy, ahead] = [from[0], dx, dy, ahead].map(i128::from);
+                let [wide, dx, dy, ahead] =
+                    [from[0], dx, dy, ahead].map(|v| i128::from(subpixels(v)));
                 let slope = match cut {
                     0 => dx * unit / dy,
                     1 => (dx * unit).div_euclid(dy),
@@ -470,7 +555,7 @@ impl Walk {
                 };
                 (x / unit as f64, slope as f64 / unit as f64)
             }
-            _ => (px(from[0]) + px(dx) / px(dy) * px(ahead), px(dx) / px(dy)),
+            _ => (start + dx / dy * ahead, dx / dy),
         };
         // A row above the window is taken for row 0.
         let row = if how.above == 1 { begin.max(0) } else { begin };
@@ -479,82 +564,133 @@ impl Walk {
 
     /// The crossing with the row, in pixels: rows are asked for in order.
     fn at(&mut self, row: i64, how: &Scan) -> f64 {
+        let moved = MOVED[how.moved as usize].0;
         let ahead = how.ahead(row, self.first_row, self.from[1]);
-        let [dx, dy] = [self.to[0] - self.from[0], (self.to[1] - self.from[1]).max(1)];
-        match how.slope {
+        let x = match how.slope {
             Slope::Computed | Slope::Reciprocal | Slope::Mantissa(_) => {
-                single(px(self.from[0]) + single(self.slope * single(px(ahead))))
+                single(self.from[0] + moved + single(self.slope * single(ahead)))
             }
-            Slope::Half | Slope::Inverse(_) => px(self.from[0]) + self.slope * px(ahead),
+            Slope::Half | Slope::Inverse(_) => self.from[0] + self.slope * ahead,
             Slope::Between(is_single) => {
                 let r = |v: f64| if is_single { single(v) } else { v };
-                let [from, to] = [self.from, self.to].map_array(|p| r(px(p[0])));
-                let part = r(px(ahead) / r(px(dy)));
+                let [from, to] = [self.from, self.to].map_array(|p| r(p[0] + moved));
+                let part = r(ahead / r(how.height_of(self.from, self.to)));
                 r(from + r(r(to - from) * part))
             }
             Slope::Divided { how: cut, wraps } => {
                 // Of whole corners in pixels, of others in subpixels.
                 let unit = if how.whole > 0 { 256 } else { 1 };
-                let product = i128::from(dx) * i128::from(ahead);
+                let [dx, dy] = [self.to[0] - self.from[0], how.height_of(self.from, self.to)];
+                let [dx, dy, ahead] = [dx, dy, ahead].map(|v| i128::from(subpixels(v)));
                 let product = match wraps {
-                    true => wrap(product / 65536, 16) * 65536,
-                    false => product,
+                    true => wrap(dx * ahead / 65536, 16) * 65536,
+                    false => dx * ahead,
                 };
-                let by = i128::from(dy) * unit;
+                let by = dy * unit;
                 let moved = match cut {
                     0 => product / by,
                     1 => product.div_euclid(by),
                     _ => (2 * product + by).div_euclid(2 * by),
                 };
-                px(self.from[0]) + (moved * unit) as f64 / 256.0
+                self.from[0] + (moved * unit) as f64 / 256.0
             }
             Slope::Fixed { .. } => self.x + self.slope * (row - self.row) as f64,
-            Slope::Added(is_single) => {
-                while self.row < row {
-                    self.x += self.slope;
-                    if is_single {
+            Slope::Added(_) | Slope::AddedReciprocal => {
+                let step = (row - self.row).signum();
+                while self.row != row {
+                    self.x += self.slope * step as f64;
+                    if how.slope != Slope::Added(false) {
                         self.x = single(self.x);
                     }
-                    self.row += 1;
+                    self.row += step;
                 }
                 self.x
             }
-        }
+        };
+        x - moved
     }
 }
 
-/// Parameters from here on fill column by column.
+/// Parameters from here on fill column by column, and those from the other one on clip first.
 const COLUMNS: i64 = 1 << 40;
+const CLIPPED: i64 = 1 << 41;
 
 /// The picture of a way of filling row by row, or column by column.
 pub(super) fn scanned(corners: &Corners, window: PixelRect, p: i64) -> Mask {
-    match p < COLUMNS {
-        true => scan(corners, window, Scan::of(p)),
+    let how = Scan::of(p % COLUMNS);
+    let mut mask = Mask::default();
+    let mut add = |part: [Place; 3]| match p & COLUMNS {
+        0 => mask.add(&scan(part, window, how)),
+        _ => mask.add(&scan(exchanged(part), turned(window), how).turned()),
+    };
+    match p < CLIPPED {
+        true => add(places(corners)),
         false => {
-            let (corners, window) = turned(corners, window);
-            scan(&corners, window, Scan::of(p - COLUMNS)).turned()
+            let rows = usize::from(p & COLUMNS == 0);
+            clipped(places(corners), window, rows, how).into_iter().for_each(add);
         }
     }
+    mask
 }
 
-fn turned(corners: &Corners, window: PixelRect) -> (Corners, PixelRect) {
-    let window = PixelRect { x0: window.y0, y0: window.x0, x1: window.y1, y1: window.x1 };
-    (corners.map_array(|c| SubpixelPoint::new(c.y, c.x)), window)
+fn exchanged(corners: [Place; 3]) -> [Place; 3] {
+    corners.map_array(|[x, y]| [y, x])
 }
 
-fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
-    let whole = |v: i64| match how.whole {
-        0 => v,
-        1 => v.div_euclid(256) * 256,
-        2 => (v + 128).div_euclid(256) * 256,
-        3 => v / 256 * 256,
-        _ => (v + 255).div_euclid(256) * 256,
+fn turned(window: PixelRect) -> PixelRect {
+    PixelRect { x0: window.y0, y0: window.x0, x1: window.y1, y1: window.x1 }
+}
+
+/// The part of a triangle within the window, as triangles that share its first corner, in floats of 32 bits: coordinates go
+/// through numbers from -1 to 1, in which it is clipped. `rows` is the axis across the rows.
+fn clipped(corners: [Place; 3], window: PixelRect, rows: usize, how: Scan) -> Vec<[Place; 3]> {
+    let sides = [window.x1, window.y1].map_array(|side| side as f32);
+    let moved = MOVED[how.moved as usize].0 as f32;
+    let mut polygon: Vec<[f32; 2]> =
+        corners.iter().map(|p| [0, 1].map(|k| 2.0 / sides[k] * p[k] as f32 - 1.0)).collect();
+    for (axis, sign) in [(0, 1.0), (0, -1.0), (1, -1.0), (1, 1.0)] {
+        let inside = |p: [f32; 2]| 1.0 - sign * p[axis];
+        let mut kept = Vec::new();
+        for (i, &to) in polygon.iter().enumerate() {
+            let from = polygon[(i + polygon.len() - 1) % polygon.len()];
+            let [u, v] = [inside(from), inside(to)];
+            if (u < 0.0) != (v < 0.0) {
+                let part = u / (u - v);
+                kept.push([0, 1].map(|k| from[k] * (1.0 - part) + to[k] * part));
+            }
+            kept.extend((v >= 0.0).then_some(to));
+        }
+        polygon = kept;
+    }
+    // Where rows are walked upwards, their axis begins at its other end.
+    let back = |p: [f32; 2]| {
+        [0, 1].map(|k| {
+            let half = sides[k] / 2.0;
+            let to_px = |v: f32| f64::from(half + v * half + moved) - f64::from(moved);
+            let is_turned = how.up == 1 && k == rows;
+            if is_turned { f64::from(sides[k]) - to_px(-p[k]) } else { to_px(p[k]) }
+        })
     };
-    let mut exact = points(corners);
-    exact.sort_by_key(|p| match (how.whole, how.sorted) {
-        (0, 0) | (1.., 1) => p[1],
-        (1.., _) => whole(p[1]),
-        (_, kind) => (p[1] + [0, 0, 128, 255][kind as usize]).div_euclid(256),
+    let polygon: Vec<Place> = polygon.into_iter().map(back).collect();
+    polygon.windows(2).skip(1).map(|side| [polygon[0], side[0], side[1]]).collect()
+}
+
+fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
+    let whole = |v: f64| match how.whole {
+        0 => v,
+        1 => v.floor(),
+        2 => (v + 0.5).floor(),
+        3 => v.trunc(),
+        _ => v.ceil(),
+    };
+    let mut exact = corners;
+    exact.sort_by(|p, q| {
+        let height = |y: f64| match (how.whole, how.sorted) {
+            (0, 0) | (1.., 1) => y,
+            (1.., _) => whole(y),
+            (_, kind) => [y, y.floor(), (y + 0.5).floor(), y.ceil()][kind as usize],
+        };
+        height(p[1]).total_cmp(&height(q[1]))
     });
     let sorted = exact.map_array(|p| p.map_array(whole));
     let [top, middle, bottom] = sorted;
@@ -589,7 +725,7 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
         starts[1] = end;
     }
     if top[1] == bottom[1] && how.level > 0 {
-        let xs = sorted.map_array(|p| px(p[0]));
+        let xs = sorted.map_array(|p| p[0]);
         let (least, most) = (xs[0].min(xs[1]).min(xs[2]), xs[0].max(xs[1]).max(xs[2]));
         if starts[0] < end && (0..i64::from(window.y1)).contains(&starts[0]) {
             match how.level {
@@ -605,8 +741,12 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
     if starts[0] >= end {
         return mask;
     }
+    if how.up == 1 {
+        upwards(sorted, [starts[0], starts[1], end], window, &how, &mut fill);
+        return mask;
+    }
     let mut long = Walk::new(top, bottom, [starts[0]; 2], &how);
-    if matches!(how.slope, Slope::Added(_)) && long.row < -MOST_ROWS {
+    if how.slope.is_added_in_floats() && long.row < -MOST_ROWS {
         return mask;
     }
     let halves = [(top, middle, starts[0], starts[1]), (middle, bottom, starts[1], end)];
@@ -623,4 +763,27 @@ fn scan(corners: &Corners, window: PixelRect, how: Scan) -> Mask {
         }
     }
     mask
+}
+
+/// The rows of a triangle from its lowest one on, with edges that begin at their lower ends.
+fn upwards(
+    [top, middle, bottom]: [Place; 3],
+    [first, second, end]: [i64; 3],
+    window: PixelRect,
+    how: &Scan,
+    fill: &mut dyn FnMut(i64, f64, f64),
+) {
+    if end > MOST_ROWS {
+        return;
+    }
+    let mut long = Walk::new(bottom, top, [end - 1; 2], how);
+    for (from, to, rows) in [(bottom, middle, second..end), (middle, top, first..second)] {
+        let mut short = Walk::new(from, to, [rows.end - 1; 2], how);
+        for y in (rows.start.max(first).max(0)..rows.end.min(end)).rev() {
+            let (a, b) = (long.at(y, how), short.at(y, how));
+            if y < window.y1.into() {
+                fill(y, a, b);
+            }
+        }
+    }
 }
