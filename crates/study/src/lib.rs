@@ -5,6 +5,7 @@ pub mod cost;
 pub mod effects;
 pub mod hard;
 pub mod memory;
+pub mod savings;
 mod shape;
 pub mod ties;
 pub mod view;
