@@ -114,7 +114,6 @@ impl GradeArguments {
     }
 }
 
-/// Everything that was found.
 #[derive(Serialize, Deserialize)]
 struct Grades {
     version: String,
@@ -123,7 +122,6 @@ struct Grades {
     submissions: Vec<Grade>,
 }
 
-/// The same as JSON.
 fn json(submissions: Vec<Grade>, arguments: &GradeArguments) -> String {
     let GradeArguments { seed, cases, .. } = *arguments;
     let version = env!("CARGO_PKG_VERSION").to_owned();

@@ -253,7 +253,6 @@ fn device(
     Ok(Some(finding(tally.total() == 0, format!("{engine} against oracle: {said}"))))
 }
 
-/// A row for each pair that is compared.
 fn findings(case: &Case, judged: &Judged) -> Vec<Row> {
     let row = |([actual, target], of): ([String; 2], Finding)| {
         let values = match of.values {

@@ -10,7 +10,6 @@ mod digest;
 mod engine;
 mod exhaust;
 mod explain;
-mod facing;
 mod files;
 mod fixtures;
 mod guard;

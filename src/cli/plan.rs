@@ -55,7 +55,6 @@ fn percent(saving: f64, is_noise: bool) -> String {
     if is_noise { "noise".to_owned() } else { format!("{:.0}%", 100.0 * saving) }
 }
 
-/// What was found, for machines.
 #[derive(serde::Serialize)]
 struct Data<'a> {
     scene: &'a str,
@@ -127,7 +126,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
             same: is_compared.then_some(same),
         });
     }
-    show(report, Shown::all_or_json(arguments.json), page, exit::of(same), streams)
+    show(report, Shown::All.or_json(arguments.json), page, exit::of(same), streams)
 }
 
 /// Draws a scene without an effect, and the pixels that this changes.

@@ -3,6 +3,7 @@
 
 pub mod cost;
 pub mod effects;
+pub mod facing;
 pub mod hard;
 pub mod memory;
 pub mod savings;
