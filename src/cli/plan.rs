@@ -67,7 +67,7 @@ struct Data<'a> {
     same: Option<bool>,
 }
 
-/// What planning each effect saves.
+/// A row for each effect: what planning it saves, alone and as the last one.
 fn of_each(savings: &Savings) -> Table {
     let row = |s: &Saving| {
         let [alone, all_but] = [s.alone_us, s.all_but_us].map(|us| format!("{us:.0}"));

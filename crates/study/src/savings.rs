@@ -17,7 +17,7 @@ pub struct Measured {
     pub effects: String,
     pub rounds: usize,
     pub time_us: f64,
-    /// Smallest and largest.
+    /// The fastest round and the slowest.
     pub range_us: [f64; 2],
     /// A quarter of the rounds is faster than the first, a quarter slower than the second.
     pub quartiles_us: [f64; 2],
@@ -25,11 +25,11 @@ pub struct Measured {
     pub same: bool,
 }
 
-/// Rounds that have quartiles.
+/// The fewest rounds of which quartiles are compared.
 const FEWEST_ROUNDS: usize = 4;
 
 impl Measured {
-    /// Whether the middle halves of their rounds overlap; of too few rounds nobody knows.
+    /// Whether the middle halves of their rounds overlap, or the rounds are too few to say.
     fn is_noise(&self, other: &Self) -> bool {
         let ([a0, a1], [b0, b1]) = (self.quartiles_us, other.quartiles_us);
         self.rounds.min(other.rounds) < FEWEST_ROUNDS || a0 <= b1 && b0 <= a1
@@ -44,8 +44,8 @@ pub struct Saving {
     pub alone_us: f64,
     pub saves_alone: f64,
     pub noise_alone: bool,
-    /// Time of the frame in which it is paid for and everything else planned, and what share of
-    /// that planning it too saves.
+    /// Time of the frame in which it is paid for and everything else planned, and what share of it is saved when this effect is
+    /// planned, too.
     pub all_but_us: f64,
     pub saves_last: f64,
     pub noise_last: bool,
@@ -77,8 +77,7 @@ impl Savings {
 const WHOLE: [(&str, Effects); 3] =
     [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
 
-/// Everything on, as usual, everything planned, then for each effect that one planned and all but
-/// that one.
+/// Everything on, as usual, everything planned, then for each effect that one planned, and all the others planned.
 fn mixtures() -> Vec<(String, Effects)> {
     let of = |effect: Effect| {
         let name = effect.name();
@@ -91,7 +90,7 @@ fn mixtures() -> Vec<(String, Effects)> {
     whole.into_iter().chain(Effect::ALL.into_iter().flat_map(of)).collect()
 }
 
-/// How many rounds are measured where nobody says it, and how long they may take all together.
+/// How many rounds are measured where no number is given, and how long they may take all together.
 const USUAL_ROUNDS: u32 = 9;
 const BUDGET: Duration = Duration::from_secs(10);
 

@@ -84,7 +84,7 @@ pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, 
 pub struct Grade {
     pub name: String,
     pub points: usize,
-    /// As many as there are.
+    /// The number of steps, each of which gives a point.
     pub of: usize,
     pub error: Option<String>,
     pub seconds: f64,
@@ -95,7 +95,7 @@ pub struct Grade {
 pub struct Judged {
     pub step: String,
     pub passed: bool,
-    /// What came of it, as text.
+    /// The verdict on the step as a terminal shows it.
     pub output: String,
 }
 
@@ -111,13 +111,13 @@ impl Grade {
     }
 }
 
-/// What all submissions are asked, and what each may take.
+/// The cases by which all submissions are judged, and the time and memory that each may take.
 pub struct Terms {
     pub cases: u64,
     pub seed: u64,
-    /// For a submission in all; what is not asked by then is not passed.
+    /// Seconds for a submission in all; a step that is not judged by then is not passed.
     pub seconds: u64,
-    /// For each answer.
+    /// The longest time that the program may take for an answer.
     pub answer: Duration,
     /// Its time for a build is at most that of the submission.
     pub bounds: Bounds,
