@@ -112,7 +112,6 @@ impl Shown {
     }
 }
 
-/// What is known of a case, a line each.
 pub fn facts(case: &Case) -> Vec<String> {
     const MOST: usize = 8;
     let of_triangle = |triangle: &Triangle| {

@@ -147,7 +147,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
         report.notes.push(format!("drawn in {folder}, as SVG: {written}"));
     }
     let page = arguments.page.page("cost.html");
-    show(report, Shown::all_or_json(arguments.json), page, exit::AGREES, streams)
+    show(report, Shown::All.or_json(arguments.json), page, exit::AGREES, streams)
 }
 
 /// What an earlier run printed, as far as it is asked for.

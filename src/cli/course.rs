@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use image::RgbImage;
-
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
 use super::page::{Place, Shown, print, show};
@@ -301,7 +299,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     report.frames = on_page.into_iter().map(|(_, view)| view).collect();
     let sentence = "what your program draws, beside what this project's engines draw";
     // Of a model that is not seen, two backgrounds would be compared.
-    let is_blank = pictures.iter().all(|(_, picture)| is_plain(&picture.right));
+    let is_blank = pictures.iter().all(|(_, picture)| picture::is_plain(picture.right.pixels()));
     report.outcome = Some(match is_blank && differing == 0 {
         true => Outcome::not_compared(NOTHING_DRAWN),
         false => Outcome {
@@ -323,13 +321,6 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
 
 fn complaint(program: &Program) -> Option<String> {
     examine::complaint(program).map(|last| format!("its standard error ends: {last}"))
-}
-
-/// Whether a picture has one colour everywhere.
-fn is_plain(picture: &RgbImage) -> bool {
-    let mut pixels = picture.pixels();
-    let first = pixels.next();
-    pixels.all(|pixel| Some(pixel) == first)
 }
 
 fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {

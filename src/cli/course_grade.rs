@@ -6,7 +6,7 @@
 use std::ffi::{OsStr, OsString};
 use std::fmt::{Display, Write as _};
 use std::io::{ErrorKind, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -16,18 +16,15 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::progress::Progress as Shown;
-use super::{InputError, Status, Streams, exit, usage};
-use rasterproof_host::text::printable_path;
+use super::{Status, Streams, exit, usage};
 use rasterproof_judge::text::printable;
 use rasterproof_program::group::{self, Group};
-use rasterproof_program::{Limits, Program};
+use rasterproof_report::formats;
 use rasterproof_report::json::pretty;
 use rasterproof_report::table::{Row, Table};
-use rasterproof_report::{formats, text};
-use rasterproof_teaching::course::examine::{self, Amount};
-use rasterproof_teaching::course::progress::{self, Progress};
-use rasterproof_teaching::course::sandbox::{self, Bounds};
-use rasterproof_teaching::course::{STEPS, verdict};
+use rasterproof_teaching::course::STEPS;
+use rasterproof_teaching::course::grade::{self, Found, Grade, Submission, Terms};
+use rasterproof_teaching::course::sandbox::Bounds;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
@@ -108,45 +105,15 @@ impl BuildLimits {
     }
 }
 
-struct Submission {
-    /// The name of its folder; a dot where a program is named.
-    id: OsString,
-    name: String,
-    folder: PathBuf,
-    build: Vec<String>,
-    run: Vec<OsString>,
-}
-
-#[derive(Default, Serialize, Deserialize)]
-struct Grade {
-    name: String,
-    points: usize,
-    /// As many as there are.
-    of: usize,
-    error: Option<String>,
-    seconds: f64,
-    steps: Vec<Judged>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct Judged {
-    step: String,
-    passed: bool,
-    /// What came of it, as text.
-    output: String,
-}
-
-impl Grade {
-    fn failed(name: String, error: String) -> Self {
-        Self { name, of: STEPS.len(), error: Some(error), ..Self::default() }
-    }
-
-    fn has_passed(&self, at: usize) -> bool {
-        self.steps.get(at).is_some_and(|step| step.passed)
+impl GradeArguments {
+    fn terms(&self) -> Terms {
+        let memory_mib = Some(self.memory).filter(|mib| *mib > 0);
+        let Self { cases, seed, seconds, .. } = *self;
+        let bounds = Bounds { memory_mib, ..self.build.bounds() };
+        Terms { cases, seed, seconds, answer: Duration::from_secs(self.timeout), bounds }
     }
 }
 
-/// Everything that was found.
 #[derive(Serialize, Deserialize)]
 struct Grades {
     version: String,
@@ -155,7 +122,6 @@ struct Grades {
     submissions: Vec<Grade>,
 }
 
-/// The same as JSON.
 fn json(submissions: Vec<Grade>, arguments: &GradeArguments) -> String {
     let GradeArguments { seed, cases, .. } = *arguments;
     let version = env!("CARGO_PKG_VERSION").to_owned();
@@ -169,18 +135,12 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         ));
     }
     let submissions = match &arguments.folder {
-        Some(folder) => submissions(folder, arguments.run.as_deref())?,
+        Some(folder) => grade::submissions(folder, arguments.run.as_deref())?,
         None => {
             let run = arguments.command.clone();
             let words: Vec<_> = run.iter().map(|word| word.to_string_lossy()).collect();
             let name = printable(words.join(" ").as_bytes(), 200);
-            vec![Ok(Submission {
-                id: ".".into(),
-                name,
-                folder: ".".into(),
-                build: Vec::new(),
-                run,
-            })]
+            vec![Ok(Submission::of_program(".".into(), name, run))]
         }
     };
     if let Some(row) = &arguments.row {
@@ -224,49 +184,6 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         (_, true) => exit::AGREES,
         (_, false) => exit::DISAGREES,
     })
-}
-
-type Found = Result<Submission, (String, String)>;
-
-/// The folders of a folder, by name; each with its commands, or why it has none.
-fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, InputError> {
-    let shown = printable_path(folder);
-    let failed = |e: std::io::Error| usage(format!("cannot read {shown}: {e}"));
-    let mut paths = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        // Regular files beside the folders are the teacher's: a list of names, an archive.
-        if !path.is_file() {
-            paths.push(path);
-        }
-    }
-    paths.sort();
-    if paths.is_empty() {
-        return Err(usage(format!("{shown} holds no folder\n  expected one for each submission")));
-    }
-    let one = |path: PathBuf| {
-        let id = path.file_name().unwrap_or_default().to_owned();
-        let name = printable(id.as_encoded_bytes(), 40);
-        if !path.is_dir() {
-            return Err((name, "it is no folder".to_owned()));
-        }
-        if let Some(template) = template {
-            let word = |word: &str| {
-                word.split("{}").map(OsStr::new).collect::<Vec<_>>().join(path.as_os_str())
-            };
-            let run = template.split_whitespace().map(word).collect();
-            return Ok(Submission { id, name, folder: ".".into(), build: Vec::new(), run });
-        }
-        match Progress::read(&path) {
-            Ok(Some(Progress { build, run, .. })) => {
-                let run = run.into_iter().map(OsString::from).collect();
-                Ok(Submission { id, name, folder: path, build, run })
-            }
-            Ok(None) => Err((name, format!("it has no {}, and there is no --run", progress::FILE))),
-            Err(error) => Err((name, error)),
-        }
-    };
-    Ok(paths.into_iter().map(one).collect())
 }
 
 /// Judges a submission in a process of its own. A program that signals its parent then loses its own row, and
@@ -391,59 +308,10 @@ fn judge_row(
     group::end_with_parent();
     let submission = submissions.into_iter().flatten().find(|one| one.id == row);
     let submission = submission.ok_or_else(|| usage("the submission is gone"))?;
-    let grade = grade(&submission, arguments);
+    let grade = grade::grade(&submission, &arguments.terms());
     let agrees = grade.points == STEPS.len();
     streams.output.write_all(json(vec![grade], arguments).as_bytes())?;
     Ok(exit::of(agrees))
-}
-
-fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
-    let start = Instant::now();
-    let seconds = Duration::from_secs(arguments.seconds);
-    let bounds = arguments.build.bounds();
-    let bounds = Bounds {
-        memory_mib: Some(arguments.memory).filter(|mib| *mib > 0),
-        processor_s: Some(arguments.seconds),
-        build: bounds.build.min(seconds),
-        ..bounds
-    };
-    let name = submission.name.clone();
-    let mut grade = Grade { name, of: STEPS.len(), ..Grade::default() };
-    match started(submission, &bounds, arguments) {
-        Err(error) => grade.error = Some(error),
-        Ok(mut program) => {
-            let GradeArguments { cases, seed, .. } = *arguments;
-            let patience = Duration::from_secs(1).min(seconds / 24);
-            let amount = Amount { cases, seed, end: start + seconds, patience };
-            for step in STEPS.iter() {
-                let outcome = examine::examine(&mut program, step, &amount);
-                let report = verdict::report(step, &outcome, "the program");
-                let output = text::text(&report, true, false, text::WIDTH);
-                let (step, passed) = (step.name.clone(), outcome.passes());
-                grade.points += usize::from(passed);
-                grade.steps.push(Judged { step, passed, output });
-            }
-        }
-    }
-    // What it has left behind would take time from the next one.
-    group::end_strays_of_ended_groups();
-    grade.seconds = start.elapsed().as_secs_f64();
-    grade
-}
-
-fn started(
-    submission: &Submission,
-    bounds: &Bounds,
-    arguments: &GradeArguments,
-) -> Result<Program, String> {
-    let Submission { folder, build, run, .. } = submission;
-    sandbox::build(folder, build, bounds)?;
-    let limits = Limits {
-        answer: Duration::from_secs(arguments.timeout),
-        // An interpreter that starts slowly on a busy machine is no fault of the submission.
-        start: Duration::from_secs(arguments.seconds.min(80)) / 4,
-    };
-    sandbox::start(folder, run, bounds, limits)
 }
 
 /// A row of the table of submissions by steps, as it is printed when it is known.

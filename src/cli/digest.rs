@@ -40,5 +40,5 @@ pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
         data: json::digest(*seed, *cases, &parts, &total),
         ..Report::default()
     };
-    show(report, Shown::all_or_json(*is_json), None, exit::AGREES, streams)
+    show(report, Shown::All.or_json(*is_json), None, exit::AGREES, streams)
 }

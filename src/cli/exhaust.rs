@@ -30,12 +30,6 @@ const SAVE_EVERY: Duration = Duration::from_secs(3);
 pub struct ExhaustArguments {
     #[command(subcommand)]
     what: What,
-    #[command(flatten)]
-    common: Common,
-}
-
-#[derive(clap::Args, Debug)]
-struct Common {
     /// Move everything by this many pixels, for example --offset-px=-2048,2048
     #[arg(long, global = true, value_name = "X,Y", value_parser = parse_offset, default_value = "0,0",
           allow_hyphen_values = true)]
@@ -118,7 +112,7 @@ fn parse_offset(text: &str) -> Result<[i32; 2], &'static str> {
 
 impl ExhaustArguments {
     fn plan(&self) -> Plan {
-        let (offset_px, plant) = (self.common.offset_px, self.common.plant.clone());
+        let (offset_px, plant) = (self.offset_px, self.plant.clone());
         match self.what {
             What::Triangles { window: window_px, subpixel_bits, all_orders } => {
                 Plan::Triangles(Triangles {
@@ -140,8 +134,8 @@ impl ExhaustArguments {
 
     fn checkpoint(&self, plan: &Plan) -> PathBuf {
         let words = plan.enumeration().words().replace([' ', '-', '=', ','], "_");
-        let (part, parts) = self.common.shard;
-        self.common.checkpoint.clone().unwrap_or_else(|| {
+        let (part, parts) = self.shard;
+        self.checkpoint.clone().unwrap_or_else(|| {
             Path::new("target/rasterproof").join(format!("exhaust_{words}_{part}_of_{parts}.json"))
         })
     }
@@ -150,9 +144,9 @@ impl ExhaustArguments {
 pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let plan = arguments.plan();
     plan.check()?;
-    let (part, parts) = arguments.common.shard;
+    let (part, parts) = arguments.shard;
     let shard = Shard { part, parts };
-    let certificate_file = arguments.common.output.as_deref().map(Output::typed);
+    let certificate_file = arguments.output.as_deref().map(Output::typed);
     let certificate_file = certificate_file.as_ref();
     // Whether it is a checkpoint is seen when it is read.
     let state = Output { path: arguments.checkpoint(&plan), over: Over::Updated };
@@ -172,7 +166,7 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     // Another process that resumed and saved the same state would count chunks twice or lose them.
     let _lock = Lock::acquire(path).map_err(|error| usage(format!("the checkpoint {error}")))?;
     let start = match kept_state(path)? {
-        Some(state) if !arguments.common.restart => resume(state, path, &plan, shard)?,
+        Some(state) if !arguments.restart => resume(state, path, &plan, shard)?,
         _ => run::Progress::new(&plan, shard),
     };
     let progress = Progress::new(streams.progress, "cases", Some(cases));

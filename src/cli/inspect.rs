@@ -19,9 +19,9 @@ use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 use rasterproof_faults::published::bare;
-use rasterproof_faults::published::catalogue::{RECORDED_SIDE_PX, RecordedCase};
+use rasterproof_faults::published::catalogue::RECORDED_SIDE_PX;
 use rasterproof_registry::comparison::Judged;
-use rasterproof_registry::engines::{Entry, SPECIMENS, Specimen};
+use rasterproof_registry::engines::{SPECIMENS, Specimen};
 use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
@@ -253,7 +253,6 @@ fn device(
     Ok(Some(finding(tally.total() == 0, format!("{engine} against oracle: {said}"))))
 }
 
-/// A row for each pair that is compared.
 fn findings(case: &Case, judged: &Judged) -> Vec<Row> {
     let row = |([actual, target], of): ([String; 2], Finding)| {
         let values = match of.values {
@@ -328,24 +327,17 @@ fn is_whole(case: &Case) -> bool {
     w.x0 <= all.x0 + 1 && w.y0 <= all.y0 + 1 && w.x1 >= all.x1 - 1 && w.y1 >= all.y1 - 1
 }
 
-/// The specimen to show: the one asked for, or the one of a recorded input.
-fn specimen(
-    arguments: &InspectArguments,
-    recorded: Option<&RecordedCase>,
-) -> Option<&'static Entry> {
-    let name = arguments.specimen.as_deref().or(recorded.map(|case| case.specimen))?;
-    SPECIMENS.iter().find(|entry| entry.name == name)
-}
-
-/// Shows the specimen that was asked for beside the engines, and says how one of corners that are not snapped differs, which
-/// draws on a screen of its own.
+/// Shows the specimen that was asked for, or that of a recorded input, beside the engines, and says how one of corners that are not
+/// snapped differs, which draws on a screen of its own.
 fn add_specimen(
     arguments: &InspectArguments,
     case: &Case,
     shown: &mut case_view::Shown,
 ) -> Result<Option<String>, InputError> {
     let recorded = recorded(&arguments.case.what);
-    let Some(entry) = specimen(arguments, recorded) else { return Ok(None) };
+    let wanted = arguments.specimen.as_deref().or(recorded.map(|case| case.specimen));
+    let entry = SPECIMENS.iter().find(|entry| Some(entry.name) == wanted);
+    let Some(entry) = entry else { return Ok(None) };
     let (Shape::Unsnapped { list, .. }, Some(Specimen::Triangle(specimen))) =
         (&case.shape, entry.specimen)
     else {

@@ -236,7 +236,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let mut agrees = verdict.agrees();
     match arguments.format() {
         format @ (Format::Text | Format::Json) => {
-            let shown = Shown::screen_or_json(format == Format::Json);
+            let shown = Shown::Screen.or_json(format == Format::Json);
             show(report, shown, page, exit::of(agrees), streams)?;
         }
         other => {

@@ -10,7 +10,6 @@ mod digest;
 mod engine;
 mod exhaust;
 mod explain;
-mod facing;
 mod files;
 mod fixtures;
 mod guard;
@@ -243,8 +242,8 @@ fn parse(words: Vec<OsString>) -> Result<(Arguments, Typed), clap::Error> {
     Ok((arguments, Typed::of(&command, &matches)))
 }
 
-/// What the parser says of words that it refuses, or that ask for help or the version. It repeats them as they are, so they are
-/// made printable before.
+/// What the parser says of words that it refuses, or that ask for help or the version. It repeats the words as they are, so
+/// they are made printable before they are parsed.
 fn refusal(mut error: clap::Error, words: &[OsString]) -> String {
     let shown = |word: &OsString| printable(&word.to_string_lossy()).into_owned();
     let is_not_text = error.kind() == ErrorKind::InvalidUtf8;

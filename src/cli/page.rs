@@ -83,12 +83,8 @@ pub(super) enum Shown {
 }
 
 impl Shown {
-    pub(super) fn screen_or_json(is_json: bool) -> Self {
-        if is_json { Self::Json } else { Self::Screen }
-    }
-
-    pub(super) fn all_or_json(is_json: bool) -> Self {
-        if is_json { Self::Json } else { Self::All }
+    pub(super) fn or_json(self, is_json: bool) -> Self {
+        if is_json { Self::Json } else { self }
     }
 }
 

@@ -1,7 +1,5 @@
 //! `rasterproof plan`: what a scene calls for, why, and what leaving out the rest saves.
 
-use std::time::{Duration, Instant};
-
 use super::files;
 use super::page::{PageArguments, Shown, as_file, print, show};
 use super::plan_table::{self, grouped};
@@ -9,18 +7,19 @@ use super::progress::Progress;
 use super::render::NOTHING_DRAWN;
 use super::typed::Typed;
 use super::view::{Purpose, SceneArguments};
-use super::{InputError, Status, Streams, exit, usage};
+use super::{Status, Streams, exit};
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
-use rasterproof_render::effects::plan::{Canvas, Plan, SceneDigest};
-use rasterproof_render::effects::render::{Rendered, survey_again};
-use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::effects::plan::{Plan, SceneDigest};
+use rasterproof_render::effects::render::Rendered;
+use rasterproof_render::effects::{Effect, Effects};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::thousands;
 use rasterproof_report::{frame_comparison, json, picture};
+use rasterproof_study::savings::{self, Measured, Saving, Savings};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("plan"))]
@@ -51,60 +50,11 @@ fn parse_effect(name: &str) -> Result<Effect, String> {
     effect.ok_or_else(|| format!("it is none of {}", Effect::ALL.map(Effect::name).join(", ")))
 }
 
-#[derive(serde::Serialize)]
-struct Measured {
-    effects: String,
-    rounds: usize,
-    time_us: f64,
-    /// Smallest and largest.
-    range_us: [f64; 2],
-    /// A quarter of the rounds is faster than the first, a quarter slower than the second.
-    quartiles_us: [f64; 2],
-    /// Whether the picture has the bits of the one that pays for everything.
-    same: bool,
-}
-
-#[derive(serde::Serialize)]
-struct Saving {
-    effect: Effect,
-    /// Time of the frame in which it is planned and everything else paid for, and what share that
-    /// is less than to pay for everything, and whether the difference is within the noise.
-    alone_us: f64,
-    saves_alone: f64,
-    noise_alone: bool,
-    /// Time of the frame in which it is paid for and everything else planned, and what share of
-    /// that planning it too saves.
-    all_but_us: f64,
-    saves_last: f64,
-    noise_last: bool,
-    /// Pixels that change when it is left out everywhere.
-    wrong_without: u64,
-}
-
 /// A saving in percent, unless it is within the noise.
 fn percent(saving: f64, is_noise: bool) -> String {
     if is_noise { "noise".to_owned() } else { format!("{:.0}%", 100.0 * saving) }
 }
 
-/// Rounds that have quartiles.
-const FEWEST_ROUNDS: usize = 4;
-
-/// Whether the middle halves of their rounds overlap; of too few rounds nobody knows.
-fn is_noise(a: &Measured, b: &Measured) -> bool {
-    let ([a0, a1], [b0, b1]) = (a.quartiles_us, b.quartiles_us);
-    a.rounds.min(b.rounds) < FEWEST_ROUNDS || a0 <= b1 && b0 <= a1
-}
-
-#[derive(serde::Serialize)]
-struct Savings {
-    everything: Measured,
-    usual: Measured,
-    planned: Measured,
-    effects: Vec<Saving>,
-    mixtures: Vec<Measured>,
-}
-
-/// What was found, for machines.
 #[derive(serde::Serialize)]
 struct Data<'a> {
     scene: &'a str,
@@ -117,86 +67,25 @@ struct Data<'a> {
     same: Option<bool>,
 }
 
-/// How many rounds are measured without `--rounds`, and how long they may take all together.
-const USUAL_ROUNDS: u32 = 9;
-const BUDGET: Duration = Duration::from_secs(10);
-
-/// How many rounds fit into the budget, and with how many mixtures: all of them, or the whole ones alone
-/// if not even two rounds of all fit. `warm` is the time of one round of the whole ones.
-fn fitting(warm: Duration, mixtures: usize) -> (u32, usize) {
-    let of = |count: usize| warm.as_secs_f64() * count as f64 / WHOLE.len() as f64;
-    let rounds = |count: usize| (BUDGET.as_secs_f64() / of(count).max(1e-9)) as u32;
-    match rounds(mixtures) {
-        // One of them warms up.
-        0 | 1 => (rounds(WHOLE.len()).clamp(1, USUAL_ROUNDS), WHOLE.len()),
-        some => ((some - 1).min(USUAL_ROUNDS), mixtures),
-    }
-}
-
-const WHOLE: [(&str, Effects); 3] =
-    [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
-
-/// Everything on, as usual, everything planned, then for each effect that one planned and all but
-/// that one.
-fn mixtures() -> Vec<(String, Effects)> {
-    let of = |effect: Effect| {
-        let name = effect.name();
-        [
-            (format!("all, {name} planned"), Effects::ALWAYS.with(effect, Mode::Planned)),
-            (format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)),
-        ]
+/// A row for each effect: what planning it saves, alone and as the last one.
+fn of_each(savings: &Savings) -> Table {
+    let row = |s: &Saving| {
+        let [alone, all_but] = [s.alone_us, s.all_but_us].map(|us| format!("{us:.0}"));
+        let saves_alone = percent(s.saves_alone, s.noise_alone);
+        let saves_last = percent(s.saves_last, s.noise_last);
+        let wrong = &s.wrong_without;
+        Row::of(&[&s.effect.name(), &alone, &saves_alone, &all_but, &saves_last, wrong])
     };
-    let whole = WHOLE.map(|(name, effects)| (name.to_owned(), effects));
-    whole.into_iter().chain(Effect::ALL.into_iter().flat_map(of)).collect()
-}
-
-impl Savings {
-    fn of(mut mixtures: Vec<Measured>, wrong: &[u64]) -> Option<Self> {
-        let effects = mixtures.split_off(mixtures.len().min(WHOLE.len()));
-        let (planned, usual, everything) = (mixtures.pop()?, mixtures.pop()?, mixtures.pop()?);
-        let saving = |((effect, pair), wrong_without): ((Effect, &[Measured]), &u64)| Saving {
-            effect,
-            alone_us: pair[0].time_us,
-            saves_alone: 1.0 - pair[0].time_us / everything.time_us,
-            noise_alone: is_noise(&pair[0], &everything),
-            all_but_us: pair[1].time_us,
-            saves_last: 1.0 - planned.time_us / pair[1].time_us,
-            noise_last: is_noise(&pair[1], &planned),
-            wrong_without: *wrong_without,
-        };
-        let savings = Effect::ALL.into_iter().zip(effects.chunks_exact(2)).zip(wrong);
-        let savings = savings.map(saving).collect();
-        Some(Self { everything, usual, planned, effects: savings, mixtures: effects })
-    }
-
-    fn all(&self) -> impl Iterator<Item = &Measured> {
-        [&self.everything, &self.usual, &self.planned].into_iter().chain(&self.mixtures)
-    }
-
-    fn table(&self) -> Table {
-        let row = |s: &Saving| {
-            let [alone, all_but] = [s.alone_us, s.all_but_us].map(|us| format!("{us:.0}"));
-            let saves_alone = percent(s.saves_alone, s.noise_alone);
-            let saves_last = percent(s.saves_last, s.noise_last);
-            let wrong = &s.wrong_without;
-            Row::of(&[&s.effect.name(), &alone, &saves_alone, &all_but, &saves_last, wrong])
-        };
-        let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
-        let columns = "planned 14 | >alone us 10 it is planned, the rest paid for | >saves 9 compared with paying for \
+    let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
+    let columns = "planned 14 | >alone us 10 it is planned, the rest paid for | >saves 9 compared with paying for \
                        everything | >last us 10 it is paid for, the rest planned | >saves 9 when it is planned too | \
                        >wrong without 14 pixels that change when it is left out everywhere";
-        let notes = [
-            "noise: the middle halves of the rounds of both overlap, or there are fewer than four",
-            "wrong without: pixels that change when it is left out everywhere; --without EFFECT draws them",
-        ];
-        let rows = self.effects.iter().map(row).collect();
-        Table::new(caption, columns, rows).noted(notes.map(str::to_owned).to_vec())
-    }
-
-    /// How many times as fast the plan is as everything on, and as usual.
-    fn factors(&self) -> [f64; 2] {
-        [&self.everything, &self.usual].map(|other| other.time_us / self.planned.time_us)
-    }
+    let notes = [
+        "noise: the middle halves of the rounds of both overlap, or there are fewer than four",
+        "wrong without: pixels that change when it is left out everywhere; --without EFFECT draws them",
+    ];
+    let rows = savings.effects.iter().map(row).collect();
+    Table::new(caption, columns, rows).noted(notes.map(str::to_owned).to_vec())
 }
 
 pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
@@ -210,11 +99,16 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     if let Some(effect) = arguments.without {
         return draw_without(arguments, &scene, effect, streams);
     }
-    let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
-    let survey_us = time_survey(arguments, &scene)?;
+    let progress = Progress::new(streams.progress, "frames", None);
+    let (mut target, drawn) = (arguments.what.view.target()?, || progress.done(1));
+    let PlanArguments { engine, rounds, whole, .. } = *arguments;
+    let (measured, frames) =
+        savings::measure((&scene, engine), &mut target, rounds, whole, &drawn)?;
+    drop(progress);
+    let survey_us = savings::survey_us(&scene, &target)?;
+    let frames @ [everything, planned] = frames.each_ref();
     let same = measured.all().all(|mixture| mixture.same);
     let is_compared = everything.counters.fragments > 0 || !same;
-    let frames = [&everything, &planned];
     let mut report = report(arguments, typed, &scene, frames, (&measured, survey_us));
     if page.is_some() {
         report.frames = vec![view(typed, &scene, frames)];
@@ -232,23 +126,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
             same: is_compared.then_some(same),
         });
     }
-    show(report, Shown::all_or_json(arguments.json), page, exit::of(same), streams)
-}
-
-/// Microseconds that a planned frame looks at triangles for the reason of depth, the median; none where it lists all.
-fn time_survey(arguments: &PlanArguments, scene: &Scene) -> Result<Option<f64>, InputError> {
-    const ROUNDS: usize = 9;
-    let canvas = Canvas::of(&arguments.what.view.target()?);
-    let mut times = Vec::with_capacity(ROUNDS);
-    survey_again(scene, &canvas, &mut |survey| {
-        for _ in 0..ROUNDS {
-            let start = Instant::now();
-            survey();
-            times.push(start.elapsed().as_secs_f64() * 1e6);
-        }
-    })?;
-    times.sort_by(f64::total_cmp);
-    Ok(times.get(ROUNDS / 2).copied())
+    show(report, Shown::All.or_json(arguments.json), page, exit::of(same), streams)
 }
 
 /// Draws a scene without an effect, and the pixels that this changes.
@@ -285,79 +163,6 @@ fn draw_without(
         }
     }
     print(Report { about, notes, ..Report::default() }, exit::AGREES, streams)
-}
-
-/// Interleaved rounds of every mixture: the times, the frame that pays for everything, the planned.
-fn measure(
-    arguments: &PlanArguments,
-    scene: &Scene,
-    on_terminal: bool,
-) -> Result<(Savings, Rendered, Rendered), InputError> {
-    let mut mixtures = mixtures();
-    if arguments.whole {
-        mixtures.truncate(WHOLE.len());
-    }
-    let progress = Progress::new(on_terminal, "frames", None);
-    let mut target = arguments.what.view.target()?;
-    let mut draw = |effects: &Effects| {
-        let start = Instant::now();
-        let rendered = arguments.engine.render(scene, effects, &mut target)?;
-        progress.done(1);
-        Ok::<_, InputError>((start.elapsed(), rendered))
-    };
-    // The first round warms up and compares the pictures. Only those are kept that are shown.
-    let mut frames: Vec<Rendered> = Vec::new();
-    let mut same = Vec::new();
-    let mut warm = Duration::ZERO;
-    for (_, effects) in &mixtures[..WHOLE.len()] {
-        let (time, rendered) = draw(effects)?;
-        warm += time;
-        same.push(frames.first().is_none_or(|first| first.picture == rendered.picture));
-        frames.push(rendered);
-    }
-    let (rounds, kept) = match arguments.rounds {
-        Some(rounds) => (rounds, mixtures.len()),
-        None => fitting(warm, mixtures.len()),
-    };
-    mixtures.truncate(kept);
-    for (_, effects) in &mixtures[WHOLE.len()..] {
-        same.push(draw(effects)?.1.picture == frames[0].picture);
-    }
-    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); mixtures.len()];
-    for round in 1..=rounds {
-        for k in 0..mixtures.len() {
-            // Another one begins each round, so that none always follows the same.
-            let i = (k + round as usize) % mixtures.len();
-            times[i].push(draw(&mixtures[i].1)?.0);
-        }
-    }
-    drop(progress);
-    let measured =
-        mixtures.into_iter().zip(&mut times).zip(same).map(|(((effects, _), times), same)| {
-            times.sort_unstable();
-            let us = |time: Duration| time.as_secs_f64() * 1e6;
-            Measured {
-                effects,
-                rounds: times.len(),
-                time_us: us(times[times.len() / 2]),
-                range_us: [us(times[0]), us(times[times.len() - 1])],
-                quartiles_us: [1, 3].map(|n| us(times[(times.len() - 1) * n / 4])),
-                same,
-            }
-        });
-    let nothing = || usage("nothing was drawn");
-    let measured = measured.collect();
-    let mut wrong = Vec::with_capacity(Effect::ALL.len());
-    // As many as were measured: none of a large model.
-    for &effect in Effect::ALL.iter().take((kept - WHOLE.len()) / 2) {
-        let without = arguments.engine.render_without(scene, effect, &mut target)?;
-        wrong.push(frame_comparison::differing(&without.picture, &frames[0].picture));
-    }
-    let savings = Savings::of(measured, &wrong).ok_or_else(nothing)?;
-    let mut frames = frames.into_iter();
-    // The second is the usual one.
-    let (everything, planned) = frames.next().zip(frames.nth(1)).ok_or_else(nothing)?;
-    Ok((savings, everything, planned))
 }
 
 /// The times of everything, usual and planned, and the mixtures that changed the picture.
@@ -436,7 +241,7 @@ fn report(
         false => "A plan changed the picture.".to_owned(),
     };
     let mut tables = vec![plan_table::table(&frames[1].plan.decisions), counts(frames)];
-    tables.extend((!savings.effects.is_empty()).then(|| savings.table()));
+    tables.extend((!savings.effects.is_empty()).then(|| of_each(savings)));
     tables.push(whole(savings, survey_us, arguments.whole));
     Report {
         title: format!("What the scene {} calls for", scene.name),

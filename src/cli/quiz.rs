@@ -47,7 +47,10 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
     let language = arguments.language;
     let wanted: Vec<&Chapter> = match &arguments.chapter {
         None => CHAPTERS.iter().collect(),
-        Some(word) => vec![chapter(word).ok_or_else(|| unknown(word))?],
+        Some(word) => vec![chapter(word).ok_or_else(|| {
+            let words = CHAPTERS.iter().map(Chapter::word).collect::<Vec<_>>().join(", ");
+            usage(format!("there is no chapter '{word}' with exercises; give one of {words}"))
+        })?],
     };
     if arguments.list {
         return list(&wanted, language, streams);
@@ -80,11 +83,6 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
         language,
     };
     quiz.ask_all(&asked)
-}
-
-fn unknown(word: &str) -> InputError {
-    let words: Vec<_> = CHAPTERS.iter().map(Chapter::word).collect();
-    usage(format!("there is no chapter '{word}' with exercises; give one of {}", words.join(", ")))
 }
 
 fn list(chapters: &[&Chapter], language: Language, streams: &mut Streams<'_>) -> Status {

@@ -89,7 +89,6 @@ struct Drawing {
     is_complete: bool,
 }
 
-/// What was drawn, for machines.
 #[derive(serde::Serialize)]
 struct Data<'a> {
     scene: &'a str,
@@ -173,7 +172,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
             json::value(&Data { scene, engines, times, counters, plan, comparison, by_rounding });
     }
     let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
-    if is_empty(&drawings[0].rendered) {
+    if picture::is_plain(drawings[0].rendered.picture.rows().flat_map(|(_, row)| row)) {
         notes.push("EMPTY: nothing of it is seen; the picture is background alone".to_owned());
         let why = Some(&maker.model.why_empty).filter(|why| !why.is_empty());
         notes.extend(why.map(|why| format!("the cause is that {why}")));
@@ -184,7 +183,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let about = format!("{}: {}", scene.name, scene.about);
     let mut report = Report { about, data, notes, outcome, ..Report::default() };
     let status = exit::of(comparison.as_ref().is_none_or(Comparison::agrees));
-    show(report.clone(), Shown::screen_or_json(arguments.json), None, status, streams)?;
+    show(report.clone(), Shown::Screen.or_json(arguments.json), None, status, streams)?;
     if let Some(page) = page {
         add_to_page(&mut report, typed, scene, &drawings, comparison.as_ref());
         write_page(&page, report, streams);
@@ -450,13 +449,6 @@ fn times_text(times: &Times, names: &[&str]) -> String {
     let by = times.drawing_s.iter().zip(names);
     let drawn: Vec<_> = by.map(|(&time, name)| format!("{} by {name}", shown(time))).collect();
     format!("{}drawn in {}", loaded.unwrap_or_default(), drawn.join(", "))
-}
-
-/// Whether every pixel of the picture has the colour of the first.
-fn is_empty(rendered: &Rendered) -> bool {
-    let mut pixels = rendered.picture.rows().flat_map(|(_, row)| row);
-    let first = pixels.next();
-    pixels.all(|pixel| Some(pixel) == first)
 }
 
 /// One frame in tiles: a picture and nothing else.

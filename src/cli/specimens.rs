@@ -70,7 +70,7 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
     let mut report = report(arguments, typed, &reports, page.is_some());
     report.notes.extend(place);
     let status = exit::of(are_caught(&reports));
-    show(report, Shown::all_or_json(arguments.json), page, status, streams)
+    show(report, Shown::All.or_json(arguments.json), page, status, streams)
 }
 
 /// Each is wrong on the case that exposes it, and right on its harmless one.

@@ -133,7 +133,7 @@ pub(super) fn cost(
         data: json::costs(&subject, &groups),
         ..Report::default()
     };
-    show(report, Shown::all_or_json(is_json), None, exit::AGREES, streams)
+    show(report, Shown::All.or_json(is_json), None, exit::AGREES, streams)
 }
 
 fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
@@ -184,7 +184,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let read = |s: f64| format!("read in {:.1} ms, which is no part of the times above", s * 1e3);
     report.notes.extend(maker.model.loading_s.map(read));
     let shown = if arguments.all { Shown::All } else { Shown::Screen };
-    show(report, if arguments.json { Shown::Json } else { shown }, page, exit::AGREES, streams)
+    show(report, shown.or_json(arguments.json), page, exit::AGREES, streams)
 }
 
 /// A model from one of some sides: the turn in degrees, and what is seen there.
@@ -261,7 +261,7 @@ fn all_around(
         tables: vec![hard, cheapest],
         ..Report::default()
     };
-    show(report, Shown::all_or_json(arguments.json), None, exit::AGREES, streams)
+    show(report, Shown::All.or_json(arguments.json), None, exit::AGREES, streams)
 }
 
 /// What the columns of `--views` mean.
@@ -382,7 +382,7 @@ pub(super) fn verify(
         }),
         ..Report::default()
     };
-    show(report, Shown::all_or_json(is_json), None, status, streams)
+    show(report, Shown::All.or_json(is_json), None, status, streams)
 }
 
 /// Whether a piece covers the centre of a pixel.

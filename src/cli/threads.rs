@@ -62,24 +62,12 @@ fn wanted(variable: Option<&OsStr>, cores: usize) -> (usize, Option<String>) {
 }
 
 /// A thread that waits for its place in the pool.
-struct Waiting {
-    place: Sender<ThreadBuilder>,
-    thread: JoinHandle<()>,
-}
+type Waiting = (Sender<ThreadBuilder>, JoinHandle<()>);
 
-impl Waiting {
-    fn start() -> io::Result<Self> {
-        let (place, given) = channel::<ThreadBuilder>();
-        let wait = move || given.recv().into_iter().for_each(ThreadBuilder::run);
-        Ok(Self { place, thread: Builder::new().spawn(wait)? })
-    }
-
-    /// Ends the thread, so that the system can give it to somebody else.
-    fn end(self) {
-        drop(self.place);
-        // It has nothing to do, so it does not panic.
-        let _ = self.thread.join();
-    }
+fn start() -> io::Result<Waiting> {
+    let (place, given) = channel::<ThreadBuilder>();
+    let wait = move || given.recv().into_iter().for_each(ThreadBuilder::run);
+    Ok((place, Builder::new().spawn(wait)?))
 }
 
 /// Builds the pool with as many threads, or with those that the system allows, and then says so.
@@ -87,22 +75,26 @@ fn build(count: usize) -> Option<String> {
     let mut waiting = Vec::new();
     let mut refusal = None;
     while waiting.len() < count && refusal.is_none() {
-        match Waiting::start() {
+        match start() {
             Ok(thread) => waiting.push(thread),
             Err(error) => refusal = Some(error),
         }
     }
     if refusal.is_some() {
         // Programs that are judged, and the pipes to them, need some of what the system allows.
-        waiting.drain(waiting.len() / 2..).for_each(Waiting::end);
+        for (place, thread) in waiting.drain(waiting.len() / 2..) {
+            drop(place);
+            // It has nothing to do, so it does not panic.
+            let _ = thread.join();
+        }
     }
     let used = waiting.len().max(1);
     let pool = ThreadPoolBuilder::new().num_threads(used);
     let pool = if waiting.is_empty() { pool.use_current_thread() } else { pool };
     let missing = || io::Error::other("the thread has ended");
     let give = |place| {
-        let thread = waiting.pop().ok_or_else(missing)?;
-        thread.place.send(place).map_err(|_| missing())
+        let (thread, _) = waiting.pop().ok_or_else(missing)?;
+        thread.send(place).map_err(|_| missing())
     };
     // It fails where there is a pool already, which then serves.
     let _ = pool.spawn_handler(give).build_global();

@@ -42,7 +42,7 @@ pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status
     let mut page = page(arguments.seed, &report);
     let plot = arguments.plot.as_deref().map(|path| format!("drawn in {}", printable_path(path)));
     page.notes.extend(plot);
-    show(page, Shown::all_or_json(arguments.json), None, exit::AGREES, streams)
+    show(page, Shown::All.or_json(arguments.json), None, exit::AGREES, streams)
 }
 
 /// Both sets of scenes, with what they are called.
@@ -102,7 +102,6 @@ fn page(seed: u64, report: &Acceptance) -> Page {
     }
 }
 
-/// Everything that was found, for machines.
 #[derive(serde::Serialize)]
 struct Data<'a> {
     seed: u64,

@@ -191,8 +191,9 @@ mod tests {
             // Words without which nothing is parsed.
             let required: [&[&str]; 5] =
                 [&[], &["T2"], &["cube"], &["--", "./a b", "-x", "it's"], &["-1,2", "-x.obj"]];
-            let words = |more: &[&str]| [&[&*name], more].concat().into_iter().map(str::to_owned);
-            let mut bases: Vec<Vec<String>> = required.map(|more| words(more).collect()).into();
+            let words = required.map(|more| std::iter::once(&*name).chain(more.iter().copied()));
+            let words = words.map(|words| words.map(str::to_owned).collect());
+            let mut bases: Vec<Vec<String>> = words.into();
             bases.retain(|words| parsed(words).is_some());
             let with = |words: &[String], form: &[String]| {
                 let at = words.iter().position(|word| word == "--").unwrap_or(words.len());

@@ -203,7 +203,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
         }
     }
     let status = exit::of(run.verdict.agrees());
-    show(report, Shown::screen_or_json(arguments.json), page, status, streams)
+    show(report, Shown::Screen.or_json(arguments.json), page, status, streams)
 }
 
 #[cfg(feature = "vulkan")]
@@ -217,14 +217,8 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     let mut asked = rasterproof_judge::Options::default().seed(options.seed);
     (asked.time_limit, asked.only) = (options.time_limit, options.only);
     asked.families.clone_from(&arguments.family);
-    let job = super::vulkan::Job {
-        engine,
-        cases: arguments.cases,
-        options: asked,
-        json: arguments.json,
-        page: &arguments.page,
-    };
-    super::vulkan::verify(&job, streams)
+    let shown = (Shown::Screen.or_json(arguments.json), arguments.page.page("vulkan.html"));
+    super::vulkan::verify(engine, (asked, arguments.cases), shown, streams)
 }
 
 fn judge(judged: &Judged, options: &Options, on_terminal: bool) -> Verdict {

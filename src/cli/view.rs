@@ -9,10 +9,10 @@ use std::time::Instant;
 use clap::Args as _;
 use glam::{DMat4, DVec3};
 
+use super::cameras;
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{InputError, Streams, did_you_mean, program, usage};
-use super::{cameras, facing};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_host::limits;
@@ -32,6 +32,7 @@ use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
 use rasterproof_report::words::{count, thousands};
+use rasterproof_study::facing;
 use rasterproof_study::work::Work;
 
 #[derive(clap::Args, Debug)]

@@ -8,7 +8,8 @@ use rasterproof_vulkan::gpu::look;
 use rasterproof_vulkan::gpu::plant::Plant;
 use rasterproof_vulkan::gpu::text;
 
-use super::page::{PageArguments, Shown, show};
+use super::files::Output;
+use super::page::{Shown, show};
 use super::progress::Progress;
 use super::{InputError, Status, Streams, exit, program, usage};
 use rasterproof_core::frame::Coverage;
@@ -21,44 +22,31 @@ use rasterproof_report::table::Table;
 /// Cases of each family where nothing is said.
 const CASES: u64 = 1000;
 
-pub struct Job<'a> {
-    /// Its name, `vulkan:0`.
-    pub engine: &'a str,
-    /// Cases of each family, where they are said.
-    pub cases: Option<u64>,
-    /// What to judge; its number of cases is that of `cases`.
-    pub options: Options,
-    pub json: bool,
-    pub page: &'a PageArguments,
+/// The words that all commands begin with.
+fn command(engine: &str, seed: u64) -> String {
+    let program = program();
+    let program = match program.strip_suffix(" --") {
+        Some(cargo) => format!("{cargo} --features vulkan --"),
+        None => program,
+    };
+    let seed = match seed {
+        seed if seed == Options::default().seed => String::new(),
+        seed => format!(" --seed {seed}"),
+    };
+    format!("{program} verify --engine {engine}{seed}")
 }
 
-impl Job<'_> {
-    /// The words that all commands begin with.
-    fn command(&self) -> String {
-        let program = program();
-        let program = match program.strip_suffix(" --") {
-            Some(cargo) => format!("{cargo} --features vulkan --"),
-            None => program,
-        };
-        let seed = match self.options.seed {
-            seed if seed == Options::default().seed => String::new(),
-            seed => format!(" --seed {seed}"),
-        };
-        format!("{program} verify --engine {}{seed}", self.engine)
-    }
-
-    fn all(&self, cases: u64) -> String {
-        let families = self.options.families.iter().map(|f| format!(" --family {f}"));
-        let case = self.options.only.map(|case| format!(" --case {case}")).unwrap_or_default();
-        format!("{}{case} --cases {cases}", families.collect::<String>())
-    }
-}
-
-pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
-    let gpu = Gpu::named(job.engine)?;
-    let limited = job.options.time_limit.is_some();
-    let cases = job.cases.unwrap_or(if limited { u64::MAX / 4 } else { CASES });
-    let options = job.options.clone().cases(cases);
+/// Judges a device, `vulkan:0`, by so many cases of each family, where they are said.
+pub fn verify(
+    engine: &str,
+    (options, cases): (Options, Option<u64>),
+    (shown, page): (Shown, Option<Output>),
+    streams: &mut Streams<'_>,
+) -> Status {
+    let gpu = Gpu::named(engine)?;
+    let limited = options.time_limit.is_some();
+    let cases = cases.unwrap_or(if limited { u64::MAX / 4 } else { CASES });
+    let options = options.cases(cases);
     let families = campaign::families(&options.families).len() as u64;
     if families == 0 {
         return Err(usage(
@@ -74,11 +62,13 @@ pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
     }
     let judged = stand.verdict.families.iter().map(|row| row.cases).max().unwrap_or(0);
     let cases = if limited { judged } else { cases };
-    let (command, all) = (job.command(), job.all(cases));
+    let command = command(engine, options.seed);
+    let families: String = options.families.iter().map(|f| format!(" --family {f}")).collect();
+    let case = options.only.map(|case| format!(" --case {case}")).unwrap_or_default();
+    let all = format!("{command}{families}{case} --cases {cases}");
     let repeat = |family: &str, index: u64| format!("{command} --family {family} --case {index}");
-    let report = text::report(&stand, &format!("{command}{all}"), &repeat);
-    let page = job.page.page("vulkan.html");
-    show(report, Shown::screen_or_json(job.json), page, exit::of(stand.agrees()), streams)
+    let report = text::report(&stand, &all, &repeat);
+    show(report, shown, page, exit::of(stand.agrees()), streams)
 }
 
 /// The hits of triangles in a window as a device draws them.

@@ -18,12 +18,8 @@ const WIDTH: usize = 100;
 const NAME: usize = 18;
 const INDENT: usize = 2;
 
-/// A cell of a block: the number, its mark, and whether it is good.
-struct Mark {
-    text: String,
-    mark: char,
-    good: bool,
-}
+/// A cell of a block: the number with its mark, and whether it is good.
+type Marked = (String, bool);
 
 /// A table for each measure of the error, for each kind of time and for each count of work.
 pub fn tables(board: &Board) -> Vec<Table> {
@@ -57,7 +53,7 @@ fn title(measure: &Measure) -> String {
     }
 }
 
-fn error_cell(board: &Board, choice: usize, column: usize, measure: usize) -> Option<Mark> {
+fn error_cell(board: &Board, choice: usize, column: usize, measure: usize) -> Option<Marked> {
     let error = board.error(choice, column, measure)?;
     let good = board.meets(choice, column, measure) == Some(true);
     let best = board.best(column, measure).and_then(|best| best.good) == Some(choice);
@@ -67,7 +63,7 @@ fn error_cell(board: &Board, choice: usize, column: usize, measure: usize) -> Op
         (false, true) if !is_zero_goal => '+',
         _ => ' ',
     };
-    Some(Mark { text: number(error, cell_width(board)), mark, good })
+    Some((format!("{}{mark}", number(error, cell_width(board))), good))
 }
 
 fn times(board: &Board) -> [Table; 2] {
@@ -77,7 +73,7 @@ fn times(board: &Board) -> [Table; 2] {
             .filter_map(|r| board.time(r, column))
             .all(|other| other.pixel_ns.median >= time.pixel_ns.median);
         let mark = if fastest { '<' } else { ' ' };
-        Some(Mark { text: number(value(time), cell_width(board)), mark, good: false })
+        Some((format!("{}{mark}", number(value(time), cell_width(board))), false))
     };
     let title =
         format!("ns for each covered pixel, median of {} rounds (< the fastest)", board.rounds);
@@ -86,13 +82,11 @@ fn times(board: &Board) -> [Table; 2] {
     let mut items = block(board, title, &|r, c| cell(r, c, |t| t.item_ns.median));
     let timed = board.cells.iter().flatten().filter_map(|cell| cell.run()?.time);
     let spread = |t: Time| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median;
-    let mut spreads: Vec<f64> = timed.map(spread).collect();
+    let mut spreads: Vec<f64> = timed.map(|time| spread(time) * 100.0).collect();
     spreads.sort_by(f64::total_cmp);
     if let (Some(middle), Some(worst)) = (spreads.get(spreads.len() / 2), spreads.last()) {
         items.notes.push(format!(
-            "quartiles lie {:.0}% of the median apart in the middle cell, {:.0}% in the worst",
-            middle * 100.0,
-            worst * 100.0
+            "quartiles lie {middle:.0}% of the median apart in the middle cell, {worst:.0}% in the worst"
         ));
     }
     [pixels, items]
@@ -114,7 +108,7 @@ fn work(board: &Board) -> [Table; 3] {
             let does = |cell: &Cell| cell.run().and_then(count).is_some_and(|n| n > 0);
             let any = board.cells[choice].iter().any(does);
             let each = any.then_some(count(board.run(choice, column)?)? as f64 / pixels)?;
-            Some(Mark { text: number(each, cell_width(board)), mark: ' ', good: false })
+            Some((number(each, cell_width(board)) + " ", false))
         })
     })
 }
@@ -125,7 +119,7 @@ fn cell_width(board: &Board) -> usize {
 }
 
 /// A row for each choice that has a cell to show, and a column for each class of scenes in which one has.
-fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<Mark>) -> Table {
+fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<Marked>) -> Table {
     let choices = 0..board.choices.len();
     let applies = |&column: &usize| choices.clone().any(|choice| cell(choice, column).is_some());
     let columns: Vec<usize> = board.columns_run().filter(applies).collect();
@@ -133,9 +127,9 @@ fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<M
         let mut row = Row::from(vec![board.choices[choice].name.to_string()]);
         for (place, &column) in (1..).zip(&columns) {
             row.cells.push(match cell(choice, column) {
-                Some(Mark { text, mark, good }) => {
+                Some((text, good)) => {
                     row.good.extend(good.then_some(place));
-                    format!("{text}{mark}")
+                    text
                 }
                 None if board.run(choice, column).is_some() => "-".to_owned(),
                 None => "not run".to_owned(),

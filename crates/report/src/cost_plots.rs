@@ -214,7 +214,6 @@ fn drawn(title: &str, legend: &str, mut panels: Vec<Panel>, in_row: usize) -> Dr
     drawing
 }
 
-/// The text in lines of at most `room` units, broken at spaces.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
     ascii::lines(text, room, canvas::width)
 }

@@ -161,7 +161,6 @@ fn rows(
     rows
 }
 
-/// What was judged, in words.
 pub fn judged_shapes(verdict: &Verdict) -> String {
     let [triangles, lines, free] = Kind::ALL.map(|(kind, _)| verdict.sum(kind, |f| f.shapes));
     let beside = match free {

@@ -113,7 +113,6 @@ fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
     excused > 0
 }
 
-/// How many pixels of two frames of the same size differ.
 pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
     let pixels = a.rows().zip(b.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
     pixels.filter(|(a, b)| a != b).count() as u64

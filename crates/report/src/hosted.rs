@@ -158,7 +158,6 @@ impl Job {
     }
 }
 
-/// Judges by the standard streams of this process.
 pub fn main() -> ExitCode {
     let judged = Job::read().and_then(|(job, declared)| job.judge(declared));
     let (status, said) = match judged {

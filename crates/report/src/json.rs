@@ -165,7 +165,6 @@ pub struct Engine {
     pub face: Option<u32>,
 }
 
-/// A study of a model in a view.
 pub fn study(subject: &Places<'_>, found: &Found<'_>, answers: &impl Serialize) -> Value {
     let (scene, hard) = (subject.scene, found.hard);
     json!({
@@ -176,7 +175,6 @@ pub fn study(subject: &Places<'_>, found: &Found<'_>, answers: &impl Serialize) 
     })
 }
 
-/// The hard cases of a model.
 pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
     let face = |&triangle: &u32| {
         let origin = triangle_of(subject.scene, triangle)
@@ -202,7 +200,6 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
     })
 }
 
-/// What each choice costs on a model.
 pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
     let group = |group: &Group| {
         let choice = |choice: &Choice| {

@@ -49,6 +49,12 @@ pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
     })
 }
 
+/// Whether all pixels have the colour of the first.
+pub fn is_plain<P: PartialEq>(mut pixels: impl Iterator<Item = P>) -> bool {
+    let first = pixels.next();
+    pixels.all(|pixel| Some(&pixel) == first.as_ref())
+}
+
 /// A line from one position to another, in pixels.
 pub(super) type Segment = [[f64; 2]; 2];
 

@@ -3,8 +3,10 @@
 
 pub mod cost;
 pub mod effects;
+pub mod facing;
 pub mod hard;
 pub mod memory;
+pub mod savings;
 mod shape;
 pub mod ties;
 pub mod view;

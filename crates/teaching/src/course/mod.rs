@@ -1,10 +1,11 @@
 //! The course: twelve steps from a pixel to four samples, each judged by cases of the families.
 //!
 //! [`STEPS`] has the cases of each step, the page that explains it, and three hints. [`examine`] sends the cases to a
-//! program, [`misconceptions`] says what its answers have in common, [`sandbox`] limits how that program runs, and [`verdict`] says how it did. [`progress`] is the file beside the
-//! student's code.
+//! program, [`misconceptions`] says what its answers have in common, [`sandbox`] limits how that program runs, and [`verdict`] says how
+//! it did. [`progress`] is the file beside the student's code, and [`grade`] gives points by step.
 
 pub mod examine;
+pub mod grade;
 pub mod misconceptions;
 pub mod progress;
 pub mod sandbox;

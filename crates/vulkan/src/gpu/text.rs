@@ -77,7 +77,6 @@ struct Device<'a> {
 }
 
 /// The verdict: each finding with the rule by which it was judged, and the cases that fail.
-#[must_use]
 pub fn report(
     stand: &DeviceReport,
     repeat_all: &str,

@@ -13,7 +13,8 @@ const MOST_TRIANGLES: usize = 1 << 24;
 
 /// Of the pixels in which a lit surface is seen, the share that shows its back, lit by the normals of the front; nothing
 /// where no such surface is seen.
-pub(super) fn share_of_backs(scene: &Scene) -> Option<f64> {
+#[must_use]
+pub fn share_of_backs(scene: &Scene) -> Option<f64> {
     let is_asked = |item: &Item| {
         let is_lit = item.material.shading != Shading::Unlit;
         is_lit && !item.two_sided && item.cull == Cull::None

@@ -1,0 +1,162 @@
+//! Points by step for a submission: its program is built and started, and asked the cases of each step.
+
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use rasterproof_host::text::printable_path;
+use rasterproof_judge::text::printable;
+use rasterproof_program::{Limits, Program, group};
+use rasterproof_report::text;
+use serde::{Deserialize, Serialize};
+
+use super::examine::{self, Amount};
+use super::progress::{self, Progress};
+use super::sandbox::{self, Bounds};
+use super::{STEPS, verdict};
+
+pub struct Submission {
+    /// The name of its folder; a dot where a program is named.
+    pub id: OsString,
+    pub name: String,
+    folder: PathBuf,
+    build: Vec<String>,
+    run: Vec<OsString>,
+}
+
+impl Submission {
+    /// A program that is started where this one was, without a build.
+    #[must_use]
+    pub fn of_program(id: OsString, name: String, run: Vec<OsString>) -> Self {
+        Self { id, name, folder: PathBuf::from("."), build: Vec::new(), run }
+    }
+}
+
+/// A submission, or its name and why it has no commands.
+pub type Found = Result<Submission, (String, String)>;
+
+/// The folders of a folder, by name; each with its commands, or why it has none. A template has the words that run a submission,
+/// `{}` being its folder.
+///
+/// # Errors
+/// Where the folder cannot be read or holds no folder.
+pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, String> {
+    let shown = printable_path(folder);
+    let failed = |e: std::io::Error| format!("cannot read {shown}: {e}");
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        // Regular files beside the folders are the teacher's: a list of names, an archive.
+        if !path.is_file() {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    if paths.is_empty() {
+        return Err(format!("{shown} holds no folder\n  expected one for each submission"));
+    }
+    let one = |path: PathBuf| {
+        let id = path.file_name().unwrap_or_default().to_owned();
+        let name = printable(id.as_encoded_bytes(), 40);
+        if !path.is_dir() {
+            return Err((name, "it is no folder".to_owned()));
+        }
+        if let Some(template) = template {
+            let word = |word: &str| {
+                word.split("{}").map(OsStr::new).collect::<Vec<_>>().join(path.as_os_str())
+            };
+            let run = template.split_whitespace().map(word).collect();
+            return Ok(Submission::of_program(id, name, run));
+        }
+        match Progress::read(&path) {
+            Ok(Some(Progress { build, run, .. })) => {
+                let run = run.into_iter().map(OsString::from).collect();
+                Ok(Submission { id, name, folder: path, build, run })
+            }
+            Ok(None) => Err((name, format!("it has no {}, and there is no --run", progress::FILE))),
+            Err(error) => Err((name, error)),
+        }
+    };
+    Ok(paths.into_iter().map(one).collect())
+}
+
+#[derive(Default, Serialize, Deserialize)]
+pub struct Grade {
+    pub name: String,
+    pub points: usize,
+    /// The number of steps, each of which gives a point.
+    pub of: usize,
+    pub error: Option<String>,
+    pub seconds: f64,
+    pub steps: Vec<Judged>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub struct Judged {
+    pub step: String,
+    pub passed: bool,
+    /// The verdict on the step as a terminal shows it.
+    pub output: String,
+}
+
+impl Grade {
+    #[must_use]
+    pub fn failed(name: String, error: String) -> Self {
+        Self { name, of: STEPS.len(), error: Some(error), ..Self::default() }
+    }
+
+    #[must_use]
+    pub fn has_passed(&self, at: usize) -> bool {
+        self.steps.get(at).is_some_and(|step| step.passed)
+    }
+}
+
+/// The cases by which all submissions are judged, and the time and memory that each may take.
+pub struct Terms {
+    pub cases: u64,
+    pub seed: u64,
+    /// Seconds for a submission in all; a step that is not judged by then is not passed.
+    pub seconds: u64,
+    /// The longest time that the program may take for an answer.
+    pub answer: Duration,
+    /// Its time for a build is at most that of the submission.
+    pub bounds: Bounds,
+}
+
+#[must_use]
+pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
+    let start = Instant::now();
+    let name = submission.name.clone();
+    let mut grade = Grade { name, of: STEPS.len(), ..Grade::default() };
+    match started(submission, terms) {
+        Err(error) => grade.error = Some(error),
+        Ok(mut program) => {
+            let (&Terms { cases, seed, .. }, seconds) = (terms, Duration::from_secs(terms.seconds));
+            let patience = Duration::from_secs(1).min(seconds / 24);
+            let amount = Amount { cases, seed, end: start + seconds, patience };
+            for step in STEPS.iter() {
+                let outcome = examine::examine(&mut program, step, &amount);
+                let report = verdict::report(step, &outcome, "the program");
+                let output = text::text(&report, true, false, text::WIDTH);
+                let (step, passed) = (step.name.clone(), outcome.passes());
+                grade.points += usize::from(passed);
+                grade.steps.push(Judged { step, passed, output });
+            }
+        }
+    }
+    // What it has left behind would take time from the next one.
+    group::end_strays_of_ended_groups();
+    grade.seconds = start.elapsed().as_secs_f64();
+    grade
+}
+
+fn started(submission: &Submission, terms: &Terms) -> Result<Program, String> {
+    let Submission { folder, build, run, .. } = submission;
+    let processor_s = Some(terms.seconds);
+    let longest = terms.bounds.build.min(Duration::from_secs(terms.seconds));
+    let bounds = Bounds { processor_s, build: longest, ..terms.bounds };
+    sandbox::build(folder, build, &bounds)?;
+    // An interpreter that starts slowly on a busy machine is no fault of the submission.
+    let start = Duration::from_secs(terms.seconds.min(80)) / 4;
+    sandbox::start(folder, run, &bounds, Limits { answer: terms.answer, start })
+}
