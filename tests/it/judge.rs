@@ -727,7 +727,7 @@ fn judge_takes_a_declared_shape() {
             };
             questions.iter().map(draw).collect()
         };
-        judged(Box::new(Answering(declared(words), answer)), &options(40, &["uniform", "fan"]))
+        judged(Box::new(Answering(declared(words), answer)), &options(12, &["uniform", "fan"]))
     };
     let verdict = judged_as("shape=touched range=1024");
     assert!(verdict.agrees(), "{:?}", verdict.failures);
