@@ -52,7 +52,7 @@ fn league_needs_adapters() {
         .prints("gone")
         .prints("skipped: cannot be started");
     let json = fs::read_to_string(folder.join("target/rasterproof/league.json")).unwrap();
-    let league: League = serde_json::from_str(&json).unwrap();
+    let mut league: League = serde_json::from_str(&json).unwrap();
     let row = &league.rows[0];
     let triangles = row.triangles.as_ref().unwrap();
     assert!(
@@ -64,6 +64,21 @@ fn league_needs_adapters() {
     assert_eq!(mistake(0), None);
     assert!(mistake(1).unwrap().contains("the published algorithm sysu-bresenham"));
     assert!(tables(&league, false).contains("Its mistake: it draws as the published algorithm"));
+    // What no convention explains is said after the mistake that does.
+    let lines = league.rows[1].lines.as_mut().unwrap();
+    (lines.by_convention, lines.sentence) = (None, "unexplained.".to_owned());
+    for (chinese, first, besides, by_mistake) in [
+        (
+            false,
+            "Lines: Its mistake: it draws as",
+            ". As a convention: unexplained.",
+            "| a mistake |",
+        ),
+        (true, "直线：它的错误：", "作为约定：未能解释。", "| 已知的错误 |"),
+    ] {
+        let page = tables(&league, chinese);
+        assert!([first, besides, by_mistake].iter().all(|said| page.contains(said)), "{page}");
+    }
     folder.run("judge --league gone").has(2).says("no adapter is installed");
     folder.run("judge --league nobody").has(2).says("is no adapter");
 }

@@ -599,7 +599,19 @@ const FILLS: &[(&str, Fill)] = &[
         }
     }),
     ("crossings are stepped", |c, w, out| {
-        // Through numbers from -1 to 1, in which it is clipped; downwards, by products with a reciprocal.
+        // Through numbers from -1 to 1, in which it is clipped; downwards, by products with a reciprocal; and what has no side
+        // that leaves both axes by half a pixel is a box.
+        let flat =
+            |a: SubpixelPoint, b: SubpixelPoint| (a.x - b.x).abs() < 128 || (a.y - b.y).abs() < 128;
+        if flat(c[0], c[1]) && flat(c[1], c[2]) && flat(c[2], c[0]) {
+            let mut ends = c;
+            ends.sort_by_key(|p| p.x + p.y);
+            for y in (ends[0].y / 256).max(0)..(ends[2].y / 256).min(w.y1) {
+                let row = (ends[0].x / 256).max(0)..(ends[2].x / 256).min(w.x1);
+                row.for_each(|x| light(out, x, y));
+            }
+            return;
+        }
         let side = [w.x1 as f32, w.y1 as f32];
         let mut polygon: Vec<[f32; 2]> =
             c.iter().map(|p| [p.x, p.y].map(|v| v as f32 / 256.0)).collect();

@@ -180,6 +180,8 @@ pub(super) struct Scan {
     up: i64,
     /// What is added to coordinates before they are rounded, so that samples lie at whole numbers: one of `MOVED`.
     moved: i64,
+    /// 1 where a triangle whose sides are all nearly level or upright is filled as a box.
+    boxes: i64,
 }
 
 const WHOLE: [&str; 5] = [
@@ -236,12 +238,12 @@ const LOWER: [&str; 4] = [
 ];
 
 /// How many values each digit has, in the order of the fields.
-const DIGITS: Digits<13> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2, 2, 3]);
+const DIGITS: Digits<14> = Digits([Slope::COUNT, 4, 3, 5, 8, 4, 5, 9, 4, 4, 2, 2, 3, 2]);
 
 impl Scan {
     fn of(p: i64) -> Self {
         let [slope, lower, above, whole, rows, height, left, right, rest @ ..] = DIGITS.digits(p);
-        let [level, sorted, least, up, moved] = rest;
+        let [level, sorted, least, up, moved, boxes] = rest;
         let slope = Slope::of(slope);
         Self {
             slope,
@@ -257,6 +259,7 @@ impl Scan {
             least,
             up,
             moved,
+            boxes,
         }
     }
 
@@ -276,7 +279,7 @@ impl Scan {
         }
         let Self { slope, lower, above, whole, rows, height, left, right, level, sorted, .. } =
             Self::of(p);
-        let Self { least, up, moved, .. } = Self::of(p);
+        let Self { least, up, moved, boxes, .. } = Self::of(p);
         let mut words = WHOLE[whole as usize].to_owned();
         if sorted > 0 && whole > 0 {
             words += "sorts them by their exact heights, ";
@@ -320,6 +323,10 @@ impl Scan {
             "; a level triangle is nothing",
             "; a level triangle is a row with both ends",
         ][level as usize];
+        words += [
+            "",
+            "; a triangle whose sides are all within 1/2 px of level or upright is filled as a box",
+        ][boxes as usize];
         words
     }
 
@@ -343,8 +350,8 @@ impl Scan {
     fn within(frame: i64) -> Vec<i64> {
         let base = Self::of(frame);
         // The places of the last three digits.
-        let [level_at, sorted_at, least_at, up_at, moved_at] =
-            [8, 9, 10, 11, 12].map(|i| DIGITS.0[..i].iter().product::<i64>());
+        let [level_at, sorted_at, least_at, up_at, moved_at, boxes_at] =
+            [8, 9, 10, 11, 12, 13].map(|i| DIGITS.0[..i].iter().product::<i64>());
         let mut all = Vec::new();
         // Of whole corners there are level triangles, and corners that were sorted before.
         let [levels, orders] = if base.whole > 0 { [4, 2] } else { [1, 1] };
@@ -378,7 +385,8 @@ impl Scan {
                     ways.flat_map(move |way| {
                         let p = frame + slope + way % 2 * up_at + way / 2 * moved_at;
                         let within = (is_added && way > 0).then_some(p);
-                        within.into_iter().chain(is_single.then_some(p + CLIPPED))
+                        let clipped = is_single.then_some(p + CLIPPED);
+                        within.into_iter().chain(clipped).chain(clipped.map(|p| p + boxes_at))
                     })
                 }));
             }
@@ -618,6 +626,15 @@ const CLIPPED: i64 = 1 << 41;
 /// The picture of a way of filling row by row, or column by column.
 pub(super) fn scanned(corners: &Corners, window: PixelRect, p: i64) -> Mask {
     let how = Scan::of(p % COLUMNS);
+    if how.boxes == 1 {
+        let drawn = match p & COLUMNS {
+            0 => boxed(places(corners), window, how),
+            _ => boxed(exchanged(places(corners)), turned(window), how).map(|mask| mask.turned()),
+        };
+        if let Some(mask) = drawn {
+            return mask;
+        }
+    }
     let mut mask = Mask::default();
     let mut add = |part: [Place; 3]| match p & COLUMNS {
         0 => mask.add(&scan(part, window, how)),
@@ -631,6 +648,32 @@ pub(super) fn scanned(corners: &Corners, window: PixelRect, p: i64) -> Mask {
         }
     }
     mask
+}
+
+/// The box between the corners with the least and the greatest sum of coordinates; nothing of a triangle with another side.
+fn boxed(corners: [Place; 3], window: PixelRect, how: Scan) -> Option<Mask> {
+    let high = f64::from(window.y1);
+    let moved = MOVED[how.moved as usize].0;
+    let at =
+        corners.map_array(|[x, y]| [x + moved, if how.up == 1 { high - y } else { y } + moved]);
+    let is_flat = |i: usize| {
+        let [from, to] = [at[i], at[(i + 1) % 3]];
+        (0..2).any(|k: usize| (to[k] - from[k]).abs() < 0.5)
+    };
+    if !(0..3).all(is_flat) {
+        return None;
+    }
+    let by_sum = |p: &&Place, q: &&Place| (p[0] + p[1]).total_cmp(&(q[0] + q[1]));
+    let [from, to] = [at.iter().min_by(by_sum)?, at.iter().rev().max_by(by_sum)?]
+        .map_array(|p| p.map_array(|v| v.trunc()));
+    let mut mask = Mask::default();
+    for y in from[1].max(0.0) as i32..to[1].min(high) as i32 {
+        let row = if how.up == 1 { window.y1 - 1 - y } else { y };
+        for x in from[0].max(0.0) as i32..to[0].min(window.x1.into()) as i32 {
+            mask.set(x, row);
+        }
+    }
+    Some(mask)
 }
 
 fn exchanged(corners: [Place; 3]) -> [Place; 3] {
