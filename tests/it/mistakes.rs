@@ -45,6 +45,10 @@ fn light(picture: &mut Coverage, x: i32, y: i32) {
     }
 }
 
+fn shifted(c: Corners, x: i32, y: i32) -> Corners {
+    c.map_array(|p| SubpixelPoint::new(p.x.saturating_add(x), p.y.saturating_add(y)))
+}
+
 /// The picture without the pixels of which it is false.
 fn only(picture: &mut Coverage, kept: impl Fn(i32, i32) -> bool) {
     let all: Vec<_> = picture.runs().flat_map(|(y, a, b)| (a..b).map(move |x| (x, y))).collect();
@@ -103,6 +107,102 @@ fn extent(c: Corners, axis: usize) -> [i32; 2] {
 }
 
 const FILLS: &[(&str, Fill)] = &[
+    ("neighbours of covered pixels", |c, w, out| {
+        // Only pixels whose upper and lower neighbours are covered, too.
+        let pictures = [0, 256, -256].map(|by| {
+            let mut picture = Coverage::new(w, 0);
+            right(shifted(c, 0, by), w, &mut picture);
+            picture
+        });
+        right(c, w, out);
+        only(out, |x, y| pictures.iter().all(|p| p.get(x, y).is_some_and(|hits| hits > 0)));
+    }),
+    ("every second row or column is moved", |c, w, out| {
+        let mut other = Coverage::new(w, 0);
+        right(shifted(c, 0, -128), w, &mut other);
+        right(c, w, out);
+        only(out, |x, _| x % 2 == 1);
+        for (y, from, to) in other.runs() {
+            (from..to).filter(|x| x % 2 == 0).for_each(|x| light(out, x, y));
+        }
+    }),
+    ("the search for pixels ends too early", |c, w, out| {
+        // The end of a row is looked for leftwards, beginning at the end of the row before.
+        let mut most = w.x1;
+        Scanline.cover(c, w, |s| {
+            most = most.min(s.x1_px);
+            (s.x0_px..most).for_each(|x| light(out, x, s.y_px));
+        });
+    }),
+    ("the search for pixels ends too early", |c, w, out| {
+        let mut last = None;
+        Scanline.cover(c, w, |s| {
+            if last.is_none_or(|last| s.y_px <= last + 1) {
+                last = Some(s.y_px);
+                out.hit(s.y_px, s.x0_px, s.x1_px);
+            }
+        });
+    }),
+    ("rows keep their length at the window", |c, w, out| {
+        let wide = PixelRect { x0: -(1 << 22), x1: 1 << 22, ..w };
+        Scanline.cover(c, wide, |s| {
+            let from = s.x0_px.max(0);
+            let to = (from + (s.x1_px - s.x0_px)).min(w.x1);
+            (from..to).for_each(|x| light(out, x, s.y_px));
+        });
+    }),
+    ("tiles are skipped", |c, w, out| {
+        // Blocks of 4 that are not full are drawn by a loop that ends a row too early.
+        right(c, w, out);
+        let full = out.clone();
+        let has = |x: i32, y: i32| full.get(x, y).is_some_and(|hits| hits > 0);
+        only(out, |x, y| {
+            let (x, y0) = (x & !3, y & !3);
+            y % 4 < 3 || [(x, y0), (x + 3, y0), (x, y), (x + 3, y)].iter().all(|p| has(p.0, p.1))
+        });
+    }),
+    ("the rest of a group", |c, w, out| {
+        // Both ends of a row are cut down to a multiple of 4.
+        Scanline.cover(c, w, |s| (s.x0_px & !3..s.x1_px & !3).for_each(|x| light(out, x, s.y_px)));
+    }),
+    ("the box misses a corner", |c, w, out| {
+        // The columns come from the last two corners alone.
+        let [a, b] = [c[1].x.min(c[2].x) >> 8, c[1].x.max(c[2].x) >> 8];
+        right(c, w, out);
+        only(out, |x, _| (a..=b).contains(&x));
+    }),
+    ("parts of the window are never drawn", |c, w, out| {
+        right(c, w, out);
+        only(out, |x, y| (x + y) % 2 == 0);
+    }),
+    ("rounding of floats", |c, w, out| {
+        // The test of a point by two vectors and their dot products, as many copy it.
+        let p = c.map_array(|p| [p.x as f32 / 256.0, p.y as f32 / 256.0]);
+        let minus = |p: [f32; 2], q: [f32; 2]| [p[0] - q[0], p[1] - q[1]];
+        let dot = |p: [f32; 2], q: [f32; 2]| p[0] * q[0] + p[1] * q[1];
+        let [v0, v1] = [minus(p[2], p[0]), minus(p[1], p[0])];
+        let inverse = 1.0 / (dot(v0, v0) * dot(v1, v1) - dot(v0, v1) * dot(v0, v1));
+        for y in w.y0..w.y1 {
+            for x in w.x0..w.x1 {
+                let v2 = minus([x as f32 + 0.5, y as f32 + 0.5], p[0]);
+                let u = (dot(v1, v1) * dot(v0, v2) - dot(v0, v1) * dot(v1, v2)) * inverse;
+                let v = (dot(v0, v0) * dot(v1, v2) - dot(v0, v1) * dot(v0, v2)) * inverse;
+                if area(c) != 0 && u >= 0.0 && v >= 0.0 && u + v < 1.0 {
+                    light(out, x, y);
+                }
+            }
+        }
+    }),
+    ("triangles are left out by size", |c, w, out| {
+        // Slivers: twice the area is less than a tenth of the square of the longest side.
+        let side = |i: usize| {
+            let (a, b) = (c[i], c[(i + 1) % 3]);
+            (f64::from(a.x) - f64::from(b.x)).powi(2) + (f64::from(a.y) - f64::from(b.y)).powi(2)
+        };
+        if area(c).abs() as f64 >= 0.1 * side(0).max(side(1)).max(side(2)) {
+            right(c, w, out);
+        }
+    }),
     ("rule by winding", |c, _, out| {
         let strict = area(c) > 0;
         tested(c, out, exactly, |_, e, _| e > 0 || (e == 0 && !strict));
@@ -1011,6 +1111,72 @@ fn bresenham([[mut x, mut y], [x1, y1]]: [[i32; 2]; 2], emit: &mut dyn FnMut(i32
 }
 
 const STROKES: &[(&str, Stroke)] = &[
+    ("the error term is off", |[a, b], _, emit| {
+        // It begins at a quarter of the longer side.
+        let [dx, dy] = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
+        let (steps, less) = (dx.max(dy), dx.min(dy));
+        let [mut x, mut y] = a;
+        let mut error = steps / 4;
+        emit(x, y);
+        for _ in 0..steps {
+            error -= less;
+            let across = error < 0;
+            if across {
+                error += steps;
+            }
+            x += if dx >= dy || across { (b[0] - a[0]).signum() } else { 0 };
+            y += if dy > dx || across { (b[1] - a[1]).signum() } else { 0 };
+            emit(x, y);
+        }
+    }),
+    ("lines are left out by kind", |[a, b], _, emit| {
+        // Upright lines are a loop from the first row up to the last one.
+        if a[0] == b[0] {
+            (a[1]..=b[1]).for_each(|y| emit(a[0], y));
+        } else {
+            bresenham([a, b], emit);
+        }
+    }),
+    ("pixels at the ends", |[a, b], _, emit| {
+        // Level and upright lines are rectangles of the width and the height.
+        if a[1] == b[1] {
+            (a[0].min(b[0])..a[0].max(b[0])).for_each(|x| emit(x, a[1]));
+        } else if a[0] == b[0] {
+            (a[1].min(b[1])..a[1].max(b[1])).for_each(|y| emit(a[0], y));
+        } else {
+            bresenham([a, b], emit);
+        }
+    }),
+    ("ends overflow", |ends, _, emit| {
+        bresenham(ends.map_array(|end| end.map_array(|v| i32::from(v as u8))), emit);
+    }),
+    ("each axis is rounded in its own way", |[a, b], _, emit| {
+        let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs());
+        for i in 0..=steps {
+            let at = |k: usize| {
+                f64::from(a[k]) + f64::from(b[k] - a[k]) * f64::from(i) / f64::from(steps.max(1))
+            };
+            emit((at(0) + 0.5).floor() as i32, at(1).floor() as i32);
+        }
+    }),
+    ("steps without the sign", |[a, b], _, emit| {
+        let steps = (b[0] - a[0]).max(b[1] - a[1]);
+        for i in 0..=steps {
+            let at = |k: usize| {
+                f64::from(a[k]) + f64::from(b[k] - a[k]) * f64::from(i) / f64::from(steps.max(1))
+            };
+            emit((at(0) + 0.5).floor() as i32, (at(1) + 0.5).floor() as i32);
+        }
+    }),
+    ("long lines end early", |ends, _, emit| {
+        let mut left = 500;
+        bresenham(ends, &mut |x, y| {
+            if left > 0 {
+                emit(x, y);
+            }
+            left -= 1;
+        });
+    }),
     ("ends are clamped to the window", |ends, _, emit| {
         bresenham(ends.map_array(|[x, y]| [x.clamp(-256, 255), y.clamp(-256, 255)]), emit);
     }),
@@ -1753,6 +1919,40 @@ fn mistakes_of_stages_are_named() {
     };
     let said = judged(biased, &["depth-order"]);
     assert!(said.contains("depths: It takes 2e-3 off the depth of a triangle"), "{said}");
+    // Depths that wrap around.
+    let wrapped = |question: &judge::ask::Question, answer| {
+        by_key(question, answer, &|depth, _| (depth * 8.0).fract(), false)
+    };
+    let said = judged(wrapped, &["depth-order"]);
+    assert!(
+        said.contains("depths: It keeps depths that begin again at 0 after every 1/8"),
+        "{said}"
+    );
+    // No test of depth in every second column.
+    let said = judged(
+        |question, answer| {
+            let (Asked::Depth(list), Answer::Seen(_)) = (&question.of, &answer) else {
+                return answer;
+            };
+            let window = PixelRect::window(question.width, question.height);
+            let mut seen = std::collections::BTreeMap::new();
+            for (number, t) in (0..).zip(list) {
+                Scanline.fragments(t, window, &mut |f: Fragment<DVec2>| {
+                    let kept = seen.entry((f.y_px, f.x_px)).or_insert((f.depth, number));
+                    if f.depth < kept.0 || f.x_px % 2 == 0 {
+                        *kept = (f.depth, number);
+                    }
+                });
+            }
+            let run = |((y_px, x0_px), (_, n))| (Span { y_px, x0_px, x1_px: x0_px + 1 }, n);
+            Answer::Seen(seen.into_iter().map(run).collect())
+        },
+        &["depth-order"],
+    );
+    assert!(
+        said.contains("depths: It draws without a test of depth in columns of even numbers"),
+        "{said}"
+    );
     // A pixel keeps the depth of its first triangle.
     let said = judged(
         |question, answer| {
@@ -1969,7 +2169,92 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         let inverse = exact.map_or(1.0, |exact| exact.at(f.x_px, f.y_px).0.to_f64());
         f.varying *= inverse / ((inverse * 1024.0).floor() / 1024.0);
     };
+    fn weighted(t: &Triangle, at: [f64; 2], weight: impl Fn(usize, f64) -> f64) -> DVec2 {
+        let l = values::weights(&t.corners(), at);
+        let parts = [0, 1, 2].map(|i| weight(i, l[i]));
+        let of = |part: fn(DVec2) -> f64| {
+            values::sum(parts, t.vertices.map(|v| part(v.varying))) / parts.iter().sum::<f64>()
+        };
+        DVec2::new(of(|v| v.x), of(|v| v.y))
+    }
+    fn at(f: &Fragment<DVec2>) -> [f64; 2] {
+        [f.x_px, f.y_px].map(|v| f64::from(v) + 0.5)
+    }
+    // Attributes are linear where depths in w differ by less than a half.
+    let near_affine: Change = |t, f| {
+        let w = t.vertices.map(|v| 1.0 / v.inv_w);
+        let most = w.into_iter().fold(0.0, f64::max);
+        if most < 1.5 * w.into_iter().fold(most, f64::min) {
+            f.varying = weighted(t, at(f), |_, l| l);
+        }
+    };
+    let by_depth: Change = |t, f| f.varying = weighted(t, at(f), |i, l| l / t.vertices[i].depth);
+    let squared: Change = |t, f| {
+        f.varying = weighted(t, at(f), |i, l| l * l * t.vertices[i].inv_w);
+        let l = values::weights(&t.corners(), at(f)).map(|l| l * l);
+        f.depth = values::sum(l, t.vertices.map(|v| v.depth)) / l.iter().sum::<f64>();
+    };
+    let roots: Change = |t, f| {
+        let mut rooted = *t;
+        for v in &mut rooted.vertices {
+            v.varying =
+                v.varying.signum() * DVec2::new(v.varying.x.abs().sqrt(), v.varying.y.abs().sqrt());
+        }
+        let roots = weighted(&rooted, at(f), |i, l| l * t.vertices[i].inv_w);
+        f.varying = roots * roots.abs();
+    };
+    let four_bits: Change = |t, f| {
+        let mut short = *t;
+        for v in &mut short.vertices {
+            v.varying = (v.varying * 16.0).floor() / 16.0;
+        }
+        f.varying = weighted(&short, at(f), |i, l| l * t.vertices[i].inv_w);
+    };
+    // The first row has the values of the height of the top corner.
+    let from_top: Change = |t, f| {
+        let top = t.corners().map(|c| f64::from(c.y) / 256.0).into_iter().fold(1e9, f64::min);
+        let [x, y] = at(f);
+        let y = y - ((top - 0.5).ceil() + 0.5 - top);
+        f.varying = weighted(t, [x, y], |i, l| l * t.vertices[i].inv_w);
+    };
+    // Linear between the perspective values at both ends of a row, which are where the crossings are.
+    let between_edges: Change = |t, f| {
+        let [x, y] = at(f);
+        let mut ends = Vec::new();
+        for i in 0..3 {
+            let [a, b] = [i, (i + 1) % 3].map(|i| t.vertices[i]);
+            let [p, q] = [a, b].map(|v| [v.position.x, v.position.y].map(|v| f64::from(v) / 256.0));
+            if (p[1] <= y) != (q[1] <= y) {
+                let part = (y - p[1]) / (q[1] - p[1]);
+                let [u, v] = [(1.0 - part) * a.inv_w, part * b.inv_w];
+                let value = (a.varying * u + b.varying * v) / (u + v);
+                ends.push((p[0] + (q[0] - p[0]) * part, value));
+            }
+        }
+        if let [(from, first), (to, last)] = ends[..] {
+            f.varying = first + (last - first) * ((x - from) / (to - from));
+        }
+    };
     for (change, wanted) in [
+        (
+            near_affine,
+            "It interpolates attributes linearly on the screen and ignores w (affine), of triangles whose largest w is at most about 1.",
+        ),
+        (by_depth, "It weights the corners by 1/z where 1/w is right"),
+        (squared, "It squares the weights of the corners"),
+        (
+            roots,
+            "It raises attributes of corners to the power of 1/2, interpolates, and undoes that",
+        ),
+        (
+            four_bits,
+            "It keeps the attributes of corners in whole numbers and 4 bits of fraction, cut down",
+        ),
+        (
+            from_top,
+            "It gives the first row the values of the top corner's height (attributes alone",
+        ),
+        (between_edges, "It corrects attributes for perspective along the edges"),
         (turned, "It gives -2 x the first attribute + 1.5"),
         (coarse, "It keeps 1/w at a pixel in whole numbers and 10 bits of fraction, cut down"),
         (halves, "It keeps values in floats with 10 bits after the first one, rounded"),
@@ -2032,6 +2317,68 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         );
         assert!(said.contains(&format!("samples: {wanted}")), "{wanted}: {said}");
     }
+    // Samples that are wrong in some pixels alone.
+    type Wrong = fn(Corners, [i32; 2]) -> Option<[(i32, i32); 4]>;
+    let cases: [(Wrong, &str); 3] = [
+        (
+            |_, [x, _]| (x % 2 == 1).then_some(SAMPLES.map(|(x, y)| (x, 16 - y))),
+            "It tests samples that are mirrored upside down in columns of odd numbers",
+        ),
+        (
+            |c, _| (area(c) > 0).then_some([(8, 8); 4]),
+            "It tests all four samples at the centre of clockwise triangles",
+        ),
+        (
+            |_, [x, y]| ((x + y) % 2 == 0).then_some([(1_000_000, 1_000_000); 4]),
+            "It draws no sample where row and column add up to an even number",
+        ),
+    ];
+    for (places, wanted) in cases {
+        let said = judged(
+            move |question, answer| {
+                let Asked::Samples(corners) = question.of else { return answer };
+                let window = PixelRect::window(question.width, question.height);
+                let mut runs = Vec::new();
+                for y in window.y0..window.y1 {
+                    for x in window.x0..window.x1 {
+                        let at = places(corners, [x, y]).unwrap_or(SAMPLES);
+                        let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
+                        let is_none = at[0].0 > 16;
+                        let mask = masks_at(&Scanline, corners, pixel, &at).unwrap().get(x, y);
+                        let mask = mask.filter(|mask| *mask > 0 && !is_none);
+                        let run = Span { y_px: y, x0_px: x, x1_px: x + 1 };
+                        runs.extend(mask.map(|mask| (run, mask)));
+                    }
+                }
+                Answer::Samples(runs)
+            },
+            &["uniform", "half-integer"],
+        );
+        assert!(said.contains(&format!("samples: {wanted}")), "{wanted}: {said}");
+    }
+    // Values of which no mistake is known: what all wrong pixels have in common is said.
+    let said = judged_as(
+        "tolerance=1e-4",
+        |question, answer| match (&question.of, answer) {
+            (Asked::Values(t), Answer::Values(mut fragments)) => {
+                for f in fragments.iter_mut().filter(|f| f.y_px % 2 == 1 && area(t.corners()) > 0) {
+                    f.varying.y += f64::from(f.x_px).sin();
+                }
+                Answer::Values(fragments)
+            }
+            (_, answer) => answer,
+        },
+        &["w-100", "uniform"],
+    );
+    for wanted in [
+        "All wrong pixels are of clockwise triangles.",
+        "All wrong pixels are in rows of odd numbers.",
+        "Depth is right in all of them.",
+        "The first attribute is right in all of them.",
+    ] {
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+    assert!(!said.contains("even numbers") && !said.contains("The second attribute"), "{said}");
     // A plane that is in no table is read off the new corners.
     let said = judged(
         |question, answer| match (judge::near_plane::asked(&question.of), answer) {

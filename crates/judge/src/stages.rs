@@ -812,7 +812,7 @@ struct DepthMistake {
 /// Where depth is computed, from the pixel and the first one of its row.
 #[derive(Clone, Copy)]
 enum Place {
-    /// At this place of the pixel.
+    /// At a place of each pixel, in pixels from its upper left corner.
     Pixel([f64; 2]),
     /// At the place of a block of so many pixels.
     Block(i32, f64),
@@ -1097,12 +1097,21 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
             "ch06",
             "two triangles on both sides of such a depth that are shown in the right order",
         );
+        let scaled = move |layer: &Layer<'_>| layer.depth * f64::from(1 << times);
         let key = move |layer: &Layer<'_>| {
-            let wrapped = (layer.depth * f64::from(1 << times)).rem_euclid(1.0);
+            let wrapped = scaled(layer).rem_euclid(1.0);
             if bits == 0 { wrapped } else { (wrapped * 65536.0).floor() }
         };
         hypotheses.push(of_piles(&piles, says, move |layers, answer| {
-            is_seen(layers, answer, &|a, b| key(b) < key(a))
+            layers.of_pixels.iter().zip(shown(layers, answer)).all(|(here, shown)| {
+                // Where a depth begins again, or two come to the same, rounding decides.
+                let is_near = |depth: f64| (depth - depth.round()).abs() < 1e-9;
+                let is_open = |i: usize| {
+                    let depth = scaled(&here[i]);
+                    is_near(depth) || here[..i].iter().any(|a| is_near(depth - scaled(a)))
+                };
+                (0..here.len()).any(is_open) || is_left(here, shown, &|a, b| key(b) < key(a))
+            })
         }));
     }
     let turned: [(Replaces, &str); 3] = [
@@ -1295,10 +1304,21 @@ fn is_seen(
     answer: &Answer,
     replaces: &dyn Fn(&Layer<'_>, &Layer<'_>) -> bool,
 ) -> bool {
-    layers.of_pixels.iter().zip(shown(layers, answer)).all(|(here, shown)| {
-        let kept = here.iter().reduce(|kept, new| if replaces(kept, new) { new } else { kept });
-        kept.map_or(0, |kept| kept.number as u8 + 1) == shown
-    })
+    layers
+        .of_pixels
+        .iter()
+        .zip(shown(layers, answer))
+        .all(|(here, shown)| is_left(here, shown, replaces))
+}
+
+/// Whether one pixel shows what is left of its layers by such a rule.
+fn is_left(
+    here: &[Layer<'_>],
+    shown: u8,
+    replaces: &dyn Fn(&Layer<'_>, &Layer<'_>) -> bool,
+) -> bool {
+    let kept = here.iter().reduce(|kept, new| if replaces(kept, new) { new } else { kept });
+    kept.map_or(0, |kept| kept.number as u8 + 1) == shown
 }
 
 struct NearMistake {

@@ -86,6 +86,7 @@ impl Synthetic {
         step * match self.rounding {
             Rounding::Near => (v + 0.5).floor(),
             Rounding::HalfEven => v.round_ties_even(),
+            Rounding::HalfAway => v.round(),
             Rounding::Down => v.floor(),
             Rounding::TowardZero => v.trunc(),
         }

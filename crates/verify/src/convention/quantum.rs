@@ -11,6 +11,8 @@ rasterproof_core::named! {
         /// A half is rounded up, to the larger number: v becomes floor(v + 1/2).
         Near = "the nearest, halves up",
         HalfEven = "the nearest, halves to the even one",
+        /// As the function `round` of C rounds: -1/2 becomes -1.
+        HalfAway = "the nearest, halves away from zero",
         /// The largest whole number that is at most v, also where v is negative.
         Down = "down",
         /// The fraction is cut off, as by a cast to `int` in C.
@@ -39,6 +41,7 @@ impl Quantum {
         let up = match self.rounding {
             Rounding::Near => rest >= step && step > 1,
             Rounding::HalfEven => rest > step || (rest == step && below % 2 != 0),
+            Rounding::HalfAway => rest > step || (rest == step && sub >= 0),
             Rounding::Down => false,
             Rounding::TowardZero => sub < 0 && rest > 0,
         };
@@ -58,14 +61,16 @@ mod tests {
     #[test]
     fn quanta_by_hand() {
         let at = |rounding| Quantum { step: 256, rounding };
-        for (sub, near, even, down, zero) in [
-            (128, 256, 0, 0, 0),
-            (384, 512, 512, 256, 256),
-            (127, 0, 0, 0, 0),
-            (-128, 0, 0, -256, 0),
-            (-129, -256, -256, -256, 0),
-            (-256, -256, -256, -256, -256),
+        for (sub, near, even, away, down, zero) in [
+            (128, 256, 0, 256, 0, 0),
+            (384, 512, 512, 512, 256, 256),
+            (127, 0, 0, 0, 0, 0),
+            (-128, 0, 0, -256, -256, 0),
+            (-129, -256, -256, -256, -256, 0),
+            (-256, -256, -256, -256, -256, -256),
+            (-384, -256, -512, -512, -512, -256),
         ] {
+            assert_eq!(at(Rounding::HalfAway).apply(sub), away, "{sub}");
             assert_eq!(at(Rounding::Near).apply(sub), near, "{sub}");
             assert_eq!(at(Rounding::HalfEven).apply(sub), even, "{sub}");
             assert_eq!(at(Rounding::Down).apply(sub), down, "{sub}");

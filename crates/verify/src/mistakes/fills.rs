@@ -2,7 +2,7 @@
 
 use super::values::rounded;
 use crate::comparison::area2;
-use crate::convention::{Convention, Mask, facing};
+use crate::convention::{Convention, Mask, Ties, facing};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -424,6 +424,15 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
             dx * i128::from(at[1] - ay) - dy * i128::from(at[0] - ax) >= 0
         })
     };
+    // Whether a sample is covered, of which nothing is known of edges beyond the window.
+    let covers = |x: i32, y: i32| match window.contains(x, y) {
+        true => full.has(x, y),
+        false => points.into_iter().zip([1, 2, 0]).all(|([ax, ay], next)| {
+            let [bx, by] = points[next];
+            let [px, py] = [x, y].map_array(|v| i64::from(v) * 256 + 128);
+            sign * ((bx - ax) as f64 * (py - ay) as f64 - (by - ay) as f64 * (px - ax) as f64) > 0.0
+        }),
+    };
     let last = side - 1;
     let corners_of = |x: i32, y: i32, side: i32| {
         [(x, y), (x + side, y), (x, y + side), (x + side, y + side)].into_iter()
@@ -438,8 +447,10 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
         9 => is_inside(x, y, [true, false]),
         10 => is_inside(x, y, [false, true]),
         7 => corners_of(x, y, last).any(|(x, y)| is_drawn(x, y)),
-        11 => has(x + side / 2, y + side / 2) || corners_of(x, y, last).any(|(x, y)| has(x, y)),
-        12 | 13 => corners_of(x, y, last).all(|(x, y)| has(x, y)),
+        11 => {
+            covers(x + side / 2, y + side / 2) || corners_of(x, y, last).any(|(x, y)| covers(x, y))
+        }
+        12 | 13 => corners_of(x, y, last).all(|(x, y)| covers(x, y)),
         14 => x + side <= window.x1 && y + side <= window.y1,
         _ => has(x, y),
     };
@@ -756,7 +767,7 @@ pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention,
 }
 
 /// What `float` computes.
-pub(super) const FORMULAS: [&str; 31] = [
+pub(super) const FORMULAS: [&str; 35] = [
     "the edge function as a difference of two products",
     "the edge function as a x + b y + c with c computed once",
     "the edge function in steps that are added up pixel by pixel",
@@ -788,6 +799,10 @@ pub(super) const FORMULAS: [&str; 31] = [
     "barycentric weights times the reciprocal of the area, the second being 1 minus the others",
     "the edge function as a x + b y + c, where a and b are divided by the length of the edge",
     "two barycentric weights from dot products of the edges and a reciprocal, whose sum may be 1 at most",
+    "two barycentric weights from differences to the first corner, of 0 at least, whose sum must be less than 1",
+    "two barycentric weights from differences to the last corner, of 0 at least, whose sum must be less than 1",
+    "two barycentric weights from dot products of the edges, of 0 at least, whose sum must be less than 1",
+    "two barycentric weights from dot products of the edges and a reciprocal, of 0 at least, whose sum must be less than 1",
 ];
 
 /// One of `FORMULAS`, rounded after every operation. Of corners that turn the other way, two are
@@ -801,6 +816,13 @@ pub(super) fn float(
     precision: i64,
 ) -> Mask {
     let r = |v: f64| rounded(v, precision);
+    // The last ones have a rule of their own.
+    let has_rule = formula > 30;
+    if has_rule && Some(base.ties) != Ties::named("top-left") {
+        // Once is enough: no other base predicts anything else.
+        return Mask::default();
+    }
+    let formula = if has_rule { [21, 22, 23, 30][formula - 31] } else { formula };
     let turns = area2(corners).signum() as i64;
     if turns == 0 {
         return Mask::default();
@@ -835,7 +857,11 @@ pub(super) fn float(
     let owns = sides.map_array(|[i, j]| {
         let [p, q] = [ordered[i], ordered[j]];
         let turned = sign as i64;
-        base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))]
+        match has_rule {
+            // The side opposite to the corner whose weight is left over.
+            true => i != if formula == 22 { 0 } else { 1 },
+            false => base.ties.edges[facing(turned * (p[1] - q[1]), turned * (q[0] - p[0]))],
+        }
     });
     // Weights that are divided by the area have its sign already.
     let sign = if matches!(formula, 3..=5 | 9..=17 | 21..=23 | 25..=28 | 30) { 1.0 } else { sign };

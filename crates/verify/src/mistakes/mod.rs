@@ -24,7 +24,8 @@ use std::fmt;
 use crate::comparison::area2;
 use crate::convention::{
     Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
-    LineQuestion, LineRounding, LineTie, Mask, Shape, Ties, TriangleQuestion, Windings,
+    LineQuestion, LineRounding, LineTie, Mask, Quantum, Rounding, Shape, Ties, TriangleQuestion,
+    Windings,
 };
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
@@ -769,6 +770,13 @@ fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
     }
     if let Some(found) = found {
         add(*found, [found.words(), String::new()]);
+        let quantum = found.quantum;
+        if quantum.step > 1 && quantum.rounding == Rounding::Near {
+            // No question about conventions has a negative coordinate halfway between two points of a grid.
+            let quantum = Quantum { rounding: Rounding::HalfAway, ..quantum };
+            let away = Convention { quantum, ..*found };
+            add(away, [away.words(), String::new()]);
+        }
     }
     bases
 }

@@ -588,7 +588,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         name: "the box misses a corner",
         sentence: |p| {
             format!(
-                "looks for pixels in a box whose {} from two of the corners, without the {}{}",
+                "looks for pixels in a box whose {} from two of the corners, without the {}{}{}",
                 [
                     "left side comes",
                     "upper side comes",
@@ -598,16 +598,22 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                     "upper and lower side come",
                 ][(p % 6) as usize],
                 ["first", "second", "third"][(p / 6 % 3) as usize],
-                exchanged(p / 18)
+                exchanged(p / 18 % ORDERS.len() as i64),
+                ["", ", and ends before the ceiling of the largest coordinate"]
+                    [(p / BOXES_OF_TWO) as usize]
             )
         },
         repair: "the box holds all three corners",
         page: "games101",
         refuted: "a covered pixel near that corner that is drawn",
-        parameters: Parameters::Below(18 * ORDERS.len() as i64),
+        parameters: Parameters::Below(2 * BOXES_OF_TWO),
         draws: Fill::Changed(|mask, corners, window, p| {
-            let ordered = in_order(corners, p / 18, area2(corners) > 0);
+            let order = p / 18 % ORDERS.len() as i64;
+            let ordered = in_order(corners, order, area2(corners) > 0);
             let (side, without) = (p % 6, (p / 6 % 3) as usize);
+            if side < 2 && p >= BOXES_OF_TWO {
+                return;
+            }
             let ends = [0, 1].map_array(|i: usize| {
                 let c = ordered[(without + 1 + i) % 3];
                 if side % 2 == 0 { c.x } else { c.y }
@@ -616,7 +622,8 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             mask.retain(window, &|x, y| {
                 let at = if side % 2 == 0 { x } else { y };
                 let is_after = at >= low.div_euclid(256) || matches!(side, 2 | 3);
-                is_after && (at <= high.div_euclid(256) || side < 2)
+                let last = high.div_euclid(256) - i32::from(p >= BOXES_OF_TWO && high % 256 == 0);
+                is_after && (at <= last || side < 2)
             });
         }),
     },
@@ -792,7 +799,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02",
         refuted: "a pixel at an edge that is drawn rightly",
         parameters: Parameters::Below(2 * fills::NEIGHBOURS.len() as i64),
-        draws: Fill::Ruled(fills::grown),
+        draws: Fill::Sampled(fills::grown),
     },
     Mistake {
         name: "every second row or column is moved",
@@ -809,7 +816,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02",
         refuted: "a pixel at an edge in such a row or column that is drawn rightly",
         parameters: Parameters::Below(32),
-        draws: Fill::Ruled(fills::alternating),
+        draws: Fill::Sampled(fills::alternating),
     },
     Mistake {
         name: "the search for pixels ends too early",
@@ -836,7 +843,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch07",
         refuted: "a row that begins left of the window and ends where it should",
         parameters: Parameters::Fixed(&[0]),
-        draws: Fill::Ruled(|corners, window, base, _| {
+        draws: Fill::Sampled(|corners, window, base, _| {
             let mut mask = base.mask(corners, window).unwrap_or_default();
             fills::slid(&mut mask, corners, window, base);
             mask
@@ -1206,6 +1213,8 @@ const ENDS: [&str; 10] = [
     "draws the first row once more, one row higher",
 ];
 
+/// Sides of a box, the corner that it misses, and the order of the corners.
+const BOXES_OF_TWO: i64 = 18 * ORDERS.len() as i64;
 type Bounds = fn(i64, i64) -> [i64; 2];
 const BOXES: [(&str, Bounds); 8] = [
     ("the pixel that holds the largest coordinate is left out", |low, high| {

@@ -558,7 +558,7 @@ pub struct ValueHypothesis {
     scaled: [[f64; 2]; 3],
     /// Pixels of a block that have one value, and the place in the block.
     block: Option<(i32, f64)>,
-    /// How values go on along a row.
+    /// What is computed at each pixel of a row, and what is interpolated between.
     along: Along,
     /// What becomes of the attributes of the corners.
     corner: Option<(Keep, i32)>,
@@ -572,7 +572,7 @@ pub struct ValueHypothesis {
 /// How values go on along a row of pixels.
 #[derive(Clone, Copy)]
 enum Along {
-    /// Each pixel has its own.
+    /// The values of each pixel are computed at its own place.
     Pixels,
     /// All pixels have the values of the first one.
     First,
