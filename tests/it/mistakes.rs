@@ -699,8 +699,8 @@ const FILLS: &[(&str, Fill)] = &[
         }
     }),
     ("crossings are stepped", |c, w, out| {
-        // Through numbers from -1 to 1, in which it is clipped; downwards, by products with a reciprocal; and what has no side
-        // that leaves both axes by half a pixel is a box.
+        // It is clipped in numbers from -1 to 1 and filled downwards, by products with a reciprocal. Where each side is level or
+        // upright within half a pixel, it is a box.
         let flat =
             |a: SubpixelPoint, b: SubpixelPoint| (a.x - b.x).abs() < 128 || (a.y - b.y).abs() < 128;
         if flat(c[0], c[1]) && flat(c[1], c[2]) && flat(c[2], c[0]) {

@@ -289,7 +289,7 @@ pub(super) const TABLE: &[Mistake<Stroke>] = &[
             let (how, bits) = (p / 3, ["32", "64", "16"][(p % 3) as usize]);
             if how >= NORMALISED {
                 let [up, centre, whole] =
-                    [1, 2, 4].map(|bit| usize::from(how - NORMALISED & bit > 0));
+                    [1, 2, 4].map(|bit| usize::from((how - NORMALISED) & bit > 0));
                 return format!(
                     "brings ends to numbers from -1 to 1, clips in them, comes back {} and cuts them to whole pixels, which rounding may move, and adds up steps{}, beginning {}, in floats of {bits} bits",
                     ["with half a pixel added", "to the centres"][centre],
