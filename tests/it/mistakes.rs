@@ -2362,7 +2362,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         |question, answer| match (&question.of, answer) {
             (Asked::Values(t), Answer::Values(mut fragments)) => {
                 for f in fragments.iter_mut().filter(|f| f.y_px % 2 == 1 && area(t.corners()) > 0) {
-                    f.varying.y += f64::from(f.x_px).sin();
+                    f.varying.y += 0.1 + f64::from(f.x_px % 7 * (f.x_px % 5)) / 10.0;
                 }
                 Answer::Values(fragments)
             }

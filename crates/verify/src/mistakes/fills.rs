@@ -677,7 +677,7 @@ pub(super) fn slid(mask: &mut Mask, corners: &Corners, window: PixelRect, base: 
     if left >= i64::from(window.x0) || area2(corners) == 0 {
         return;
     }
-    let sign = i128::from(area2(corners).signum());
+    let sign = area2(corners).signum();
     let (owns, sample) = (owned(corners, base), super::sample_of(base));
     for y in window.y0..window.y1 {
         // The first sample on the inner side of every edge, and the one after the last.

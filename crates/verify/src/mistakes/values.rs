@@ -1011,7 +1011,7 @@ const POWERS: ValueMistake = ValueMistake {
 /// A power of a number that keeps its sign, in tenths; or such a root.
 fn powered(v: f64, tenths: i32) -> f64 {
     let power = f64::from(tenths.abs()) / 10.0;
-    let size = v.abs().powf(if tenths < 0 { 1.0 / power } else { power });
+    let size = libm::pow(v.abs(), if tenths < 0 { 1.0 / power } else { power });
     if v < 0.0 { -size } else { size }
 }
 
