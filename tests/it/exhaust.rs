@@ -77,6 +77,13 @@ fn exhaust_triangles_agree_in_all_orders_and_elsewhere() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn exhaust_triangles_agree_on_the_finer_lattice_in_the_other_direction() {
+    let finer = triangles::Triangles { offset_px: [16_384, -16_384], ..triangles(2) };
+    check(&Plan::Triangles(finer), 3_981_264);
+}
+
+#[test]
 fn exhaust_lines_agree() {
     let certificate = check(&Plan::Lines(lines(128)), 257 * 257);
     assert_eq!(certificate.done.oracle_checks, 129 * 129);
