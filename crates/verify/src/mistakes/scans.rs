@@ -381,7 +381,7 @@ impl Scan {
                     // Where nothing is added, upwards is the same, nearly.
                     let is_added = SLOPES[slope as usize].is_added_in_floats();
                     let is_single = SLOPES[slope as usize].is_single();
-                    let ways = (0..6).filter(move |way| is_added || way % 2 == 0);
+                    let ways = (0..6).filter(move |way| is_added || *way == 0);
                     ways.flat_map(move |way| {
                         let p = frame + slope + way % 2 * up_at + way / 2 * moved_at;
                         let within = (is_added && way > 0).then_some(p);
@@ -407,13 +407,12 @@ impl Scan {
     }
 
     fn first_row(&self, y: f64) -> i64 {
-        let row = match self.rows / 2 {
-            0 => (y - 0.5).ceil(),
-            1 => y.floor(),
-            2 => y.ceil(),
-            _ => (y + 0.5).floor(),
-        };
-        row as i64
+        match self.rows / 2 {
+            0 => up(y - 0.5),
+            1 => down(y),
+            2 => up(y),
+            _ => down(y + 0.5),
+        }
     }
 
     /// How far a row lies below the corner where an edge begins, in pixels.
@@ -422,7 +421,7 @@ impl Scan {
             0 => row as f64 + 0.5 - from,
             1 => row as f64 - from,
             2 => (row - first_row) as f64,
-            _ => row as f64 - from.floor(),
+            _ => (row - down(from)) as f64,
         }
     }
 
@@ -512,6 +511,16 @@ struct Walk {
 
 fn single(v: f64) -> f64 {
     f64::from(v as f32)
+}
+
+/// A number rounded down; `f64::floor` is a call on some machines, and slow.
+fn down(v: f64) -> i64 {
+    let cut = v as i64;
+    cut.saturating_sub(i64::from(cut as f64 > v))
+}
+
+fn up(v: f64) -> i64 {
+    down(-v).saturating_neg()
 }
 
 /// A multiple of 1/256 px in subpixels.
@@ -721,42 +730,45 @@ fn clipped(corners: [Place; 3], window: PixelRect, rows: usize, how: Scan) -> Ve
 fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
     let whole = |v: f64| match how.whole {
         0 => v,
-        1 => v.floor(),
-        2 => (v + 0.5).floor(),
-        3 => v.trunc(),
-        _ => v.ceil(),
+        1 => down(v) as f64,
+        2 => down(v + 0.5) as f64,
+        3 => (v as i64) as f64,
+        _ => up(v) as f64,
     };
-    let mut exact = corners;
-    exact.sort_by(|p, q| {
-        let height = |y: f64| match (how.whole, how.sorted) {
+    let mut exact = corners.map_array(|p| {
+        let y = p[1];
+        let height = match (how.whole, how.sorted) {
             (0, 0) | (1.., 1) => y,
             (1.., _) => whole(y),
-            (_, kind) => [y, y.floor(), (y + 0.5).floor(), y.ceil()][kind as usize],
+            (_, 1) => down(y) as f64,
+            (_, 2) => down(y + 0.5) as f64,
+            _ => up(y) as f64,
         };
-        height(p[1]).total_cmp(&height(q[1]))
+        (height, p)
     });
-    let sorted = exact.map_array(|p| p.map_array(whole));
+    exact.sort_by(|p, q| p.0.total_cmp(&q.0));
+    let sorted = exact.map_array(|(_, p)| p.map_array(whole));
     let [top, middle, bottom] = sorted;
     let mut mask = Mask::default();
-    let clamp = |v: f64| v.clamp(0.0, f64::from(window.x1)) as i32;
+    let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;
     let mut fill = |y: i64, a: f64, b: f64| {
         let (left, right) = (a.min(b), a.max(b));
         let first = match how.left {
-            0 => (left - 0.5).ceil(),
-            1 => (left + 0.5).floor(),
-            2 => left.floor(),
-            3 => left.ceil(),
-            _ => left.trunc(),
+            0 => up(left - 0.5),
+            1 => down(left + 0.5),
+            2 => down(left),
+            3 => up(left),
+            _ => left as i64,
         };
         let end = match how.right {
-            0 | 4 => (right - 0.5).ceil(),
-            1 | 5 => (right + 0.5).floor(),
-            2 | 6 => right.floor(),
-            3 | 7 => right.ceil(),
-            _ => right.trunc(),
+            0 | 4 => up(right - 0.5),
+            1 | 5 => down(right + 0.5),
+            2 | 6 => down(right),
+            3 | 7 => up(right),
+            _ => right as i64,
         };
-        let end = end + f64::from(u8::from(how.right > 3));
-        let end = if how.least == 1 { end.max(first + 1.0) } else { end };
+        let end = end.saturating_add(i64::from(how.right > 3));
+        let end = if how.least == 1 { end.max(first.saturating_add(1)) } else { end };
         for x in clamp(first)..clamp(end) {
             mask.set(x, y as i32);
         }
@@ -774,7 +786,8 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
             match how.level {
                 1 => fill(starts[0], least, most),
                 3 => {
-                    (clamp(least)..clamp(most + 1.0)).for_each(|x| mask.set(x, starts[0] as i32));
+                    (clamp(least as i64)..clamp(most as i64 + 1))
+                        .for_each(|x| mask.set(x, starts[0] as i32));
                 }
                 _ => {}
             }
