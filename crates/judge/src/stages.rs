@@ -1104,8 +1104,9 @@ fn of_depth<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>> {
         };
         hypotheses.push(of_piles(&piles, says, move |layers, answer| {
             layers.of_pixels.iter().zip(shown(layers, answer)).all(|(here, shown)| {
-                // Where a depth begins again, or two come to the same, rounding decides.
-                let is_near = |depth: f64| (depth - depth.round()).abs() < 1e-9;
+                // Where a depth begins again, or two come to the same, rounding decides: four times, in floats of 32 bits.
+                let rounding = f64::from(4 << times) * f64::from(f32::EPSILON);
+                let is_near = |depth: f64| (depth - depth.round()).abs() < rounding;
                 let is_open = |i: usize| {
                     let depth = scaled(&here[i]);
                     is_near(depth) || here[..i].iter().any(|a| is_near(depth - scaled(a)))
