@@ -1621,12 +1621,20 @@ fn of_stroke(
     mistakes::of_lines(&mut ask, &Known::default(), Some(&found), &[], &|| true)
 }
 
-fn check(number: usize, expected: &str, found: Option<&Mistakes>, failed: &mut Vec<String>) {
-    let is_named = found.is_some_and(|found| found.causes.iter().any(|c| c.name == expected));
-    if !is_named {
-        let said = found.map_or("nothing is wrong".to_owned(), ToString::to_string);
-        failed.push(format!("{number}, {expected}: {said}"));
+/// What is said of each program, by its number, with the mistake that it has: all must have its name.
+fn check<'a>(name: &str, programs: impl Iterator<Item = (&'a str, Option<Mistakes>)>) {
+    let mut table = String::new();
+    let mut unnamed = Vec::new();
+    for (number, (expected, found)) in programs.enumerate() {
+        let is_named = |found: &Mistakes| found.causes.iter().any(|c| c.name == expected);
+        let said = found.as_ref().map_or("nothing is wrong".to_owned(), ToString::to_string);
+        table += &format!("{number}, {expected}: {said}\n");
+        if !found.as_ref().is_some_and(is_named) {
+            unnamed.push(format!("{number}, {expected}: {said}"));
+        }
     }
+    assert!(unnamed.is_empty(), "{}", unnamed.join("\n"));
+    check_words(name, &table);
 }
 
 /// Every mistake that may draw nothing would explain it.
@@ -1640,22 +1648,14 @@ fn what_draws_nothing_has_no_cause() {
 #[test]
 #[ignore = "takes minutes; .ci/run runs it"]
 fn mistakes_in_triangles_are_named() {
-    let mut failed = Vec::new();
-    for (number, (expected, fill)) in FILLS.iter().enumerate() {
-        check(number, expected, of_fill(fill).as_ref(), &mut failed);
-    }
-    assert!(failed.is_empty(), "{}", failed.join("\n"));
+    check("mistakes-in-triangles", FILLS.iter().map(|(name, fill)| (*name, of_fill(fill))));
 }
 
 /// The same for lines.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn mistakes_in_lines_are_named() {
-    let mut failed = Vec::new();
-    for (number, (expected, stroke)) in STROKES.iter().enumerate() {
-        check(number, expected, of_stroke(stroke).as_ref(), &mut failed);
-    }
-    assert!(failed.is_empty(), "{}", failed.join("\n"));
+    check("mistakes-in-lines", STROKES.iter().map(|(name, stroke)| (*name, of_stroke(stroke))));
 }
 
 /// Every mistake of the table has a program in this file, but for those that need a window or a declaration of their own, and areas,
