@@ -2356,6 +2356,21 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         );
         assert!(said.contains(&format!("samples: {wanted}")), "{wanted}: {said}");
     }
+    // A planted fault that draws nothing of these triangles does not explain their values.
+    let said = judged(
+        |question, answer| match (&question.of, answer) {
+            (Asked::Values(t), Answer::Values(mut fragments)) => {
+                let is_wrong = area(t.corners()) < 0;
+                fragments.iter_mut().filter(|_| is_wrong).for_each(|f| f.varying = -f.varying);
+                Answer::Values(fragments)
+            }
+            (_, answer) => answer,
+        },
+        &["w-100", "uniform"],
+    );
+    let wanted =
+        "no known mistake explains them. All wrong pixels are of counterclockwise triangles.";
+    assert!(said.contains(wanted), "{said}");
     // Values of which no mistake is known: what all wrong pixels have in common is said.
     let said = judged_as(
         "tolerance=1e-4",
