@@ -1,6 +1,7 @@
 //! Wrong programs, written apart from the table of mistakes, and the mistake that is named for each.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use crate::snapshots::check_words;
 use rasterproof_core::arrays::MapArray as _;
@@ -1622,10 +1623,10 @@ fn of_stroke(
 }
 
 /// What is said of each program, by its number, with the mistake that it has: all must have its name.
-fn check<'a>(name: &str, programs: impl Iterator<Item = (&'a str, Option<Mistakes>)>) {
+fn check(name: &str, programs: Vec<(&str, Option<Mistakes>)>) {
     let mut table = String::new();
     let mut unnamed = Vec::new();
-    for (number, (expected, found)) in programs.enumerate() {
+    for (number, (expected, found)) in programs.into_iter().enumerate() {
         let is_named = |found: &Mistakes| found.causes.iter().any(|c| c.name == expected);
         let said = found.as_ref().map_or("nothing is wrong".to_owned(), ToString::to_string);
         table += &format!("{number}, {expected}: {said}\n");
@@ -1648,14 +1649,16 @@ fn what_draws_nothing_has_no_cause() {
 #[test]
 #[ignore = "takes minutes; .ci/run runs it"]
 fn mistakes_in_triangles_are_named() {
-    check("mistakes-in-triangles", FILLS.iter().map(|(name, fill)| (*name, of_fill(fill))));
+    let found = FILLS.par_iter().map(|(name, fill)| (*name, of_fill(fill)));
+    check("mistakes-in-triangles", found.collect());
 }
 
 /// The same for lines.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn mistakes_in_lines_are_named() {
-    check("mistakes-in-lines", STROKES.iter().map(|(name, stroke)| (*name, of_stroke(stroke))));
+    let found = STROKES.par_iter().map(|(name, stroke)| (*name, of_stroke(stroke)));
+    check("mistakes-in-lines", found.collect());
 }
 
 /// Every mistake of the table has a program in this file, but for those that need a window or a declaration of their own, and areas,
