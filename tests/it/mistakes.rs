@@ -15,6 +15,7 @@ use rasterproof_faults::planted::{LineMutant, Mutant, TriangleMutant};
 use rasterproof_invariants::implementations::{Component, Implementations, component_of, hits};
 use rasterproof_judge as judge;
 use rasterproof_judge::ask::{Answer, Asked};
+use rasterproof_judge::declared::Declared;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::verdict::Scores as _;
@@ -1787,12 +1788,12 @@ type Change = dyn Fn(&judge::ask::Question, Answer) -> Answer + Send;
 /// A right program but for the answers that `changed` gives.
 struct Wrong {
     right: Inside,
-    declared: judge::declared::Declared,
+    declared: Declared,
     changed: Box<Change>,
 }
 
 impl judge::ask::Subject for Wrong {
-    fn declared(&self) -> &judge::declared::Declared {
+    fn declared(&self) -> &Declared {
         &self.declared
     }
 
@@ -1806,23 +1807,27 @@ impl judge::ask::Subject for Wrong {
     }
 }
 
-/// The name and the sentence of the causes that the judge finds, as one text.
+/// The name and the sentence of the causes that the judge finds, as one text, for a program that says these words of itself.
 fn judged(
-    changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
-    families: &[&str],
-) -> String {
-    judged_as("", changed, families)
-}
-
-/// The same of a program that declares more.
-fn judged_as(
     words: &str,
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
 ) -> String {
-    let verdict = verdict(words, changed, families, &|_| None);
+    let least = Declared { tolerance: everything().tolerance, ..Declared::default() };
+    let declared = declared(least, words);
+    let verdict = verdict(declared, changed, families, &|_| None);
     let said = verdict.cause.iter().map(|cause| format!("{}: {}", cause.of, cause.why));
     said.collect::<Vec<_>>().join("\n")
+}
+
+fn declared(mut declared: Declared, words: &str) -> Declared {
+    words.split_whitespace().for_each(|word| declared.hear(word));
+    declared
+}
+
+/// What an engine of this project says of itself: it answers every question.
+fn everything() -> Declared {
+    judge::ask::Subject::declared(&Inside::new(engines::find("scanline").unwrap())).clone()
 }
 
 /// So many cases of each family, and a minute for a cause.
@@ -1833,14 +1838,12 @@ fn unhurried(cases: u64) -> judge::Options {
 }
 
 fn verdict(
-    words: &str,
+    declared: Declared,
     changed: impl Fn(&judge::ask::Question, Answer) -> Answer + Send + 'static,
     families: &[&str],
     recognise: judge::Recognise<'_>,
 ) -> judge::verdict::Verdict {
     let right = Inside::new(engines::find("scanline").unwrap());
-    let mut declared = judge::ask::Subject::declared(&right).clone();
-    words.split_whitespace().for_each(|word| declared.hear(word));
     let mut options = unhurried(100);
     options.families = families.iter().map(|name| (*name).to_owned()).collect();
     let mut askers = [Box::new(Wrong { right, declared, changed: Box::new(changed) })
@@ -1851,8 +1854,20 @@ fn verdict(
 /// Mistakes beside coverage are named, too: in values, samples, depths and at the near plane.
 #[test]
 fn mistakes_of_stages_are_named() {
+    programs_of_depth_and_clipping(1);
+}
+
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn more_mistakes_of_depth_and_clipping_are_named() {
+    programs_of_depth_and_clipping(usize::MAX);
+}
+
+/// Of each table at most so many programs.
+fn programs_of_depth_and_clipping(most: usize) {
     // Attributes and depth at the upper left corner of the pixel, where the rest is right.
     let said = judged(
+        "attributes",
         |question, answer| match (&question.of, answer) {
             (Asked::Values(t), Answer::Values(mut fragments)) => {
                 let at = |v: i32| v.saturating_add(128);
@@ -1882,6 +1897,7 @@ fn mistakes_of_stages_are_named() {
     assert!(said.contains("values: It computes right values, at the upper left corner"), "{said}");
     // The bits of the samples in the reverse order.
     let said = judged(
+        "samples4",
         |_, answer| match answer {
             Answer::Samples(runs) => Answer::Samples(
                 runs.into_iter().map(|(run, mask)| (run, mask.reverse_bits() >> 4)).collect(),
@@ -1896,6 +1912,7 @@ fn mistakes_of_stages_are_named() {
     );
     // The last triangle that covers a pixel is seen.
     let said = judged(
+        "depth",
         |question, answer| match (&question.of, answer) {
             (Asked::Depth(list), Answer::Seen(_)) => {
                 let window = PixelRect::window(question.width, question.height);
@@ -1920,35 +1937,26 @@ fn mistakes_of_stages_are_named() {
     let biased = |question: &judge::ask::Question, answer| {
         by_key(question, answer, &|depth, number| depth - 0.002 * number as f64, false)
     };
-    let said = judged(biased, &["depth-order"]);
+    let said = judged("depth", biased, &["depth-order"]);
     assert!(said.contains("depths: It takes 2e-3 off the depth of a triangle"), "{said}");
     // Depths that wrap around.
     let wrapped = |question: &judge::ask::Question, answer| {
         by_key(question, answer, &|depth, _| (depth * 8.0).fract(), false)
     };
-    let said = judged(wrapped, &["depth-order"]);
+    let said = judged("depth", wrapped, &["depth-order"]);
     assert!(
         said.contains("depths: It keeps depths that begin again at 0 after every 1/8"),
         "{said}"
     );
     // No test of depth in every second column.
     let said = judged(
+        "depth",
         |question, answer| {
-            let (Asked::Depth(list), Answer::Seen(_)) = (&question.of, &answer) else {
-                return answer;
-            };
-            let window = PixelRect::window(question.width, question.height);
-            let mut seen = std::collections::BTreeMap::new();
-            for (number, t) in (0..).zip(list) {
-                Scanline.fragments(t, window, &mut |f: Fragment<DVec2>| {
-                    let kept = seen.entry((f.y_px, f.x_px)).or_insert((f.depth, number));
-                    if f.depth < kept.0 || f.x_px % 2 == 0 {
-                        *kept = (f.depth, number);
-                    }
-                });
-            }
-            let run = |((y_px, x0_px), (_, n))| (Span { y_px, x0_px, x1_px: x0_px + 1 }, n);
-            Answer::Seen(seen.into_iter().map(run).collect())
+            seen(question, answer, &|_, f, _| f.depth, &|kept, new, x| {
+                if new.0 < kept.0 || x % 2 == 0 {
+                    *kept = new;
+                }
+            })
         },
         &["depth-order"],
     );
@@ -1958,30 +1966,24 @@ fn mistakes_of_stages_are_named() {
     );
     // A pixel keeps the depth of its first triangle.
     let said = judged(
+        "depth",
         |question, answer| {
-            let (Asked::Depth(list), Answer::Seen(_)) = (&question.of, &answer) else {
-                return answer;
+            let depth = |t: &Triangle, f: &Fragment<DVec2>, _| {
+                let at = [f.x_px, f.y_px].map(|v| f64::from(v) + 0.5);
+                values::sum(values::weights(&t.corners(), at), t.vertices.map(|v| v.depth))
             };
-            let window = PixelRect::window(question.width, question.height);
-            let mut seen = std::collections::BTreeMap::new();
-            for (number, t) in (0..).zip(list) {
-                let mut show = |f: Fragment<DVec2>| {
-                    let at = [f.x_px, f.y_px].map(|v| f64::from(v) + 0.5);
-                    let depths = t.vertices.map(|v| v.depth);
-                    let depth = values::sum(values::weights(&t.corners(), at), depths);
-                    let kept = seen.entry((f.y_px, f.x_px)).or_insert((depth, number));
-                    kept.1 = if depth < kept.0 { number } else { kept.1 };
-                };
-                Scanline.fragments(t, window, &mut show);
-            }
-            let run = |((y_px, x0_px), (_, n))| (Span { y_px, x0_px, x1_px: x0_px + 1 }, n);
-            Answer::Seen(seen.into_iter().map(run).collect())
+            seen(question, answer, &depth, &|kept, new, _| {
+                if new.0 < kept.0 {
+                    kept.1 = new.1;
+                }
+            })
         },
         &["depth-order"],
     );
     assert!(said.contains("depths: It tests depths and does not write them"), "{said}");
     // A quadrilateral loses its last corner.
     let said = judged(
+        "clip",
         |_, answer| match answer {
             Answer::Polygon(mut corners) => {
                 corners.truncate(3);
@@ -1993,8 +1995,9 @@ fn mistakes_of_stages_are_named() {
     );
     assert!(said.contains("near plane: It keeps at most three corners"), "{said}");
     // The bits of a depth buffer are told: planes that are the same in so many bits show what was drawn first or last.
-    for (bits, is_last) in [(12, false), (16, true), (20, false)] {
+    for (bits, is_last) in [(16, true), (12, false), (20, false)].into_iter().take(most) {
         let said = judged(
+            "depth",
             move |question, answer| in_bits(question, answer, bits, is_last),
             &["depth-near-tie"],
         );
@@ -2020,16 +2023,20 @@ fn mistakes_of_stages_are_named() {
             |kept, lost, t| t * kept[4] + (1.0 - t) * lost[4],
             "divides attributes of an edge by a part that is counted from the wrong end",
         ),
-    ] {
+    ]
+    .into_iter()
+    .take(most)
+    {
         let said = judged(
+            "clip clip-attributes",
             move |question, answer| carrying(question, answer, attribute, false),
             &["near-plane"],
         );
         assert!(said.contains(&format!("attributes of clipped corners: It {wanted}")), "{said}");
         assert!(!said.contains("near plane: "), "verb N is answered rightly: {said}");
         // The same where the near plane is declared to be z = 0.
-        let zero = judged_as(
-            "near=zero",
+        let zero = judged(
+            "clip clip-attributes near=zero",
             move |question, answer| carrying(question, answer, attribute, true),
             &["near-plane"],
         );
@@ -2038,12 +2045,17 @@ fn mistakes_of_stages_are_named() {
     }
     let linear = |kept: ClipCorner, lost: ClipCorner, t: f64| kept[4] + (lost[4] - kept[4]) * t;
     assert_eq!(
-        judged(move |question, answer| carrying(question, answer, linear, false), &["near-plane"]),
+        judged(
+            "clip clip-attributes",
+            move |question, answer| carrying(question, answer, linear, false),
+            &["near-plane"]
+        ),
         ""
     );
     // A right program has no cause.
     assert_eq!(
         judged(
+            "coverage attributes samples4 depth clip clip-attributes",
             |_, answer| answer,
             &["uniform", "w-100", "depth-order", "depth-near-tie", "near-plane"]
         ),
@@ -2063,16 +2075,31 @@ fn by_key(
     key: &dyn Fn(f64, u64) -> f64,
     is_last: bool,
 ) -> Answer {
+    seen(question, answer, &|_, f, number| key(f.depth, number.into()), &|kept, new, _| {
+        if new.0 < kept.0 || (is_last && new.0 == kept.0) {
+            *kept = new;
+        }
+    })
+}
+
+/// A depth and the number of a triangle.
+type Held = (f64, u8);
+
+/// What is seen of triangles whose depths are those of `depth`. `keep` says what becomes of the depth and the number that a pixel
+/// holds, for each triangle after its first one; it is told those of the new triangle and the column.
+fn seen(
+    question: &judge::ask::Question,
+    answer: Answer,
+    depth: &dyn Fn(&Triangle, &Fragment<DVec2>, u8) -> f64,
+    keep: &dyn Fn(&mut Held, Held, i32),
+) -> Answer {
     let (Asked::Depth(list), Answer::Seen(_)) = (&question.of, &answer) else { return answer };
     let window = PixelRect::window(question.width, question.height);
     let mut seen = std::collections::BTreeMap::new();
     for (number, t) in (0..).zip(list) {
         let mut show = |f: Fragment<DVec2>| {
-            let depth = key(f.depth, u64::from(number));
-            let kept = seen.entry((f.y_px, f.x_px)).or_insert((depth, number));
-            if depth < kept.0 || (is_last && depth == kept.0) {
-                *kept = (depth, number);
-            }
+            let new = (depth(t, &f, number), number);
+            keep(seen.entry((f.y_px, f.x_px)).or_insert(new), new, f.x_px);
         };
         Scanline.fragments(t, window, &mut show);
     }
@@ -2146,6 +2173,17 @@ const UNTOLD: [(&str, &str); 5] = [
 /// What is named of an answer is named for parameters that no entry has as an example, and for parts of it.
 #[test]
 fn mistakes_of_values_samples_and_clipping_are_named() {
+    programs_of_values_and_samples(1);
+}
+
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn more_mistakes_of_values_and_samples_are_named() {
+    programs_of_values_and_samples(usize::MAX);
+}
+
+/// Of each table at most so many programs.
+fn programs_of_values_and_samples(most: usize) {
     type Change = fn(&Triangle, &mut Fragment<DVec2>);
     let halves: Change = |_, f| {
         // 10 bits after the first one, rounded.
@@ -2267,9 +2305,12 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         ),
         (inverse, "It gives 1/w as depth"),
         (six, "It keeps values in 6 bits between 0 and 1, rounded (attributes alone"),
-    ] {
-        let said = judged_as(
-            "tolerance=1e-4",
+    ]
+    .into_iter()
+    .take(most)
+    {
+        let said = judged(
+            "attributes tolerance=1e-4",
             move |question, answer| match (&question.of, answer) {
                 (Asked::Values(t), Answer::Values(mut fragments)) => {
                     fragments.iter_mut().for_each(|f| change(t, f));
@@ -2302,8 +2343,9 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         (SAMPLES, whole, "It draws all four samples of a pixel where any is covered"),
         (SAMPLES, lost, "It never draws the sample with the number 2"),
     ];
-    for (places, gate, wanted) in cases {
+    for (places, gate, wanted) in cases.into_iter().take(most) {
         let said = judged(
+            "samples4",
             move |question, answer| {
                 let Asked::Samples(corners) = question.of else { return answer };
                 let window = PixelRect::window(question.width, question.height);
@@ -2336,8 +2378,9 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
             "It draws no sample where row and column add up to an even number",
         ),
     ];
-    for (places, wanted) in cases {
+    for (places, wanted) in cases.into_iter().take(most) {
         let said = judged(
+            "samples4",
             move |question, answer| {
                 let Asked::Samples(corners) = question.of else { return answer };
                 let window = PixelRect::window(question.width, question.height);
@@ -2361,6 +2404,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     }
     // A planted fault that draws nothing of these triangles does not explain their values.
     let said = judged(
+        "attributes",
         |question, answer| match (&question.of, answer) {
             (Asked::Values(t), Answer::Values(mut fragments)) => {
                 let is_wrong = area(t.corners()) < 0;
@@ -2375,8 +2419,8 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
         "no known mistake explains them. All wrong pixels are of counterclockwise triangles.";
     assert!(said.contains(wanted), "{said}");
     // Values of which no mistake is known: what all wrong pixels have in common is said.
-    let said = judged_as(
-        "tolerance=1e-4",
+    let said = judged(
+        "attributes tolerance=1e-4",
         |question, answer| match (&question.of, answer) {
             (Asked::Values(t), Answer::Values(mut fragments)) => {
                 for f in fragments.iter_mut().filter(|f| f.y_px % 2 == 1 && area(t.corners()) > 0) {
@@ -2399,6 +2443,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     assert!(!said.contains("even numbers") && !said.contains("The second attribute"), "{said}");
     // A plane that is in no table is read off the new corners.
     let said = judged(
+        "clip",
         |question, answer| match (judge::near_plane::asked(&question.of), answer) {
             (Some(t), Answer::Polygon(_)) => {
                 let (corners, mut left) = (clip_corners(&t), Vec::new());
@@ -2423,6 +2468,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     assert!(said.contains("near plane: It clips at w = 0.3."), "{said}");
     // New corners with w = 1, and triangles of which two corners lie behind.
     let said = judged(
+        "clip",
         |question, answer| match (judge::near_plane::asked(&question.of), answer) {
             (Some(t), Answer::Polygon(mut corners)) => {
                 let asked = clip_corners(&t);
@@ -2436,6 +2482,7 @@ fn mistakes_of_values_samples_and_clipping_are_named() {
     );
     assert!(said.contains("near plane: It gives a new corner 1 for w"), "{said}");
     let said = judged(
+        "clip",
         |question, answer| match (judge::near_plane::asked(&question.of), answer) {
             (Some(t), Answer::Polygon(corners)) => {
                 let behind = clip_corners(&t).iter().filter(|c| c[2] + c[3] < 0.0).count();
@@ -2524,7 +2571,9 @@ fn mistakes_planted_elsewhere_are_named() {
         let scope = Scope { triangles: true, lines: false, always: false };
         let change =
             move |question: &judge::ask::Question, answer| planted_answer(mutant, question, answer);
-        let verdict = verdict(words, change, families, &|program| recognise(program, scope));
+        let verdict = verdict(declared(everything(), words), change, families, &|program| {
+            recognise(program, scope)
+        });
         table += &format!("{}: {}\n", mutant.name(), told(&verdict));
     }
     for name in ExactMutant::ALL.map(ExactMutant::name) {
@@ -2561,7 +2610,7 @@ fn told(verdict: &judge::verdict::Verdict) -> String {
 #[test]
 fn mistakes_beyond_small_windows_are_found() {
     let verdict = verdict(
-        "",
+        everything(),
         |_, answer| match answer {
             Answer::Coverage(spans) => {
                 let wrapped = spans.into_iter().flat_map(|s| {

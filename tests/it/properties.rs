@@ -108,14 +108,17 @@ fn inputs(check: &Predicate) -> Option<BoxedStrategy<Input>> {
     })
 }
 
+/// Failures become named cases, not files beside the tests.
+fn config() -> Config {
+    Config { failure_persistence: None, ..Config::default() }
+}
+
+fn with_seed() -> TestRunner {
+    TestRunner::new_with_rng(config(), TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]))
+}
+
 fn runner() -> TestRunner {
-    // Failures become named cases, not files beside the tests.
-    let config = Config { failure_persistence: None, ..Config::default() };
-    if std::env::var_os("CI").is_some() {
-        TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]))
-    } else {
-        TestRunner::new(config)
-    }
+    if std::env::var_os("CI").is_some() { with_seed() } else { TestRunner::new(config()) }
 }
 
 fn check(invariant: &Invariant) {
@@ -168,14 +171,15 @@ properties! {
     quotas replay metrics_report_only disabled_effect lists over layers footprint plane_in_light
 }
 
-/// The same strategies find a planted fault, and the failure shrinks to small numbers.
+/// The same strategies find a planted fault, and the failure shrinks to small numbers. Which ones depends on the seed: with few of
+/// them only one corner gets there.
 #[test]
 fn a_planted_fault_shrinks() {
     let mutant = rasterproof_faults::planted::Mutant::find("exclusive-edges").expect("a mutant");
     let subject = Implementations::with(mutant);
     let invariant = rasterproof_invariants::find("engines-agree").expect("an invariant");
     let strategy = inputs(&invariant.check).expect("triangles");
-    let result = runner().run(&strategy, |input| {
+    let result = with_seed().run(&strategy, |input| {
         invariant.judge(&subject, &input).map(|_| ()).map_err(TestCaseError::fail)
     });
     let Err(TestError::Fail(_, Input::Triangle(input))) = result else {

@@ -16,14 +16,14 @@ use super::pixels::masks_of;
 use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::frame::Frame;
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment};
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::pixels::few;
-use rasterproof_verify::convention::{Convention, Shape, Ties};
+use rasterproof_verify::convention::{Convention, Quantum, Rounding, Shape, Ties};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{
     Explanation, Hypothesis, Mistakes, RULES, chosen_by, of_answers,
@@ -129,8 +129,8 @@ pub fn mistakes(
 /// What holds of every wrong pixel and of every wrong polygon so far.
 #[derive(Default)]
 struct Common {
-    /// Sentences, and whether they still hold.
-    facts: Vec<(String, bool)>,
+    /// Both parts of each sentence, and whether it still holds.
+    facts: Vec<([&'static str; 2], bool)>,
 }
 
 impl Common {
@@ -146,8 +146,7 @@ impl Common {
                     }
                     (Asked::Samples(_), _) => common.add_masks(question, answer),
                     (Asked::Depth(list), _) => {
-                        let layers = layers(list, window_of(question), CENTRE);
-                        common.add_seen(&layers, answer);
+                        common.add_seen(&layers(list, window_of(question), CENTRE), answer);
                     }
                     (of, _) => {
                         let Some(triangle) = asked(of) else { continue };
@@ -155,16 +154,15 @@ impl Common {
                             let near: Plane = |[_, _, z, w, _]| z + w;
                             behind(&clip_corners(&triangle), near) == count
                         };
-                        for count in 1..3 {
-                            let said = format!(
-                                "Every wrong triangle has {count} of its corners behind z = -w."
-                            );
-                            common.note(&said, of_kind(count));
-                        }
                         let is_negative =
                             clip_corners(&triangle).iter().any(|corner| corner[3] < 0.0);
-                        common
-                            .note("Every wrong triangle has a corner of negative w.", is_negative);
+                        for (holds, what) in [
+                            (of_kind(1), "1 of its corners behind z = -w"),
+                            (of_kind(2), "2 of its corners behind z = -w"),
+                            (is_negative, "a corner of negative w"),
+                        ] {
+                            common.note(["Every wrong triangle has ", what], holds);
+                        }
                     }
                 }
             }
@@ -172,25 +170,24 @@ impl Common {
         common
     }
 
-    fn note(&mut self, said: &str, holds: bool) {
-        match self.facts.iter_mut().find(|(fact, _)| fact == said) {
+    fn note(&mut self, said: [&'static str; 2], holds: bool) {
+        match self.facts.iter_mut().find(|(fact, _)| *fact == said) {
             Some((_, all)) => *all &= holds,
-            None => self.facts.push((said.to_owned(), holds)),
+            None => self.facts.push((said, holds)),
         }
     }
 
     fn add_pixel(&mut self, pixel: [i32; 2], corners: &Corners, window: PixelRect) {
-        for (holds, place) in WHERE {
-            self.note(&format!("All wrong pixels are {place}."), holds(pixel, corners));
-        }
         let [x, y] = pixel;
-        for (holds, border) in [
-            (y == window.y0, "first row"),
-            (y == window.y1 - 1, "last row"),
-            (x == window.x0, "first column"),
-            (x == window.x1 - 1, "last column"),
-        ] {
-            self.note(&format!("All wrong pixels are in the {border} of the window."), holds);
+        let borders = [
+            (y == window.y0, "in the first row of the window"),
+            (y == window.y1 - 1, "in the last row of the window"),
+            (x == window.x0, "in the first column of the window"),
+            (x == window.x1 - 1, "in the last column of the window"),
+        ];
+        let all = WHERE.map(|(holds, place)| (holds(pixel, corners), place));
+        for (holds, place) in all.into_iter().chain(borders) {
+            self.note(["All wrong pixels are ", place], holds);
         }
     }
 
@@ -208,10 +205,14 @@ impl Common {
             return;
         }
         self.add_pixel([f.x_px, f.y_px], &t.corners(), window);
-        self.note("Depth is right in all of them.", is_right(&[0]));
-        self.note("Both attributes are right in all of them.", is_right(&[1, 2]));
-        self.note("The first attribute is right in all of them.", is_right(&[1]));
-        self.note("The second attribute is right in all of them.", is_right(&[2]));
+        for (parts, what) in [
+            (&[0][..], "Depth is"),
+            (&[1, 2], "Both attributes are"),
+            (&[1], "The first attribute is"),
+            (&[2], "The second attribute is"),
+        ] {
+            self.note([what, " right in all of them"], is_right(parts));
+        }
     }
 
     fn add_masks(&mut self, question: &Question, answer: &Answer) {
@@ -223,13 +224,22 @@ impl Common {
                     continue;
                 }
                 self.add_pixel([x, y], corners, window);
-                self.note("Samples are missing, and none is extra.", drawn & !right == 0);
-                self.note("Samples are extra, and none is missing.", right & !drawn == 0);
-                self.note("Pixels of which no sample is covered are right.", *right != 0);
-                self.note("Pixels of which all samples are covered are right.", *right != 15);
-                for bit in 0..4 {
-                    let said = format!("The sample with the number {bit} alone is wrong.");
-                    self.note(&said, right ^ drawn == 1 << bit);
+                for (holds, said) in [
+                    (drawn & !right == 0, ["Samples are missing,", " and none is extra"]),
+                    (right & !drawn == 0, ["Samples are extra,", " and none is missing"]),
+                    (*right != 0, ["Pixels of which no sample is covered", " are right"]),
+                    (*right != 15, ["Pixels of which all samples are covered", " are right"]),
+                ] {
+                    self.note(said, holds);
+                }
+                let alone = [
+                    "0 alone is wrong",
+                    "1 alone is wrong",
+                    "2 alone is wrong",
+                    "3 alone is wrong",
+                ];
+                for (bit, what) in alone.into_iter().enumerate() {
+                    self.note(["The sample with the number ", what], right ^ drawn == 1 << bit);
                 }
             }
         }
@@ -246,23 +256,22 @@ impl Common {
                 continue;
             }
             self.add_pixel(nearest.pixel, &nearest.triangle.corners(), layers.window);
-            self.note("Wrong pixels show nothing.", shown == 0);
             let is = |order: fn(&usize, &usize) -> bool| {
                 seen.is_some_and(|seen| order(&seen.number, &nearest.number))
             };
-            self.note(
-                "Wrong pixels show a triangle that was drawn after the nearest one.",
-                is(usize::gt),
-            );
-            self.note(
-                "Wrong pixels show a triangle that was drawn before the nearest one.",
-                is(usize::lt),
-            );
+            for (holds, what) in [
+                (shown == 0, "nothing"),
+                (is(usize::gt), "a triangle that was drawn after the nearest one"),
+                (is(usize::lt), "a triangle that was drawn before the nearest one"),
+            ] {
+                self.note(["Wrong pixels show ", what], holds);
+            }
         }
     }
 
     fn sentences(self) -> Vec<String> {
-        self.facts.into_iter().filter(|(_, holds)| *holds).map(|(said, _)| said).collect()
+        let held = self.facts.into_iter().filter(|(_, holds)| *holds);
+        held.map(|(said, _)| said.concat() + ".").collect()
     }
 }
 
@@ -393,20 +402,26 @@ const WHERE: [(Holds, &str); 8] = [
 /// Places of the four samples in 1/16 px, in the order of their bits.
 type Pattern = [(i32, i32); 4];
 
+/// The right places moved within the pixel, and how that is said.
+fn moved_patterns() -> [(Pattern, &'static str); 4] {
+    let moved = |by: fn((i32, i32)) -> (i32, i32)| SAMPLES.map(by);
+    [
+        (moved(|_| (8, 8)), "tests all four samples at the centre"),
+        (moved(|(x, y)| (16 - x, y)), "tests samples that are mirrored left to right"),
+        (moved(|(x, y)| (x, 16 - y)), "tests samples that are mirrored upside down"),
+        (moved(|(x, y)| (y, x)), "tests samples with x and y exchanged"),
+    ]
+}
+
 /// Patterns that are not the right one, and how they are said.
 fn patterns() -> Vec<(Pattern, String)> {
-    let mirrored = |by: fn((i32, i32)) -> (i32, i32)| SAMPLES.map(by);
-    let plain: [(Pattern, &str); 7] = [
-        ([(8, 8); 4], "tests all four samples at the centre"),
+    let plain: [(Pattern, &str); 3] = [
         (
             [(4, 4), (12, 4), (4, 12), (12, 12)],
             "tests the samples two by two, at quarters of the pixel",
         ),
-        (mirrored(|(x, y)| (16 - x, y)), "tests samples that are mirrored left to right"),
-        (mirrored(|(x, y)| (x, 16 - y)), "tests samples that are mirrored upside down"),
-        (mirrored(|(x, y)| (y, x)), "tests samples with x and y exchanged"),
         (
-            mirrored(|(x, y)| (x - 8, y - 8)),
+            SAMPLES.map(|(x, y)| (x - 8, y - 8)),
             "tests the samples around the upper left corner of the pixel",
         ),
         (SAMPLES, "tests the right places"),
@@ -420,7 +435,7 @@ fn patterns() -> Vec<(Pattern, String)> {
         }
     }
     let mut all = Vec::new();
-    for (pattern, said) in plain {
+    for (pattern, said) in moved_patterns().into_iter().chain(plain) {
         for &order in &orders {
             let ordered = order.map(|i: usize| pattern[i]);
             let [a, b, c, d] = order;
@@ -595,16 +610,13 @@ fn of_samples<'a>(all: &'a [Answered], is_wrong: &[bool]) -> Vec<Hypothesis<'a>>
 
 /// That the samples are wrong in some pixels alone.
 fn samples_somewhere(all: &[Answered]) -> impl Iterator<Item = Hypothesis<'_>> {
-    let mirrored = |by: fn((i32, i32)) -> (i32, i32)| SAMPLES.map(by);
-    let wrong = [
-        (None, "draws no sample"),
-        (Some([(8, 8); 4]), "tests all four samples at the centre"),
-        (Some(mirrored(|(x, y)| (16 - x, y))), "tests samples that are mirrored left to right"),
-        (Some(mirrored(|(x, y)| (x, 16 - y))), "tests samples that are mirrored upside down"),
-        (Some(mirrored(|(x, y)| (16 - x, 16 - y))), "tests samples that are turned by half a turn"),
-        (Some(mirrored(|(x, y)| (y, x))), "tests samples with x and y exchanged"),
-    ];
-    let each = wrong.into_iter().flat_map(|wrong| WHERE.map(|place| (wrong, place)));
+    // In all pixels, half a turn only numbers the right places in another order.
+    let turned = SAMPLES.map(|(x, y)| (16 - x, 16 - y));
+    let turned = (turned, "tests samples that are turned by half a turn");
+    let moved = moved_patterns().into_iter().chain([turned]);
+    let moved = moved.map(|(pattern, does)| (Some(pattern), does));
+    let wrong = [(None, "draws no sample")].into_iter().chain(moved);
+    let each = wrong.flat_map(|wrong| WHERE.map(|place| (wrong, place)));
     let kinds = each.flat_map(|(wrong, place)| [false, true].map(|partly| (wrong, place, partly)));
     kinds.map(|((pattern, does), (holds, place), partly)| {
         let of_partly = if partly { ", of pixels that are covered in part" } else { "" };
@@ -639,12 +651,10 @@ fn samples_on_grid(all: &[Answered]) -> impl Iterator<Item = Hypothesis<'_>> {
             "games101",
             "a sample between two edges of a corner off that grid",
         );
+        let rounding = if is_cut { Rounding::Down } else { Rounding::Near };
+        let quantum = Quantum { step, rounding };
         by_masks(all, says, move |corners, window, drawn| {
-            let to_grid = |v: i32| {
-                let half = if is_cut { 0 } else { step / 2 };
-                v.saturating_add(half).div_euclid(step) * step
-            };
-            let moved = corners.map(|c| SubpixelPoint::new(to_grid(c.x), to_grid(c.y)));
+            let moved = quantum.snap(corners);
             masks_at(&Oracle, moved, window, &SAMPLES).is_none_or(|masks| masks == *drawn)
         })
     })
@@ -805,7 +815,6 @@ struct DepthMistake {
     key: fn(&Layer<'_>) -> f64,
     /// Whether of equal ones the last is seen, or the first; nothing where it may be either.
     last: Option<bool>,
-    /// Where depth is computed.
     place: Place,
 }
 

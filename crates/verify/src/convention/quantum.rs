@@ -48,6 +48,12 @@ impl Quantum {
         (below + i64::from(up)) * step
     }
 
+    /// The corners on the grid, where that is one of 32 bits.
+    pub fn snap(self, corners: &Corners) -> Corners {
+        let on_grid = |sub: i32| self.apply(sub) as i32;
+        corners.map_array(|SubpixelPoint { x, y }| SubpixelPoint::new(on_grid(x), on_grid(y)))
+    }
+
     /// All three corners, as [x, y].
     pub(super) fn corners(self, corners: &Corners) -> [[i64; 2]; 3] {
         corners.map_array(|SubpixelPoint { x, y }| [self.apply(x), self.apply(y)])

@@ -30,7 +30,7 @@ use crate::convention::{
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use triangles::{BY_WINDING, Fill};
 use weigh::{LEAST_WRONG, fresh, weigh};
@@ -683,9 +683,7 @@ fn fill(
         }
         Fill::Ruled(draw) | Fill::Sampled(draw) => {
             // Corners reach their grid first.
-            let on_grid = |v: i32| base.quantum.apply(v) as i32;
-            let corners = corners.map_array(|c| SubpixelPoint::new(on_grid(c.x), on_grid(c.y)));
-            draw(&corners, window, base, p)
+            draw(&base.quantum.snap(corners), window, base, p)
         }
         Fill::Own(draw) if is_faced(base, corners) => draw(corners, window, p),
         Fill::Own(_) => Mask::default(),

@@ -223,7 +223,7 @@ const RIGHT: [&str; 9] = [
 ];
 const SORTED: [&str; 4] = ["", "cut down", "rounded", "rounded up"];
 
-/// In pixels, and in words.
+/// What may be added to all coordinates, in pixels, and how that is said.
 const MOVED: [(f64, &str); 3] = [
     (0.0, ""),
     (0.5, ", after half a pixel was added to all coordinates"),
@@ -513,7 +513,7 @@ fn single(v: f64) -> f64 {
     f64::from(v as f32)
 }
 
-/// A number rounded down; `f64::floor` is a call on some machines, and slow.
+/// A number rounded down, by casts: `f64::floor` is a call on some machines, and slow.
 fn down(v: f64) -> i64 {
     let cut = v as i64;
     cut.saturating_sub(i64::from(cut as f64 > v))

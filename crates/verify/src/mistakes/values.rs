@@ -576,15 +576,19 @@ enum Along {
     Pixels,
     /// All pixels have the values of the first one.
     First,
-    /// Attributes are linear between every so many pixels; these are counted from the first pixel of the row, or from the
-    /// side of the window.
+    /// Attributes are linear between every so many pixels, which are counted from the first pixel of the row, or else from the
+    /// left side of the window.
     Steps(i32, bool),
     /// Attributes are linear between the left and the right edge.
     Edges,
 }
 
-/// The ends of the part of a row of which no weight is negative, and the weights that are 0 there; of the weights at two places
-/// of it, 0 and 1.
+/// How near an edge comes to a sample that is not on it, in pixels: at the height of a sample its place is a multiple of
+/// 1/256 px divided by its height in subpixels, which is less than 2^20.
+const NEAREST_MISS: f64 = 1.0 / (256 << 20) as f64;
+
+/// Where the part of a row begins and ends of which no weight is negative, with the number of the weight that is 0 there. The
+/// weights are given at the places 0 and 1 of the row.
 fn ends_of_row(at_0: [f64; 3], at_1: [f64; 3]) -> [(f64, usize); 2] {
     let (mut left, mut right) = ((f64::MIN, 0), (f64::MAX, 0));
     for i in 0..3 {
@@ -726,7 +730,7 @@ impl ValueHypothesis {
                 // From where the first sample should have been to where it is.
                 let back = |start: f64| {
                     // A sample on the edge is the first one, whatever rounding makes of the edge.
-                    let first = (start - 0.5 - 1e-9).ceil();
+                    let first = (start - 0.5 - NEAREST_MISS / 2.0).ceil();
                     (if is_clipped { first.max(0.0) } else { first }) + 0.5 - start
                 };
                 let top = corners.map(|corner| px(corner)[1]).into_iter().fold(f64::MAX, f64::min);
