@@ -511,8 +511,9 @@ pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p:
         })
     };
     let of = |x: i64, y: i64| covers([x * 256 + sample[0], y * 256 + sample[1]]);
-    for y in (0..i64::from(window.y1)).step_by(high as usize) {
-        for x in (0..i64::from(window.x1)).step_by(wide as usize) {
+    let begin = |first: i32, side: i64| i64::from(first).div_euclid(side) * side;
+    for y in (begin(window.y0, high)..i64::from(window.y1)).step_by(high as usize) {
+        for x in (begin(window.x0, wide)..i64::from(window.x1)).step_by(wide as usize) {
             let is_drawn = match p / 25 {
                 0 => of(x, y),
                 1 => covers([x * 256 + wide * 128, y * 256 + high * 128]),

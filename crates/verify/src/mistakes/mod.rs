@@ -24,15 +24,15 @@ use std::fmt;
 use crate::comparison::area2;
 use crate::convention::{
     Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
-    LineQuestion, LineRounding, LineTie, Mask, Quantum, Rounding, Shape, Ties, TriangleQuestion,
-    Windings,
+    LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape, Ties,
+    TriangleQuestion, Windings,
 };
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
-use triangles::{BY_WINDING, Fill};
+use triangles::{BY_WINDING, Fill, Reach};
 use weigh::{LEAST_WRONG, fresh, weigh};
 
 pub use thresholds::Threshold;
@@ -261,6 +261,24 @@ impl<Q> Answered<Q> {
 }
 
 impl Answered<TriangleQuestion> {
+    /// Two wrong pixels, and whether they are drawn: who predicts them otherwise predicts another picture. A missing one lies in
+    /// every box around the corners.
+    fn telling(&self) -> [Option<([i32; 2], bool)>; 2] {
+        let TriangleQuestion { corners, window } = &self.question;
+        let boxes = fills::boxes(corners);
+        let find = |is_in: bool| {
+            let wrong = |&[x, y]: &[i32; 2]| {
+                self.drawn.has(x, y) == is_in
+                    && self.right.has(x, y) != is_in
+                    && (is_in || boxes.iter().all(|bounds| fills::in_box(*bounds, x, y)))
+            };
+            let row = |y| (window.x0..window.x1).map(move |x| [x, y]);
+            let mut pixels = (window.y0..window.y1).flat_map(row);
+            pixels.find(wrong).map(|at| (at, is_in))
+        };
+        [find(true), find(false)]
+    }
+
     /// Whether a mistake predicts it: what is hit twice where only that is wrong, and otherwise hit twice or not. Many programs
     /// test the samples of a box around the corners, and no others.
     fn may_be(&self, drawn: Mask, twice: Mask, draws: Fill) -> bool {
@@ -366,6 +384,7 @@ fn explain(
     if !is_wrong.contains(&true) {
         return None;
     }
+    let telling: Vec<_> = answered.iter().map(Answered::telling).collect();
     // What each base draws, once it is needed.
     let whole: Vec<OnceCell<Option<Mask>>> =
         (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
@@ -398,8 +417,14 @@ fn explain(
                 base.serves(mistake.draws) && (!is_many || base.is_first || base.is_found())
             });
             for (number, base) in served.filter(|(_, base)| is_told(base)) {
+                let telling = &telling;
                 let predicts = move |i: usize| {
                     let TriangleQuestion { corners, window } = &answered[i].question;
+                    let draws =
+                        |at| pixel(mistake.draws, p, &base.convention, corners, *window, at);
+                    if telling[i].iter().flatten().any(|(at, is_in)| draws(*at) == Some(!is_in)) {
+                        return false;
+                    }
                     let whole = || drawn_by(number, i);
                     let mask = fill(mistake.draws, p, &base.convention, corners, *window, &whole);
                     mask.is_none_or(|[drawn, twice]| {
@@ -681,7 +706,7 @@ fn fill(
             twice = of(&mask, corners, window, p);
             mask
         }
-        Fill::Ruled(draw) | Fill::Sampled(draw) => {
+        Fill::Ruled(_, draw) | Fill::Sampled(_, draw) => {
             // Corners reach their grid first.
             draw(&base.quantum.snap(corners), window, base, p)
         }
@@ -689,6 +714,36 @@ fn fill(
         Fill::Own(_) => Mask::default(),
     };
     Some([drawn, twice])
+}
+
+/// Whether a mistake draws a pixel, where that is known without the rest of the picture.
+fn pixel(
+    draws: Fill,
+    p: i64,
+    base: &Convention,
+    corners: &Corners,
+    window: PixelRect,
+    [x, y]: [i32; 2],
+) -> Option<bool> {
+    // A mirror reflects the whole window.
+    if base.mirror != Mirror::None {
+        return None;
+    }
+    let alone = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
+    match draws {
+        Fill::Instead(others) => {
+            let mut is_drawn = false;
+            for other in others(corners, window, p) {
+                is_drawn |= base.mask(&other, alone)?.has(x, y);
+            }
+            Some(is_drawn)
+        }
+        Fill::Ruled(Reach::Pixel, _) | Fill::Sampled(Reach::Pixel, _) => {
+            let [drawn, _] = fill(draws, p, base, corners, alone, &|| None)?;
+            Some(drawn.has(x, y))
+        }
+        _ => None,
+    }
 }
 
 /// Whether a convention draws triangles that turn like this one; those without area are drawn where both windings are.
@@ -730,7 +785,7 @@ impl Base {
     fn serves(&self, draws: Fill) -> bool {
         match draws {
             Fill::Own(_) => self.said.is_none(),
-            Fill::Sampled(_) => self.is_first,
+            Fill::Sampled(..) => self.is_first,
             _ => true,
         }
     }
@@ -742,7 +797,7 @@ impl Base {
 
     fn words(&self, draws: Fill) -> String {
         match (&self.said, draws) {
-            (Some([place, _]), Fill::Sampled(_)) => format!(" (apart from that it {place})"),
+            (Some([place, _]), Fill::Sampled(..)) => format!(" (apart from that it {place})"),
             (Some([place, rule]), _) => format!(" (apart from that it {place}{rule})"),
             (None, _) => String::new(),
         }

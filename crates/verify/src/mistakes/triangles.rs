@@ -20,11 +20,20 @@ pub(super) enum Fill {
     /// The picture is right; these pixels of it are drawn twice.
     Twice(fn(&Mask, &Corners, PixelRect, i64) -> Mask),
     /// The whole picture, from the place of the sample; the rule for ties is its own.
-    Sampled(fn(&Corners, PixelRect, &Convention, i64) -> Mask),
+    Sampled(Reach, fn(&Corners, PixelRect, &Convention, i64) -> Mask),
     /// The whole picture, from the place of the sample and the rule for ties.
-    Ruled(fn(&Corners, PixelRect, &Convention, i64) -> Mask),
+    Ruled(Reach, fn(&Corners, PixelRect, &Convention, i64) -> Mask),
     /// The whole picture, by a rule of its own.
     Own(fn(&Corners, PixelRect, i64) -> Mask),
+}
+
+/// What a pixel of a picture depends on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// On the triangle alone: a part of the window shows the same part of the picture.
+    Pixel,
+    /// On the window, or on other pixels.
+    Window,
 }
 
 /// The mistake that cannot be told of a program that draws one winding.
@@ -45,7 +54,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "a triangle and its reverse that draw the same samples on their edges",
         parameters: Parameters::Fixed(&PAIRS),
-        draws: Fill::Sampled(|corners, window, base, p| {
+        draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
             let (clockwise, other) = pair(p);
             let rule = if area2(corners) > 0 { clockwise } else { other };
             base.with_rule(RULES[rule]).mask(corners, window).unwrap_or_default()
@@ -89,7 +98,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "a triangle whose corners are rotated and that draws the same samples",
         parameters: Parameters::Below(3 * OF_BOTH),
-        draws: Fill::Sampled(|corners, window, base, p| {
+        draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
             let (base, clockwise) = (base.with_rule(RULES[0]), area2(corners) > 0);
             // The same for all edges is no rule by order.
             if matches!(p % 27, 0 | 13 | 26) && p < OF_BOTH {
@@ -133,7 +142,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 104, 106, 108, 110, 112, 116, 204, 206, 208, 210,
             212, 216, 304, 306, 308, 310, 312, 316,
         ]),
-        draws: Fill::Ruled(|corners, window, base, p| {
+        draws: Fill::Ruled(Reach::Pixel, |corners, window, base, p| {
             let (how, bits) = (p / 100, p % 100);
             fills::by_edges(corners, window, base, &|_, value, owns| {
                 let cut = if how % 2 == 0 { value >> bits } else { value / (1 << bits) };
@@ -167,7 +176,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             0, 1, 2, 3, 4, 5, 6, 10, 11, 12, 13, 14, 15, 16, 20, 21, 22, 23, 24, 25, 26, 30, 31,
             32, 33, 34, 35, 36,
         ]),
-        draws: Fill::Sampled(|corners, window, base, p| {
+        draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
             let whole = if p / 10 % 2 == 0 { area2(corners).abs() as f64 } else { 65536.0 };
             let size = EPSILONS[(p % 10) as usize];
             fills::by_edges(corners, window, base, &|_, value, _| match p / 20 {
@@ -189,7 +198,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "a large triangle that is drawn wholly",
         parameters: Parameters::Below(4 * AREAS.len() as i64),
-        draws: Fill::Sampled(|corners, window, base, p| {
+        draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
             fills::areas(corners, window, base, AREAS[(p / 4) as usize], p)
         }),
     },
@@ -210,7 +219,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "a sample beyond that edge alone that is not drawn",
         parameters: Parameters::Below(3 * ORDERS.len() as i64),
-        draws: Fill::Ruled(|corners, window, base, p| {
+        draws: Fill::Ruled(Reach::Pixel, |corners, window, base, p| {
             let clockwise = area2(corners) > 0;
             fills::by_edges(corners, window, base, &|edge, value, owns| {
                 let edge = place_of_edge(edge, p / 3, clockwise);
@@ -238,7 +247,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             832, 432, 32, 16, 416, 632, 1832, 1432, 1032, 1016, 1416, 1632, 2832, 2432, 3832, 3432,
             824, 424, 24, 1824, 1424, 1024, 2824, 3824, 816, 1816, 848, 1848,
         ]),
-        draws: Fill::Ruled(fills::wrapping),
+        draws: Fill::Ruled(Reach::Pixel, fills::wrapping),
     },
     Mistake {
         name: "coordinates overflow",
@@ -327,7 +336,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "a sample in that strip that is drawn rightly",
         parameters: Parameters::Below(32),
-        draws: Fill::Ruled(|corners, window, base, p| {
+        draws: Fill::Ruled(Reach::Pixel, |corners, window, base, p| {
             let (norm, outward, size) = (p % 2, p / 2 % 2 == 1, OFFSETS[(p / 4) as usize]);
             let lengths = [0, 1, 2].map_array(|i| {
                 let [a, b] = [corners[i], corners[(i + 1) % 3]];
@@ -363,7 +372,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "a sample whose weight is below a step and that is drawn rightly",
         parameters: Parameters::Below(80 * (1 + RECIPROCAL_BITS.len() as i64)),
-        draws: Fill::Sampled(|corners, window, base, p| {
+        draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
             let bits = WEIGHT_BITS[(p / 10 % 8) as usize];
             let area = area2(corners);
             let whole = area.abs().max(1);
@@ -501,7 +510,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "such a triangle that is not drawn",
         parameters: Parameters::Sizes,
-        draws: Fill::Ruled(|corners, window, base, p| {
+        draws: Fill::Ruled(Reach::Pixel, |corners, window, base, p| {
             let (metric, below, limit) = size(p);
             let is_small = below && fills::metric(corners, metric) < limit;
             let draws = if is_small { Windings::Both } else { base.draws };
@@ -694,7 +703,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "speed",
         refuted: "two pixels of such a block of which one is drawn",
         parameters: Parameters::Below(125),
-        draws: Fill::Ruled(fills::blocks),
+        draws: Fill::Ruled(Reach::Pixel, fills::blocks),
     },
     Mistake {
         name: "the rest of a group",
@@ -759,7 +768,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02-edge-functions",
         refuted: "a long edge between corners with a fraction that passes where it should",
         parameters: Parameters::Below(16),
-        draws: Fill::Ruled(fills::cut_edges),
+        draws: Fill::Ruled(Reach::Pixel, fills::cut_edges),
     },
     Mistake {
         name: "parts of the window are never drawn",
@@ -799,7 +808,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02",
         refuted: "a pixel at an edge that is drawn rightly",
         parameters: Parameters::Below(2 * fills::NEIGHBOURS.len() as i64),
-        draws: Fill::Sampled(fills::grown),
+        draws: Fill::Sampled(Reach::Window, fills::grown),
     },
     Mistake {
         name: "every second row or column is moved",
@@ -816,7 +825,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02",
         refuted: "a pixel at an edge in such a row or column that is drawn rightly",
         parameters: Parameters::Below(32),
-        draws: Fill::Sampled(fills::alternating),
+        draws: Fill::Sampled(Reach::Window, fills::alternating),
     },
     Mistake {
         name: "the search for pixels ends too early",
@@ -843,7 +852,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch07",
         refuted: "a row that begins left of the window and ends where it should",
         parameters: Parameters::Fixed(&[0]),
-        draws: Fill::Sampled(|corners, window, base, _| {
+        draws: Fill::Sampled(Reach::Window, |corners, window, base, _| {
             let mut mask = base.mask(corners, window).unwrap_or_default();
             fills::slid(&mut mask, corners, window, base);
             mask
@@ -863,7 +872,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a sample on an edge that this formula rounds away and that is drawn rightly",
         // A formula, whether corners are exchanged where they turn the other way, and the precision.
         parameters: Parameters::Below(6 * fills::FORMULAS.len() as i64),
-        draws: Fill::Ruled(|corners, window, base, p| {
+        draws: Fill::Ruled(Reach::Pixel, |corners, window, base, p| {
             fills::float(corners, window, base, (p / 6) as usize, p / 3 % 2 == 0, p % 3)
         }),
     },
@@ -910,7 +919,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02",
         refuted: "a pixel that is touched and is not drawn",
         parameters: Parameters::Below(3),
-        draws: Fill::Ruled(|corners, window, base, p| {
+        draws: Fill::Ruled(Reach::Window, |corners, window, base, p| {
             let mut mask = base.mask(corners, window).unwrap_or_default();
             let points = cells::places(corners);
             for i in 0..3 {
