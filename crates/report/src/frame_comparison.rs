@@ -3,7 +3,7 @@
 use image::{Rgb, RgbImage, imageops};
 
 use super::lettering::Size;
-use super::panels;
+use super::{panels, picture};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -218,7 +218,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> 
     let shrunk = (width * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
     let cell = |name: &str, ink: [u8; 3], words: String, colour: &dyn Fn(i32, i32) -> [u8; 3]| {
         let colour = |x, y| Rgb(colour(bounds.x0 + x as i32, bounds.y0 + y as i32));
-        let whole = RgbImage::from_fn(width, height, colour);
+        let whole = picture::painted(width, height, colour);
         let [width, height] = [width, height].map(|side| side.div_ceil(shrunk));
         let name = (name.to_owned(), Size::Heading, Rgb(ink));
         let words = [name, (words, Size::Small, panels::FAINT)];

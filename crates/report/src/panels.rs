@@ -3,12 +3,12 @@
 
 use std::collections::BTreeSet;
 
-use image::{Rgb, RgbImage, imageops};
+use image::{Rgb, RgbImage};
 
 use super::lettering::{self, Size, write};
 use super::picture::{
     AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE, line,
-    outline, scaled,
+    outline, painted, place, plain, scaled,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
@@ -107,15 +107,15 @@ pub(super) fn arranged(
     top += GAP / 2;
     let foot = foot(width, entries, note);
     let height = top + rows * (high + GAP) + foot.height();
-    let mut image = RgbImage::from_pixel(width, height, WHITE);
+    let mut image = plain(width, height, WHITE);
     for (text, y, size, ink) in heading {
         write(&mut image, (GAP.into(), y.into()), &text, size, ink);
     }
     for (i, cell) in (0u32..).zip(cells) {
         let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
-        imageops::replace(&mut image, &cell, left.into(), top.into());
+        place(&mut image, &cell, left, top);
     }
-    imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
+    place(&mut image, &foot, 0, height - foot.height());
     image
 }
 
@@ -222,13 +222,13 @@ pub(super) fn titled(words: &[Words], picture: &RgbImage, [left, above]: [u32; 2
     let text = words.iter().map(|(text, size, _)| lettering::width(text, *size)).max();
     let wide = left + picture.width().max(text.unwrap_or(0));
     let top = head(words) + above;
-    let mut image = RgbImage::from_pixel(wide, top + picture.height(), WHITE);
+    let mut image = plain(wide, top + picture.height(), WHITE);
     let mut y = 0;
     for (text, size, ink) in words {
         write(&mut image, (left.into(), y.into()), text, *size, *ink);
         y += size.cell()[1];
     }
-    imageops::replace(&mut image, picture, left.into(), top.into());
+    place(&mut image, picture, left, top);
     image
 }
 
@@ -304,7 +304,7 @@ fn squares(
     let has_grid = zoom >= if has_samples { 4 } else { 6 };
     let has_samples = has_samples && zoom >= SAMPLED;
     let is_dot = |offset: u32| has_samples && offset.abs_diff(zoom / 2) <= zoom / 32;
-    RgbImage::from_fn(width, height, |x, y| {
+    painted(width, height, |x, y| {
         if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
             BORDER
         } else if has_grid && (x % zoom == 0 || y % zoom == 0) {
@@ -348,7 +348,7 @@ fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {
     let rows = if entries.is_empty() { 0 } else { top + ROW };
     let note_rows = if note.is_empty() { 0 } else { ROW };
     let end = if rows + note_rows > 0 { GAP / 2 } else { 0 };
-    let mut image = RgbImage::from_pixel(width, rows + note_rows + end, WHITE);
+    let mut image = plain(width, rows + note_rows + end, WHITE);
     for ([mut left, top], (colours, text)) in places.into_iter().zip(entries) {
         for &colour in colours {
             let (wide, high) = match colour {

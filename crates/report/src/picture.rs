@@ -40,13 +40,40 @@ pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(
     Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
 }
 
+/// A picture of one colour. In the profile of tests `image` is not optimised, so that what it does with pixels takes many times as long.
+pub fn plain(width: u32, height: u32, colour: Rgb<u8>) -> RgbImage {
+    from_bytes(width, height, colour.0.repeat(width as usize * height as usize))
+}
+
+/// A picture from the colour of each pixel.
+pub(super) fn painted(width: u32, height: u32, colour: impl Fn(u32, u32) -> Rgb<u8>) -> RgbImage {
+    let mut bytes = Vec::with_capacity(3 * width as usize * height as usize);
+    for y in 0..height {
+        (0..width).for_each(|x| bytes.extend_from_slice(&colour(x, y).0));
+    }
+    from_bytes(width, height, bytes)
+}
+
+fn from_bytes(width: u32, height: u32, bytes: Vec<u8>) -> RgbImage {
+    RgbImage::from_raw(width, height, bytes).expect("three bytes for each pixel")
+}
+
+/// Draws a picture that lies within another one over it.
+pub(super) fn place(onto: &mut RgbImage, picture: &RgbImage, left: u32, top: u32) {
+    let (stride, row) = (3 * onto.width() as usize, 3 * picture.width() as usize);
+    let first = stride * top as usize + 3 * left as usize;
+    if row > 0 {
+        for (y, from) in picture.chunks_exact(row).enumerate() {
+            onto.as_flat_samples_mut().samples[first + y * stride..][..row].copy_from_slice(from);
+        }
+    }
+}
+
 /// The pixels of a frame as a picture of the same size, of their first three channels.
 pub fn of_frame<const N: usize>(frame: &Frame<[u8; N]>) -> RgbImage {
     let bounds = frame.bounds();
-    RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
-        let pixel = &frame.row(bounds.y0 + y as i32)[x as usize];
-        Rgb([pixel[0], pixel[1], pixel[2]])
-    })
+    let pixels = (bounds.y0..bounds.y1).flat_map(|y| frame.row(y));
+    from_bytes(bounds.width(), bounds.height(), pixels.flat_map(|p| [p[0], p[1], p[2]]).collect())
 }
 
 /// Whether all pixels have the colour of the first.
@@ -92,10 +119,10 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
     let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
     let height: u32 = pictures.iter().map(|picture| picture.height() + STACK_GAP).sum();
     let height = height.saturating_sub(STACK_GAP).max(1);
-    let mut sheet = RgbImage::from_pixel(width, height, Rgb([255, 255, 255]));
+    let mut sheet = plain(width, height, Rgb([255, 255, 255]));
     let mut top = 0;
     for picture in pictures {
-        image::imageops::replace(&mut sheet, picture, 0, i64::from(top));
+        place(&mut sheet, picture, 0, top);
         top += picture.height() + STACK_GAP;
     }
     sheet

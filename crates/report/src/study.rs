@@ -541,15 +541,16 @@ pub fn report(
     let answers = answers(subject, found, commands);
     let picture = super::picture::of_frame(&found.hard.picture);
     let marked = marked(found.hard, &picture);
-    let decided = RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
-        match classes.map.get(x as i32, y as i32).unwrap_or_default() {
-            Class::Empty => Rgb([18, 18, 24]),
-            Class::Decided => Rgb([120, 130, 140]),
-            Class::ByOrder => Rgb([40, 140, 220]),
-            Class::ByRounding => Rgb([240, 150, 40]),
-            Class::Equal => Rgb([190, 80, 220]),
-        }
-    });
+    let decided =
+        super::picture::painted(picture.width(), picture.height(), |x, y| {
+            match classes.map.get(x as i32, y as i32).unwrap_or_default() {
+                Class::Empty => Rgb([18, 18, 24]),
+                Class::Decided => Rgb([120, 130, 140]),
+                Class::ByOrder => Rgb([40, 140, 220]),
+                Class::ByRounding => Rgb([240, 150, 40]),
+                Class::Equal => Rgb([190, 80, 220]),
+            }
+        });
     Report {
         title: format!("A study of {}", subject.scene.name),
         outcome: Some(outcome),

@@ -20,7 +20,7 @@ use rasterproof_render::effects::geometry::{Surface, SurfaceMaterial, Whole};
 use rasterproof_render::effects::primitive::BadScene;
 use rasterproof_render::pipeline::target::to_colour;
 use rasterproof_render::scene::Scene;
-use rasterproof_report::panels;
+use rasterproof_report::{panels, picture};
 use rasterproof_verify::cases::Triangle;
 
 use super::Step;
@@ -112,7 +112,7 @@ impl Studio<'_> {
             whole: false,
         });
         let answers = self.ask(width, height, asked.collect());
-        let mut image = RgbImage::from_pixel(width, height, BACKGROUND);
+        let mut image = picture::plain(width, height, BACKGROUND);
         for (number, answer) in answers.iter().enumerate() {
             let Some(Answer::Line(pixels)) = answer else { continue };
             for &(x, y) in pixels {
@@ -126,7 +126,7 @@ impl Studio<'_> {
     fn mosaic(&mut self, width: u32, height: u32, triangles: &[[[f64; 2]; 3]]) -> RgbImage {
         let asked = triangles.iter().map(|t| Asked::Coverage(t.map(point))).collect();
         let answers = self.ask(width, height, asked);
-        let mut image = RgbImage::from_pixel(width, height, BACKGROUND);
+        let mut image = picture::plain(width, height, BACKGROUND);
         for (number, answer) in answers.iter().enumerate() {
             let Some(Answer::Coverage(runs)) = answer else { continue };
             for (x, y) in runs.iter().flat_map(|run| pixels(run, width, height)) {
@@ -146,7 +146,7 @@ impl Studio<'_> {
         shade: fn(&Fragment<DVec2>) -> DVec3,
     ) -> RgbImage {
         let answers = self.ask(width, height, triangles.into_iter().map(Asked::Values).collect());
-        let mut image = RgbImage::from_pixel(width, height, BACKGROUND);
+        let mut image = picture::plain(width, height, BACKGROUND);
         for answer in answers {
             let Some(Answer::Values(fragments)) = answer else { continue };
             for f in fragments {
@@ -194,7 +194,7 @@ impl Studio<'_> {
             triangle([[70.0, 5.0, 0.5], [110.0, 115.0, 0.5], [50.0, 115.0, 0.5]]),
         ];
         let answers = self.ask(WIDTH, HEIGHT, vec![Asked::Depth(pile)]);
-        let mut image = RgbImage::from_pixel(WIDTH, HEIGHT, BACKGROUND);
+        let mut image = picture::plain(WIDTH, HEIGHT, BACKGROUND);
         if let [Some(Answer::Seen(runs))] = &answers[..] {
             for (run, number) in runs {
                 for (x, y) in pixels(run, WIDTH, HEIGHT) {
@@ -215,7 +215,7 @@ impl Studio<'_> {
         });
         let asked = spokes.map(|t| Asked::Samples(t.map(point))).collect();
         let answers = self.ask(width, height, asked);
-        let mut image = RgbImage::from_pixel(width, height, BACKGROUND);
+        let mut image = picture::plain(width, height, BACKGROUND);
         for answer in &answers {
             let Some(Answer::Samples(runs)) = answer else { continue };
             for (run, mask) in runs {
@@ -236,7 +236,7 @@ impl Studio<'_> {
     /// A scene after assembly: the program rasterizes its pieces, depths are compared and colours computed here.
     fn scene(&mut self, whole: &Whole<'_>, background: Rgb<u8>) -> RgbImage {
         let (width, height) = (whole.window.width(), whole.window.height());
-        let mut image = RgbImage::from_pixel(width, height, background);
+        let mut image = picture::plain(width, height, background);
         let mut nearest = vec![f64::INFINITY; width as usize * height as usize];
         for run in whole.runs(256) {
             let mut surfaces = Vec::new();

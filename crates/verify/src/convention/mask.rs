@@ -64,6 +64,15 @@ impl Mask {
         }
     }
 
+    /// Removes the pixels outside a box: its first and last column, and its first and last row.
+    pub(crate) fn clip(&mut self, [columns, rows]: [[i64; 2]; 2]) {
+        let bits = |count: i64| (1_u64 << count.clamp(0, SIDE_PX.into())) - 1;
+        let kept = (bits(columns[1] + 1) & !bits(columns[0])) as u32;
+        for (y, row) in (0..).zip(&mut self.0) {
+            *row = if rows[0] <= y && y <= rows[1] { *row & kept } else { 0 };
+        }
+    }
+
     /// Adds the pixels of `other`.
     pub(crate) fn add(&mut self, other: &Self) {
         self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);

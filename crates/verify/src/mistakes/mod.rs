@@ -286,12 +286,11 @@ impl Answered<TriangleQuestion> {
         if self.is(drawn, twice) || (self.is(drawn, once) && !matches!(draws, Fill::Twice(_))) {
             return true;
         }
-        let TriangleQuestion { corners, window } = &self.question;
         !matches!(draws, Fill::Twice(_))
             && self.drawn.beyond(&drawn) == 0
-            && fills::boxes(corners).iter().any(|bounds| {
+            && fills::boxes(&self.question.corners).into_iter().any(|bounds| {
                 let mut within = drawn;
-                within.retain(*window, &|x, y| fills::in_box(*bounds, x, y));
+                within.clip(bounds);
                 self.is(within, once)
             })
     }
