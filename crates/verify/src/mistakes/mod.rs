@@ -910,3 +910,42 @@ pub fn table() -> Vec<Explanation> {
     }
     triangles::TABLE.iter().map(example).chain(lines::TABLE.iter().map(example)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A mistake whose pixels do not depend on the window draws each of them alone as within the picture.
+    #[test]
+    fn pixels_alone_are_those_of_the_picture() {
+        let known = Known::default();
+        let questions = questions::triangles(&known, [128, 128], SEED);
+        let bases = bases(&known.declared, None);
+        let mut compared = 0;
+        for (number, mistake) in triangles::TABLE.iter().enumerate() {
+            let parameters = match mistake.parameters {
+                Parameters::Sizes => vec![triangles::packed_size(0, true, 131_072)],
+                Parameters::Clamps => triangles::clamps(&[100]),
+                others => numbers(others),
+            };
+            let some: Vec<_> = parameters.iter().step_by(parameters.len() / 24 + 1).collect();
+            for (k, &&p) in some.iter().enumerate() {
+                let Base { convention, .. } = &bases[k % bases.len()];
+                for question in questions.iter().skip(number + k).step_by(6 * some.len()) {
+                    let TriangleQuestion { corners, window } = question;
+                    let right = || convention.mask(corners, *window);
+                    let whole = fill(mistake.draws, p, convention, corners, *window, &right);
+                    let Some([drawn, _]) = whole else { continue };
+                    let row = |y| (window.x0..window.x1).map(move |x| [x, y]);
+                    for at in (window.y0..window.y1).flat_map(row) {
+                        let alone = pixel(mistake.draws, p, convention, corners, *window, at);
+                        let is_same = alone.is_none_or(|alone| alone == drawn.has(at[0], at[1]));
+                        assert!(is_same, "{} {p}: {at:?} of {question:?}", mistake.name);
+                        compared += u32::from(alone.is_some());
+                    }
+                }
+            }
+        }
+        assert!(compared > 500_000, "{compared}");
+    }
+}

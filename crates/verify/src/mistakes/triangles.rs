@@ -808,7 +808,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02",
         refuted: "a pixel at an edge that is drawn rightly",
         parameters: Parameters::Below(2 * fills::NEIGHBOURS.len() as i64),
-        draws: Fill::Sampled(Reach::Window, fills::grown),
+        draws: Fill::Sampled(Reach::Pixel, fills::grown),
     },
     Mistake {
         name: "every second row or column is moved",
@@ -825,7 +825,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         page: "ch02",
         refuted: "a pixel at an edge in such a row or column that is drawn rightly",
         parameters: Parameters::Below(32),
-        draws: Fill::Sampled(Reach::Window, fills::alternating),
+        draws: Fill::Sampled(Reach::Pixel, fills::alternating),
     },
     Mistake {
         name: "the search for pixels ends too early",
