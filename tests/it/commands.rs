@@ -77,7 +77,7 @@ fn help_and_messages_fit_twenty_columns() {
 
 #[test]
 fn verify_reports_a_panicking_engine() {
-    let errors = check("--cases 40 --family flat --plant panics-on-flat-bottom", 1)
+    let errors = check("--cases 40 --plant panics-on-flat-bottom", 1)
         .prints("panics (planted: slope of a flat edge)")
         .errors;
     assert_eq!(errors, "");

@@ -2086,7 +2086,7 @@ fn by_key(
 type Held = (f64, u8);
 
 /// What is seen of triangles whose depths are those of `depth`. `keep` says what becomes of the depth and the number that a pixel
-/// holds, for each triangle after its first one; it is told those of the new triangle and the column.
+/// holds, for each triangle after its first one. It also gets what the new triangle has, and the column.
 fn seen(
     question: &judge::ask::Question,
     answer: Answer,

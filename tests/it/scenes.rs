@@ -156,8 +156,8 @@ fn tried(all: bool) -> Vec<(Scene, Vec<(Drawer, Antialias)>)> {
     scenes().enumerate().map(tried).collect()
 }
 
-/// Of plans in which one effect differs from the rest, a scene before it turns has one kind and a turned one the other, and with the
-/// next pair the other way.
+/// Plans in which one effect differs from the rest are of two kinds. A scene before it turns is drawn by one kind, and the turned
+/// one by the other kind; with the next pair they are exchanged.
 fn check_pictures(all: bool) {
     let count = entries().count();
     tried(all).into_par_iter().enumerate().for_each(|(number, (scene, pairs))| {

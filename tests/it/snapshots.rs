@@ -215,7 +215,7 @@ fn vertex<V>(x_px: f64, y_px: f64, w: f64, varying: V) -> ScreenVertex<V> {
 
 /// A square of the picture for each pixel.
 fn zoomed(width: u32, height: u32, zoom: u32) -> RgbImage {
-    RgbImage::from_pixel(width * zoom, height * zoom, Rgb([250, 250, 247]))
+    picture::plain(width * zoom, height * zoom, Rgb([250, 250, 247]))
 }
 
 fn square(image: &mut RgbImage, x_px: u32, y_px: u32, zoom: u32, colour: Rgb<u8>) {

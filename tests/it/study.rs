@@ -621,7 +621,7 @@ fn a_study_answers_in_three_sentences_that_other_commands_confirm() {
     let lod = std::fs::read_to_string(root().join("tests/data/models/lod-border.obj")).unwrap();
     folder.put("m.obj", lod);
     folder.put("m.gltf", panes(true));
-    let small = ["m.obj --pitch 5 --size 240x180", "m.gltf --size 160x120"];
+    let small = ["m.obj --size 240x180", "m.obj --pitch 5 --size 240x180", "m.gltf --size 160x120"];
     for words in small {
         let json = |command: &str| folder.check(&*format!("{command} {words} --json"), 0).json();
         let (study, verify, cost) = (json("study --once"), json("verify"), json("cost --once"));

@@ -40,13 +40,13 @@ pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(
     Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
 }
 
-/// A picture of one colour. In the profile of tests `image` is not optimised, so that what it does with pixels takes many times as long.
+/// A picture of one colour. Pixels are filled and copied here because `image` is not optimised in the profile of `cargo run` and `cargo test`.
 pub fn plain(width: u32, height: u32, colour: Rgb<u8>) -> RgbImage {
     from_bytes(width, height, colour.0.repeat(width as usize * height as usize))
 }
 
 /// A picture from the colour of each pixel.
-pub(super) fn painted(width: u32, height: u32, colour: impl Fn(u32, u32) -> Rgb<u8>) -> RgbImage {
+pub fn painted(width: u32, height: u32, colour: impl Fn(u32, u32) -> Rgb<u8>) -> RgbImage {
     let mut bytes = Vec::with_capacity(3 * width as usize * height as usize);
     for y in 0..height {
         (0..width).for_each(|x| bytes.extend_from_slice(&colour(x, y).0));

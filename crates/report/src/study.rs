@@ -17,6 +17,7 @@ use super::canvas;
 use super::chapter::Chapter;
 use super::cost_plots;
 use super::html::{Figure, Outcome, PictureLayer, PictureView, Report, Statement};
+use super::picture;
 use super::table::{self, Column, Row, Table};
 use super::words::{count, number, thousands};
 
@@ -539,18 +540,17 @@ pub fn report(
     }
     tables.extend(costs(subject, found.costs));
     let answers = answers(subject, found, commands);
-    let picture = super::picture::of_frame(&found.hard.picture);
+    let picture = picture::of_frame(&found.hard.picture);
     let marked = marked(found.hard, &picture);
-    let decided =
-        super::picture::painted(picture.width(), picture.height(), |x, y| {
-            match classes.map.get(x as i32, y as i32).unwrap_or_default() {
-                Class::Empty => Rgb([18, 18, 24]),
-                Class::Decided => Rgb([120, 130, 140]),
-                Class::ByOrder => Rgb([40, 140, 220]),
-                Class::ByRounding => Rgb([240, 150, 40]),
-                Class::Equal => Rgb([190, 80, 220]),
-            }
-        });
+    let decided = picture::painted(picture.width(), picture.height(), |x, y| {
+        match classes.map.get(x as i32, y as i32).unwrap_or_default() {
+            Class::Empty => Rgb([18, 18, 24]),
+            Class::Decided => Rgb([120, 130, 140]),
+            Class::ByOrder => Rgb([40, 140, 220]),
+            Class::ByRounding => Rgb([240, 150, 40]),
+            Class::Equal => Rgb([190, 80, 220]),
+        }
+    });
     Report {
         title: format!("A study of {}", subject.scene.name),
         outcome: Some(outcome),

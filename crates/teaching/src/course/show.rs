@@ -387,7 +387,7 @@ impl Shown {
     /// Dark where both agree; red where the program drew nothing, orange where it alone drew, violet where colours differ.
     pub fn difference(&self) -> RgbImage {
         let ground = |image: &RgbImage, x, y| *image.get_pixel(x, y) == BACKGROUND;
-        RgbImage::from_fn(self.right.width(), self.right.height(), |x, y| {
+        picture::painted(self.right.width(), self.right.height(), |x, y| {
             let (yours, right) = (*self.yours.get_pixel(x, y), *self.right.get_pixel(x, y));
             match (ground(&self.yours, x, y), ground(&self.right, x, y)) {
                 _ if !differs(yours, right) => Rgb(right.0.map(|channel| 20 + channel / 5)),

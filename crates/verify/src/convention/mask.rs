@@ -48,6 +48,12 @@ impl Mask {
         self.0.iter().map(|row| row.count_ones()).sum()
     }
 
+    /// The first column of the first row that has a pixel, and that row.
+    pub(crate) fn first(&self) -> Option<[i32; 2]> {
+        let mut rows = self.0.iter().zip(0..);
+        rows.find_map(|(row, y)| (*row != 0).then(|| [row.trailing_zeros() as i32, y]))
+    }
+
     /// Pixels of `self` that `other` lacks.
     pub(crate) fn beyond(&self, other: &Self) -> u32 {
         self.0.iter().zip(&other.0).map(|(a, b)| (a & !b).count_ones()).sum()

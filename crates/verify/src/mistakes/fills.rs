@@ -231,11 +231,6 @@ pub(super) fn boxes(corners: &Corners) -> [[[i64; 2]; 2]; 3] {
     [of(0, 0), of(0, 255), of(127, -129)]
 }
 
-pub(super) fn in_box([columns, rows]: [[i64; 2]; 2], x: i32, y: i32) -> bool {
-    let (x, y) = (i64::from(x), i64::from(y));
-    columns[0] <= x && x <= columns[1] && rows[0] <= y && y <= rows[1]
-}
-
 /// The two halves, where the point on the long edge is put on a grid.
 pub(super) fn split(corners: &Corners, step: i32, down: bool) -> Vec<Corners> {
     let [top, middle, bottom] = sorted(corners);

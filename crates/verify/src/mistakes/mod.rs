@@ -261,22 +261,14 @@ impl<Q> Answered<Q> {
 }
 
 impl Answered<TriangleQuestion> {
-    /// Two wrong pixels, and whether they are drawn: who predicts them otherwise predicts another picture. A missing one lies in
-    /// every box around the corners.
+    /// A pixel that is drawn wrongly and one that is missing within every box around the corners, and whether they are drawn: a
+    /// mistake that predicts one of them otherwise does not predict the answer.
     fn telling(&self) -> [Option<([i32; 2], bool)>; 2] {
-        let TriangleQuestion { corners, window } = &self.question;
-        let boxes = fills::boxes(corners);
-        let find = |is_in: bool| {
-            let wrong = |&[x, y]: &[i32; 2]| {
-                self.drawn.has(x, y) == is_in
-                    && self.right.has(x, y) != is_in
-                    && (is_in || boxes.iter().all(|bounds| fills::in_box(*bounds, x, y)))
-            };
-            let row = |y| (window.x0..window.x1).map(move |x| [x, y]);
-            let mut pixels = (window.y0..window.y1).flat_map(row);
-            pixels.find(wrong).map(|at| (at, is_in))
-        };
-        [find(true), find(false)]
+        let wrong = self.drawn.differs(&self.right);
+        let extra = wrong.shared(&self.drawn);
+        let mut missing = wrong.shared(&self.right);
+        fills::boxes(&self.question.corners).into_iter().for_each(|bounds| missing.clip(bounds));
+        [(extra, true), (missing, false)].map_array(|(mask, is_in)| Some((mask.first()?, is_in)))
     }
 
     /// Whether a mistake predicts it: what is hit twice where only that is wrong, and otherwise hit twice or not. Many programs
@@ -383,7 +375,7 @@ fn explain(
     if !is_wrong.contains(&true) {
         return None;
     }
-    let telling: Vec<_> = answered.iter().map(Answered::telling).collect();
+    let telling = &answered.iter().map(Answered::telling).collect::<Vec<_>>();
     // What each base draws, once it is needed.
     let whole: Vec<OnceCell<Option<Mask>>> =
         (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
@@ -416,7 +408,6 @@ fn explain(
                 base.serves(mistake.draws) && (!is_many || base.is_first || base.is_found())
             });
             for (number, base) in served.filter(|(_, base)| is_told(base)) {
-                let telling = &telling;
                 let predicts = move |i: usize| {
                     let TriangleQuestion { corners, window } = &answered[i].question;
                     let draws =
