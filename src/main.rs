@@ -23,13 +23,15 @@ fn columns(size: Option<(Width, Height)>) -> Option<usize> {
 #[cfg(unix)]
 static OUTPUT_WAS_CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Looks whether standard output is open (`>&-` closes it) before Rust opens `/dev/null` in place of what is closed, which
-/// cannot be told later from the `/dev/null` of a caller that wants no output. Runs before `main`, so it does nothing else.
+// Looks whether standard output is open (`>&-` closes it) before Rust opens `/dev/null` in place of what is closed, which
+// cannot be told later from the `/dev/null` of a caller that wants no output. Runs before `main`, so it does nothing else.
+// The macro asks for the word `unsafe`; what is unsafe, the section that it is called from, is in the macro.
 #[cfg(unix)]
-#[ctor::ctor]
-fn look_at_output() {
-    let is_closed = rustix::fs::fcntl_getfl(io::stdout()).is_err();
-    OUTPUT_WAS_CLOSED.store(is_closed, Ordering::Relaxed);
+ctor_lite::ctor! {
+    unsafe fn look_at_output() {
+        let is_closed = rustix::fs::fcntl_getfl(io::stdout()).is_err();
+        OUTPUT_WAS_CLOSED.store(is_closed, Ordering::Relaxed);
+    }
 }
 
 /// Standard output; where it was closed, every byte written to it is an error.
