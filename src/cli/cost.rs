@@ -15,8 +15,9 @@ use super::{InputError, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
     Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with, prices,
 };
+use rasterproof_report::canvas;
 use rasterproof_report::html::Figure;
-use rasterproof_report::{board, canvas, cost_plots};
+use rasterproof_study::report::{board, cost_plots};
 
 /// What is measured together under one word.
 const LADDERS: [(&str, &[Ladder]); 7] = [

@@ -8,9 +8,9 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::{Status, Streams, ends_in, exit, write_picture};
 use rasterproof_faults::published::catalogue::{CARDS, Card};
-use rasterproof_registry::published_check::{SpecimenReport, survey};
-use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::{json, page_cases, picture, specimen_sheet, specimens};
+use rasterproof_registry::published_check::survey;
+use rasterproof_report::picture;
+use rasterproof_teaching::specimens::{self, sheet};
 
 #[derive(clap::Args, Debug)]
 pub struct SpecimensArguments {
@@ -55,8 +55,8 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
         .collect();
     drop(progress);
     let drawn = match cards.as_slice() {
-        [card] => specimen_sheet::alone(card),
-        _ => specimen_sheet::contact_sheet(),
+        [card] => sheet::alone(card),
+        _ => sheet::contact_sheet(),
     };
     let (png, unasked) = (picture::png(&drawn), arguments.page.place.output("specimens.png"));
     let place = match &sheet {
@@ -67,48 +67,10 @@ pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<
         None if arguments.json => None,
         asked => write_picture(asked.as_ref(), &unasked, &png, streams)?,
     };
-    let mut report = report(arguments, typed, &reports, page.is_some());
+    let typed = typed.clone().first("cases", arguments.cases).first("seed", arguments.seed);
+    let mut report = specimens::report(arguments.seed, arguments.cases, &reports, page.is_some());
+    report.command = typed.line();
     report.notes.extend(place);
-    let status = exit::of(are_caught(&reports));
+    let status = exit::of(specimens::are_caught(&reports));
     show(report, Shown::All.or_json(arguments.json), page, status, streams)
-}
-
-/// Each is wrong on the case that exposes it, and right on its harmless one.
-fn are_caught(reports: &[SpecimenReport]) -> bool {
-    reports.iter().all(|r| r.case_wrong > 0 && r.harmless_wrong == 0)
-}
-
-/// How often each is wrong; on a page also the exposing cases and the pictures.
-fn report(
-    arguments: &SpecimensArguments,
-    typed: &Typed,
-    reports: &[SpecimenReport],
-    is_page: bool,
-) -> Report {
-    let good = are_caught(reports);
-    let sentence = if good {
-        format!("Each of {} published faults is exposed by its case.", reports.len())
-    } else {
-        "A published fault is not exposed by its case, or shows in its harmless one.".to_owned()
-    };
-    let word = if good { "CAUGHT" } else { "NOT CAUGHT" };
-    let is_asked = |name: &str| reports.iter().any(|r| r.name == name.trim_end_matches(" picture"));
-    let mut cases = if is_page { page_cases::of_specimens() } else { Vec::new() };
-    cases.retain(|case| is_asked(&case.name));
-    let taken: Vec<_> = cases.iter().map(|case| case.name.clone()).collect();
-    let mut frames = if is_page { specimen_sheet::views(&taken) } else { Vec::new() };
-    frames.retain(|view| is_asked(&view.name));
-    Report {
-        title: "Published algorithms and their faults".to_owned(),
-        outcome: Some(Outcome::new(good, word, sentence)),
-        command: {
-            let typed = typed.clone().first("cases", arguments.cases);
-            typed.first("seed", arguments.seed).line()
-        },
-        tables: specimens::tables(reports),
-        data: json::specimens(arguments.seed, arguments.cases, reports),
-        cases,
-        frames,
-        ..Report::default()
-    }
 }

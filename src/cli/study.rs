@@ -15,13 +15,13 @@ use rasterproof_models::Origin;
 use rasterproof_registry::comparison::Judged;
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::json;
-use rasterproof_report::study::{self as report, Places, costs, hard_cases};
+use rasterproof_report::json::value;
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::{self, number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::hard::{self, HardCases, Kind};
+use rasterproof_study::report::{self as report, Places, costs, hard_cases, json};
 use rasterproof_study::view::{Piece, Sampled};
 use rasterproof_study::{face_of, faces, triangle_of};
 use rasterproof_verify::cases::{Case, Shape};
@@ -257,7 +257,7 @@ fn all_around(
     let cheapest = Table::new("Cheapest exact choice", columns, rows);
     let report = Report {
         about: format!("{}: seen from {views} sides", maker.scene.name),
-        data: json::value(&all),
+        data: value(&all),
         tables: vec![hard, cheapest],
         ..Report::default()
     };
@@ -372,7 +372,7 @@ pub(super) fn verify(
                 ),
             ),
         }),
-        data: json::value(&json::OnModel {
+        data: value(&json::OnModel {
             scene: &studied.scene.name,
             hard_cases: json::hard_cases(&subject, &studied.hard),
             engines: faults.iter().map(engine).collect(),

@@ -7,8 +7,9 @@ use rasterproof_invariants::acceptance::rules::{RULES, Rule};
 use rasterproof_invariants::acceptance::{Acceptance, Row, report};
 use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, Ink, RED};
 use rasterproof_report::html::Report as Page;
+use rasterproof_report::json;
 use rasterproof_report::table::{Row as Cells, Table};
-use rasterproof_report::{cost_plots, json};
+use rasterproof_study::report::cost_plots;
 
 use super::files::Output;
 use super::page::{Shown, show};

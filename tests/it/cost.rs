@@ -3,7 +3,9 @@
 use rasterproof_precision::cost::{
     Board, Cell, CostOptions, Ladder, Recorded, Run, Timing, measure,
 };
-use rasterproof_report::{board, canvas, cost_plots, json, text};
+use rasterproof_report::json::{pretty, text as as_text};
+use rasterproof_report::{canvas, text};
+use rasterproof_study::report::{board, cost_plots, json};
 
 use crate::program::Folder;
 use crate::snapshots::check_words;
@@ -184,7 +186,7 @@ fn cost_json_is_read_back() {
     let recorded =
         recorded(vec![untimed(Ladder::Scanline, 5), untimed(Ladder::Depth, 5), timed(5)]);
     let json = json::cost(&recorded);
-    let back = Recorded::read(&json::text(&json)).unwrap();
+    let back = Recorded::read(&as_text(&json)).unwrap();
     assert_eq!(back, recorded);
     assert_eq!(json::cost(&back), json);
     for (a, b) in recorded.boards.iter().zip(&back.boards) {
@@ -197,7 +199,7 @@ fn cost_json_is_read_back() {
 #[test]
 fn cost_broken_files_are_refused() {
     let recorded = recorded(vec![timed(5)]);
-    let good = json::pretty(&json::cost(&recorded));
+    let good = pretty(&json::cost(&recorded));
     // The first line with `from` becomes `to`: what is wrong, in that line or the next one but one.
     let refused = |from: &str, to: &str, what: &str| {
         let line = good.lines().position(|line| line.contains(from)).expect(from) + 1;

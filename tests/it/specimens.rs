@@ -10,9 +10,9 @@ use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_registry::published_check::{
     SpecimenReport, exposing_name, judge_recorded, survey, wrong,
 };
-use rasterproof_report::specimen_sheet::{alone, contact_sheet};
-use rasterproof_report::specimens::tables;
 use rasterproof_report::text::{self, WIDTH};
+use rasterproof_teaching::specimens::sheet::{alone, contact_sheet};
+use rasterproof_teaching::specimens::tables;
 
 use crate::snapshots::{check_picture, check_sheet, each, settings};
 

@@ -1,9 +1,7 @@
 //! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
 
-pub mod board;
 pub mod canvas;
 pub mod chapter;
-pub mod cost_plots;
 pub mod differential;
 pub mod drawn;
 pub mod formats;
@@ -18,9 +16,6 @@ pub mod page_cases;
 pub mod panels;
 pub mod phrases;
 pub mod picture;
-pub mod specimen_sheet;
-pub mod specimens;
-pub mod study;
 pub mod summary;
 pub mod table;
 pub mod text;

@@ -28,8 +28,8 @@ const GAP: u32 = 12;
 /// Room for the numbers of the columns, and the least for those of the rows.
 const ABOVE: u32 = 16;
 const BESIDE: u32 = 34;
-pub(super) const INK: Rgb<u8> = Rgb([30, 30, 30]);
-pub(super) const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
+pub const INK: Rgb<u8> = Rgb([30, 30, 30]);
+pub const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
 
 pub type Drawn = (String, Coverage);
@@ -85,7 +85,7 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
 pub(super) type Words = (String, Size, Rgb<u8>);
 
 /// Words, below them pictures in so many columns, below these what the colours mean, and a note.
-pub(super) fn arranged(
+pub fn arranged(
     words: &[Words],
     cells: Vec<RgbImage>,
     columns: u32,
@@ -238,7 +238,7 @@ fn head(words: &[Words]) -> u32 {
 
 /// Each pixel as a square of its colour, with an outline over them, numbered rows and columns, and a dot for each sample where
 /// these are shown.
-pub(super) fn panel(
+pub fn panel(
     words: &[Words],
     (shown, zoom, has_samples): (PixelRect, u32, bool),
     outline: &[[PixelPoint; 2]],
@@ -330,7 +330,7 @@ fn colour(actual: u8, target: u8, owner: u8) -> Rgb<u8> {
 }
 
 /// Colours with what they mean.
-pub(super) type Entry = (Vec<Rgb<u8>>, String);
+pub type Entry = (Vec<Rgb<u8>>, String);
 
 /// What the colours mean, in rows that fit a width, and a note below them.
 fn foot(width: u32, entries: &[Entry], note: &str) -> RgbImage {

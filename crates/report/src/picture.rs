@@ -14,12 +14,12 @@ use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_verify::cases::{Case, Shape};
 
-pub(super) const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
+pub const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
 pub(super) const GRID: Rgb<u8> = Rgb([222, 222, 216]);
 pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
-pub(super) const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
-pub(super) const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
-pub(super) const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
+pub const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
+pub const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
+pub const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
 /// Pixels that agree, by the number of their triangle.
 pub(super) const OWNERS: [Rgb<u8>; 6] = [
     Rgb([150, 186, 214]),
@@ -30,9 +30,9 @@ pub(super) const OWNERS: [Rgb<u8>; 6] = [
     Rgb([160, 206, 206]),
 ];
 pub(super) const OVERLAP: Rgb<u8> = Rgb([110, 170, 110]);
-pub(super) const MISSING: Rgb<u8> = Rgb([214, 60, 60]);
-pub(super) const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);
-pub(super) const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
+pub const MISSING: Rgb<u8> = Rgb([214, 60, 60]);
+pub const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);
+pub const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
 
 /// The picture pixels of a segment that lie in a panel.
 pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(u32, u32)) {
@@ -83,14 +83,14 @@ pub fn is_plain<P: PartialEq>(mut pixels: impl Iterator<Item = P>) -> bool {
 }
 
 /// A line from one position to another, in pixels.
-pub(super) type Segment = [[f64; 2]; 2];
+pub type Segment = [[f64; 2]; 2];
 
-pub(super) fn edges([a, b, c]: [[f64; 2]; 3]) -> [Segment; 3] {
+pub fn edges([a, b, c]: [[f64; 2]; 3]) -> [Segment; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
 /// Edges of triangles through their corners, lines through the centres of their end pixels.
-pub(super) fn outline(case: &Case) -> Vec<Segment> {
+pub fn outline(case: &Case) -> Vec<Segment> {
     match &case.shape {
         Shape::Triangles { list, .. } => {
             list.iter().flat_map(|t| edges(t.corners().map(|p| p.to_px().into()))).collect()
@@ -104,7 +104,7 @@ pub(super) fn outline(case: &Case) -> Vec<Segment> {
 }
 
 /// Segments in picture pixels from the corner of the part that is shown.
-pub(super) fn scaled(segments: &[Segment], shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
+pub fn scaled(segments: &[Segment], shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
     // Saturating: a corner far outside stays far outside.
     let at = |v: f64, origin: i32| ((v - f64::from(origin)) * f64::from(zoom)).floor() as i32;
     let place = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));

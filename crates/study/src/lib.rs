@@ -6,6 +6,7 @@ pub mod effects;
 pub mod facing;
 pub mod hard;
 pub mod memory;
+pub mod report;
 pub mod savings;
 mod shape;
 pub mod ties;

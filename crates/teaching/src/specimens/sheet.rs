@@ -9,13 +9,6 @@ use std::collections::BTreeSet;
 
 use image::{Rgb, RgbImage};
 
-use super::chapter::chapter_of_source;
-use super::html::{PictureLayer, PictureView};
-use super::lettering::Size;
-use super::panels::{self, Entry, FAINT, INK};
-use super::picture::{
-    self, AGREES, BACKGROUND, EDGE, EXTRA, MISSING, SAMPLE, Segment, TWICE, edges, outline, scaled,
-};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::{Coverage, Frame};
@@ -28,6 +21,13 @@ use rasterproof_faults::published::{Published, PublishedLine, RealTriangle};
 use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_registry::published_check::{
     free_truth, line_case, on_lattice, real_triangles, specimen_coverage, specimen_line_coverage,
+};
+use rasterproof_report::chapter::chapter_of_source;
+use rasterproof_report::html::{PictureLayer, PictureView};
+use rasterproof_report::lettering::Size;
+use rasterproof_report::panels::{self, Entry, FAINT, INK};
+use rasterproof_report::picture::{
+    self, AGREES, BACKGROUND, EDGE, EXTRA, MISSING, SAMPLE, Segment, TWICE, edges, outline, scaled,
 };
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::oracle::Oracle;

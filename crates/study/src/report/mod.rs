@@ -1,25 +1,28 @@
-//! A study of a model as a report.
+//! A study of a model as a report, and the boards of `cost`.
+
+pub mod board;
+pub mod cost_plots;
+pub mod json;
 
 use std::fmt::Write as _;
 
+use crate::cost::{Choice, Group};
+use crate::effects::{Need, Needs, State};
+use crate::hard::{HardCase, HardCases, Kind};
+use crate::ties::{Class, Classes, TiedPair};
+use crate::{face_of, triangle_of};
 use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
 use rasterproof_precision::cost::EQUAL;
 use rasterproof_render::scene::Scene;
-use rasterproof_study::cost::{Choice, Group};
-use rasterproof_study::effects::{Need, Needs, State};
-use rasterproof_study::hard::{HardCase, HardCases, Kind};
-use rasterproof_study::ties::{Class, Classes, TiedPair};
-use rasterproof_study::{face_of, triangle_of};
 
-use super::canvas;
-use super::chapter::Chapter;
-use super::cost_plots;
-use super::html::{Figure, Outcome, PictureLayer, PictureView, Report, Statement};
-use super::picture;
-use super::table::{self, Column, Row, Table};
-use super::words::{count, number, thousands};
+use rasterproof_report::canvas;
+use rasterproof_report::chapter::Chapter;
+use rasterproof_report::html::{Figure, Outcome, PictureLayer, PictureView, Report, Statement};
+use rasterproof_report::picture;
+use rasterproof_report::table::{self, Column, Row, Table};
+use rasterproof_report::words::{count, number, thousands};
 
 #[derive(Clone, Copy)]
 pub struct Places<'a> {

@@ -4,14 +4,14 @@
 //! Marks say what colours repeat: `*` the cheapest choice whose error is as good as none, `+` another
 //! such choice, `<` the fastest of all.
 
-use super::html::{Figure, Report};
 use super::json;
-use super::table::{Column, Row, Table};
-use super::words::number;
 use rasterproof_host::text::printable;
 use rasterproof_precision::cost::{
     Board, Cell, Measure, Price, Priced, Recorded, Run, Time, prices,
 };
+use rasterproof_report::html::{Figure, Report};
+use rasterproof_report::table::{Column, Row, Table};
+use rasterproof_report::words::number;
 
 const WIDTH: usize = 100;
 /// The width of the names of choices, which are indented.

@@ -4,10 +4,10 @@
 //! choices without any error, each in a row of its own. A line joins what is best at each price. Labels stand beside their
 //! dots and never overlap.
 
-use super::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
-use super::words::{number, thousands};
+use crate::cost::Group;
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced};
-use rasterproof_study::cost::Group;
+use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
+use rasterproof_report::words::{number, thousands};
 use rasterproof_verify::judge::ascii;
 
 const WIDTH: f64 = 800.0;
@@ -64,7 +64,7 @@ pub fn pareto(board: &Board, in_row: usize) -> Drawing {
 pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
     let panel = |group: &Group| {
         let best = group.best.iter().flatten().map(|best| best.choice).collect::<Vec<_>>();
-        let dot = |(number, choice): (usize, &rasterproof_study::cost::Choice)| {
+        let dot = |(number, choice): (usize, &crate::cost::Choice)| {
             let time = choice.time.filter(|_| choice.refused.is_none())?;
             let first = choice.errors.first().copied().flatten()?;
             let is_exact = |measure: usize| group.is_exact(choice, measure);

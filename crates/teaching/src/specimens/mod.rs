@@ -1,13 +1,49 @@
-//! The survey of the specimens as tables: a summary of all, or all families of one.
+//! The survey of the published faults as a report: a summary of all, or all families of one.
 
-use super::table::{self, Column, Row, Table};
+pub mod sheet;
+
 use rasterproof_registry::published_check::{Counts, SpecimenReport};
+use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::page_cases;
+use rasterproof_report::table::{self, Column, Row, Table};
 use rasterproof_verify::comparison::Tally;
+use serde_json::json;
 
 const UNITS: &str = "\
 differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong \
 pixels per million covered, each triangle for itself; value, depth: worst error as a fraction of the \
 corner values' spread; shared: as twice, but pixels that two triangles of a mesh draw";
+
+/// Each is wrong on the case that exposes it, and right on its harmless one.
+pub fn are_caught(reports: &[SpecimenReport]) -> bool {
+    reports.iter().all(|r| r.case_wrong > 0 && r.harmless_wrong == 0)
+}
+
+/// How often each is wrong; on a page also the exposing cases and the pictures.
+pub fn report(seed: u64, cases: u64, reports: &[SpecimenReport], is_page: bool) -> Report {
+    let good = are_caught(reports);
+    let sentence = if good {
+        format!("Each of {} published faults is exposed by its case.", reports.len())
+    } else {
+        "A published fault is not exposed by its case, or shows in its harmless one.".to_owned()
+    };
+    let word = if good { "CAUGHT" } else { "NOT CAUGHT" };
+    let is_asked = |name: &str| reports.iter().any(|r| r.name == name.trim_end_matches(" picture"));
+    let mut exhibits = if is_page { page_cases::of_specimens() } else { Vec::new() };
+    exhibits.retain(|case| is_asked(&case.name));
+    let taken: Vec<_> = exhibits.iter().map(|case| case.name.clone()).collect();
+    let mut frames = if is_page { sheet::views(&taken) } else { Vec::new() };
+    frames.retain(|view| is_asked(&view.name));
+    Report {
+        title: "Published algorithms and their faults".to_owned(),
+        outcome: Some(Outcome::new(good, word, sentence)),
+        tables: tables(reports),
+        data: json!({ "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports }),
+        cases: exhibits,
+        frames,
+        ..Report::default()
+    }
+}
 
 /// The survey, the most often wrong first, then coverage by family in percent; of a single one, every family and every
 /// recorded input.

@@ -1,0 +1,155 @@
+//! A study and the boards of `cost` for machines.
+
+use rasterproof_precision::cost::{Recorded, prices};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::{Found, Places};
+use crate::cost::{Choice, Group};
+use crate::effects::{Need, Needs, State};
+use crate::hard::HardCases;
+use crate::{face_of, triangle_of};
+
+/// The boards of `cost` as JSON, with what exact coverage costs and the choices that nobody needs.
+/// [`Recorded::read`] takes it back.
+pub fn cost(recorded: &Recorded) -> Value {
+    let boards = &recorded.boards;
+    let verdicts: Vec<_> = boards
+        .iter()
+        .flat_map(|board| board.ranking().map(move |measure| (board, measure)))
+        .map(|(board, measure)| {
+            let named = |choice: usize| &*board.choices[choice].name;
+            let best = |column: usize| {
+                let best = board.best(column, measure)?;
+                let name = |choice: Option<usize>| choice.map(named);
+                Some(json!({
+                    "column": board.columns[column].name, "fastest": named(best.fastest),
+                    "cheapest_good": name(best.good), "cheapest_certain": name(best.certain),
+                }))
+            };
+            let dominated = board.dominated(measure).into_iter().map(|d| {
+                let by: Vec<_> = d.by.into_iter().map(named).collect();
+                json!({ "choice": named(d.choice), "by": by })
+            });
+            json!({
+                "group": board.ladder, "measure": board.measures[measure].title,
+                "best": board.columns_run().filter_map(best).collect::<Vec<_>>(),
+                "dominated": dominated.collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    json!({
+        "version": recorded.version, "repeat": recorded.repeat, "seed": recorded.seed,
+        "quick": recorded.quick, "boards": boards,
+        "verdicts": verdicts, "price_of_exact_coverage": prices(boards),
+    })
+}
+
+/// The engines on the triangles of a model.
+#[derive(Serialize)]
+pub struct OnModel<'a> {
+    pub scene: &'a str,
+    pub hard_cases: Value,
+    pub engines: Vec<Engine>,
+    pub pieces: usize,
+    pub not_judged: usize,
+    /// Nothing where nothing was compared.
+    pub agrees: Option<bool>,
+}
+
+#[derive(Serialize)]
+pub struct Engine {
+    pub engine: &'static str,
+    pub fault: Option<String>,
+    pub face: Option<u32>,
+}
+
+pub fn study(subject: &Places<'_>, found: &Found<'_>, answers: &impl Serialize) -> Value {
+    let (scene, hard) = (subject.scene, found.hard);
+    json!({
+        "scene": scene.name, "triangles": scene.triangles(), "pieces": found.pieces,
+        "loading_s": found.loading_s, "answers": answers,
+        "hard_cases": hard_cases(subject, hard), "decided": hard.classes,
+        "effects": needs(found.needs, found.not_drawn), "costs": costs(subject, found.costs),
+    })
+}
+
+pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
+    let face = |&triangle: &u32| {
+        let origin = triangle_of(subject.scene, triangle)
+            .and_then(|(item, number)| Some((subject.origins.get(item)?, number)));
+        json!({
+            "face": face_of(subject.scene, subject.origins, triangle),
+            "line": origin.and_then(|(origin, number)| origin.lines.get(number)),
+            "part": origin.map(|(origin, _)| &origin.part),
+            "material": origin.map(|(origin, _)| &origin.material),
+            "command": subject.command(triangle),
+        })
+    };
+    let cases = found.cases.iter().map(|case| {
+        json!({
+            "kind": case.kind.name(), "count": case.count, "in_view": case.in_view,
+            "pixels": case.pixels, "note": case.note,
+            "faces": case.triangles.iter().map(face).collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "cases": cases.collect::<Vec<_>>(), "w": found.w, "f32_pixels": found.f32_pixels,
+        "is_cut_short": found.is_cut_short,
+    })
+}
+
+pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
+    let group = |group: &Group| {
+        let choice = |choice: &Choice| {
+            let first = choice.first_wrong.map(|(of, [x, y])| {
+                let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
+                json!({ "pixel": [x, y], "face": face })
+            });
+            let time = choice.time.map(|time| [time.low, time.median, time.high]);
+            let measures = 0..group.measures.len();
+            let exact: Vec<_> = measures.filter(|one| group.is_exact(choice, *one)).collect();
+            json!({
+                "name": choice.name, "about": choice.about, "errors": choice.errors,
+                "exact": exact, "first_wrong": first,
+                "margin": choice.margin.filter(|margin| margin.is_finite()), "time_ns": time,
+                "bytes": choice.bytes, "refused": choice.refused,
+            })
+        };
+        let measures: Vec<_> = group.measures.iter().map(|measure| measure.title).collect();
+        let name = |number: usize| &*group.choices[number].name;
+        let best = (0..measures.len()).map(|number| group.cheapest_exact(number).map(name));
+        let names = |all: &[usize]| all.iter().map(|&number| name(number)).collect::<Vec<_>>();
+        let compared = group.best.iter().map(|best| {
+            let best = best.as_ref()?;
+            Some(json!({
+                "choice": name(best.choice), "equally_fast": names(&best.equal),
+                "undecided": names(&best.undecided), "rounds": best.rounds,
+            }))
+        });
+        json!({
+            "title": group.title, "measures": measures, "not_judged": group.not_judged,
+            "timed": { "triangles": group.timed[0], "pixels": group.timed[1] },
+            "choices": group.choices.iter().map(choice).collect::<Vec<_>>(),
+            "cheapest_exact": best.collect::<Vec<_>>(),
+            "compared": compared.collect::<Vec<_>>(),
+        })
+    };
+    groups.iter().map(group).collect()
+}
+
+fn needs(needs: &Needs, not_drawn: &str) -> Value {
+    let one = |need: &Need| {
+        json!({
+            "effect": need.effect.name(), "called_for": need.state() == State::CalledFor,
+            "paid_for": need.is_paid_for, "materials": need.materials, "reasons": need.reasons,
+            "pixels": need.pixels, "wrong_without": need.wrong,
+            "otherwise_ns": [need.otherwise.low, need.otherwise.median, need.otherwise.high],
+        })
+    };
+    json!({
+        "effects": needs.needs.iter().map(one).collect::<Vec<_>>(),
+        "planned_ns": [needs.planned.low, needs.planned.median, needs.planned.high],
+        "textures": needs.textures, "not_supported": not_drawn,
+    })
+}
