@@ -7,7 +7,6 @@ use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
 use super::page::{Place, Shown, print, show};
 use super::progress::Progress as Bar;
-use super::render::NOTHING_DRAWN;
 use super::view::{Purpose, ViewArguments};
 use super::{InputError, Status, Streams, exit, usage, write_file};
 use rasterproof_host::output::Over;
@@ -301,7 +300,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
     // Of a model that is not seen, two backgrounds would be compared.
     let is_blank = pictures.iter().all(|(_, picture)| picture::is_plain(picture.right.pixels()));
     report.outcome = Some(match is_blank && differing == 0 {
-        true => Outcome::not_compared(NOTHING_DRAWN),
+        true => Outcome::nothing_drawn(),
         false => Outcome {
             answer: match pictures.iter().map(|(_, picture)| picture.differing).sum() {
                 0 if differing == 0 => "no pixel differs".to_owned(),

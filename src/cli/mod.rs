@@ -20,7 +20,6 @@ mod judge;
 mod league;
 mod page;
 mod plan;
-mod plan_table;
 mod playground;
 mod progress;
 mod quiz;

@@ -10,7 +10,6 @@ use rasterproof_host::{input, limits};
 
 use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, Shown, as_file, print, show, write_page};
-use super::plan_table;
 use super::progress::Progress;
 use super::typed::Typed;
 use super::view::{Maker, Purpose, SceneArguments};
@@ -31,6 +30,7 @@ use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Repo
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::thousands;
 use rasterproof_report::{json, picture};
+use rasterproof_study::report::plan;
 use rasterproof_study::ties::classify;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
@@ -200,9 +200,6 @@ fn is_nothing_drawn(drawings: &[Drawing]) -> bool {
     drawings.len() > 1 && drawings.iter().all(|drawing| drawing.rendered.counters.fragments == 0)
 }
 
-/// What is said instead of a verdict then.
-pub(super) const NOTHING_DRAWN: &str = "No triangle covers a pixel of this view.";
-
 /// Pixels that the plan of a file, or effects that were switched off, change.
 fn changed(drawings: &[Drawing]) -> u64 {
     drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0)
@@ -272,7 +269,7 @@ fn outcome(
     difference: Option<String>,
 ) -> Option<Outcome> {
     let Some(c) = comparison else {
-        return is_nothing_drawn(drawings).then(|| Outcome::not_compared(NOTHING_DRAWN));
+        return is_nothing_drawn(drawings).then(|| Outcome::nothing_drawn());
     };
     let names = names(drawings).join(" and ");
     let Comparison { wrong_pixels: wrong, pixels, wrong_depths, depths, .. } = c;
@@ -301,7 +298,7 @@ fn add_to_page(
     let marked = marked.map(|c| PictureLayer::map("what differs", &picture::of_frame(&c.picture)));
     report.title = format!("The scene {}", scene.name);
     report.command = typed.line();
-    let plan = drawings.first().map(|d| plan_table::table(&d.rendered.plan.decisions));
+    let plan = drawings.first().map(|d| plan::table(&d.rendered.plan.decisions));
     report.tables.splice(0..0, plan);
     report.frames = vec![PictureView {
         name: scene.name.clone(),
@@ -598,7 +595,7 @@ fn spin(
     let notes = open.map(|(pixels, what)| format!("UNDECIDED: {pixels} pixels, {what}")).collect();
     let agrees = arguments.engine != DrawnBy::Both || wrong == 0;
     let outcome = (arguments.engine == DrawnBy::Both).then(|| match is_compared {
-        false => Outcome::not_compared(NOTHING_DRAWN),
+        false => Outcome::nothing_drawn(),
         true => Outcome::of(agrees, format!("{wrong} pixels and depths differ")),
     });
     let about = format!("{frames} frames{drawn_in}");

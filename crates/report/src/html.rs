@@ -118,6 +118,11 @@ impl Outcome {
         Self::new(false, "NOT COMPARED", format!("{reason} Nothing was compared."))
     }
 
+    /// The outcome of pictures that show their background alone.
+    pub fn nothing_drawn() -> Self {
+        Self::not_compared("No triangle covers a pixel of this view.")
+    }
+
     /// What is said first: the answer, where there is one.
     fn first(&self) -> &str {
         if self.answer.is_empty() { &self.sentence } else { &self.answer }

@@ -3,6 +3,7 @@
 pub mod board;
 pub mod cost_plots;
 pub mod json;
+pub mod plan;
 
 use std::fmt::Write as _;
 

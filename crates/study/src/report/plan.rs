@@ -1,0 +1,275 @@
+//! The account of a plan, and what it saves.
+
+use rasterproof_render::effects::Effect;
+use rasterproof_render::effects::plan::{Decision, Plan, SceneDigest, Unit};
+use rasterproof_render::effects::render::Rendered;
+use rasterproof_render::pipeline::Counters;
+use rasterproof_render::scene::Scene;
+use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
+use rasterproof_report::json::value;
+use rasterproof_report::picture;
+use rasterproof_report::table::{Row, Table};
+use rasterproof_report::words::thousands;
+use serde_json::Value;
+
+use crate::savings::{Measured, Saving, Savings};
+
+/// A decision that some items share, or one about the frame.
+pub struct Line<'a> {
+    pub effect: Effect,
+    pub reason: &'a str,
+    pub unit: Unit,
+    pub counts: [u64; 3],
+    items: Vec<usize>,
+}
+
+impl Line<'_> {
+    /// Which items, in short: ranges, or their number where there are too many of them.
+    pub fn items(&self) -> String {
+        const MOST: usize = 9;
+        let runs = self.items.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+            [first, .., last] => format!("{first}-{last}"),
+            [one] => one.to_string(),
+            [] => String::new(),
+        });
+        let text = runs.collect::<Vec<_>>().join(",");
+        match text.len() {
+            0 => "frame".to_owned(),
+            1..=MOST => text,
+            _ => format!("{} items", self.items.len()),
+        }
+    }
+
+    /// Which of the counts are not 0.
+    fn kind(&self) -> [bool; 3] {
+        self.counts.map(|count| count > 0)
+    }
+}
+
+/// Decisions that several items share become one line, in the order of the pipeline: those with one
+/// reason that are paid for by all, by none or by some.
+pub fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    for d in decisions {
+        let counts = [d.on, d.off, d.open];
+        let same = |line: &&mut Line<'_>| {
+            (line.effect, line.reason, line.unit) == (d.effect, &d.reason, d.unit)
+                && line.kind() == counts.map(|count| count > 0)
+                && d.item.is_some()
+        };
+        if let Some(line) = lines.iter_mut().find(same) {
+            for (sum, count) in line.counts.iter_mut().zip(counts) {
+                *sum += count;
+            }
+            line.items.extend(d.item);
+        } else {
+            let items = d.item.into_iter().collect();
+            lines.push(Line { effect: d.effect, reason: &d.reason, unit: d.unit, counts, items });
+        }
+    }
+    lines.sort_by_key(|line| line.effect);
+    lines
+}
+
+/// How much of each effect is on, off, or decided while it is drawn, and why.
+pub fn table(decisions: &[Decision]) -> Table {
+    let row = |line: Line<'_>| {
+        let ([on, off, open], unit) = (line.counts, format!(" {}", line.unit.name()));
+        Row::of(&[&line.effect.name(), &line.items(), &on, &off, &open, &unit, &line.reason])
+    };
+    let columns = "effect 13 | item 9 | >on 8 how many of the unit | >off 8 how many of the unit | >open 8 how many of the unit \
+                   | ~unit 6 | reason";
+    let rows = grouped(decisions).into_iter().map(row).collect();
+    let note = "open: decided while it is drawn; several items: the sums of them";
+    Table::new("Effects, in order", columns, rows).noted(vec![note.to_owned()])
+}
+
+/// A plan that was measured.
+pub struct Measurement<'a> {
+    pub scene: &'a Scene,
+    /// Drawn with everything, and planned.
+    pub frames: [&'a Rendered; 2],
+    pub savings: &'a Savings,
+    /// What it takes to look for the reason of depth.
+    pub survey_us: Option<f64>,
+    /// Whether the whole alone was measured, and no single effect.
+    pub is_whole: bool,
+}
+
+impl Measurement<'_> {
+    /// Whether no mixture of effects changed the picture.
+    pub fn is_same(&self) -> bool {
+        self.savings.all().all(|mixture| mixture.same)
+    }
+
+    /// With the frames as layers where there is a page.
+    pub fn report(&self, command: String, is_page: bool) -> Report {
+        let Self { scene, frames, savings, survey_us, is_whole } = *self;
+        let ([all, usual], same) = (savings.factors(), self.is_same());
+        let sentence = match same {
+            true => format!(
+                "Planned, it was drawn {all:.1} times as fast as with everything on, and {usual:.1} \
+                 times as fast as usual, with the same bits."
+            ),
+            false => "A plan changed the picture.".to_owned(),
+        };
+        let mut tables = vec![table(&frames[1].plan.decisions), counts(frames)];
+        tables.extend((!savings.effects.is_empty()).then(|| of_each(savings)));
+        tables.push(whole(savings, survey_us, is_whole));
+        let view = is_page.then(|| view(command.clone(), scene, frames));
+        Report {
+            title: format!("What the scene {} calls for", scene.name),
+            about: format!("{}: {}", scene.name, scene.about),
+            outcome: Some(match frames[0].counters.fragments {
+                0 if same => Outcome::nothing_drawn(),
+                _ => Outcome::of(same, sentence),
+            }),
+            command,
+            tables,
+            frames: Vec::from_iter(view),
+            ..Report::default()
+        }
+    }
+
+    /// With its scene, so that it can be drawn by.
+    pub fn data(&self) -> Value {
+        let Self { scene, frames: [everything, planned], savings, survey_us, .. } = *self;
+        let is_compared = everything.counters.fragments > 0 || !self.is_same();
+        value(&Data {
+            scene: &scene.name,
+            plan: Plan { scene: Some(SceneDigest::of(scene)), ..planned.plan.clone() },
+            everything: &everything.counters,
+            planned: &planned.counters,
+            measured: savings,
+            survey_us,
+            same: is_compared.then(|| self.is_same()),
+        })
+    }
+}
+
+#[derive(serde::Serialize)]
+struct Data<'a> {
+    scene: &'a str,
+    plan: Plan,
+    everything: &'a Counters,
+    planned: &'a Counters,
+    measured: &'a Savings,
+    survey_us: Option<f64>,
+    /// Nothing where nothing was drawn.
+    same: Option<bool>,
+}
+
+/// A saving in percent, unless it is within the noise.
+fn percent(saving: f64, is_noise: bool) -> String {
+    if is_noise { "noise".to_owned() } else { format!("{:.0}%", 100.0 * saving) }
+}
+
+/// A row for each effect: what planning it saves, alone and as the last one.
+fn of_each(savings: &Savings) -> Table {
+    let row = |s: &Saving| {
+        let [alone, all_but] = [s.alone_us, s.all_but_us].map(|us| format!("{us:.0}"));
+        let saves_alone = percent(s.saves_alone, s.noise_alone);
+        let saves_last = percent(s.saves_last, s.noise_last);
+        let wrong = &s.wrong_without;
+        Row::of(&[&s.effect.name(), &alone, &saves_alone, &all_but, &saves_last, wrong])
+    };
+    let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
+    let columns = "planned 14 | >alone us 10 it is planned, the rest paid for | >saves 9 compared with paying for \
+                       everything | >last us 10 it is paid for, the rest planned | >saves 9 when it is planned too | \
+                       >wrong without 14 pixels that change when it is left out everywhere";
+    let notes = [
+        "noise: the middle halves of the rounds of both overlap, or there are fewer than four",
+        "wrong without: pixels that change when it is left out everywhere; --without EFFECT draws them",
+    ];
+    let rows = savings.effects.iter().map(row).collect();
+    Table::new(caption, columns, rows).noted(notes.map(str::to_owned).to_vec())
+}
+
+/// The times of everything, usual and planned, and the mixtures that changed the picture.
+fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
+    let rows = [
+        ("everything", &savings.everything),
+        ("usual", &savings.usual),
+        ("planned", &savings.planned),
+    ];
+    let row = |(name, m): (&str, &Measured)| {
+        let [low, high] = m.range_us;
+        Row::of(&[&name, &format!("{:.0}", m.time_us), &format!("{low:.0}-{high:.0}")])
+    };
+    let changed = savings.all().filter(|m| !m.same);
+    let mut notes: Vec<_> =
+        changed.map(|m| format!("DIFFERENT PICTURE with the effects {}", m.effects)).collect();
+    let [all, usual] = savings.factors();
+    notes.extend([
+        format!("planned as a whole: {all:.2} times as fast as everything, {usual:.2} as usual"),
+        "usual: what a renderer does without a planner (cuts what crosses, culls, one depth test)"
+            .to_owned(),
+    ]);
+    if savings.effects.is_empty() && !is_whole {
+        notes.push(
+            "one effect at a time is not measured, since a round of all mixtures takes more than 5 s \
+             here: --rounds 9 measures them"
+                .to_owned(),
+        );
+    }
+    notes.extend(survey_us.map(|us| {
+        let share = 100.0 * us / savings.planned.time_us;
+        format!("looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame")
+    }));
+    let columns =
+        "paid for 14 | >us 10 median of the rounds | >from-to 14 the fastest round and the slowest";
+    Table::new("The frame as a whole", columns, rows.map(row).to_vec()).noted(notes)
+}
+
+/// What was counted in both frames.
+fn counts([everything, planned]: [&Rendered; 2]) -> Table {
+    let both = everything.counters.shown().into_iter().zip(planned.counters.shown());
+    let row = |((name, all), (_, planned)): ((&str, u64), (_, u64))| {
+        Row::of(&[&name, &thousands(all), &thousands(planned)])
+    };
+    let columns = "~counts 20 | >everything 12 | >planned 12";
+    Table::new("What was counted", columns, both.map(row).collect())
+}
+
+/// The frames side by side.
+fn view(command: String, scene: &Scene, frames: [&Rendered; 2]) -> PictureView {
+    let layer =
+        |(name, frame): (_, &Rendered)| PictureLayer::new(name, &picture::of_frame(&frame.picture));
+    PictureView {
+        name: scene.name.clone(),
+        about: scene.about.clone(),
+        command,
+        chapter: Chapter { title: "effects", path: "effects.md" },
+        layers: ["everything", "planned"].into_iter().zip(frames).map(layer).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn decision(item: usize, [on, off]: [u64; 2]) -> Decision {
+        let (effect, unit, reason) = (Effect::Depth, Unit::Pieces, "asked for".to_owned());
+        Decision { effect, item: Some(item), unit, on, off, open: 0, reason }
+    }
+
+    #[test]
+    fn unlike_items_are_not_merged() {
+        let decisions =
+            [decision(0, [2, 0]), decision(1, [0, 5]), decision(2, [3, 0]), decision(3, [1, 1])];
+        let lines: Vec<_> = grouped(&decisions).iter().map(|l| (l.items(), l.counts)).collect();
+        let expected = [("0,2", [5, 0, 0]), ("1", [0, 5, 0]), ("3", [1, 1, 0])];
+        assert_eq!(lines, expected.map(|(items, counts)| (items.to_owned(), counts)));
+    }
+
+    #[test]
+    fn items_are_ranges_or_a_number() {
+        let items = |items: &[usize]| {
+            let decisions: Vec<_> = items.iter().map(|item| decision(*item, [1, 0])).collect();
+            grouped(&decisions)[0].items()
+        };
+        assert_eq!(items(&[0, 1, 2, 5]), "0-2,5");
+        assert_eq!(items(&[4]), "4");
+        assert_eq!(items(&[0, 2, 4, 6, 8, 10]), "6 items");
+    }
+}
