@@ -7,7 +7,7 @@ use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
 use super::page::{Place, Shown, print, show};
 use super::progress::Progress as Bar;
-use super::view::{Purpose, ViewArguments};
+use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, usage, write_file};
 use rasterproof_host::output::Over;
 use rasterproof_host::shell::{self, quote};
@@ -17,6 +17,7 @@ use rasterproof_render::scene::chapters;
 use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::{picture, words};
+use rasterproof_study::bounds::Purpose;
 
 use crate::cli::starters::{self, Language};
 use rasterproof_program::group;

@@ -4,7 +4,7 @@ use super::files;
 use super::page::{PageArguments, Shown, as_file, print, show};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Purpose, SceneArguments};
+use super::view::SceneArguments;
 use super::{Status, Streams, exit};
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
@@ -12,6 +12,7 @@ use rasterproof_render::effects::{Effect, Effects};
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::{frame_comparison, picture};
+use rasterproof_study::bounds::Purpose;
 use rasterproof_study::report::plan::{Line, Measurement, grouped};
 use rasterproof_study::savings;
 

@@ -12,7 +12,7 @@ use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, Shown, as_file, print, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, Purpose, SceneArguments};
+use super::view::{Maker, SceneArguments};
 use super::{InputError, Status, Streams, ends_in, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
@@ -30,6 +30,7 @@ use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Repo
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::thousands;
 use rasterproof_report::{json, picture};
+use rasterproof_study::bounds::Purpose;
 use rasterproof_study::report::plan;
 use rasterproof_study::ties::classify;
 use rasterproof_tiles::coverage::Tiles;

@@ -31,8 +31,9 @@ use super::inspect_case::{self, Found};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, Purpose, SceneArguments, VIEW_OPTIONS, ViewArguments};
+use super::view::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
 use super::{InputError, Status, Streams, exit, usage};
+use rasterproof_study::bounds::Purpose;
 
 #[derive(clap::Args, Debug)]
 pub struct StudyArguments {

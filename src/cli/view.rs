@@ -14,8 +14,6 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::{InputError, Streams, did_you_mean, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
-use rasterproof_core::grid::PixelRect;
-use rasterproof_host::limits;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_models::{LoadOptions, Model, Normals, Origin, Pose, Up};
 use rasterproof_render::pipeline::assemble::Cull;
@@ -31,9 +29,9 @@ use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
-use rasterproof_report::words::{count, thousands};
+use rasterproof_report::words::count;
+use rasterproof_study::bounds::{Asked, Purpose};
 use rasterproof_study::facing;
-use rasterproof_study::work::Work;
 
 #[derive(clap::Args, Debug)]
 pub struct SceneArguments {
@@ -221,70 +219,6 @@ fn parse_fog(text: &str) -> Result<Growth, &'static str> {
     growth.ok_or("expected a start and a larger end, for example 0,1, or a density above 0")
 }
 
-/// What a command does with a scene, by which it is decided how much of one is too much.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Purpose {
-    /// It is drawn by one rasterizer.
-    Drawn,
-    /// It is drawn by two, and their frames are compared.
-    Compared,
-    /// It is drawn many times, by different plans.
-    Planned,
-    /// Each of its triangles is judged.
-    Judged,
-    /// Each of its triangles is drawn by every choice of arithmetic, and it is drawn by every planner.
-    Measured,
-}
-
-/// What a scene takes, each number measured on models that are little else: rows of needles, layers of large squares, and
-/// frames of 4 million samples with one triangle.
-struct Costs {
-    /// What is held of a sample of the frame at the same time.
-    bytes_of_sample: u64,
-    /// Time for each row of each triangle, and for each sample of each triangle, hidden or not.
-    ns_of_row: u64,
-    ns_of_sample: u64,
-    /// Time that a model may take for each byte of its file: of one that is not made to be slow a byte takes less.
-    ns_of_byte: u64,
-}
-
-/// A texel of a shadow map.
-const MAP_TEXEL_BYTES: u64 = 8;
-
-/// A picture may be covered so often whatever its size, as a model covers it from most sides.
-const MOST_LAYERS: u64 = 16;
-
-/// Samples that wait to be mixed in the order of their depths, each of which takes 48 bytes while they are sorted.
-const MOST_LAYER_SAMPLES: u64 = 1 << 24;
-
-/// By how much less a row and a texel of a shadow map take than those of the frame.
-const OF_MAP: u64 = 10;
-
-/// The time that a small file may take.
-const MOST_NS: u64 = 16_000_000_000;
-
-impl Purpose {
-    fn costs(self) -> Costs {
-        let (bytes_of_sample, ns_of_row, ns_of_sample, ns_of_byte) = match self {
-            Self::Drawn => (20, 700, 90, 1_500),
-            Self::Compared => (40, 700, 90, 1_500),
-            Self::Planned => (40, 2_500, 350, 1_500),
-            Self::Judged => (40, 7_000, 80, 1_500),
-            Self::Measured => (120, 24_000, 700, 10_000),
-        };
-        Costs { bytes_of_sample, ns_of_row, ns_of_sample, ns_of_byte }
-    }
-
-    /// Triangles of a file of so many bytes: each of those that are judged takes a kilobyte, so what a few bytes of a file
-    /// ask for is bounded, while of a large file all are judged that it holds without compression.
-    fn most_triangles(self, file_bytes: u64) -> u64 {
-        match self {
-            Self::Drawn | Self::Compared | Self::Planned => u64::MAX,
-            Self::Judged | Self::Measured => (file_bytes / 8).max(1 << 20),
-        }
-    }
-}
-
 impl SceneArguments {
     /// The name of the scene, or the path of the model.
     pub(super) fn source(&self) -> Result<&str, &Path> {
@@ -322,7 +256,7 @@ impl SceneArguments {
                 }
                 let scene = chapter(name, aspect, 0.0, view.cull);
                 let maker = Maker { scene, model: Framed::default(), aspect, cull: view.cull };
-                view.refuse_too_much(name, &maker, purpose)?;
+                view.asked().refuse_too_much(name, &maker.scene, 0, purpose)?;
                 Ok(maker)
             }
             Err(path) if path.extension().is_none() && !path.exists() => {
@@ -350,6 +284,10 @@ impl ViewArguments {
         Target::new(width, height, self.aa, self.depth).map_err(usage)
     }
 
+    fn asked(&self) -> Asked {
+        Asked { size: self.size, antialias: self.aa, shadows: self.shadows }
+    }
+
     fn aspect(&self) -> Result<f64, InputError> {
         let (width, height) = self.size;
         check_size(width, height, self.aa)?;
@@ -363,11 +301,12 @@ impl ViewArguments {
         streams: &mut Streams<'_>,
     ) -> Result<Maker, InputError> {
         let aspect = self.aspect()?;
-        self.refuse_large_frames(purpose)?;
+        self.asked().refuse_large_frames(purpose)?;
         let (mut scene, model) = self.frame_model(path, aspect, streams)?;
         cull(&mut scene, self.cull);
         let maker = Maker { scene, model, aspect, cull: self.cull };
-        self.refuse_too_much(&printable_path(path).to_string(), &maker, purpose)?;
+        let name = printable_path(path).to_string();
+        self.asked().refuse_too_much(&name, &maker.scene, maker.model.file_bytes, purpose)?;
         let backs = facing::share_of_backs(&maker.scene).filter(|share| *share > 0.5);
         if let Some(share) = backs {
             // 100% only of all.
@@ -378,93 +317,6 @@ impl ViewArguments {
             )?;
         }
         Ok(maker)
-    }
-
-    /// Refuses sizes of which the frames, with what is computed beside them, take too much memory.
-    fn refuse_large_frames(&self, purpose: Purpose) -> Result<(), InputError> {
-        let (width, height) = self.size;
-        let samples = u64::from(width) * u64::from(height) * self.aa.samples();
-        let map =
-            self.shadows.map_or(0, |size| u64::from(size) * u64::from(size) * MAP_TEXEL_BYTES);
-        let bytes = samples * purpose.costs().bytes_of_sample + map;
-        if bytes <= limits::FRAME_BYTES {
-            return Ok(());
-        }
-        let [bytes, most] = [bytes, limits::FRAME_BYTES].map(|bytes| bytes >> 20);
-        let or = match purpose {
-            Purpose::Compared => ", or draw by one rasterizer (--engine scanline)",
-            _ => "",
-        };
-        Err(usage(format!(
-            "{width} x {height} px with {samples} samples take about {bytes} MiB here, and the most are {most}: give a \
-             smaller --size{or}"
-        )))
-    }
-
-    /// Refuses a scene that takes too long to draw, or whose pieces or layers take too much memory.
-    fn refuse_too_much(
-        &self,
-        name: &str,
-        maker: &Maker,
-        purpose: Purpose,
-    ) -> Result<(), InputError> {
-        self.refuse_large_frames(purpose)?;
-        let scene = &maker.scene;
-        let (width, height) = self.size;
-        let scale = self.aa.scale();
-        let planes = self.aa.planes() as u64;
-        let work = Work::of(scene, PixelRect::window(width * scale, height * scale));
-        let all = u64::from(width) * u64::from(height) * self.aa.samples();
-        let of_planes = |count: u64| count.saturating_mul(planes);
-        let (rows, samples) = (of_planes(work.rows), of_planes(work.samples));
-        let blended = of_planes(work.blended);
-        let file_bytes = maker.model.file_bytes;
-        let Costs { ns_of_row, ns_of_sample, ns_of_byte, .. } = purpose.costs();
-        // The map is drawn as often as the frame.
-        let map = Work::of_map(scene);
-        let ns = [(rows, ns_of_row), (samples, ns_of_sample)]
-            .into_iter()
-            .chain([(map.rows, ns_of_row / OF_MAP), (map.samples, ns_of_sample / OF_MAP)])
-            .fold(0u64, |sum, (count, ns)| sum.saturating_add(count.saturating_mul(ns)));
-        let of_picture = (all * MOST_LAYERS).saturating_mul(ns_of_sample);
-        let most = MOST_NS.max(file_bytes.saturating_mul(ns_of_byte)).max(of_picture);
-        if ns > most {
-            let [seconds, most] = [ns, most].map(|ns| thousands(ns / 1_000_000_000));
-            let (of_map, smaller) = match self.shadows {
-                None => (String::new(), "a smaller --size"),
-                Some(_) => {
-                    let texels = thousands(map.samples);
-                    (format!(" and {texels} texels in the shadow map"), "smaller --shadows")
-                }
-            };
-            return Err(usage(format!(
-                "{name}: its {} triangles in the window have about {} samples in {} rows{of_map}, hidden ones counted, which would \
-                 take about {seconds} s here, and the most are {most} s: give {smaller}, or a part of the model",
-                thousands(work.triangles),
-                thousands(samples),
-                thousands(rows)
-            )));
-        }
-        if scene.layers.is_some() && blended > MOST_LAYER_SAMPLES {
-            return Err(usage(format!(
-                "{name}: --layers keeps all samples of what is not opaque until the frame is drawn, here about {}, and the most \
-                 are {}: give a smaller --size, or leave out --layers",
-                thousands(blended),
-                thousands(MOST_LAYER_SAMPLES)
-            )));
-        }
-        let most = purpose.most_triangles(file_bytes);
-        let triangles = scene.triangles() as u64;
-        if triangles > most {
-            return Err(usage(format!(
-                "{name}: each triangle is judged, which takes memory: it has {}, and the most are {} of a file of {} bytes: \
-                 export a part of the model",
-                thousands(triangles),
-                thousands(most),
-                thousands(file_bytes)
-            )));
-        }
-        Ok(())
     }
 
     fn frame_model(

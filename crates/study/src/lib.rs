@@ -1,6 +1,7 @@
 //! A study of a model in a view: which hard cases it contains, what its accuracy costs, and which effects it calls
 //! for. It prints nothing.
 
+pub mod bounds;
 pub mod cost;
 pub mod effects;
 pub mod facing;
