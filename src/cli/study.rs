@@ -1,7 +1,6 @@
 //! `rasterproof study`: what a model costs, which hard cases it contains, and which effects it calls for; and the same
 //! judgements alone, as `verify FILE` and `inspect FILE#FACE`.
 
-use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::Path;
 
@@ -21,6 +20,7 @@ use rasterproof_report::words::{self, number, thousands};
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::hard::{self, HardCases, Kind};
+use rasterproof_study::report::around::Around;
 use rasterproof_study::report::{self as report, Places, costs, hard_cases, json};
 use rasterproof_study::view::{Piece, Sampled};
 use rasterproof_study::{face_of, faces, triangle_of};
@@ -188,24 +188,6 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     show(report, shown.or_json(arguments.json), page, exit::AGREES, streams)
 }
 
-/// A model from one of some sides: the turn in degrees, and what is seen there.
-#[derive(serde::Serialize)]
-struct Turned {
-    turn: f64,
-    kinds: u64,
-    slivers: u64,
-    order: u64,
-    by_rounding: u64,
-    equal: u64,
-}
-
-#[derive(serde::Serialize)]
-struct Around {
-    views: Vec<Turned>,
-    /// The job, the choice, and in how many views it is the cheapest exact one.
-    cheapest_exact: Vec<(&'static str, String, u32)>,
-}
-
 /// A line for each of some views around the model.
 fn all_around(
     (arguments, views): (&StudyArguments, u32),
@@ -214,60 +196,18 @@ fn all_around(
 ) -> Status {
     let view = &arguments.what.view;
     let progress = Progress::new(streams.progress, "views", Some(views.into()));
-    let mut lines = Vec::new();
-    // By the place of a group, which has a title, and the name of a choice.
-    let mut best: BTreeMap<(usize, String), (&str, u32)> = BTreeMap::new();
+    let mut around = Around::default();
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
         let studied = Studied::new(maker.turned(turn), &maker.model.origins, view)?;
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
-        let classes = &studied.hard.classes;
-        let pixels = |kind: Kind| studied.hard.of(kind).map_or(0, |case| case.pixels);
-        lines.push(Turned {
-            turn: 360.0 * turn,
-            kinds: studied.hard.in_view().count() as u64,
-            slivers: pixels(Kind::Sliver),
-            order: pixels(Kind::Order),
-            by_rounding: classes.by_rounding,
-            equal: classes.equal,
-        });
-        for (place, group) in groups.iter().enumerate() {
-            if let Some(choice) = group.cheapest_exact(group.measures.len() - 1) {
-                let key = (place, group.choices[choice].name.clone());
-                best.entry(key).or_insert((group.title, 0)).1 += 1;
-            }
-        }
+        around.add(360.0 * turn, &studied.hard, &groups);
         progress.done(1);
     }
     drop(progress);
-    let best = best.into_iter().map(|((_, name), (title, count))| (title, name, count));
-    let all = Around { cheapest_exact: best.collect(), views: lines };
-    let row = |of: &Turned| {
-        let counts = [of.kinds, of.slivers, of.order, of.by_rounding, of.equal].map(thousands);
-        [vec![number(of.turn, 9)], counts.to_vec()].concat().into()
-    };
-    let (title, columns) = (
-        "Hard cases by the turn of the model",
-        ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11",
-    );
-    let hard = Table::new(title, columns, all.views.iter().map(row).collect());
-    let hard = hard.noted(vec![COUNTED.to_owned()]);
-    let row = |(title, name, count): &(&str, String, u32)| Row::of(&[title, name, count]);
-    let columns = "job 28 | choice 24 | >views 6 in how many of the views";
-    let rows = all.cheapest_exact.iter().map(row).collect();
-    let cheapest = Table::new("Cheapest exact choice", columns, rows);
-    let report = Report {
-        about: format!("{}: seen from {views} sides", maker.scene.name),
-        data: value(&all),
-        tables: vec![hard, cheapest],
-        ..Report::default()
-    };
-    show(report, Shown::All.or_json(arguments.json), None, exit::AGREES, streams)
+    let name = &maker.scene.name;
+    show(around.report(name), Shown::All.or_json(arguments.json), None, exit::AGREES, streams)
 }
-
-/// What the columns of `--views` mean.
-const COUNTED: &str = "turn in degrees; kinds of hard cases that are seen; px of slivers; px by drawing order; px in which \
-                       rounding alone decides, and of them those of equal depths";
 
 fn head(studied: &Studied<'_>) -> String {
     let Studied { scene, sampled, .. } = studied;

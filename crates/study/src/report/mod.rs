@@ -1,5 +1,6 @@
 //! A study of a model as a report, and the boards of `cost`.
 
+pub mod around;
 pub mod board;
 pub mod cost_plots;
 pub mod json;

@@ -1,0 +1,88 @@
+//! A model from some sides, a line for each.
+
+use std::collections::BTreeMap;
+
+use rasterproof_report::html::Report;
+use rasterproof_report::json::value;
+use rasterproof_report::table::{Row, Table};
+use rasterproof_report::words::{number, thousands};
+
+use crate::cost::Group;
+use crate::hard::{HardCases, Kind};
+
+#[derive(serde::Serialize)]
+struct Turned {
+    /// In degrees.
+    turn: f64,
+    kinds: u64,
+    slivers: u64,
+    order: u64,
+    by_rounding: u64,
+    equal: u64,
+}
+
+/// What was seen from each side.
+#[derive(Default)]
+pub struct Around {
+    views: Vec<Turned>,
+    /// In how many views a choice is the cheapest exact one, by the place of its group, which has a title, and its name.
+    best: BTreeMap<(usize, String), (&'static str, u32)>,
+}
+
+#[derive(serde::Serialize)]
+struct Data<'a> {
+    views: &'a [Turned],
+    /// The job, the choice, and in how many views it is the cheapest exact one.
+    cheapest_exact: Vec<(&'static str, &'a str, u32)>,
+}
+
+/// What the columns of `--views` mean.
+const COUNTED: &str = "turn in degrees; kinds of hard cases that are seen; px of slivers; px by drawing order; px in which \
+                       rounding alone decides, and of them those of equal depths";
+
+impl Around {
+    /// Adds a view from a side, whose turn is in degrees.
+    pub fn add(&mut self, turn: f64, hard: &HardCases, groups: &[Group]) {
+        let pixels = |kind: Kind| hard.of(kind).map_or(0, |case| case.pixels);
+        self.views.push(Turned {
+            turn,
+            kinds: hard.in_view().count() as u64,
+            slivers: pixels(Kind::Sliver),
+            order: pixels(Kind::Order),
+            by_rounding: hard.classes.by_rounding,
+            equal: hard.classes.equal,
+        });
+        for (place, group) in groups.iter().enumerate() {
+            if let Some(choice) = group.cheapest_exact(group.measures.len() - 1) {
+                let key = (place, group.choices[choice].name.clone());
+                self.best.entry(key).or_insert((group.title, 0)).1 += 1;
+            }
+        }
+    }
+
+    /// Of a scene of this name.
+    pub fn report(&self, scene: &str) -> Report {
+        let best = self.best.iter().map(|((_, name), &(title, count))| (title, &**name, count));
+        let best: Vec<_> = best.collect();
+        let row = |of: &Turned| {
+            let counts = [of.kinds, of.slivers, of.order, of.by_rounding, of.equal].map(thousands);
+            [vec![number(of.turn, 9)], counts.to_vec()].concat().into()
+        };
+        let (title, columns) = (
+            "Hard cases by the turn of the model",
+            ">turn 12 degrees | >kinds 11 | >slivers 11 | >order 11 | >by rounding 11 | >equal 11",
+        );
+        let hard = Table::new(title, columns, self.views.iter().map(row).collect());
+        let hard = hard.noted(vec![COUNTED.to_owned()]);
+        let row = |(title, name, count): &(&str, &str, u32)| Row::of(&[title, name, count]);
+        let columns = "job 28 | choice 24 | >views 6 in how many of the views";
+        let rows = best.iter().map(row).collect();
+        let cheapest = Table::new("Cheapest exact choice", columns, rows);
+        Report {
+            about: format!("{scene}: seen from {} sides", self.views.len()),
+            data: value(&Data { views: &self.views, cheapest_exact: best }),
+            tables: vec![hard, cheapest],
+            ..Report::default()
+        }
+    }
+}
