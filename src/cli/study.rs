@@ -4,27 +4,16 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use rasterproof_core::contract::Rasterize as _;
-use rasterproof_core::grid::PixelRect;
-use rasterproof_core::parallel;
-use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_core::triangle::check_value;
 use rasterproof_host::text::{printable, printable_path};
-use rasterproof_models::Origin;
 use rasterproof_registry::comparison::Judged;
-use rasterproof_render::scene::{Hidden, Scene};
-use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::json::value;
-use rasterproof_report::table::{Row, Table};
-use rasterproof_report::words::{self, number, thousands};
+use rasterproof_report::html::Report;
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
-use rasterproof_study::hard::{self, HardCases, Kind};
+use rasterproof_study::faces;
 use rasterproof_study::report::around::Around;
-use rasterproof_study::report::{self as report, Places, costs, hard_cases, json};
-use rasterproof_study::view::{Piece, Sampled};
-use rasterproof_study::{face_of, faces, triangle_of};
-use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_study::report::engines;
+use rasterproof_study::report::studied::Studied;
+use rasterproof_study::report::{self as report, costs, json};
 
 use super::files;
 use super::inspect_case::{self, Found};
@@ -75,32 +64,6 @@ impl OnceArgument {
     }
 }
 
-/// A scene in a view, taken apart.
-struct Studied<'a> {
-    scene: Scene,
-    origins: &'a [Origin],
-    sampled: Sampled,
-    hard: HardCases,
-}
-
-impl<'a> Studied<'a> {
-    fn new(scene: Scene, origins: &'a [Origin], view: &ViewArguments) -> Result<Self, InputError> {
-        if scene.hidden == Hidden::Painter {
-            return Err(usage(
-                "this scene is drawn from back to front, without a depth buffer: study another one",
-            ));
-        }
-        let mut target = view.target()?;
-        let sampled = Sampled::of(&scene, &target)?;
-        let hard = hard::find(&scene, origins, &sampled, &mut target)?;
-        Ok(Self { scene, origins, sampled, hard })
-    }
-
-    fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Places<'s> {
-        Places { scene: &self.scene, origins: self.origins, inspect }
-    }
-}
-
 /// What a scene costs, with a bar while it is measured.
 fn measure(
     studied: &Studied<'_>,
@@ -124,12 +87,12 @@ pub(super) fn cost(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Measured, streams)?;
-    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, view)?;
+    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &mut view.target()?)?;
     let groups = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     let report = Report {
-        about: head(&studied),
+        about: studied.head(),
         tables: costs(&subject, &groups),
         data: json::costs(&subject, &groups),
         ..Report::default()
@@ -153,7 +116,8 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
-    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &what.view)?;
+    let studied =
+        Studied::new(maker.scene.clone(), &maker.model.origins, &mut what.view.target()?)?;
     let effort = arguments.once.effort(arguments.quick);
     let groups = measure(&studied, &what.view, effort, streams.progress)?;
     let mut target = what.view.target()?;
@@ -180,7 +144,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         pieces: pieces.len(),
         loading_s: maker.model.loading_s,
     };
-    let mut report = report::report(&subject, &found, head(&studied), commands, typed.line());
+    let mut report = report::report(&subject, &found, studied.head(), commands, typed.line());
     report.data = json::study(&subject, &found, &report.answers);
     let read = |s: f64| format!("read in {:.1} ms, which is no part of the times above", s * 1e3);
     report.notes.extend(maker.model.loading_s.map(read));
@@ -199,7 +163,7 @@ fn all_around(
     let mut around = Around::default();
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
-        let studied = Studied::new(maker.turned(turn), &maker.model.origins, view)?;
+        let studied = Studied::new(maker.turned(turn), &maker.model.origins, &mut view.target()?)?;
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
         around.add(360.0 * turn, &studied.hard, &groups);
         progress.done(1);
@@ -207,19 +171,6 @@ fn all_around(
     drop(progress);
     let name = &maker.scene.name;
     show(around.report(name), Shown::All.or_json(arguments.json), None, exit::AGREES, streams)
-}
-
-fn head(studied: &Studied<'_>) -> String {
-    let Studied { scene, sampled, .. } = studied;
-    let counts = [scene.triangles(), sampled.at_centres().len()];
-    let [triangles, pieces] = counts.map(|count| thousands(count as u64));
-    let none = match sampled.all().any(|piece| has_pixel(piece, sampled.window)) {
-        true => "",
-        false => {
-            "\nNOT COMPARED: none of them has a pixel, so nothing was compared in what follows"
-        }
-    };
-    format!("{}: {triangles} triangles, {pieces} pieces in the window{none}", scene.name)
 }
 
 /// Refuses options of a view where no model is named.
@@ -230,9 +181,6 @@ pub(super) fn refuse_view(typed: &Typed) -> Result<(), InputError> {
     }
 }
 
-/// Pieces that are judged at once: no pixel is hit more often than a count of hits holds.
-const CHUNK: usize = 128;
-
 /// `verify FILE`: the hard cases of a model, and every engine on its triangles against the oracle.
 pub(super) fn verify(
     path: &Path,
@@ -241,122 +189,12 @@ pub(super) fn verify(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, view)?;
+    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &mut view.target()?)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
-    // The engines see samples as the picture has them, and values up to their limit.
-    let window = studied.sampled.window;
-    let drawn: Vec<&Piece> = studied.sampled.all().collect();
-    let has_values = |piece: &&&Piece| {
-        let uv = piece.triangle.vertices.iter().map(|vertex| vertex.varying);
-        uv.flat_map(|uv| uv.to_array()).all(|value| check_value(value).is_ok())
-    };
-    let judgeable: Vec<&Piece> = drawn.iter().filter(has_values).copied().collect();
-    let mut faults = Vec::new();
-    let snapped = |chunk: &[&Piece]| {
-        let list = chunk.iter().map(|piece| piece.triangle).collect();
-        Case { window, shape: Shape::Triangles { list, disjoint: false } }
-    };
-    let unsnapped = |chunk: &[&Piece]| {
-        Case::unsnapped(window, chunk.iter().filter_map(|piece| piece.free()).collect())
-    };
-    for &engine in &judged.triangles {
-        faults.push((engine.name(), judge(&judgeable, &engine.into(), &snapped)));
-    }
-    for &engine in &judged.unsnapped {
-        faults.push((engine.name(), judge(&judgeable, &engine.into(), &unsnapped)));
-    }
-    // To draw nothing where nothing is expected shows nothing of an engine.
-    let expects = judgeable.iter().any(|piece| has_pixel(piece, window));
-    let is_wrong = faults.iter().any(|(_, fault)| fault.is_some());
-    let agrees = (expects || is_wrong).then_some(!is_wrong);
-    let status = match agrees {
-        Some(true) => exit::AGREES,
-        Some(false) => exit::DISAGREES,
-        None => {
-            faults.clear();
-            exit::USAGE
-        }
-    };
-    let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
-    let engine = |(name, fault): &(&'static str, Option<Fault>)| {
-        let face = fault.as_ref().and_then(|fault| fault.triangle);
-        let face = face.map(|one| face_of(&studied.scene, studied.origins, one));
-        json::Engine { engine: name, fault: fault.as_ref().map(|fault| fault.what.clone()), face }
-    };
-    let row = |(name, fault): &(&str, Option<Fault>)| {
-        let what = fault.as_ref().map_or("agrees", |fault| &fault.what);
-        let first = fault.as_ref().and_then(|fault| fault.triangle);
-        let first =
-            first.map(|one| format!("first at {}\n{}", subject.place(one), subject.command(one)));
-        let name = format!("{name} against the oracle:");
-        Row::of(&[&name, &what, &first.unwrap_or_default()]).marked(fault.is_none())
-    };
-    let why = "whose texture coordinates are too large for the engines";
-    let is_left =
-        (left > 0).then(|| format!("not judged: {} pieces, {why}", thousands(left as u64)));
-    let columns = "~engine 1 | ~found 1 | first fault";
-    let engines = Table::new("", columns, faults.iter().map(row).collect());
-    let engines = engines.judged().noted(Vec::from_iter(is_left));
-    let (pieces, shown) = (thousands(count as u64), printable_path(path));
-    let report = Report {
-        about: head(&studied),
-        tables: vec![hard_cases(&subject, &studied.hard, &[]), engines],
-        outcome: Some(match agrees {
-            Some(agrees) => Outcome::of(agrees, format!("{pieces} pieces of {shown}")),
-            None => Outcome::new(
-                false,
-                "NOT JUDGED",
-                format!(
-                    "the {pieces} pieces of {shown} in the window have no pixel, so nothing was compared; \
-                     look at it from another side (--yaw, --pitch, --zoom)"
-                ),
-            ),
-        }),
-        data: value(&json::OnModel {
-            scene: &studied.scene.name,
-            hard_cases: json::hard_cases(&subject, &studied.hard),
-            engines: faults.iter().map(engine).collect(),
-            pieces: count,
-            not_judged: left,
-            agrees,
-        }),
-        ..Report::default()
-    };
+    let (report, agrees) = engines::report(&studied, &subject, judged, printable_path(path));
+    let status = agrees.map_or(exit::USAGE, exit::of);
     show(report, Shown::All.or_json(is_json), None, status, streams)
-}
-
-/// Whether a piece covers the centre of a pixel.
-fn has_pixel(piece: &Piece, window: PixelRect) -> bool {
-    let mut has_one = false;
-    Scanline.cover(piece.corners(), window, |_| has_one = true);
-    has_one
-}
-
-/// What an engine gets wrong, and the first triangle for which it does so alone.
-struct Fault {
-    what: String,
-    triangle: Option<u32>,
-}
-
-/// Judges an engine on all pieces, some of them together as a case.
-fn judge(
-    pieces: &[&Piece],
-    engine: &Judged,
-    case: &(dyn Fn(&[&Piece]) -> Case + Sync),
-) -> Option<Fault> {
-    let wrong = |chunk: &[&Piece]| {
-        let findings = engine.judge_case(&case(chunk));
-        findings.iter().find(|(_, f)| f.is_wrong()).map(|(_, finding)| finding.describe())
-    };
-    let chunks: Vec<&[&Piece]> = pieces.chunks(CHUNK).collect();
-    let faults = parallel::map(chunks.len(), |number| wrong(chunks[number]));
-    let (first, together) = chunks.iter().zip(faults).find_map(|(c, f)| Some((c, f?)))?;
-    let alone = first.iter().find_map(|piece| Some((piece.face, wrong(&[*piece])?)));
-    Some(match alone {
-        Some((triangle, what)) => Fault { what, triangle: Some(triangle) },
-        None => Fault { what: format!("several pieces together: {together}"), triangle: None },
-    })
 }
 
 /// The face of a model that the words of `inspect` name: FILE#NUMBER. What is known of it, a line each, and its pieces as a
@@ -369,13 +207,9 @@ pub(super) fn face(
 ) -> Result<(Vec<String>, Option<Found>), InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, view)?;
-    let (scene, origins) = (&studied.scene, studied.origins);
-    let number = word.parse::<u32>().ok();
-    let of_face = |(triangle, face)| (Some(face) == number).then_some(triangle);
-    let triangles: Vec<u32> = (0..).zip(faces(scene, origins)).filter_map(of_face).collect();
-    let Some(&first) = triangles.first() else {
-        let last = faces(scene, origins).max().unwrap_or(0);
+    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &mut view.target()?)?;
+    let Some((first, known, pieces)) = word.parse().ok().and_then(|face| studied.face(face)) else {
+        let last = faces(&studied.scene, studied.origins).max().unwrap_or(0);
         let word = printable(word);
         return Err(usage(format!(
             "{shown}#{word}: no such face is drawn; those of this model have numbers from 1 to {last}"
@@ -384,25 +218,10 @@ pub(super) fn face(
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     let mut about = vec![format!("{shown}: {}", subject.place(first))];
-    for (item, number) in triangles.iter().filter_map(|&one| triangle_of(scene, one)) {
-        let mesh = &scene.items[item].mesh;
-        let corners = mesh.triangles.positions()[number].map(|position| {
-            // Scenes are left-handed, models are not.
-            let [x, y, z] = mesh.positions[position as usize].to_array();
-            format!("({x:?}, {y:?}, {:?})", -z)
-        });
-        about.push(format!("triangle, y up: {}", corners.join(" ")));
-    }
-    let has_part = |kind: &Kind| triangles.iter().any(|&one| studied.hard.is(one, *kind));
-    let kinds: Vec<_> = Kind::ALL.into_iter().filter(has_part).map(Kind::name).collect();
-    let kinds = if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
-    about.push(format!("hard cases that it has a part in: {kinds}"));
-    let of_face = |piece: &&Piece| triangles.binary_search(&piece.face).is_ok();
-    let pieces: Vec<&Piece> = studied.sampled.at_centres().iter().filter(of_face).collect();
+    about.extend(known);
     if pieces.is_empty() {
         return Ok((about, None));
     }
-    about.push(format!("in the window: {}", words::count(pieces.len() as u64, "piece", "pieces")));
     let mut corners = Vec::new();
     for piece in pieces {
         for ((vertex, [x, y]), w) in piece.triangle.vertices.iter().zip(piece.px).zip(piece.w) {

@@ -3,8 +3,10 @@
 pub mod around;
 pub mod board;
 pub mod cost_plots;
+pub mod engines;
 pub mod json;
 pub mod plan;
+pub mod studied;
 
 use std::fmt::Write as _;
 

@@ -1,0 +1,97 @@
+//! A scene in a view, taken apart.
+
+use std::error::Error;
+
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_models::Origin;
+use rasterproof_render::pipeline::target::Target;
+use rasterproof_render::scene::{Hidden, Scene};
+use rasterproof_report::words::{count, thousands};
+
+use super::Places;
+use crate::hard::{self, HardCases, Kind};
+use crate::view::{Piece, Sampled};
+use crate::{faces, triangle_of};
+
+/// What was found of it, and where.
+pub struct Studied<'a> {
+    pub scene: Scene,
+    pub origins: &'a [Origin],
+    pub sampled: Sampled,
+    pub hard: HardCases,
+}
+
+impl<'a> Studied<'a> {
+    pub fn new(
+        scene: Scene,
+        origins: &'a [Origin],
+        target: &mut Target,
+    ) -> Result<Self, Box<dyn Error + Send + Sync>> {
+        if scene.hidden == Hidden::Painter {
+            return Err(
+                "this scene is drawn from back to front, without a depth buffer: study another one"
+                    .into(),
+            );
+        }
+        let sampled = Sampled::of(&scene, target)?;
+        let hard = hard::find(&scene, origins, &sampled, target)?;
+        Ok(Self { scene, origins, sampled, hard })
+    }
+
+    pub fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Places<'s> {
+        Places { scene: &self.scene, origins: self.origins, inspect }
+    }
+
+    /// The first triangle of a face, a line for whatever is known of it, and its pieces in the window; nothing where
+    /// no such face is drawn.
+    pub fn face(&self, number: u32) -> Option<(u32, Vec<String>, Vec<&Piece>)> {
+        let Self { scene, origins, sampled, hard } = self;
+        let of_face = |(triangle, face)| (face == number).then_some(triangle);
+        let triangles: Vec<u32> = (0..).zip(faces(scene, origins)).filter_map(of_face).collect();
+        let first = *triangles.first()?;
+        let mut known = Vec::new();
+        for (item, number) in triangles.iter().filter_map(|&one| triangle_of(scene, one)) {
+            let mesh = &scene.items[item].mesh;
+            let corners = mesh.triangles.positions()[number].map(|position| {
+                // Scenes are left-handed, models are not.
+                let [x, y, z] = mesh.positions[position as usize].to_array();
+                format!("({x:?}, {y:?}, {:?})", -z)
+            });
+            known.push(format!("triangle, y up: {}", corners.join(" ")));
+        }
+        let has_part = |kind: &Kind| triangles.iter().any(|&one| hard.is(one, *kind));
+        let kinds: Vec<_> = Kind::ALL.into_iter().filter(has_part).map(Kind::name).collect();
+        let kinds = if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
+        known.push(format!("hard cases that it has a part in: {kinds}"));
+        let is_of_face = |piece: &&Piece| triangles.binary_search(&piece.face).is_ok();
+        let pieces: Vec<&Piece> = sampled.at_centres().iter().filter(is_of_face).collect();
+        if !pieces.is_empty() {
+            let count = count(pieces.len() as u64, "piece", "pieces");
+            known.push(format!("in the window: {count}"));
+        }
+        Some((first, known, pieces))
+    }
+
+    /// How much of the scene is in the window, and whether there is anything to compare.
+    pub fn head(&self) -> String {
+        let Self { scene, sampled, .. } = self;
+        let counts = [scene.triangles(), sampled.at_centres().len()];
+        let [triangles, pieces] = counts.map(|count| thousands(count as u64));
+        let none = match sampled.all().any(|piece| has_pixel(piece, sampled.window)) {
+            true => "",
+            false => {
+                "\nNOT COMPARED: none of them has a pixel, so nothing was compared in what follows"
+            }
+        };
+        format!("{}: {triangles} triangles, {pieces} pieces in the window{none}", scene.name)
+    }
+}
+
+/// Whether a piece covers the centre of a pixel.
+pub fn has_pixel(piece: &Piece, window: PixelRect) -> bool {
+    let mut has_one = false;
+    Scanline.cover(piece.corners(), window, |_| has_one = true);
+    has_one
+}
