@@ -2,7 +2,6 @@
 
 use image::RgbImage;
 
-use super::explain::point;
 use super::{InputError, usage};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -12,6 +11,7 @@ use rasterproof_registry::comparison::{Hits, Judged};
 use rasterproof_registry::engines::Entry;
 use rasterproof_report::words::count;
 use rasterproof_report::{drawn, panels};
+use rasterproof_teaching::explain::point;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::{Tally, oracle_hits, shrink};
 use rasterproof_verify::judge::ascii;

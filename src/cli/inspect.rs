@@ -12,9 +12,7 @@ use super::inspect_case::{
 use super::page::{PageArguments, Shown, as_file, print, show};
 use super::typed::Typed;
 use super::view::ViewArguments;
-use super::{
-    InputError, Status, Streams, ends_in, exit, explain, program, study, usage, write_picture,
-};
+use super::{InputError, Status, Streams, ends_in, exit, program, study, usage, write_picture};
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
@@ -26,6 +24,7 @@ use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::{page_cases, picture, words as in_words};
+use rasterproof_teaching::explain;
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
 use rasterproof_verify::judge::ascii;

@@ -1,6 +1,5 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
-mod cameras;
 mod case_view;
 mod cost;
 mod course;
@@ -9,7 +8,6 @@ mod delivery;
 mod digest;
 mod engine;
 mod exhaust;
-mod explain;
 mod files;
 mod fixtures;
 mod guard;

@@ -9,12 +9,12 @@ use std::time::Instant;
 use clap::Args as _;
 use glam::{DMat4, DVec3};
 
-use super::cameras;
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{InputError, Streams, did_you_mean, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_host::text::{printable, printable_path};
+use rasterproof_models::cameras;
 use rasterproof_models::{LoadOptions, Model, Normals, Origin, Pose, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
@@ -394,7 +394,8 @@ impl ViewArguments {
         let mut projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)?;
         if let Some(wanted) = &self.camera {
             let camera = cameras::find(&model.cameras, wanted)?;
-            [view, projection] = cameras::matrices(camera, aspect, [min, max])
+            [view, projection] = camera
+                .matrices(aspect, [min, max])
                 .map_err(|error| usage(format!("--camera {}: {error}", printable(wanted))))?;
             (turn, distance) = (DMat4::IDENTITY, view.transform_point3(centre).z);
         }

@@ -1,6 +1,8 @@
 //! Cameras of a file: where their eyes are, and what they see.
 
 use glam::{DMat4, DVec3};
+use rasterproof_host::text::printable_short;
+use rasterproof_render::pipeline::transform::{NoProjection, look_along, parallel, perspective};
 
 /// A camera, in the coordinates of the scene once a model is made of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +32,32 @@ pub enum Lens {
 }
 
 impl Camera {
+    /// From world to camera and from camera to clip space, for a model between two corners. The picture has the camera's height,
+    /// whatever its width is.
+    pub fn matrices(
+        &self,
+        aspect: f64,
+        [min, max]: [DVec3; 2],
+    ) -> Result<[DMat4; 2], NoProjection> {
+        let view = look_along(self.eye, self.ahead, self.up)?;
+        let near = self.near;
+        // A camera that sees infinitely far sees all of the model.
+        let far = self.far.unwrap_or_else(|| {
+            let corner = |at: usize| {
+                let pick =
+                    |bit: usize, min: f64, max: f64| if at >> bit & 1 == 0 { min } else { max };
+                DVec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z))
+            };
+            let farthest = (0..8).map(|at| view.transform_point3(corner(at)).z);
+            1.01 * farthest.fold(2.0 * near, f64::max)
+        });
+        let projection = match self.lens {
+            Lens::Perspective { angle_rad } => perspective(angle_rad, aspect, near, far),
+            Lens::Parallel { half_height } => parallel(half_height, aspect, near, far),
+        }?;
+        Ok([view, projection])
+    }
+
     pub(crate) fn place(&mut self, matrix: DMat4) {
         self.eye = matrix.transform_point3(self.eye);
         self.ahead = matrix.transform_vector3(self.ahead);
@@ -44,4 +72,38 @@ impl Camera {
             *half_height *= factor;
         }
     }
+}
+
+/// A note lists so many cameras or animations.
+const MOST_LISTED: usize = 8;
+
+/// Cameras or animations by number and name: `1 'front', 2`.
+pub fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    let count = names.len();
+    let one = |(number, name): (usize, &str)| match name {
+        "" => format!("{}", number + 1),
+        name => format!("{} '{}'", number + 1, printable_short(name, 40)),
+    };
+    let mut list: Vec<String> = names.enumerate().take(MOST_LISTED).map(one).collect();
+    if count > MOST_LISTED {
+        list.push(format!("... {count}"));
+    }
+    list.join(", ")
+}
+
+/// The camera of this number, from 1, or else of this name.
+pub fn find<'a>(cameras: &'a [Camera], wanted: &str) -> Result<&'a Camera, String> {
+    let number = wanted.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+    let numbered = number.and_then(|number| cameras.get(number));
+    let named = || cameras.iter().find(|camera| camera.name == wanted);
+    numbered.or_else(named).ok_or_else(|| {
+        let has = match cameras {
+            [] => "has no cameras".to_owned(),
+            _ => format!(
+                "has the cameras {}",
+                listed(cameras.iter().map(|camera| camera.name.as_str()))
+            ),
+        };
+        format!("--camera {}: the model {has}", printable_short(wanted, 40))
+    })
 }

@@ -5,7 +5,7 @@
 
 mod ahead;
 mod broken;
-mod cameras;
+pub mod cameras;
 mod contents;
 mod format;
 mod gltf;

@@ -1,6 +1,8 @@
 //! For people who learn and teach: the twelve steps of the [`course`], the [`quiz`], whose answers the engines
-//! compute, and the published faults as [`specimens`].
+//! compute, the published faults as [`specimens`], and why a pixel
+//! is covered, which [`explain`] says step by step.
 
 pub mod course;
+pub mod explain;
 pub mod quiz;
 pub mod specimens;

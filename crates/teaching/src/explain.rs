@@ -1,5 +1,5 @@
-//! `rasterproof inspect CASE --pixel X,Y`: why a pixel is covered or not, step by step: edge values,
-//! ties and whose they are, the span of the row, and who hits it.
+//! Why a pixel is covered or not, step by step: edge values, ties and whose they are, the span of the row, and who hits
+//! it.
 
 use std::cmp::Ordering;
 use std::fmt::Write as _;
