@@ -15,24 +15,23 @@ use super::typed::Typed;
 use super::view::{Maker, SceneArguments};
 use super::{InputError, Status, Streams, ends_in, exit, usage};
 use rasterproof_core::frame::Frame;
-use rasterproof_registry::engines::{Drawer, Engine};
-use rasterproof_registry::undecided::{self, Drawn};
-use rasterproof_render::effects::depth_ties::{ByRounding, TiedPieces};
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::depth_ties::TiedPieces;
 use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
 use rasterproof_render::effects::render::{PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
-use rasterproof_render::scene::{Hidden, Scene};
-use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
-use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::table::{Row, Table};
-use rasterproof_report::words::thousands;
+use rasterproof_render::scene::Scene;
+use rasterproof_report::frame_comparison::{self, Comparison, Times};
+use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::{json, picture};
 use rasterproof_study::bounds::Purpose;
-use rasterproof_study::report::plan;
-use rasterproof_study::ties::classify;
+use rasterproof_study::report::drawing::{
+    self, Data, Drawing, ROUNDING, ROUNDING_IN_TILES, add_to_page, by_rounding, compare,
+    is_plan_alone, leaves_open, names, notes, outcome, rounding, times_text,
+};
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
 
@@ -75,30 +74,6 @@ enum DrawnBy {
     EdgeFunction,
     Tiles,
     Both,
-}
-
-struct Drawing {
-    name: &'static str,
-    rendered: Rendered,
-    time: Duration,
-    /// Holds every depth, where two rasterizers are compared.
-    target: Target,
-    /// Pixels that are others where every depth and sample is there, which is a fault.
-    unplanned: u64,
-    /// Pixels that the plan of a file, or effects that were switched off, change.
-    changed: u64,
-    is_complete: bool,
-}
-
-#[derive(serde::Serialize)]
-struct Data<'a> {
-    scene: &'a str,
-    engines: Vec<&'static str>,
-    times: &'a Times,
-    counters: &'a Counters,
-    plan: &'a Plan,
-    comparison: &'a Option<Comparison>,
-    by_rounding: &'a Option<ByRounding>,
 }
 
 pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
@@ -186,128 +161,10 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let status = exit::of(comparison.as_ref().is_none_or(Comparison::agrees));
     show(report.clone(), Shown::Screen.or_json(arguments.json), None, status, streams)?;
     if let Some(page) = page {
-        add_to_page(&mut report, typed, scene, &drawings, comparison.as_ref());
+        add_to_page(&mut report, typed.line(), scene, &drawings, comparison.as_ref());
         write_page(&page, report, streams);
     }
     Ok(status)
-}
-
-fn names(drawings: &[Drawing]) -> Vec<&'static str> {
-    drawings.iter().map(|drawing| drawing.name).collect()
-}
-
-/// Whether two rasterizers have drawn no pixel at all, so that two backgrounds would be compared.
-fn is_nothing_drawn(drawings: &[Drawing]) -> bool {
-    drawings.len() > 1 && drawings.iter().all(|drawing| drawing.rendered.counters.fragments == 0)
-}
-
-/// Pixels that the plan of a file, or effects that were switched off, change.
-fn changed(drawings: &[Drawing]) -> u64 {
-    drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0)
-}
-
-/// Whether two frames are alike, and nothing but their plan is wrong.
-fn is_plan_alone(c: &Comparison, drawings: &[Drawing]) -> bool {
-    c.wrong_depths == 0 && c.wrong_pixels > 0 && c.wrong_pixels == changed(drawings)
-}
-
-/// Compares two drawings, where there is something to compare; ties are looked for where there are depths to look at.
-fn compare(
-    scene: &Scene,
-    drawings: &[Drawing],
-    follows_plan: bool,
-) -> Result<Option<Comparison>, InputError> {
-    let [a, b] = drawings else { return Ok(None) };
-    if is_nothing_drawn(drawings) {
-        return Ok(None);
-    }
-    let drawn = [(Engine::Scanline, a), (Engine::EdgeFunction, b)];
-    let drawn = drawn.map(|(engine, drawing)| Drawn { engine, target: &drawing.target });
-    let is_complete = a.is_complete && b.is_complete;
-    let ties = is_complete.then(|| undecided::find(scene, drawn)).transpose()?;
-    let (first, second) = ((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
-    let mut comparison = frame_comparison::compare(first, second, ties.as_ref());
-    comparison.wrong_pixels += a.unplanned + b.unplanned;
-    if follows_plan {
-        // Two rasterizers that follow one wrong plan agree with each other, not with the scene.
-        comparison.wrong_pixels += changed(drawings);
-    }
-    Ok(Some(comparison))
-}
-
-/// Pixels in which rounding alone decides which surface is seen, as `study` counts them.
-fn by_rounding(scene: &Scene, target: &Target) -> Result<ByRounding, InputError> {
-    if scene.hidden == Hidden::Painter {
-        return Ok(ByRounding::default());
-    }
-    let classes = classify(scene, target)?;
-    let first = classes.first.map(|pair| pair.pixel.into());
-    Ok(ByRounding { pixels: classes.by_rounding, first })
-}
-
-/// What decides which surface is seen, and how far it reaches, in words: for every rasterizer, and for tiles.
-const ROUNDING: [&str; 2] = ["rounding alone", "snapped corners move a depth"];
-const ROUNDING_IN_TILES: [&str; 2] =
-    ["rounding to f32 or snapping", "snapping and f32 move a depth"];
-
-/// The same in words; nothing where nothing is.
-fn rounding(found: ByRounding, [what, reach]: [&str; 2]) -> Option<String> {
-    let (x, y) = found.first?;
-    let pixels = match found.pixels {
-        1 => "1 pixel has",
-        count => &format!("{count} pixels have"),
-    };
-    Some(format!(
-        "ROUNDING: {pixels} two surfaces nearer to each other than {reach}; {what} decides which one is \
-         seen; the first is at {x}, {y} (see docs/ties.md)"
-    ))
-}
-
-/// What two drawings come to, or that nothing was drawn.
-fn outcome(
-    drawings: &[Drawing],
-    comparison: Option<&Comparison>,
-    difference: Option<String>,
-) -> Option<Outcome> {
-    let Some(c) = comparison else {
-        return is_nothing_drawn(drawings).then(|| Outcome::nothing_drawn());
-    };
-    let names = names(drawings).join(" and ");
-    let Comparison { wrong_pixels: wrong, pixels, wrong_depths, depths, .. } = c;
-    let sentence = if c.agrees() {
-        format!("{names}, {pixels} pixels and {depths} depths, 0 differ")
-    } else if is_plan_alone(c, drawings) {
-        format!("{names} draw alike, and by this plan {wrong} of {pixels} pixels wrong; plan again")
-    } else {
-        let place = difference.map(|path| format!(", drawn in {path}")).unwrap_or_default();
-        let depths = format!("{wrong_depths} of {depths} depths differ{place}");
-        format!("{names}: {wrong} of {pixels} pixels and {depths}")
-    };
-    Some(Outcome::of(c.agrees(), sentence))
-}
-
-/// What a page has besides: the frames side by side, and the plan that was followed.
-fn add_to_page(
-    report: &mut Report,
-    typed: &Typed,
-    scene: &Scene,
-    drawings: &[Drawing],
-    comparison: Option<&Comparison>,
-) {
-    let layer = |d: &Drawing| PictureLayer::new(d.name, &picture::of_frame(&d.rendered.picture));
-    let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
-    let marked = marked.map(|c| PictureLayer::map("what differs", &picture::of_frame(&c.picture)));
-    report.title = format!("The scene {}", scene.name);
-    report.command = typed.line();
-    let plan = drawings.first().map(|d| plan::table(&d.rendered.plan.decisions));
-    report.tables.splice(0..0, plan);
-    report.frames = vec![PictureView {
-        name: scene.name.clone(),
-        about: scene.about.clone(),
-        command: typed.line(),
-        chapter: Chapter { title: "chapter 9, the pipeline", path: "ch09.md" },
-        layers: drawings.iter().map(layer).chain(marked).collect(),
-    }];
 }
 
 /// A plan from a file: the plan alone, or all that `plan --json` writes.
@@ -381,74 +238,6 @@ fn draw(
     engines.iter().map(drawing).inspect(|_| progress.done(1)).collect()
 }
 
-/// Whether some pixels are right in either of two colours.
-fn leaves_open(c: &Comparison) -> bool {
-    c.undecided > 0 || c.far_texture > 0
-}
-
-/// What was drawn, how long that took, and what is right in either of two colours.
-fn notes(
-    scene: &Scene,
-    drawings: &[Drawing],
-    times: &Times,
-    comparison: Option<&Comparison>,
-    [output, difference]: [Option<&Path>; 2],
-) -> Vec<String> {
-    let c = &drawings[0].rendered.counters;
-    let mut notes = vec![
-        format!(
-            "vertices {}, triangles {} (rejected {}, clipped {}), in the window {}, culled {}",
-            c.vertices, c.triangles, c.rejected, c.clipped, c.pieces, c.culled
-        ),
-        format!(
-            "fragments {}, depth tests {} (failed {}), shaded {}",
-            c.fragments, c.depth_tests, c.depth_failed, c.shaded
-        ),
-    ];
-    if let (Some(most), true) = (scene.layers, c.layers > 0) {
-        notes.push(format!(
-            "layers {}, of which {} lie behind the {most} nearest of their sample and are left out",
-            c.layers, c.layers_left_out
-        ));
-    }
-    notes.push(times_text(times, &names(drawings)));
-    notes.extend(output.map(|output| format!("drawn in {}", printable_path(output))));
-    let changed = changed(drawings);
-    if changed > 0 {
-        notes.push(format!("what is switched off is called for: it changes {changed} pixels"));
-    }
-    let Some(c) = comparison else { return notes };
-    let Comparison { undecided, undecided_differ, far_texture, .. } = c;
-    if *undecided > 0 {
-        let place = difference.map(|path| format!(", drawn in {}", printable_path(path)));
-        let place = place.unwrap_or_default();
-        notes.push(format!(
-            "UNDECIDED: {undecided} pixels are undecided by either, {undecided_differ} of them differ: \
-             surfaces that tie{place} (see docs/ties.md)"
-        ));
-    }
-    if *far_texture > 0 {
-        notes.push(format!(
-            "UNDECIDED: {far_texture} pixels differ by large texture coordinates, whose bound holds \
-             several texels (see docs/ties.md)"
-        ));
-    }
-    notes
-}
-
-/// `loaded in 12 ms; drawn in 3.1 ms by scanline, 4.0 ms by edge-function`.
-fn times_text(times: &Times, names: &[&str]) -> String {
-    let shown = |seconds: f64| match seconds * 1e3 {
-        ms if ms < 10.0 => format!("{ms:.1} ms"),
-        ms if ms < 1e3 => format!("{ms:.0} ms"),
-        _ => format!("{seconds:.2} s"),
-    };
-    let loaded = times.loading_s.map(|time| format!("loaded in {}; ", shown(time)));
-    let by = times.drawing_s.iter().zip(names);
-    let drawn: Vec<_> = by.map(|(&time, name)| format!("{} by {name}", shown(time))).collect();
-    format!("{}drawn in {}", loaded.unwrap_or_default(), drawn.join(", "))
-}
-
 /// One frame in tiles: a picture and nothing else.
 fn draw_in_tiles(
     (arguments, typed): (&RenderArguments, &Typed),
@@ -481,16 +270,7 @@ fn draw_in_tiles(
         _ => "tiles and scanline",
     };
     let mut notes = vec![times_text(&times, &[name])];
-    let beyond_f32 = "are of an item with values beyond 2^62, which may overflow in f32";
-    let reasons = [
-        (handed_over.in_shadows, "are in a scene with shadows"),
-        (handed_over.not_opaque, "are of a material that is not opaque"),
-        (handed_over.physical, "are of a physical material"),
-        (handed_over.beyond_f32, beyond_f32),
-    ];
-    for (count, reason) in reasons.into_iter().filter(|(count, _)| *count > 0) {
-        notes.push(format!("{count} of {all} triangles {reason}: handed to scanline"));
-    }
+    notes.extend(drawing::handed_over(&handed_over, all));
     let is_handed_over = handed_over.triangles() == all;
     if streams.save(output, &picture::png(&picture::of_frame(&picture))) {
         let (side, path) = (frames::SIDE_PX, printable_path(&output.path));
@@ -536,19 +316,7 @@ fn map(
     let title = format!("{}: what each pixel pays for", scene.name);
     let picture = picture::png(&frame_comparison::map_picture(&title, &rendered.picture, &map));
     let drawn_in = saved(output, &picture, streams);
-    let row = |effect: Effect| {
-        let paid = frame_comparison::paid(&map.effects, effect);
-        Row::of(&[&effect.name(), &thousands(paid)])
-    };
-    let amounts = [("fragments", &map.fragments), ("effects of fragments", &map.payments)];
-    let notes = amounts.map(|(what, counts)| {
-        let Amount { mean, most, at: [x, y], pixels } = Amount::of(counts);
-        format!(
-            "{what}: {mean:.2} a pixel on average, at most {most} (in {pixels} px, first {x},{y})"
-        )
-    });
-    let rows = frame_comparison::mapped().map(row).collect();
-    let table = Table::new("", "effect 15 | >px 9", rows).noted(notes.to_vec());
+    let table = drawing::paid(&map);
     let about = format!("{}: effects paid for{drawn_in}", scene.name);
     print(Report { about, tables: vec![table], ..Report::default() }, exit::AGREES, streams)
 }

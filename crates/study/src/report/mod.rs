@@ -3,6 +3,7 @@
 pub mod around;
 pub mod board;
 pub mod cost_plots;
+pub mod drawing;
 pub mod engines;
 pub mod json;
 pub mod plan;
