@@ -13,11 +13,9 @@ use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
-    Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with, prices,
+    Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with,
 };
-use rasterproof_report::canvas;
-use rasterproof_report::html::Figure;
-use rasterproof_study::report::{board, cost_plots};
+use rasterproof_study::report::board;
 
 /// What is measured together under one word.
 const LADDERS: [(&str, &[Ladder]); 7] = [
@@ -85,7 +83,8 @@ impl CostArguments {
     /// Refuses names of plots and pages that are the file of --from or each other's.
     fn check_files(&self, ladders: &[Ladder]) -> Result<(), InputError> {
         let page = self.page.page("cost.html");
-        let names = ladders.iter().map(|&ladder| plot_name(ladder)).chain([PRICE.to_owned()]);
+        let names =
+            ladders.iter().map(|&ladder| board::plot_name(ladder)).chain([board::PRICE.to_owned()]);
         let plots = names.map(|name| self.page.place.output(format!("{name}.svg")));
         let plots: Vec<_> = plots.collect();
         let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
@@ -135,7 +134,7 @@ pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) 
     };
     let place = &arguments.page.place;
     let (mut written, mut figures) = (Vec::new(), Vec::new());
-    for (name, figure) in plots(&recorded.boards) {
+    for (name, figure) in board::plots(&recorded.boards) {
         if streams.save(&place.output(format!("{name}.svg")), figure.svg.as_bytes()) {
             written.push(name);
         }
@@ -164,29 +163,6 @@ fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, InputError> {
         return Err(named(format!("it holds no board of {}", names.join(" or "))));
     }
     Ok(recorded)
-}
-
-fn plot_name(ladder: Ladder) -> String {
-    format!("cost-{}", ladder.name())
-}
-
-/// The plot that answers what exact coverage costs.
-const PRICE: &str = "cost-price";
-
-/// The plots with their names, what answers the question first.
-fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
-    let of_board = |board: &Board| {
-        let caption = format!("Time against error: {}", board.ladder.name());
-        let drawn = [2, 1].map(|in_row| cost_plots::pareto(board, in_row));
-        (plot_name(board.ladder), canvas::figure(&caption, drawn))
-    };
-    let prices = prices(boards);
-    let price = (!prices.is_empty()).then(|| {
-        let caption = "What exact coverage costs over the cheapest choice";
-        let drawn = [800.0, 400.0].map(|width| cost_plots::price(&prices, width));
-        (PRICE.to_owned(), canvas::figure(caption, drawn))
-    });
-    price.into_iter().chain(boards.iter().rev().map(of_board)).collect()
 }
 
 fn measure_all(

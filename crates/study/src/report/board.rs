@@ -4,11 +4,12 @@
 //! Marks say what colours repeat: `*` the cheapest choice whose error is as good as none, `+` another
 //! such choice, `<` the fastest of all.
 
-use super::json;
+use super::{cost_plots, json};
 use rasterproof_host::text::printable;
 use rasterproof_precision::cost::{
-    Board, Cell, Measure, Price, Priced, Recorded, Run, Time, prices,
+    Board, Cell, Ladder, Measure, Price, Priced, Recorded, Run, Time, prices,
 };
+use rasterproof_report::canvas;
 use rasterproof_report::html::{Figure, Report};
 use rasterproof_report::table::{Column, Row, Table};
 use rasterproof_report::words::number;
@@ -216,4 +217,28 @@ pub fn report(recorded: &Recorded, figures: Vec<Figure>) -> Report {
         data: json::cost(recorded),
         ..Report::default()
     }
+}
+
+/// The name of the plot of a group, as a file.
+pub fn plot_name(ladder: Ladder) -> String {
+    format!("cost-{}", ladder.name())
+}
+
+/// The plot that answers what exact coverage costs.
+pub const PRICE: &str = "cost-price";
+
+/// The plots with their names, what answers the question first.
+pub fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
+    let of_board = |board: &Board| {
+        let caption = format!("Time against error: {}", board.ladder.name());
+        let drawn = [2, 1].map(|in_row| cost_plots::pareto(board, in_row));
+        (plot_name(board.ladder), canvas::figure(&caption, drawn))
+    };
+    let prices = prices(boards);
+    let price = (!prices.is_empty()).then(|| {
+        let caption = "What exact coverage costs over the cheapest choice";
+        let drawn = [800.0, 400.0].map(|width| cost_plots::price(&prices, width));
+        (PRICE.to_owned(), canvas::figure(caption, drawn))
+    });
+    price.into_iter().chain(boards.iter().rev().map(of_board)).collect()
 }
