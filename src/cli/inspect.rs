@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
-use super::case_view;
 use super::files::{self, Output, written};
 use super::inspect_case::{
     CaseArguments, Found, all_around, face_of_file, find, off_lattice, parse_pixel, recorded, words,
@@ -24,6 +23,7 @@ use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::{page_cases, picture, words as in_words};
+use rasterproof_teaching::case_view;
 use rasterproof_teaching::explain;
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
@@ -340,7 +340,8 @@ fn add_specimen(
     let (Shape::Unsnapped { list, .. }, Some(Specimen::Triangle(specimen))) =
         (&case.shape, entry.specimen)
     else {
-        return shown.add(entry, case).map(|()| None);
+        shown.add(entry, case)?;
+        return Ok(None);
     };
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
     let triangles: Vec<_> = list.iter().map(|t| bare(t.px())).collect();

@@ -1,6 +1,5 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
-mod case_view;
 mod cost;
 mod course;
 mod course_grade;

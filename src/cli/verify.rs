@@ -6,7 +6,6 @@ use std::time::Duration;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
-use super::case_view;
 use super::files;
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
@@ -18,6 +17,7 @@ use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::{differential, json, page_cases, picture, summary};
+use rasterproof_teaching::case_view;
 use rasterproof_verify::cases::{self, Case, Kind, Shape};
 use rasterproof_verify::comparison::{self, FamilyReport, Options, PairReport, Shard, Verdict};
 use rasterproof_verify::judge::ascii;

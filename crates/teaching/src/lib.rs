@@ -2,6 +2,7 @@
 //! compute, the published faults as [`specimens`], and why a pixel
 //! is covered, which [`explain`] says step by step.
 
+pub mod case_view;
 pub mod course;
 pub mod explain;
 pub mod quiz;

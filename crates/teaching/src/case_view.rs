@@ -2,7 +2,6 @@
 
 use image::RgbImage;
 
-use super::{InputError, usage};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::WordWidth;
@@ -11,11 +10,12 @@ use rasterproof_registry::comparison::{Hits, Judged};
 use rasterproof_registry::engines::Entry;
 use rasterproof_report::words::count;
 use rasterproof_report::{drawn, panels};
-use rasterproof_teaching::explain::point;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::{Tally, oracle_hits, shrink};
 use rasterproof_verify::judge::ascii;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
+
+use crate::explain::point;
 
 /// Everybody who is judged, or a planted fault alone.
 pub fn judged(plant: Option<&str>) -> Judged {
@@ -43,9 +43,9 @@ pub fn draw(case: &Case, judged: &Judged) -> Shown {
 }
 
 impl Shown {
-    pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), InputError> {
+    pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), String> {
         let hits = drawn::by_specimen(entry, case);
-        let refused = || usage(format!("{} does not draw what this case holds", entry.name));
+        let refused = || format!("{} does not draw what this case holds", entry.name);
         self.engines.insert(0, (entry.name.to_owned(), hits.ok_or_else(refused)?));
         Ok(())
     }
