@@ -4,7 +4,6 @@ use super::files;
 use super::page::{PageArguments, Shown, as_file, print, show};
 use super::plan_table::{self, grouped};
 use super::progress::Progress;
-use super::render::NOTHING_DRAWN;
 use super::typed::Typed;
 use super::view::{Purpose, SceneArguments};
 use super::{Status, Streams, exit};
@@ -247,7 +246,7 @@ fn report(
         title: format!("What the scene {} calls for", scene.name),
         about: format!("{}: {}", scene.name, scene.about),
         outcome: Some(match frames[0].counters.fragments {
-            0 if same => Outcome::not_compared(NOTHING_DRAWN),
+            0 if same => Outcome::not_compared(Outcome::NOTHING_DRAWN),
             _ => Outcome::of(same, sentence),
         }),
         command: typed.line(),

@@ -200,9 +200,6 @@ fn is_nothing_drawn(drawings: &[Drawing]) -> bool {
     drawings.len() > 1 && drawings.iter().all(|drawing| drawing.rendered.counters.fragments == 0)
 }
 
-/// What is said instead of a verdict then.
-pub(super) const NOTHING_DRAWN: &str = "No triangle covers a pixel of this view.";
-
 /// Pixels that the plan of a file, or effects that were switched off, change.
 fn changed(drawings: &[Drawing]) -> u64 {
     drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0)
@@ -272,7 +269,7 @@ fn outcome(
     difference: Option<String>,
 ) -> Option<Outcome> {
     let Some(c) = comparison else {
-        return is_nothing_drawn(drawings).then(|| Outcome::not_compared(NOTHING_DRAWN));
+        return is_nothing_drawn(drawings).then(|| Outcome::not_compared(Outcome::NOTHING_DRAWN));
     };
     let names = names(drawings).join(" and ");
     let Comparison { wrong_pixels: wrong, pixels, wrong_depths, depths, .. } = c;
@@ -598,7 +595,7 @@ fn spin(
     let notes = open.map(|(pixels, what)| format!("UNDECIDED: {pixels} pixels, {what}")).collect();
     let agrees = arguments.engine != DrawnBy::Both || wrong == 0;
     let outcome = (arguments.engine == DrawnBy::Both).then(|| match is_compared {
-        false => Outcome::not_compared(NOTHING_DRAWN),
+        false => Outcome::not_compared(Outcome::NOTHING_DRAWN),
         true => Outcome::of(agrees, format!("{wrong} pixels and depths differ")),
     });
     let about = format!("{frames} frames{drawn_in}");

@@ -113,6 +113,9 @@ impl Outcome {
         [word(self.good), same(self.good)].contains(&&*self.word)
     }
 
+    /// Why two pictures without a triangle are not compared.
+    pub const NOTHING_DRAWN: &str = "No triangle covers a pixel of this view.";
+
     /// The outcome where there was nothing to compare.
     pub fn not_compared(reason: &str) -> Self {
         Self::new(false, "NOT COMPARED", format!("{reason} Nothing was compared."))
