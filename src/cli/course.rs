@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::files::{self, Output, written};
-use super::page::{Place, Shown, print, show};
+use super::page::{self, Place, Shown, print};
 use super::progress::Progress as Bar;
 use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, usage, write_file};
@@ -14,9 +14,8 @@ use rasterproof_host::shell::{self, quote};
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::target::{Antialias, check_size};
 use rasterproof_render::scene::chapters;
-use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
-use rasterproof_report::table::{Row, Table};
-use rasterproof_report::{picture, words};
+use rasterproof_report::html::Report;
+use rasterproof_report::picture;
 use rasterproof_study::bounds::Purpose;
 
 use crate::cli::starters::{self, Language};
@@ -116,38 +115,9 @@ pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
     }
 }
 
-/// The steps; those passed are marked where there is a progress file.
 fn list(streams: &mut Streams<'_>) -> Status {
     let progress = Progress::read(Path::new("."))?;
-    let row = |step: &Step| {
-        let mark = match &progress {
-            Some(progress) if progress.has_passed(step) => "+",
-            Some(progress) if progress.current() == step => ">",
-            _ => "",
-        };
-        let mut families: Vec<_> =
-            step.exercises.iter().flat_map(|e| &e.families).map(String::as_str).collect();
-        families.sort_unstable();
-        families.dedup();
-        let page = format!("{} ({})", step.title, step.page);
-        let (number, families) = (course::number(step), families.join(", "));
-        Row::of(&[&mark, &number, &step.name, &page, &step.judged, &families])
-    };
-    let columns = "~state 1 | >~number 2 | ~step 14 | ~page 1 | what is judged | :families";
-    let (next, marks) = match &progress {
-        Some(_) => ("check", " (+ passed, > current)"),
-        None => ("start --language python mine", ""),
-    };
-    let report = Report {
-        about: format!(
-            "Twelve steps to a rasterizer of your own{marks}; next: rasterproof course {next}\n\
-             Each is judged by requests that your program answers: L lines, T triangles, I values in them, D depths, N the \
-             near plane, S four samples; see docs/protocol.md"
-        ),
-        tables: vec![Table::new("", columns, STEPS.iter().map(row).collect())],
-        ..Report::default()
-    };
-    print(report, exit::AGREES, streams)
+    print(course::listed(progress.as_ref()), exit::AGREES, streams)
 }
 
 fn start(language: Language, solution: bool, folder: &Path, streams: &mut Streams<'_>) -> Status {
@@ -267,60 +237,14 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         (None, Some(word)) => format!(" {word}"),
         (None, None) => String::new(),
     };
-    let title = format!("course show {name}");
-    let mut report = Report {
-        about: title.clone(),
-        title,
-        command: format!("rasterproof course show{shown}{own}"),
-        ..Report::default()
-    };
-    let mut differing = 0;
-    // On the page, the pictures that differ most come first.
-    let mut on_page = Vec::new();
-    for (label, picture) in &pictures {
-        differing += picture.differing + picture.unanswered;
-        let of = picture.right.width() * picture.right.height();
-        let refused = match picture.unanswered {
-            0 => String::new(),
-            n => format!("; {n} requests refused or not answered"),
-        };
-        let about = format!("{} of {of} pixels differ{refused}", picture.differing);
-        let name = format!("{label}: {}", picture.title);
-        report.notes.push(format!("{name}: {about}"));
-        let layers = vec![
-            PictureLayer::new("yours", &picture.yours),
-            PictureLayer::new("right", &picture.right),
-            PictureLayer::map("difference", &picture.difference()),
-        ];
-        let view = PictureView { name, about, layers, ..PictureView::default() };
-        on_page.push((picture.differing, view));
-    }
-    on_page.sort_by_key(|(differing, _)| std::cmp::Reverse(*differing));
-    report.frames = on_page.into_iter().map(|(_, view)| view).collect();
-    let sentence = "what your program draws, beside what this project's engines draw";
-    // Of a model that is not seen, two backgrounds would be compared.
-    let is_blank = pictures.iter().all(|(_, picture)| picture::is_plain(picture.right.pixels()));
-    report.outcome = Some(match is_blank && differing == 0 {
-        true => Outcome::nothing_drawn(),
-        false => Outcome {
-            answer: match pictures.iter().map(|(_, picture)| picture.differing).sum() {
-                0 if differing == 0 => "no pixel differs".to_owned(),
-                0 => "requests are refused or not answered".to_owned(),
-                pixels => words::count(pixels, "pixel differs", "pixels differ"),
-            },
-            ..Outcome::of(differing == 0, sentence)
-        },
-    });
-    report.notes.extend(complaint(&program));
+    let mut report = show::report(format!("course show {name}"), &pictures);
+    report.command = format!("rasterproof course show{shown}{own}");
+    report.notes.extend(examine::complaint(&program));
     let sheets: Vec<_> = pictures.iter().map(|(_, picture)| picture.sheet()).collect();
     if streams.save(&sheet, &picture::png(&picture::stack(&sheets))) {
         report.notes.push(format!("drawn in {}", printable_path(&sheet.path)));
     }
-    show(report, Shown::All, Some(page), exit::of(differing == 0), streams)
-}
-
-fn complaint(program: &Program) -> Option<String> {
-    examine::complaint(program).map(|last| format!("its standard error ends: {last}"))
+    page::show(report, Shown::All, Some(page), exit::of(show::agree(&pictures)), streams)
 }
 
 fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
@@ -339,29 +263,19 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     };
     let outcome = examine::examine(&mut program, step, &amount);
     drop(shown);
-    let before = progress.failures.min(3) * usize::from(progress.step == step.name);
     progress.note(step, outcome.passes());
     let mut report = verdict::report(step, &outcome, &shell::line(&progress.run));
     // It was read, and is written anew.
     let noted = Output { path: progress::path(&arguments.dir), over: Over::Updated };
     streams.save(&noted, progress.text().as_bytes());
-    if outcome.passes() {
-        let next = match STEPS.iter().all(|step| progress.has_passed(step)) {
-            true => "all twelve steps are passed; next: rasterproof judge -- CMD".to_owned(),
-            false => {
-                let next = progress.current();
-                let (number, title) = (course::number(next), &next.title);
-                format!("next: step {number}, {title} ({}): {}", next.page, next.judged)
-            }
-        };
-        report.notes.push(next);
-    } else {
-        report.notes.extend(complaint(&program));
-        let hints = (before + 1 + usize::from(arguments.hint)).min(3);
-        let hints = step.hints.iter().take(hints).zip(1..);
-        report.notes.extend(hints.map(|(hint, number)| format!("hint {number}: {hint}")));
-        let number = course::number(step);
-        report.notes.push(format!("page: steps.md, step {number} ({})", step.page));
-    }
-    print(report, exit::of(outcome.passes()), streams)
+    let passes = outcome.passes();
+    report.notes.extend(match passes {
+        true => vec![verdict::next(&progress)],
+        false => {
+            let complaint = examine::complaint(&program);
+            let hints = progress.failures + usize::from(arguments.hint);
+            complaint.into_iter().chain(verdict::hints(step, hints)).collect()
+        }
+    });
+    print(report, exit::of(passes), streams)
 }

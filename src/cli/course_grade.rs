@@ -4,24 +4,18 @@
 //! concerns the others.
 
 use std::ffi::{OsStr, OsString};
-use std::fmt::{Display, Write as _};
-use std::io::{ErrorKind, Read as _};
+use std::io::ErrorKind;
 use std::path::PathBuf;
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::Command;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use rasterproof_host::limits;
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use super::progress::Progress as Shown;
 use super::{Status, Streams, exit, usage};
 use rasterproof_judge::text::printable;
-use rasterproof_program::group::{self, Group};
-use rasterproof_report::formats;
-use rasterproof_report::json::pretty;
-use rasterproof_report::table::{Row, Table};
+use rasterproof_program::{group, output};
 use rasterproof_teaching::course::STEPS;
 use rasterproof_teaching::course::grade::{self, Found, Grade, Submission, Terms};
 use rasterproof_teaching::course::sandbox::Bounds;
@@ -114,20 +108,6 @@ impl GradeArguments {
     }
 }
 
-#[derive(Serialize, Deserialize)]
-struct Grades {
-    version: String,
-    seed: u64,
-    cases: u64,
-    submissions: Vec<Grade>,
-}
-
-fn json(submissions: Vec<Grade>, arguments: &GradeArguments) -> String {
-    let GradeArguments { seed, cases, .. } = *arguments;
-    let version = env!("CARGO_PKG_VERSION").to_owned();
-    pretty(&Grades { version, seed, cases, submissions })
-}
-
 pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     if arguments.folder.is_some() && arguments.format == Format::Gradescope {
         return Err(usage(
@@ -149,7 +129,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     group::end_groups_on_ctrl_c();
     let is_table = arguments.format == Format::Text && arguments.folder.is_some();
     if is_table {
-        streams.output.write_all(row("submission", |at| at + 1, &"points").as_bytes())?;
+        streams.output.write_all(grade::row("submission", |at| at + 1, &"points").as_bytes())?;
     }
     let mut grades = Vec::new();
     let shown = Shown::new(streams.progress, "submissions", Some(submissions.len() as u64));
@@ -161,7 +141,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         if is_table {
             // Rows that were judged stay, whatever happens to the rest.
             let mark = |at| if grade.has_passed(at) { "+" } else { "-" };
-            let text = row(&grade.name, mark, &grade.points);
+            let text = grade::row(&grade.name, mark, &grade.points);
             shown.without_bar(|| {
                 streams.output.write_all(text.as_bytes())?;
                 streams.output.flush()
@@ -171,12 +151,13 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         shown.done(1);
     }
     drop(shown);
+    let &GradeArguments { seed, cases, .. } = arguments;
     let unjudged = grades.iter().all(|grade| grade.error.is_some());
     let all = grades.iter().all(|grade| grade.points == STEPS.len());
     let text = match arguments.format {
-        Format::Text => text(&grades, is_table),
-        Format::Gradescope => pretty(&gradescope(&grades[0])),
-        Format::Json => json(grades, arguments),
+        Format::Text => grade::text(&grades, is_table),
+        Format::Gradescope => grade::gradescope(&grades[0]),
+        Format::Json => grade::json(grades, seed, cases),
     };
     streams.output.write_all(text.as_bytes())?;
     Ok(match (unjudged, all) {
@@ -233,68 +214,15 @@ fn apart(submission: &Submission, arguments: &GradeArguments, mark: &str) -> Res
     } else {
         command.arg("--").args(&arguments.command);
     }
-    let text = answer(command, end).map_err(|error| match error.kind() {
+    let ends = [exit::AGREES, exit::DISAGREES, exit::USAGE];
+    let text = output::of_judge(command, end, &ends).map_err(|error| match error.kind() {
         ErrorKind::TimedOut => "its judge does not end: does it stop its parent?".to_owned(),
         ErrorKind::Other => error.to_string(),
         _ => refused(error),
     })?;
-    let grade = serde_json::from_slice(&text).ok();
-    let grade = grade.and_then(|Grades { mut submissions, .. }| submissions.pop());
-    grade
+    grade::read(&text)
         .map(|grade| Grade { name: submission.name.clone(), ..grade })
         .ok_or_else(|| "its judge says nothing".to_owned())
-}
-
-/// What a judge writes to standard output until it ends, at the latest then.
-#[cfg(unix)]
-fn answer(mut command: Command, end: Instant) -> std::io::Result<Vec<u8>> {
-    use std::os::fd::OwnedFd;
-    use std::os::unix::net::UnixStream;
-    // A socket and not a pipe, because reading from it can have a limit without a thread.
-    let (mut ours, theirs) = UnixStream::pair()?;
-    ours.set_read_timeout(Some(Duration::from_millis(50)))?;
-    command.stdin(Stdio::null()).stdout(OwnedFd::from(theirs));
-    let mut judge = Group::start_judge(&mut command)?;
-    // It holds their end of the socket too.
-    drop(command);
-    let (mut text, mut piece) = (Vec::new(), [0; 1 << 14]);
-    loop {
-        match ours.read(&mut piece) {
-            Ok(0) => break,
-            Ok(n) => text.extend_from_slice(&piece[..n]),
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(error) if !matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
-                return Err(error);
-            }
-            Err(_) if judge.has_ended() => break,
-            Err(_) if Instant::now() >= end => return Err(ErrorKind::TimedOut.into()),
-            Err(_) => {}
-        }
-    }
-    ended(judge.end(Duration::from_secs(2)), text)
-}
-
-/// Elsewhere it is waited for.
-#[cfg(not(unix))]
-fn answer(mut command: Command, _: Instant) -> std::io::Result<Vec<u8>> {
-    command.stdin(Stdio::null()).stdout(Stdio::piped());
-    let mut judge = Group::start_judge(&mut command)?;
-    let mut text = Vec::new();
-    if let Some(stdout) = judge.child().stdout.as_mut() {
-        stdout.read_to_end(&mut text)?;
-    }
-    ended(judge.end(Duration::from_secs(2)), text)
-}
-
-/// What a judge wrote, if it came to its end.
-fn ended(status: Option<ExitStatus>, text: Vec<u8>) -> std::io::Result<Vec<u8>> {
-    let verdicts = [exit::AGREES, exit::DISAGREES, exit::USAGE].map(|code| Some(i32::from(code)));
-    if status.is_some_and(|status| verdicts.contains(&status.code())) {
-        return Ok(text);
-    }
-    let how = status.map_or_else(String::new, |status| format!(" ({status})"));
-    let why = format!("its judge was ended{how}: does it send signals to its parent?");
-    Err(std::io::Error::other(why))
 }
 
 /// The judge of one submission: its grade as JSON, for the process that started it.
@@ -310,45 +238,7 @@ fn judge_row(
     let submission = submission.ok_or_else(|| usage("the submission is gone"))?;
     let grade = grade::grade(&submission, &arguments.terms());
     let agrees = grade.points == STEPS.len();
-    streams.output.write_all(json(vec![grade], arguments).as_bytes())?;
+    let &GradeArguments { seed, cases, .. } = arguments;
+    streams.output.write_all(grade::json(vec![grade], seed, cases).as_bytes())?;
     Ok(exit::of(agrees))
-}
-
-/// A row of the table of submissions by steps, as it is printed when it is known.
-fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Display) -> String {
-    let columns = format!("~name 40{} | >~points 7", " | >~step 3".repeat(STEPS.len()));
-    let steps: Vec<_> = (0..STEPS.len()).map(of_step).collect();
-    let mut cells: Vec<&dyn Display> = vec![&name];
-    cells.extend(steps.iter().map(|step| step as &dyn Display));
-    cells.push(points);
-    Table::new("", &columns, vec![Row::of(&cells)]).text([0, 0], false)
-}
-
-/// What follows the rows of a table, or what came of each step of one program.
-fn text(grades: &[Grade], is_table: bool) -> String {
-    let mut out = String::new();
-    if is_table {
-        let passed = |at| grades.iter().filter(|grade| grade.has_passed(at)).count();
-        out += &row("passed by", passed, &"");
-    }
-    for grade in grades {
-        if let Some(error) = &grade.error {
-            let _ = writeln!(out, "{}: cannot be judged: {error}", grade.name);
-        }
-        if !is_table {
-            out.extend(grade.steps.iter().map(|step| &*step.output));
-            let _ = writeln!(out, "{} of {} points", grade.points, grade.of);
-        }
-    }
-    out
-}
-
-fn gradescope(grade: &Grade) -> Value {
-    let output = |at: usize| match (grade.steps.get(at), &grade.error) {
-        (Some(step), _) => step.output.clone(),
-        (None, error) => error.clone().unwrap_or_default(),
-    };
-    let tests = STEPS.iter().enumerate();
-    let tests = tests.map(|(at, step)| (&*step.title, grade.has_passed(at), output(at)));
-    formats::gradescope(&tests.collect::<Vec<_>>(), "steps are passed", grade.seconds)
 }

@@ -8,6 +8,7 @@
 //! known.
 
 pub mod group;
+pub mod output;
 
 use std::collections::VecDeque;
 use std::ffi::{OsStr, OsString};

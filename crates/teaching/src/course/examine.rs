@@ -197,9 +197,9 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     found.into_iter().map(|found| found.why).find(Mistakes::is_known)
 }
 
-/// The last line of a program's standard error, if it wrote any.
+/// A note of the last line of a program's standard error, if it wrote any.
 pub fn complaint(program: &dyn Subject) -> Option<String> {
-    program.complaints().pop()
+    program.complaints().pop().map(|last| format!("its standard error ends: {last}"))
 }
 
 #[cfg(test)]

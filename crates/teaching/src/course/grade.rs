@@ -1,13 +1,17 @@
-//! Points by step for a submission: its program is built and started, and asked the cases of each step.
+//! Points by step for a submission: its program is built and started, and asked the cases of each step;
+//! and the points of submissions as a table, as JSON, and for Gradescope.
 
 use std::ffi::{OsStr, OsString};
+use std::fmt::{Display, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use rasterproof_host::text::printable_path;
 use rasterproof_judge::text::printable;
 use rasterproof_program::{Limits, Program, group};
-use rasterproof_report::text;
+use rasterproof_report::json::pretty;
+use rasterproof_report::table::{Row, Table};
+use rasterproof_report::{formats, text as terminal};
 use serde::{Deserialize, Serialize};
 
 use super::examine::{self, Amount};
@@ -137,7 +141,7 @@ pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
             for step in STEPS.iter() {
                 let outcome = examine::examine(&mut program, step, &amount);
                 let report = verdict::report(step, &outcome, "the program");
-                let output = text::text(&report, true, false, text::WIDTH);
+                let output = terminal::text(&report, true, false, terminal::WIDTH);
                 let (step, passed) = (step.name.clone(), outcome.passes());
                 grade.points += usize::from(passed);
                 grade.steps.push(Judged { step, passed, output });
@@ -159,4 +163,63 @@ fn started(submission: &Submission, terms: &Terms) -> Result<Program, String> {
     // An interpreter that starts slowly on a busy machine is no fault of the submission.
     let start = Duration::from_secs(terms.seconds.min(80)) / 4;
     sandbox::start(folder, run, &bounds, Limits { answer: terms.answer, start })
+}
+
+#[derive(Serialize, Deserialize)]
+struct Grades {
+    version: String,
+    seed: u64,
+    cases: u64,
+    submissions: Vec<Grade>,
+}
+
+pub fn json(submissions: Vec<Grade>, seed: u64, cases: u64) -> String {
+    let version = env!("CARGO_PKG_VERSION").to_owned();
+    pretty(&Grades { version, seed, cases, submissions })
+}
+
+/// The last grade of the JSON that a judge has written.
+pub fn read(json: &[u8]) -> Option<Grade> {
+    let Grades { mut submissions, .. } = serde_json::from_slice(json).ok()?;
+    submissions.pop()
+}
+
+/// A row of the table of submissions by steps, as it is printed when it is known.
+pub fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Display) -> String {
+    let columns = format!("~name 40{} | >~points 7", " | >~step 3".repeat(STEPS.len()));
+    let steps: Vec<_> = (0..STEPS.len()).map(of_step).collect();
+    let mut cells: Vec<&dyn Display> = vec![&name];
+    cells.extend(steps.iter().map(|step| step as &dyn Display));
+    cells.push(points);
+    Table::new("", &columns, vec![Row::of(&cells)]).text([0, 0], false)
+}
+
+/// What follows the rows of a table, or what came of each step of one program.
+pub fn text(grades: &[Grade], is_table: bool) -> String {
+    let mut out = String::new();
+    if is_table {
+        let passed = |at| grades.iter().filter(|grade| grade.has_passed(at)).count();
+        out += &row("passed by", passed, &"");
+    }
+    for grade in grades {
+        if let Some(error) = &grade.error {
+            let _ = writeln!(out, "{}: cannot be judged: {error}", grade.name);
+        }
+        if !is_table {
+            out.extend(grade.steps.iter().map(|step| &*step.output));
+            let _ = writeln!(out, "{} of {} points", grade.points, grade.of);
+        }
+    }
+    out
+}
+
+/// One submission as Gradescope's results.json.
+pub fn gradescope(grade: &Grade) -> String {
+    let output = |at: usize| match (grade.steps.get(at), &grade.error) {
+        (Some(step), _) => step.output.clone(),
+        (None, error) => error.clone().unwrap_or_default(),
+    };
+    let tests = STEPS.iter().enumerate();
+    let tests = tests.map(|(at, step)| (&*step.title, grade.has_passed(at), output(at)));
+    pretty(&formats::gradescope(&tests.collect::<Vec<_>>(), "steps are passed", grade.seconds))
 }

@@ -20,8 +20,12 @@ use serde::{Deserialize, Deserializer};
 
 use rasterproof_judge::adapt_case;
 use rasterproof_judge::check::Check;
+use rasterproof_report::html::Report;
+use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::line_has_tie;
+
+use progress::Progress;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -123,6 +127,38 @@ pub fn find(word: &str) -> Option<&'static Step> {
 
 pub fn number(step: &Step) -> usize {
     STEPS.iter().position(|other| other.name == step.name).map_or(0, |at| at + 1)
+}
+
+/// The steps as a table; those passed are marked where the progress is known.
+pub fn listed(progress: Option<&Progress>) -> Report {
+    let row = |step: &Step| {
+        let mark = match progress {
+            Some(progress) if progress.has_passed(step) => "+",
+            Some(progress) if progress.current() == step => ">",
+            _ => "",
+        };
+        let mut families: Vec<_> =
+            step.exercises.iter().flat_map(|e| &e.families).map(String::as_str).collect();
+        families.sort_unstable();
+        families.dedup();
+        let page = format!("{} ({})", step.title, step.page);
+        let (number, families) = (number(step), families.join(", "));
+        Row::of(&[&mark, &number, &step.name, &page, &step.judged, &families])
+    };
+    let columns = "~state 1 | >~number 2 | ~step 14 | ~page 1 | what is judged | :families";
+    let (next, marks) = match progress {
+        Some(_) => ("check", " (+ passed, > current)"),
+        None => ("start --language python mine", ""),
+    };
+    Report {
+        about: format!(
+            "Twelve steps to a rasterizer of your own{marks}; next: rasterproof course {next}\n\
+             Each is judged by requests that your program answers: L lines, T triangles, I values in them, D depths, N the \
+             near plane, S four samples; see docs/protocol.md"
+        ),
+        tables: vec![Table::new("", columns, STEPS.iter().map(row).collect())],
+        ..Report::default()
+    }
 }
 
 /// The twelve steps, in order, from `steps.toml`, which the tests read too.

@@ -20,7 +20,8 @@ use rasterproof_render::effects::geometry::{Surface, SurfaceMaterial, Whole};
 use rasterproof_render::effects::primitive::BadScene;
 use rasterproof_render::pipeline::target::to_colour;
 use rasterproof_render::scene::Scene;
-use rasterproof_report::{panels, picture};
+use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
+use rasterproof_report::{panels, picture, words};
 use rasterproof_verify::cases::Triangle;
 
 use super::Step;
@@ -408,6 +409,53 @@ impl Shown {
         let pictures = [("yours", yours), ("right", right), ("difference", difference)];
         panels::beside(self.title, &pictures)
     }
+}
+
+/// Whether no pixel of these pictures differs, and no request is without an answer.
+pub fn agree(pictures: &[(String, Shown)]) -> bool {
+    pictures.iter().all(|(_, picture)| picture.differing + picture.unanswered == 0)
+}
+
+/// Pictures, each with what it is of: how many pixels differ, and all three of each to look into.
+pub fn report(title: String, pictures: &[(String, Shown)]) -> Report {
+    let mut report = Report { about: title.clone(), title, ..Report::default() };
+    let agree = agree(pictures);
+    // On the page, the pictures that differ most come first.
+    let mut on_page = Vec::new();
+    for (label, picture) in pictures {
+        let of = picture.right.width() * picture.right.height();
+        let refused = match picture.unanswered {
+            0 => String::new(),
+            n => format!("; {n} requests refused or not answered"),
+        };
+        let about = format!("{} of {of} pixels differ{refused}", picture.differing);
+        let name = format!("{label}: {}", picture.title);
+        report.notes.push(format!("{name}: {about}"));
+        let layers = vec![
+            PictureLayer::new("yours", &picture.yours),
+            PictureLayer::new("right", &picture.right),
+            PictureLayer::map("difference", &picture.difference()),
+        ];
+        let view = PictureView { name, about, layers, ..PictureView::default() };
+        on_page.push((picture.differing, view));
+    }
+    on_page.sort_by_key(|(differing, _)| std::cmp::Reverse(*differing));
+    report.frames = on_page.into_iter().map(|(_, view)| view).collect();
+    let sentence = "what your program draws, beside what this project's engines draw";
+    // Of a model that is not seen, two backgrounds would be compared.
+    let is_blank = pictures.iter().all(|(_, picture)| picture::is_plain(picture.right.pixels()));
+    report.outcome = Some(match is_blank && agree {
+        true => Outcome::nothing_drawn(),
+        false => Outcome {
+            answer: match pictures.iter().map(|(_, picture)| picture.differing).sum() {
+                0 if agree => "no pixel differs".to_owned(),
+                0 => "requests are refused or not answered".to_owned(),
+                pixels => words::count(pixels, "pixel differs", "pixels differ"),
+            },
+            ..Outcome::of(agree, sentence)
+        },
+    });
+    report
 }
 
 fn put(image: &mut RgbImage, x: i32, y: i32, colour: Rgb<u8>) {

@@ -1,7 +1,8 @@
 //! How a step came out, for people.
 
 use super::examine::Outcome;
-use super::{Step, number};
+use super::progress::Progress;
+use super::{STEPS, Step, number};
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::judge_text;
@@ -42,4 +43,20 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
         notes.push("no known mistake explains its answers".to_owned());
     }
     Report { about, excerpts: vec![Excerpt { title, ..excerpt }], notes, ..Report::default() }
+}
+
+/// The step that follows one that was passed.
+pub fn next(progress: &Progress) -> String {
+    if STEPS.iter().all(|step| progress.has_passed(step)) {
+        return "all twelve steps are passed; next: rasterproof judge -- CMD".to_owned();
+    }
+    let next = progress.current();
+    format!("next: step {}, {} ({}): {}", number(next), next.title, next.page, next.judged)
+}
+
+/// The first hints of a step, and the page that explains it.
+pub fn hints(step: &Step, count: usize) -> Vec<String> {
+    let hints = step.hints.iter().take(count).zip(1..);
+    let page = format!("page: steps.md, step {} ({})", number(step), step.page);
+    hints.map(|(hint, number)| format!("hint {number}: {hint}")).chain([page]).collect()
 }

@@ -2,7 +2,8 @@
 //! oracle compute it each time it is asked for.
 //!
 //! The texts are in `exercises.toml`. `docs/` ends each chapter with the same exercises, written by
-//! [`page::section`]; a test compares.
+//! [`page::section`]; a test compares. [`ask`] is the conversation in a
+//! terminal.
 
 /// Lists the functions of a page that compute answers, under the names that `exercises.toml` gives.
 macro_rules! solvers {
@@ -17,6 +18,7 @@ macro_rules! solvers_of {
 }
 
 mod answer;
+pub mod ask;
 mod ch01;
 mod ch02;
 mod ch03;
