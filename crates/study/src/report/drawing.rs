@@ -130,7 +130,7 @@ pub fn outcome(
     difference: Option<String>,
 ) -> Option<Outcome> {
     let Some(c) = comparison else {
-        return is_nothing_drawn(drawings).then(|| Outcome::nothing_drawn());
+        return is_nothing_drawn(drawings).then(Outcome::nothing_drawn);
     };
     let names = names(drawings).join(" and ");
     let Comparison { wrong_pixels: wrong, pixels, wrong_depths, depths, .. } = c;

@@ -4,15 +4,23 @@ pub mod sheet;
 
 use rasterproof_registry::published_check::{Counts, SpecimenReport};
 use rasterproof_report::html::{Outcome, Report};
-use rasterproof_report::page_cases;
 use rasterproof_report::table::{self, Column, Row, Table};
+use rasterproof_report::{json, page_cases};
 use rasterproof_verify::comparison::Tally;
-use serde_json::json;
 
 const UNITS: &str = "\
 differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong \
 pixels per million covered, each triangle for itself; value, depth: worst error as a fraction of the \
 corner values' spread; shared: as twice, but pixels that two triangles of a mesh draw";
+
+/// The survey for machines; an infinite error is `null`.
+#[derive(serde::Serialize)]
+struct Survey<'a> {
+    version: &'static str,
+    seed: u64,
+    cases: u64,
+    specimens: &'a [SpecimenReport],
+}
 
 /// Each is wrong on the case that exposes it, and right on its harmless one.
 pub fn are_caught(reports: &[SpecimenReport]) -> bool {
@@ -38,7 +46,12 @@ pub fn report(seed: u64, cases: u64, reports: &[SpecimenReport], is_page: bool) 
         title: "Published algorithms and their faults".to_owned(),
         outcome: Some(Outcome::new(good, word, sentence)),
         tables: tables(reports),
-        data: json!({ "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports }),
+        data: json::value(&Survey {
+            version: env!("CARGO_PKG_VERSION"),
+            seed,
+            cases,
+            specimens: reports,
+        }),
         cases: exhibits,
         frames,
         ..Report::default()
