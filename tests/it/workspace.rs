@@ -62,6 +62,32 @@ fn the_table_of_crates_is_cargos() {
     }
 }
 
+/// A dependency that nobody calls is compiled all the same, and makes crates wait for each other.
+#[test]
+fn what_a_crate_depends_on_is_called() {
+    let data = cargo(&["metadata", "--locked", "--no-deps", "--format-version", "1"]).json();
+    let mut looked_at = 0;
+    for package in data["packages"].as_array().unwrap() {
+        let manifest = Path::new(package["manifest_path"].as_str().unwrap());
+        let source = manifest.with_file_name("src");
+        let folder = if source.is_dir() { &source } else { manifest.parent().unwrap() };
+        let sources = files(folder, ".rs");
+        let code: String = sources.iter().map(|path| read(path)).collect();
+        let normal = package["dependencies"].as_array().unwrap().iter();
+        for dependency in normal.filter(|dependency| dependency["kind"].is_null()) {
+            let module = match dependency["name"].as_str().unwrap() {
+                // It bounds the version that the decoder of TIFF takes.
+                "half" => continue,
+                "meshopt-pure" => "meshoptimizer".to_owned(),
+                name => name.replace('-', "_"),
+            };
+            looked_at += 1;
+            assert!(names_module(&code, &module), "{}: {module}", manifest.display());
+        }
+    }
+    assert!(looked_at > 100, "{looked_at}");
+}
+
 /// Two implementations that are compared with each other share nothing but what both are built on: neither
 /// names the other, and the oracle names neither.
 #[test]

@@ -1,4 +1,5 @@
-//! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
+//! A report, and what writes it: text, JSON, pictures and a page; and verdicts as reports. Everything here is a value; only
+//! `main` prints.
 
 pub mod canvas;
 pub mod chapter;

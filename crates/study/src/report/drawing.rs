@@ -35,9 +35,11 @@ pub struct Drawing {
     pub unplanned: u64,
     /// Pixels that the plan of a file, or effects that were switched off, change.
     pub changed: u64,
+    /// Whether the target has every depth of every sample.
     pub is_complete: bool,
 }
 
+/// What `render --json` prints.
 #[derive(serde::Serialize)]
 pub struct Data<'a> {
     pub scene: &'a str,
