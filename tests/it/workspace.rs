@@ -72,7 +72,7 @@ fn what_a_crate_depends_on_is_called() {
         let source = manifest.with_file_name("src");
         let folder = if source.is_dir() { &source } else { manifest.parent().unwrap() };
         let sources = files(folder, ".rs");
-        let code: String = sources.iter().map(|path| read(path)).collect();
+        let code: String = sources.iter().map(read).collect();
         let normal = package["dependencies"].as_array().unwrap().iter();
         for dependency in normal.filter(|dependency| dependency["kind"].is_null()) {
             let module = match dependency["name"].as_str().unwrap() {
