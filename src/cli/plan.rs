@@ -13,7 +13,7 @@ use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::{frame_comparison, picture};
 use rasterproof_study::bounds::Purpose;
-use rasterproof_study::report::plan::{Line, Measurement, grouped};
+use rasterproof_study::report::plan::{Measurement, reasons};
 use rasterproof_study::savings;
 
 #[derive(clap::Args, Debug)]
@@ -95,12 +95,7 @@ fn draw_without(
     let share = 100.0 * wrong as f64 / pixels.max(1) as f64;
     let about =
         format!("{scene}: {wrong} of {pixels} pixels ({share:.1}%) are wrong without {name}");
-    let lines = grouped(&planned.plan.decisions).into_iter().filter(|line| line.effect == effect);
-    let reason = |line: Line<'_>| match line.items().as_str() {
-        "frame" => format!("of the frame: {}", line.reason),
-        items => format!("of item {items}: {}", line.reason),
-    };
-    let mut notes: Vec<String> = lines.map(reason).collect();
+    let mut notes = reasons(&planned.plan.decisions, effect);
     for (ending, picture) in [("png", &other.picture), ("difference.png", &difference)] {
         let output = arguments.page.place.output(format!("{stem}.{ending}"));
         if streams.save(&output, &picture::png(&picture::of_frame(picture))) {

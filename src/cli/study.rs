@@ -6,14 +6,14 @@ use std::path::Path;
 
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_registry::comparison::Judged;
+use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::faces;
 use rasterproof_study::report::around::Around;
-use rasterproof_study::report::engines;
 use rasterproof_study::report::studied::Studied;
-use rasterproof_study::report::{self as report, costs, json};
+use rasterproof_study::report::{self as report, costs, engines, json};
 
 use super::files;
 use super::inspect_case::{self, Found};
@@ -64,6 +64,14 @@ impl OnceArgument {
     }
 }
 
+fn studied<'a>(
+    maker: &'a Maker,
+    scene: Scene,
+    view: &ViewArguments,
+) -> Result<Studied<'a>, InputError> {
+    Studied::new(scene, &maker.model.origins, &mut view.target()?)
+}
+
 /// What a scene costs, with a bar while it is measured.
 fn measure(
     studied: &Studied<'_>,
@@ -87,7 +95,7 @@ pub(super) fn cost(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Measured, streams)?;
-    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &mut view.target()?)?;
+    let studied = studied(&maker, maker.scene.clone(), view)?;
     let groups = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
@@ -116,8 +124,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
-    let studied =
-        Studied::new(maker.scene.clone(), &maker.model.origins, &mut what.view.target()?)?;
+    let studied = studied(&maker, maker.scene.clone(), &what.view)?;
     let effort = arguments.once.effort(arguments.quick);
     let groups = measure(&studied, &what.view, effort, streams.progress)?;
     let mut target = what.view.target()?;
@@ -163,7 +170,7 @@ fn all_around(
     let mut around = Around::default();
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
-        let studied = Studied::new(maker.turned(turn), &maker.model.origins, &mut view.target()?)?;
+        let studied = studied(maker, maker.turned(turn), view)?;
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
         around.add(360.0 * turn, &studied.hard, &groups);
         progress.done(1);
@@ -189,7 +196,7 @@ pub(super) fn verify(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &mut view.target()?)?;
+    let studied = studied(&maker, maker.scene.clone(), view)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     let (report, agrees) = engines::report(&studied, &subject, judged, printable_path(path));
@@ -207,7 +214,7 @@ pub(super) fn face(
 ) -> Result<(Vec<String>, Option<Found>), InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = Studied::new(maker.scene.clone(), &maker.model.origins, &mut view.target()?)?;
+    let studied = studied(&maker, maker.scene.clone(), view)?;
     let Some((first, known, pieces)) = word.parse().ok().and_then(|face| studied.face(face)) else {
         let last = faces(&studied.scene, studied.origins).max().unwrap_or(0);
         let word = printable(word);

@@ -13,9 +13,8 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::{InputError, Streams, did_you_mean, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
-use rasterproof_host::text::{printable, printable_path};
-use rasterproof_models::cameras;
-use rasterproof_models::{LoadOptions, Model, Normals, Origin, Pose, Up};
+use rasterproof_host::text::{printable, printable_path, printable_short};
+use rasterproof_models::{LoadOptions, Model, Normals, Origin, Pose, Up, cameras};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
@@ -30,7 +29,7 @@ use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
 use rasterproof_report::words::count;
-use rasterproof_study::bounds::{Asked, Purpose};
+use rasterproof_study::bounds::{FrameSize, Purpose};
 use rasterproof_study::facing;
 
 #[derive(clap::Args, Debug)]
@@ -256,7 +255,7 @@ impl SceneArguments {
                 }
                 let scene = chapter(name, aspect, 0.0, view.cull);
                 let maker = Maker { scene, model: Framed::default(), aspect, cull: view.cull };
-                view.asked().refuse_too_much(name, &maker.scene, 0, purpose)?;
+                view.frame_size().refuse_too_much(name, &maker.scene, 0, purpose)?;
                 Ok(maker)
             }
             Err(path) if path.extension().is_none() && !path.exists() => {
@@ -284,8 +283,8 @@ impl ViewArguments {
         Target::new(width, height, self.aa, self.depth).map_err(usage)
     }
 
-    fn asked(&self) -> Asked {
-        Asked { size: self.size, antialias: self.aa, shadows: self.shadows }
+    fn frame_size(&self) -> FrameSize {
+        FrameSize { px: self.size, antialias: self.aa, shadows: self.shadows }
     }
 
     fn aspect(&self) -> Result<f64, InputError> {
@@ -301,12 +300,12 @@ impl ViewArguments {
         streams: &mut Streams<'_>,
     ) -> Result<Maker, InputError> {
         let aspect = self.aspect()?;
-        self.asked().refuse_large_frames(purpose)?;
+        self.frame_size().refuse_large_frames(purpose)?;
         let (mut scene, model) = self.frame_model(path, aspect, streams)?;
         cull(&mut scene, self.cull);
         let maker = Maker { scene, model, aspect, cull: self.cull };
         let name = printable_path(path).to_string();
-        self.asked().refuse_too_much(&name, &maker.scene, maker.model.file_bytes, purpose)?;
+        self.frame_size().refuse_too_much(&name, &maker.scene, maker.model.file_bytes, purpose)?;
         let backs = facing::share_of_backs(&maker.scene).filter(|share| *share > 0.5);
         if let Some(share) = backs {
             // 100% only of all.
@@ -393,7 +392,8 @@ impl ViewArguments {
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
         let mut projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)?;
         if let Some(wanted) = &self.camera {
-            let camera = cameras::find(&model.cameras, wanted)?;
+            let refused = |error| format!("--camera {}: {error}", printable_short(wanted, 40));
+            let camera = cameras::find(&model.cameras, wanted).map_err(refused)?;
             [view, projection] = camera
                 .matrices(aspect, [min, max])
                 .map_err(|error| usage(format!("--camera {}: {error}", printable(wanted))))?;

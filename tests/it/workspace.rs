@@ -29,20 +29,27 @@ fn cargo(arguments: &[&str]) -> Run {
     Run::of(Command::new(env!("CARGO")).args(arguments).current_dir(root())).has(0)
 }
 
+/// The packages of the workspace as cargo describes them.
+fn packages() -> Vec<serde_json::Value> {
+    let mut data = cargo(&["metadata", "--locked", "--no-deps", "--format-version", "1"]).json();
+    serde_json::from_value(data["packages"].take()).unwrap()
+}
+
+/// The names of what a package is built with, tests left out.
+fn normal_dependencies(package: &serde_json::Value) -> impl Iterator<Item = &str> {
+    let all = package["dependencies"].as_array().unwrap().iter();
+    let normal = all.filter(|dependency| dependency["kind"].is_null());
+    normal.map(|dependency| dependency["name"].as_str().unwrap())
+}
+
 /// Each crate with the crates of the workspace that its manifest names as dependencies.
 fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
-    let data = cargo(&["metadata", "--locked", "--no-deps", "--format-version", "1"]).json();
-    let short = |name: &serde_json::Value| {
-        name.as_str().unwrap().strip_prefix("rasterproof-").map(str::to_owned)
+    let short = |name: &str| name.strip_prefix("rasterproof-").map(str::to_owned);
+    let of_package = |package: &serde_json::Value| {
+        let name = short(package["name"].as_str().unwrap())?;
+        Some((name, normal_dependencies(package).filter_map(short).collect()))
     };
-    let mut found = BTreeMap::new();
-    for package in data["packages"].as_array().unwrap() {
-        let Some(name) = short(&package["name"]) else { continue };
-        let normal = package["dependencies"].as_array().unwrap().iter();
-        let normal = normal.filter(|dependency| dependency["kind"].is_null());
-        found.insert(name, normal.filter_map(|dependency| short(&dependency["name"])).collect());
-    }
-    found
+    packages().iter().filter_map(of_package).collect()
 }
 
 #[test]
@@ -65,17 +72,15 @@ fn the_table_of_crates_is_cargos() {
 /// A dependency that nobody calls is compiled all the same, and makes crates wait for each other.
 #[test]
 fn what_a_crate_depends_on_is_called() {
-    let data = cargo(&["metadata", "--locked", "--no-deps", "--format-version", "1"]).json();
     let mut looked_at = 0;
-    for package in data["packages"].as_array().unwrap() {
+    for package in packages() {
         let manifest = Path::new(package["manifest_path"].as_str().unwrap());
         let source = manifest.with_file_name("src");
         let folder = if source.is_dir() { &source } else { manifest.parent().unwrap() };
         let sources = files(folder, ".rs");
         let code: String = sources.iter().map(read).collect();
-        let normal = package["dependencies"].as_array().unwrap().iter();
-        for dependency in normal.filter(|dependency| dependency["kind"].is_null()) {
-            let module = match dependency["name"].as_str().unwrap() {
+        for dependency in normal_dependencies(&package) {
+            let module = match dependency {
                 // It bounds the version that the decoder of TIFF takes.
                 "half" => continue,
                 "meshopt-pure" => "meshoptimizer".to_owned(),

@@ -32,8 +32,8 @@ pub enum Lens {
 }
 
 impl Camera {
-    /// From world to camera and from camera to clip space, for a model between two corners. The picture has the camera's height,
-    /// whatever its width is.
+    /// The matrices from world to camera and from camera to clip space, for a model between two corners. The height of a picture
+    /// shows what the camera sees from below to above, and `aspect` decides how much it shows beside that.
     pub fn matrices(
         &self,
         aspect: f64,
@@ -96,14 +96,11 @@ pub fn find<'a>(cameras: &'a [Camera], wanted: &str) -> Result<&'a Camera, Strin
     let number = wanted.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));
     let numbered = number.and_then(|number| cameras.get(number));
     let named = || cameras.iter().find(|camera| camera.name == wanted);
-    numbered.or_else(named).ok_or_else(|| {
-        let has = match cameras {
-            [] => "has no cameras".to_owned(),
-            _ => format!(
-                "has the cameras {}",
-                listed(cameras.iter().map(|camera| camera.name.as_str()))
-            ),
-        };
-        format!("--camera {}: the model {has}", printable_short(wanted, 40))
+    numbered.or_else(named).ok_or_else(|| match cameras {
+        [] => "the model has no cameras".to_owned(),
+        _ => {
+            let names = cameras.iter().map(|camera| camera.name.as_str());
+            format!("the model has the cameras {}", listed(names))
+        }
     })
 }

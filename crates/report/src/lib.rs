@@ -1,5 +1,5 @@
-//! A report, and what writes it: text, JSON, pictures and a page; and verdicts as reports. Everything here is a value; only
-//! `main` prints.
+//! A report, and what writes it: text, JSON, pictures and a page. What is said of verdicts is here too. Everything is a value, and
+//! only `main` prints.
 
 pub mod canvas;
 pub mod chapter;

@@ -35,7 +35,7 @@ struct Costs {
     ns_of_byte: u64,
 }
 
-/// A texel of a shadow map.
+/// What a texel of a shadow map takes.
 const MAP_TEXEL_BYTES: u64 = 8;
 
 /// A picture may be covered so often whatever its size, as a model covers it from most sides.
@@ -72,20 +72,20 @@ impl Purpose {
     }
 }
 
-/// The frame that a scene is asked for in.
+/// What the memory of a frame depends on.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked {
-    /// Width and height in pixels.
-    pub size: (u32, u32),
+pub struct FrameSize {
+    /// Its width and its height, without the samples within a pixel.
+    pub px: (u32, u32),
     pub antialias: Antialias,
     /// Texels on a side of the shadow map.
     pub shadows: Option<u32>,
 }
 
-impl Asked {
+impl FrameSize {
     /// Refuses sizes of which the frames, with what is computed beside them, take too much memory.
     pub fn refuse_large_frames(&self, purpose: Purpose) -> Result<(), String> {
-        let (width, height) = self.size;
+        let (width, height) = self.px;
         let samples = u64::from(width) * u64::from(height) * self.antialias.samples();
         let map =
             self.shadows.map_or(0, |size| u64::from(size) * u64::from(size) * MAP_TEXEL_BYTES);
@@ -113,7 +113,7 @@ impl Asked {
         purpose: Purpose,
     ) -> Result<(), String> {
         self.refuse_large_frames(purpose)?;
-        let (width, height) = self.size;
+        let (width, height) = self.px;
         let scale = self.antialias.scale();
         let planes = self.antialias.planes() as u64;
         let work = Work::of(scene, PixelRect::window(width * scale, height * scale));

@@ -12,7 +12,7 @@ use crate::hard::{HardCases, Kind};
 
 #[derive(serde::Serialize)]
 struct Turned {
-    /// In degrees.
+    /// By how many degrees the model is turned about its vertical axis.
     turn: f64,
     kinds: u64,
     slivers: u64,
@@ -21,7 +21,7 @@ struct Turned {
     equal: u64,
 }
 
-/// What was seen from each side.
+/// Counts of hard cases from each side of a model, and which choices are the cheapest there.
 #[derive(Default)]
 pub struct Around {
     views: Vec<Turned>,
@@ -60,7 +60,7 @@ impl Around {
         }
     }
 
-    /// Of a scene of this name.
+    /// Two tables, for a scene of this name.
     pub fn report(&self, scene: &str) -> Report {
         let best = self.best.iter().map(|((_, name), &(title, count))| (title, &**name, count));
         let best: Vec<_> = best.collect();

@@ -24,7 +24,7 @@ use rasterproof_tiles::frames::HandedOver;
 use super::plan;
 use crate::ties::classify;
 
-/// A scene, drawn by a rasterizer.
+/// A frame of one rasterizer, with what was found of its plan.
 pub struct Drawing {
     pub name: &'static str,
     pub rendered: Rendered,
@@ -39,7 +39,7 @@ pub struct Drawing {
     pub is_complete: bool,
 }
 
-/// What `render --json` prints.
+/// The data of a report on drawings, of which counters and plan are those of the first.
 #[derive(serde::Serialize)]
 pub struct Data<'a> {
     pub scene: &'a str,

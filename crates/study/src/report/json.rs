@@ -10,7 +10,7 @@ use crate::effects::{Need, Needs, State};
 use crate::hard::HardCases;
 use crate::{face_of, triangle_of};
 
-/// The boards of `cost` as JSON, with what exact coverage costs and the choices that nobody needs.
+/// The boards of `cost` as JSON, with what exact coverage costs and the choices that others beat in error and time.
 /// [`Recorded::read`] takes it back.
 pub fn cost(recorded: &Recorded) -> Value {
     let boards = &recorded.boards;

@@ -15,17 +15,17 @@ use serde_json::Value;
 use crate::savings::{Measured, Saving, Savings};
 
 /// A decision that some items share, or one about the frame.
-pub struct Line<'a> {
-    pub effect: Effect,
-    pub reason: &'a str,
-    pub unit: Unit,
-    pub counts: [u64; 3],
+struct Line<'a> {
+    effect: Effect,
+    reason: &'a str,
+    unit: Unit,
+    counts: [u64; 3],
     items: Vec<usize>,
 }
 
 impl Line<'_> {
     /// Which items, in short: ranges, or their number where there are too many of them.
-    pub fn items(&self) -> String {
+    fn items(&self) -> String {
         const MOST: usize = 9;
         let runs = self.items.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
             [first, .., last] => format!("{first}-{last}"),
@@ -48,7 +48,7 @@ impl Line<'_> {
 
 /// Decisions that several items share become one line, in the order of the pipeline: those with one
 /// reason that are paid for by all, by none or by some.
-pub fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
+fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
     let mut lines: Vec<Line<'_>> = Vec::new();
     for d in decisions {
         let counts = [d.on, d.off, d.open];
@@ -84,7 +84,17 @@ pub fn table(decisions: &[Decision]) -> Table {
     Table::new("Effects, in order", columns, rows).noted(vec![note.to_owned()])
 }
 
-/// A plan that was measured.
+/// Why an effect is paid for or not, a line for each reason.
+pub fn reasons(decisions: &[Decision], effect: Effect) -> Vec<String> {
+    let lines = grouped(decisions).into_iter().filter(|line| line.effect == effect);
+    let reason = |line: Line<'_>| match line.items().as_str() {
+        "frame" => format!("of the frame: {}", line.reason),
+        items => format!("of item {items}: {}", line.reason),
+    };
+    lines.map(reason).collect()
+}
+
+/// What planning the effects of a scene saves, with the frames that were drawn to find it.
 pub struct Measurement<'a> {
     pub scene: &'a Scene,
     /// Drawn with everything, and planned.
@@ -102,7 +112,7 @@ impl Measurement<'_> {
         self.savings.all().all(|mixture| mixture.same)
     }
 
-    /// With the frames as layers where there is a page.
+    /// The tables of the plan, and the frames as layers where there is a page.
     pub fn report(&self, command: String, is_page: bool) -> Report {
         let Self { scene, frames, savings, survey_us, is_whole } = *self;
         let ([all, usual], same) = (savings.factors(), self.is_same());
@@ -131,7 +141,7 @@ impl Measurement<'_> {
         }
     }
 
-    /// With its scene, so that it can be drawn by.
+    /// The data of the report, with a plan that holds its scene, so that `render --plan` can draw by it.
     pub fn data(&self) -> Value {
         let Self { scene, frames: [everything, planned], savings, survey_us, .. } = *self;
         let is_compared = everything.counters.fragments > 0 || !self.is_same();
@@ -155,7 +165,7 @@ struct Data<'a> {
     planned: &'a Counters,
     measured: &'a Savings,
     survey_us: Option<f64>,
-    /// Nothing where nothing was drawn.
+    /// Nothing where no fragment was drawn, so that two backgrounds would be compared.
     same: Option<bool>,
 }
 
@@ -221,7 +231,6 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
     Table::new("The frame as a whole", columns, rows.map(row).to_vec()).noted(notes)
 }
 
-/// What was counted in both frames.
 fn counts([everything, planned]: [&Rendered; 2]) -> Table {
     let both = everything.counters.shown().into_iter().zip(planned.counters.shown());
     let row = |((name, all), (_, planned)): ((&str, u64), (_, u64))| {
@@ -231,7 +240,6 @@ fn counts([everything, planned]: [&Rendered; 2]) -> Table {
     Table::new("What was counted", columns, both.map(row).collect())
 }
 
-/// The frames side by side.
 fn view(command: String, scene: &Scene, frames: [&Rendered; 2]) -> PictureView {
     let layer =
         |(name, frame): (_, &Rendered)| PictureLayer::new(name, &picture::of_frame(&frame.picture));

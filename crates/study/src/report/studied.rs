@@ -15,7 +15,7 @@ use crate::hard::{self, HardCases, Kind};
 use crate::view::{Piece, Sampled};
 use crate::{faces, triangle_of};
 
-/// What was found of it, and where.
+/// The pieces that a scene has in the window, and the hard cases among them.
 pub struct Studied<'a> {
     pub scene: Scene,
     pub origins: &'a [Origin],
