@@ -923,6 +923,7 @@ fn instances(counts: &[usize]) -> Vec<u8> {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn instances_are_merged_or_refused_before_they_are_built() {
     let folder = Folder::new("hostile-models-instances");
     let draw = |counts: &[usize]| {
@@ -982,6 +983,7 @@ fn long_names_are_cut() {
 
 /// The positions of six million points, all the same, are 72 bytes when Draco has compressed them.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn what_draco_compressed_is_refused_before_it_is_decoded() {
     let folder = Folder::new("hostile-models-draco");
     let points = "RFJBQ08CAgEAAAABgJvuAgEAAAAAAAAAAAAAAAABAQAJAwAAAgABAQEBAQFAAQAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAgD8I";

@@ -5,6 +5,7 @@ use std::fs;
 use rasterproof_judge::league::League;
 use rasterproof_report::league::tables;
 
+use crate::convention::assert_chinese;
 use crate::pages::{Renewal, read};
 use crate::program::{Folder, PROGRAM};
 
@@ -26,6 +27,14 @@ fn league_pages_hold_its_data() {
         renewal.is(page, &with_tables(&read(page), &tables(&league, chinese)));
     }
     renewal.check("league_pages");
+    for kind in league.rows.iter().flat_map(|row| [&row.triangles, &row.lines]).flatten() {
+        if !kind.sentence.is_empty() {
+            assert_chinese(&kind.sentence);
+        }
+        if let Some(does) = &kind.mistake {
+            assert_chinese(&format!("{does}."));
+        }
+    }
     // Another number is noticed.
     league.rows[0].orders = [7, 3];
     let page = read("docs/league.md");
@@ -63,18 +72,18 @@ fn league_needs_adapters() {
     let mistake = |row: usize| Some(league.rows[row].lines.as_ref()?.mistake.as_ref()?.as_str());
     assert_eq!(mistake(0), None);
     assert!(mistake(1).unwrap().contains("the published algorithm sysu-bresenham"));
-    assert!(tables(&league, false).contains("Its mistake: it draws as the published algorithm"));
+    assert!(tables(&league, false).contains("By mistake it draws as the published algorithm"));
     // What no convention explains is said after the mistake that does.
     let lines = league.rows[1].lines.as_mut().unwrap();
     (lines.by_convention, lines.sentence) = (None, "unexplained.".to_owned());
     for (chinese, first, besides, by_mistake) in [
         (
             false,
-            "Lines: Its mistake: it draws as",
+            "Lines: By mistake it draws as",
             ". As a convention: unexplained.",
             "| a mistake |",
         ),
-        (true, "直线：它的错误：", "作为约定：未能解释。", "| 已知的错误 |"),
+        (true, "直线：它错在：", "作为约定：未能解释。", "| 已知的错误 |"),
     ] {
         let page = tables(&league, chinese);
         assert!([first, besides, by_mistake].iter().all(|said| page.contains(said)), "{page}");

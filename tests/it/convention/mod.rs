@@ -19,10 +19,11 @@ use recorded::{Recorder, Recording};
 use synthetic::{Mirrored, Owner, Synthetic, hash, picture};
 
 /// Every phrase of a sentence has one in Chinese: no English word is left, but names of directions.
-fn assert_chinese(sentence: &str) {
+pub(crate) fn assert_chinese(sentence: &str) {
     let said = chinese(sentence);
     let mut words = said.split(|c: char| !c.is_ascii_alphabetic());
-    let known = ["", "px", "N", "NE", "E", "SE", "S", "SW", "W", "NW", "x", "y"];
+    // `e` is that of 1e-9.
+    let known = ["", "px", "e", "N", "NE", "E", "SE", "S", "SW", "W", "NW", "x", "y"];
     let left = words.find(|word| !known.contains(word));
     assert_eq!(left, None, "{sentence}\n{said}");
     assert!(said.ends_with('。'), "{said}");
