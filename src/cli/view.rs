@@ -13,7 +13,7 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::{InputError, Streams, did_you_mean, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
-use rasterproof_host::text::{printable, printable_path, printable_short};
+use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_models::{LoadOptions, Model, Normals, Origin, Pose, Up, cameras};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
@@ -392,11 +392,12 @@ impl ViewArguments {
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
         let mut projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)?;
         if let Some(wanted) = &self.camera {
-            let refused = |error| format!("--camera {}: {error}", printable_short(wanted, 40));
-            let camera = cameras::find(&model.cameras, wanted).map_err(refused)?;
-            [view, projection] = camera
-                .matrices(aspect, [min, max])
-                .map_err(|error| usage(format!("--camera {}: {error}", printable(wanted))))?;
+            let seen = cameras::find(&model.cameras, wanted).and_then(|camera| {
+                camera.matrices(aspect, [min, max]).map_err(|error| error.to_string())
+            });
+            [view, projection] = seen.map_err(|error| {
+                usage(format!("--camera {}: {error}", printable_short(wanted, 40)))
+            })?;
             (turn, distance) = (DMat4::IDENTITY, view.transform_point3(centre).z);
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
