@@ -135,7 +135,9 @@ fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
         "<!doctype html><html lang={language}><meta charset=utf-8><title>figures</title>\
          <meta name=viewport content='width=device-width'>\
          <style>body {{ background: #fff; color: #000; font: 16px/1.5 sans-serif; margin: 8px }}</style>\
-         <body data-ready><p style='height: 1200px'>above</p>{}<script src=figure.js></script>",
+         <body data-ready><p style='height: 1200px'>above</p>{}<script src=figure.js></script>\
+         <script>const arrows = []; // those that reach the page, where a book turns its pages by them
+         addEventListener('keydown', (event) => {{ if (event.key.startsWith('Arrow')) arrows.push(event.key); }});</script>",
         figures.join("\n")
     );
     let path = folder.join("index.html");
@@ -536,6 +538,7 @@ fn live_figures_show_what_the_oracle_draws() {
     assert_eq!(elsewhere, all, "another state than it says");
     controls_are_named(&mut browser);
     keys_predict(&mut browser);
+    assert_eq!(browser.eval("arrows"), json!([]), "arrow keys that a figure took");
     fingers_drag(&mut browser);
     links_lead_to_the_same(&mut browser, &links);
 }

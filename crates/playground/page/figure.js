@@ -221,11 +221,20 @@
       }
     }
 
+    /** The direction of an arrow key, which the page around the figure then does not get: a book turns its pages by arrows. */
+    arrow(event) {
+      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+      if (step) {
+        event.preventDefault();
+        event.stopPropagation();
+      }
+      return step;
+    }
+
     /** Arrow keys go from pixel to pixel. */
     walk(event, buttons, i) {
-      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+      const step = this.arrow(event);
       if (!step) return;
-      event.preventDefault();
       const { cells } = this.now.predict;
       const next = cells.findIndex((cell) => cell[3] === cells[i][3] + step[0] && cell[4] === cells[i][4] + step[1]);
       if (next < 0) return;
@@ -294,9 +303,8 @@
       });
       for (const ends of ['pointerup', 'pointercancel']) handle.addEventListener(ends, () => { from = null; });
       handle.addEventListener('keydown', (event) => {
-        const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+        const step = this.arrow(event);
         if (!step) return;
-        event.preventDefault();
         const { step: size, scale } = this.now.grips[i];
         // Where it moves along one axis only, both pairs of arrows move it: up and right are one way, down and left the other.
         const [sx, sy] = scale.map(Math.sign);
