@@ -22,6 +22,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use rasterproof_core::random::Rng;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::Effects;
 use rasterproof_render::pipeline::depth::DepthFormat;
@@ -32,7 +33,6 @@ use rasterproof_render::scene::chapters::{SCENES, scene};
 use rasterproof_render::scene::{
     Corner, Item, Material, Mesh, Scene, Shading, meshes, random, shapes,
 };
-use rasterproof_verify::cases::Rng;
 use rustix::time::{ClockId, clock_gettime};
 
 /// Planned may take so many times as long as everything-on.

@@ -13,7 +13,7 @@ mod common;
 use std::hint::black_box;
 use std::time::Duration;
 
-use common::{COLOUR, SIDE_PX, Scene, SplitMix64, covered, fill, window};
+use common::{COLOUR, SIDE_PX, Scene, covered, fill, window};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -23,6 +23,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::line::dda::Dda;
+use rasterproof_core::random::Rng;
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{
@@ -119,7 +120,7 @@ fn bench_fragments(
 
 /// The triangles of a scene with depths, different w and a pair of attributes at the corners.
 fn with_values(scene: &Scene) -> Vec<ScreenTriangle<DVec2>> {
-    let mut random = SplitMix64(0x7661_6c75_6573);
+    let mut random = Rng::of_seed(0x7661_6c75_6573);
     let mut vertex = |position| {
         let (depth, inv_w) = (random.unit(), 0.5 + random.unit());
         let varying = DVec2::new(random.unit(), random.unit());
@@ -179,7 +180,7 @@ fn bench_far(
 
 /// Lines in all directions; half of them begin or end outside the window.
 fn random_lines() -> Vec<ScreenLine<DVec2>> {
-    let mut random = SplitMix64(0x006c_696e_6573);
+    let mut random = Rng::of_seed(0x006c_696e_6573);
     let mut coordinate = || ((random.unit() * 1.2 - 0.1) * f64::from(SIDE_PX)) as i32;
     let mut end = |varying| LineEnd {
         pixel: PixelPoint::new(coordinate(), coordinate()),

@@ -8,6 +8,7 @@
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Corners;
 use rasterproof_tiles::paint::fill_run;
 use rasterproof_verify::oracle::Oracle;
@@ -26,7 +27,7 @@ pub struct Scene {
 
 /// All classes, from large to sliver.
 pub fn scenes() -> Vec<Scene> {
-    let mut random = SplitMix64(0x7261_7374_6572);
+    let mut random = Rng::of_seed(0x7261_7374_6572);
     let mut compact = |name, count, area_px: f64| {
         let triangles = (0..count).map(|_| place(compact_shape(&mut random, area_px), &mut random));
         Scene { name, triangles: triangles.collect() }
@@ -73,7 +74,7 @@ pub fn fill(engine: &impl Rasterize, corners: Corners, target: &mut Frame<u32>) 
 type Shape = [(f64, f64); 3];
 
 /// A triangle of the given area that is not thin: three points of a square, scaled.
-fn compact_shape(random: &mut SplitMix64, area_px: f64) -> Shape {
+fn compact_shape(random: &mut Rng, area_px: f64) -> Shape {
     loop {
         let [a, b, c] = [0; 3].map(|_| (random.unit(), random.unit()));
         let area = ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).abs() / 2.0;
@@ -86,7 +87,7 @@ fn compact_shape(random: &mut SplitMix64, area_px: f64) -> Shape {
 }
 
 /// A triangle of the given length in a random direction whose short side is 1 to 2 px.
-fn sliver_shape(random: &mut SplitMix64, length_px: f64) -> Shape {
+fn sliver_shape(random: &mut Rng, length_px: f64) -> Shape {
     let (x, y, norm) = loop {
         let (x, y) = (2.0 * random.unit() - 1.0, 2.0 * random.unit() - 1.0);
         let norm = (x * x + y * y).sqrt();
@@ -100,7 +101,7 @@ fn sliver_shape(random: &mut SplitMix64, length_px: f64) -> Shape {
 }
 
 /// Puts a shape somewhere in the target, a pixel away from its border at least, and snaps it.
-fn place(shape: Shape, random: &mut SplitMix64) -> Corners {
+fn place(shape: Shape, random: &mut Rng) -> Corners {
     let mut offset = |coordinates: [f64; 3]| {
         let (min, max) = coordinates
             .iter()
@@ -111,22 +112,4 @@ fn place(shape: Shape, random: &mut SplitMix64) -> Corners {
     };
     let (dx, dy) = (offset(shape.map(|(x, _)| x)), offset(shape.map(|(_, y)| y)));
     shape.map(|(x, y)| SubpixelPoint::from_px(x + dx, y + dy).expect("within the target"))
-}
-
-/// Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators".
-pub struct SplitMix64(pub u64);
-
-impl SplitMix64 {
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// The next number in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
 }

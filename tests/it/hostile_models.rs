@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 
 use rasterproof::cli::{self, Delivery, Streams};
 use rasterproof_core::angle::{cos, sin};
-use rasterproof_verify::cases::Rng;
+use rasterproof_core::random::Rng;
 
 use crate::model_files::below;
 use crate::program::{Folder, PROGRAM, Run, encoded};

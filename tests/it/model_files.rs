@@ -2,9 +2,9 @@
 //! wrong is named with its file and line.
 
 use image::GrayImage;
+use rasterproof_core::random::Rng;
 use rasterproof_models::{BadFile, LoadOptions, Model, Normals, Up, load_texture};
 use rasterproof_render::scene::Shading;
-use rasterproof_verify::cases::Rng;
 
 use crate::models::{load, warning};
 use crate::program::Folder;

@@ -3,13 +3,13 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DVec2, DVec3};
+use rasterproof_core::random::Rng;
 use rasterproof_models::{BadFile, Camera, Format, Lens, LoadOptions, Model, Pose, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::pipeline::physical::Map;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::scene::{Item, Material, Shading};
-use rasterproof_verify::cases::Rng;
 use serde_json::{Value, json};
 
 use crate::model_files::{below, is_read};

@@ -6,10 +6,10 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
+use rasterproof_core::random::Rng;
 use rasterproof_models::{BadFile, LoadOptions, Model, Normals, load_texture};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Shading, shapes};
-use rasterproof_verify::cases::Rng;
 use serde_json::json;
 
 use crate::program::Folder;

@@ -12,11 +12,11 @@ use rasterproof::cli::{self, Streams};
 use rasterproof_core::contract::{DrawLine, Interpolate, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{
     FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_value,
 };
 use rasterproof_registry::engines::{ENTRIES, Engine, ExactEngine, LineEngine};
-use rasterproof_verify::cases::Rng;
 use rayon::prelude::*;
 
 use crate::recorded::hits;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::pixel_box;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Fragment;
 use rasterproof_registry::engines::Drawer;
@@ -30,11 +31,7 @@ const PLACES: [(i32, i32); 5] = [(8, 8), SAMPLES[0], SAMPLES[1], SAMPLES[2], SAM
 
 /// The box of a triangle in a window, as far as it has pixels there.
 fn box_of(triangle: &Triangle, window: PixelRect) -> PixelRect {
-    let corners = triangle.corners();
-    let low = |v: [i32; 3]| v.into_iter().min().unwrap() >> 8;
-    let high = |v: [i32; 3]| (v.into_iter().max().unwrap() >> 8) + 1;
-    let (xs, ys) = (corners.map(|c| c.x), corners.map(|c| c.y));
-    PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&window)
+    pixel_box(&triangle.corners(), 0).intersect(&window)
 }
 
 /// Every value of every covered pixel and sample lies within the bound of the exact one, and somewhere the

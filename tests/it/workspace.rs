@@ -103,6 +103,10 @@ fn what_is_compared_is_independent() {
         ("crates/core/src/line/dda", &["bresenham"]),
         ("crates/core/src/line/bresenham", &["dda"]),
         ("crates/verify/src/oracle", &["scanline", "edge_function", "dda", "bresenham"]),
+        // What all other code computes of corners.
+        ("crates/core/src/raster", &["geometry"]),
+        ("crates/core/src/line", &["geometry"]),
+        ("crates/verify/src/oracle", &["geometry"]),
         // Only the edge function decides signs by the crate `robust`.
         ("crates/core/src/raster/scanline_exact", &["orient2d"]),
         ("crates/verify/src/oracle/rational", &["orient2d"]),

@@ -41,6 +41,7 @@ use tiny_skia::{FillRule, Paint, PathBuilder, Pixmap, Transform};
 use vello_cpu::kurbo::BezPath;
 
 use crate::common::{self, COLOUR, SIDE_PX, Scene};
+use crate::filler::Filler;
 use crate::outside::Children;
 use crate::spread::Spread;
 
@@ -155,16 +156,6 @@ fn times(all: &mut [Candidate<'_>], triangles: usize, rounds: usize) -> Vec<Spre
     }
     let of = |i: usize| turns.iter().map(|times| Spread::of(&times[i])).sum();
     (0..all.len()).map(of).collect()
-}
-
-/// Someone who can fill the triangles of a scene.
-pub trait Filler {
-    /// Fills a part of the triangles twice, and times the second time.
-    fn time_ns(&mut self, part: Range<usize>) -> f64;
-    /// Draws one triangle, and takes the alphas of a rectangle off the target, row by row.
-    fn take(&mut self, triangle: usize, rect: PixelRect) -> Vec<u8>;
-    /// Pixels of the target that are not empty.
-    fn left(&mut self) -> u64;
 }
 
 /// One in this process, with a target of its own.

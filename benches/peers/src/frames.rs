@@ -27,7 +27,7 @@ use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Samples};
 use serde::Serialize;
 
-use crate::mesh::{Mesh, Vertex, wrong};
+use crate::mesh::{Mesh, Vertex, unpack, wrong};
 use crate::outside::{Missing, Process, folder};
 use crate::retro::Retrofire;
 use crate::spread::Spread;
@@ -302,16 +302,6 @@ impl Euc<'_> {
             Some(depths),
         );
         unpack(colours.as_ref(), picture);
-    }
-}
-
-/// Copies packed pixels into a picture.
-pub fn unpack(pixels: &[u32], picture: &mut Frame<Colour>) {
-    let side = picture.bounds().width() as usize;
-    for (y, row) in (0..).zip(pixels.chunks(side)) {
-        for (pixel, colour) in picture.row_mut(y).iter_mut().zip(row) {
-            *pixel = colour.to_le_bytes();
-        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 #[path = "../../common/mod.rs"]
 mod common;
+mod filler;
 mod fills;
 mod frames;
 mod growth;

@@ -130,3 +130,13 @@ pub fn wrong(picture: &Frame<Colour>, truth: &Frame<Colour>, background: Colour)
     }
     [uncovered, other]
 }
+
+/// Copies packed pixels into a picture.
+pub fn unpack(pixels: &[u32], picture: &mut Frame<Colour>) {
+    let side = picture.bounds().width() as usize;
+    for (y, row) in (0..).zip(pixels.chunks(side)) {
+        for (pixel, colour) in picture.row_mut(y).iter_mut().zip(row) {
+            *pixel = colour.to_le_bytes();
+        }
+    }
+}

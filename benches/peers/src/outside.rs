@@ -14,7 +14,7 @@ use rasterproof_core::grid::PixelRect;
 use serde::Serialize;
 
 use crate::common::Scene;
-use crate::fills::Filler;
+use crate::filler::Filler;
 
 /// Where `run` puts what it installs and builds.
 pub fn folder() -> PathBuf {

@@ -11,8 +11,7 @@ use retrofire_core::math::{Vec2, Vec3 as Normal, pt2, vec2, vec3};
 use retrofire_core::render::{Colorbuf, Context, Frag, Framebuf, render, shader};
 use retrofire_core::util::{Buf2, Dims, pixfmt::Xrgb8888};
 
-use crate::frames::unpack;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, unpack};
 
 pub struct Retrofire<'a> {
     mesh: &'a Mesh,

@@ -33,10 +33,12 @@ pub mod angle;
 pub mod arrays;
 pub mod contract;
 pub mod frame;
+pub mod geometry;
 pub mod grid;
 pub mod line;
 mod named;
 pub mod parallel;
+pub mod random;
 pub mod raster;
 mod select;
 #[doc(hidden)]

@@ -5,11 +5,12 @@ use std::ops::RangeInclusive;
 use robust::{Coord, orient2d};
 
 use super::Outcome;
-use super::exact::{self, Nudge, TOP_LEFT, U, around, centre, owns, pixels};
+use super::exact::{self, Nudge, TOP_LEFT, U, around, owns, pixels};
 use super::implementations::{Engine, Implementations, hits};
 use super::source::{Fan, Position, Quad, TriangleInput};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::{ORDERS, centre, centre_of, twice_area};
 use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::parallel;
 use rasterproof_core::raster::edge_function::WordWidth;
@@ -75,9 +76,6 @@ pub(super) fn oracle_sign(subject: &Implementations, input: &TriangleInput) -> O
 
 const DOMAIN: PixelRect =
     PixelRect { x0: -DOMAIN_PX, y0: -DOMAIN_PX, x1: DOMAIN_PX, y1: DOMAIN_PX };
-
-pub(super) const ORDERS: [[usize; 3]; 6] =
-    [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
 
 /// 3: the set does not depend on the order of the vertices.
 pub(super) fn vertex_order(subject: &Implementations, input: &TriangleInput) -> Outcome {
@@ -212,7 +210,7 @@ fn fan_triangles(centre: SubpixelPoint, ring: &[SubpixelPoint]) -> Vec<Corners> 
 /// 7: the triangles of a closed fan cover what its outline winds round once, once each.
 pub(super) fn closed_fan(subject: &Implementations, input: &Fan) -> Outcome {
     let triangles = fan_triangles(input.centre, &input.ring);
-    if triangles.iter().any(|corners| exact::twice_area(corners) <= 0) {
+    if triangles.iter().any(|corners| twice_area(corners) <= 0) {
         return Ok(0);
     }
     let mut target = Coverage::new(input.window, 0);
@@ -230,7 +228,7 @@ pub(super) fn closed_fan(subject: &Implementations, input: &Fan) -> Outcome {
 fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec<i32> {
     let mut sum = vec![0; window.width() as usize * window.height() as usize];
     for &corners in triangles {
-        let sign = exact::twice_area(&corners).signum() as i32;
+        let sign = twice_area(&corners).signum() as i32;
         let hits = engine.hits(corners, window);
         let counts = hits.rows().flat_map(|(_, row)| row);
         sum.iter_mut().zip(counts).for_each(|(sum, &count)| *sum += sign * i32::from(count));
@@ -350,7 +348,7 @@ pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Out
         let c = SubpixelPoint::new(x, y);
         flat.extend([[a, b, c], [b, c, a], [c, b, a]]);
     }
-    if exact::twice_area(&input.triangle.corners()) == 0 {
+    if twice_area(&input.triangle.corners()) == 0 {
         flat.push(input.triangle.corners());
     }
     subject.each_engine(|engine| {
@@ -372,7 +370,7 @@ pub(super) fn zero_area(subject: &Implementations, input: &TriangleInput) -> Out
 /// 13: a triangle and the same one seen from behind.
 pub(super) fn windings(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let ([a, b, c], window) = (input.triangle.corners(), input.window);
-    let sign = exact::twice_area(&[a, b, c]).signum();
+    let sign = twice_area(&[a, b, c]).signum();
     for (corners, sign) in [([a, b, c], sign), ([c, b, a], -sign)] {
         let removed = [Cull::None, Cull::Clockwise, Cull::CounterClockwise]
             .map_array(|cull| (subject.culls)(cull, corners));
@@ -455,7 +453,7 @@ pub(super) fn identifies_the_rule(subject: &Implementations, input: &TriangleInp
     let (x_px, y_px) = ((input.salt % 13) as i32, (input.salt / 13 % 13) as i32);
     let arm_sub = 3 + (input.salt / 169 % 125) as i32;
     let window = PixelRect { x0: x_px, y0: y_px, x1: x_px + 1, y1: y_px + 1 };
-    let sample = SubpixelPoint::new(centre(x_px) as i32, centre(y_px) as i32);
+    let sample = centre_of(x_px, y_px);
     let tip = |arm: usize, times: i32| {
         let [dx, dy] = ARMS[arm % 8];
         SubpixelPoint::new(sample.x + dx * times, sample.y + dy * times)
@@ -639,7 +637,7 @@ pub(super) fn area(subject: &Implementations, input: &TriangleInput) -> Outcome 
     // Sides of at most 512 px: twice the area is a whole number below 2^36, exact in f64. The
     // sides have a relative error of 2 u each, as have their sum and the comparison.
     let s = f64::from(SUBPIXELS);
-    let area_px = exact::twice_area(&corners).abs() as f64 / (2.0 * s * s);
+    let area_px = twice_area(&corners).abs() as f64 / (2.0 * s * s);
     let side = |i: usize, j: usize| {
         let (p, q) = (corners[i], corners[j]);
         let (x, y) = (f64::from(p.x - q.x) / s, f64::from(p.y - q.y) / s);

@@ -4,15 +4,12 @@
 //! number, and by the square of that amount in a second direction. Then no sample lies on an edge.
 //! Neither engine and not the oracle works this way: they round up, add a bias, count crossings.
 
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry::{centre, pixel_box, twice_area};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
 /// Unit roundoff of f64.
 pub const U: f64 = f64::EPSILON / 2.0;
-
-pub fn centre(px: i32) -> i64 {
-    i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
-}
 
 /// Where samples are nudged: by eps along `first`, by eps squared along `second`.
 #[derive(Clone, Copy, Debug)]
@@ -30,11 +27,6 @@ pub const TOP_LEFT: Nudge = Nudge { first: [1, 0], second: [0, 1] };
 pub fn edge(a: SubpixelPoint, b: SubpixelPoint, x_sub: i64, y_sub: i64) -> i128 {
     let [ax, ay, bx, by] = [a.x, a.y, b.x, b.y].map(i128::from);
     (bx - ax) * (i128::from(y_sub) - ay) - (by - ay) * (i128::from(x_sub) - ax)
-}
-
-/// Twice the signed area in subpixels squared; positive for clockwise corners (y down).
-pub fn twice_area([a, b, c]: &Corners) -> i128 {
-    edge(*a, *b, i64::from(c.x), i64::from(c.y))
 }
 
 /// The corners in clockwise order, or nothing for a triangle of zero area.
@@ -88,11 +80,7 @@ pub fn winding(ring: &[SubpixelPoint], x_px: i32, y_px: i32) -> i32 {
 
 /// The pixels of `window` whose squares touch the bounding box of the points.
 pub fn around(points: &[SubpixelPoint], window: PixelRect) -> PixelRect {
-    let px = |sub: i32| sub.div_euclid(SUBPIXELS);
-    let low = |v: fn(&SubpixelPoint) -> i32| points.iter().map(v).min().map_or(0, px);
-    let high = |v: fn(&SubpixelPoint) -> i32| points.iter().map(v).max().map_or(0, |v| px(v) + 1);
-    PixelRect { x0: low(|p| p.x), y0: low(|p| p.y), x1: high(|p| p.x), y1: high(|p| p.y) }
-        .intersect(&window)
+    pixel_box(points, 0).intersect(&window)
 }
 
 pub fn pixels(rect: PixelRect) -> impl Iterator<Item = (i32, i32)> {
@@ -102,11 +90,12 @@ pub fn pixels(rect: PixelRect) -> impl Iterator<Item = (i32, i32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasterproof_core::geometry::centre_of;
 
     /// The square 0.5..2.5 px: the corner centre belongs to the top-left rule's side only.
     #[test]
     fn owners_by_hand() {
-        let p = |x: i32, y: i32| SubpixelPoint::new(x * 256 + 128, y * 256 + 128);
+        let p = centre_of;
         let half = [p(0, 0), p(2, 0), p(2, 2)];
         let owned = |nudge| {
             let all = pixels(PixelRect::window(4, 4));
@@ -119,7 +108,7 @@ mod tests {
 
     #[test]
     fn winding_by_hand() {
-        let p = |x: i32, y: i32| SubpixelPoint::new(x * 256 + 128, y * 256 + 128);
+        let p = centre_of;
         let square = [p(0, 0), p(2, 0), p(2, 2), p(0, 2)];
         let inside: Vec<_> =
             pixels(PixelRect::window(4, 4)).filter(|&(x, y)| winding(&square, x, y) == 1).collect();

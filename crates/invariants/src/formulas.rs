@@ -7,6 +7,7 @@ use super::Outcome;
 use super::implementations::Implementations;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
+use rasterproof_core::random::Rng;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_render::pipeline::footprint::Footprint;
 use rasterproof_render::pipeline::layers::Layer;
@@ -15,7 +16,6 @@ use rasterproof_render::pipeline::shadow::{LightView, TAPS};
 use rasterproof_render::pipeline::target::Colour;
 use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Item, Material, Scene, shapes};
-use rasterproof_verify::cases::Rng;
 
 fn colour(rng: &mut Rng) -> Colour {
     let mut channel = || rng.int(0, 255) as u8;

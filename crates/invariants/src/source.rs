@@ -5,8 +5,9 @@ use std::fmt;
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_verify::cases::shrink;
-use rasterproof_verify::cases::{self, Case, Family, Line, Rng, Shape, Triangle, named};
+use rasterproof_verify::cases::{self, Case, Family, Line, Shape, Triangle, named};
 
 use super::implementations::MakeCase;
 

@@ -7,11 +7,11 @@ use std::fmt::Display;
 use glam::{DVec2, DVec3};
 
 use super::Outcome;
-use super::coverage::ORDERS;
 use super::exact::{self, U};
 use super::implementations::Implementations;
 use super::source::TriangleInput;
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::{ORDERS, centre_of, twice_area};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, MAX_VALUE, MAX_W, MIN_W, ScreenTriangle, ScreenVertex};
 use rasterproof_verify::cases::Triangle;
@@ -73,7 +73,7 @@ fn with(triangle: &Triangle, change: impl Fn(usize, &mut ScreenVertex<DVec2>)) -
 /// round.
 pub(super) fn edges_sum(subject: &Implementations, input: &TriangleInput) -> Outcome {
     let corners = input.triangle.corners();
-    let area = exact::twice_area(&corners);
+    let area = twice_area(&corners);
     let mut compared = 0;
     for (x, y) in exact::pixels(input.window).step_by(7) {
         let values = (subject.edge_values)(&corners, x, y);
@@ -261,7 +261,7 @@ pub(super) fn shared_edge(subject: &Implementations, input: &TriangleInput) -> O
     let [a, b, c] = input.triangle.corners();
     let window = PixelRect::window(48, 48);
     let (px, py) = ((input.salt % 48) as i32, (input.salt / 48 % 48) as i32);
-    let sample = SubpixelPoint::new(exact::centre(px) as i32, exact::centre(py) as i32);
+    let sample = centre_of(px, py);
     let direction = |p: SubpixelPoint, q: SubpixelPoint| {
         // Short enough that four of them stay near.
         let d = |p: i32, q: i32| ((i64::from(q) - i64::from(p)) % 2000) as i32;

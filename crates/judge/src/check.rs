@@ -14,13 +14,14 @@ use super::judged::Judged;
 use super::pixels::{length, masks_of, mesh_of, picture_of, pixel_of};
 use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::Winding;
 use rasterproof_verify::comparison::pixels::{compare, few, hits, mix, sequence};
-use rasterproof_verify::comparison::{Winding, area2};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
@@ -379,8 +380,8 @@ fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) ->
 /// The triangle turned over where this winding alone is drawn and it has the other.
 fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
     let is_other = match drawn {
-        Winding::Clockwise => area2(&[a, b, c]) < 0,
-        Winding::CounterClockwise => area2(&[a, b, c]) > 0,
+        Winding::Clockwise => twice_area(&[a, b, c]) < 0,
+        Winding::CounterClockwise => twice_area(&[a, b, c]) > 0,
         Winding::Both => false,
     };
     if is_other { [a, c, b] } else { [a, b, c] }
@@ -476,7 +477,7 @@ fn samples(
     window: PixelRect,
     truth: &Truth,
 ) {
-    let drawn = truth.declared.convention.draws(area2(corners));
+    let drawn = truth.declared.convention.draws(twice_area(corners));
     let Some(expected) = multisample::masks(&Oracle, *corners, window).filter(|_| drawn) else {
         return;
     };

@@ -3,11 +3,12 @@
 use super::declared::{Declared, Shape};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::named::plain_line;
-use rasterproof_verify::comparison::{Convention, Expectation, Rule, area2};
+use rasterproof_verify::comparison::{Convention, Expectation, Rule};
 use rasterproof_verify::convention::{self, Known, Ties};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
@@ -35,7 +36,7 @@ impl Expect for Convention {
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation> {
         let is_open = matches!(self.rule, Rule::Inclusive | Rule::Unspecified);
         // Programs behind the protocol promise nothing of a triangle that is nothing but edges.
-        (area2(corners) != 0 || !is_open).then(|| self.expected(corners, window))
+        (twice_area(corners) != 0 || !is_open).then(|| self.expected(corners, window))
     }
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {
@@ -61,7 +62,7 @@ impl Expect for Declared {
             Shape::Covered => -HALF_PIXEL,
         };
         // What has no area is nothing but its border, of which nothing is promised.
-        if area2(corners) == 0 {
+        if twice_area(corners) == 0 {
             return None;
         }
         let known = Known::from(&self.convention);

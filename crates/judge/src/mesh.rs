@@ -5,15 +5,16 @@
 //! triangle of it; and triangles whose interiors are disjoint share no pixel. All in exact integers.
 
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
-use rasterproof_verify::comparison::{Tally, area2};
+use rasterproof_verify::comparison::Tally;
 
 type Edge = [SubpixelPoint; 2];
 
 /// Twice the area of a, b, p.
 fn side([a, b]: Edge, p: SubpixelPoint) -> i128 {
-    area2(&[a, b, p])
+    twice_area(&[a, b, p])
 }
 
 /// Whether the interiors of all triangles are disjoint and none is degenerate: for convex shapes
@@ -21,10 +22,10 @@ fn side([a, b]: Edge, p: SubpixelPoint) -> i128 {
 #[must_use]
 pub fn is_disjoint(list: &[Corners]) -> bool {
     let separates = |one: &Corners, other: &Corners| {
-        let inside = area2(one).signum();
+        let inside = twice_area(one).signum();
         edges(one).any(|e| other.iter().all(|p| side(e, *p) * inside <= 0))
     };
-    list.iter().all(|t| area2(t) != 0)
+    list.iter().all(|t| twice_area(t) != 0)
         && list
             .iter()
             .enumerate()

@@ -11,11 +11,11 @@ use super::judged::Judged;
 use super::pixels::{hits_of, mesh_of, picture_of};
 use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Shape};
-use rasterproof_verify::comparison::area2;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
@@ -183,7 +183,7 @@ fn samples(
         let Asked::Samples(corners) = &question.of else { continue };
         let four = |sub: i32| sub.saturating_mul(FINER);
         moved.push(corners.map(|p| SubpixelPoint::new(four(p.x), four(p.y))));
-        let is_drawn = truth.declared.convention.draws(area2(corners));
+        let is_drawn = truth.declared.convention.draws(twice_area(corners));
         let masks = multisample::masks(&Oracle, *corners, window).filter(|_| is_drawn);
         for (y, row) in masks.iter().flat_map(|masks| masks.rows()) {
             (window.x0..).zip(row).for_each(|(x, mask)| hit(&mut expected, x, y, *mask));

@@ -7,10 +7,10 @@
 use glam::DVec2;
 
 use super::check::Check;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::shrink::{greedy, shrink};
 use rasterproof_verify::cases::{Case, Shape, Triangle};
-use rasterproof_verify::comparison::area2;
 
 /// The smallest case reached from `case` that still fails; `case` itself does.
 pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case {
@@ -26,7 +26,7 @@ pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case 
 }
 
 fn flat(case: &Case) -> usize {
-    triangles(case).iter().filter(|t| area2(&t.corners()) == 0).count()
+    triangles(case).iter().filter(|t| twice_area(&t.corners()) == 0).count()
 }
 
 fn triangles(case: &Case) -> &[Triangle] {

@@ -16,12 +16,12 @@ use super::pixels::masks_of;
 use super::run::MOST_DEATHS;
 use glam::DVec2;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::{centre, twice_area};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment};
 use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
-use rasterproof_verify::comparison::area2;
 use rasterproof_verify::comparison::pixels::few;
 use rasterproof_verify::convention::{Convention, Quantum, Rounding, Shape, Ties};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
@@ -389,8 +389,8 @@ fn of_values<'a>(all: &'a [Answered], is_wrong: &[bool], tolerance: f64) -> Vec<
 type Holds = fn([i32; 2], &Corners) -> bool;
 /// Where a mistake may be alone, and how that is said.
 const WHERE: [(Holds, &str); 8] = [
-    (|_, corners| area2(corners) < 0, "of counterclockwise triangles"),
-    (|_, corners| area2(corners) > 0, "of clockwise triangles"),
+    (|_, corners| twice_area(corners) < 0, "of counterclockwise triangles"),
+    (|_, corners| twice_area(corners) > 0, "of clockwise triangles"),
     (|[_, y], _| y % 2 == 0, "in rows of even numbers"),
     (|[_, y], _| y % 2 == 1, "in rows of odd numbers"),
     (|[x, _], _| x % 2 == 0, "in columns of even numbers"),
@@ -533,7 +533,7 @@ fn gates() -> Vec<(Gate, u8, String)> {
 fn is_centre_in_box(at: [i32; 2], corners: &Corners, sides: u8) -> bool {
     (0..4).filter(|side| sides >> side & 1 == 1).all(|side| {
         let v = corners.map(|c| i64::from([c.x, c.y][side % 2]));
-        let centre = i64::from(at[side % 2]) * 256 + 128;
+        let centre = centre(at[side % 2]);
         let (v, centre) = if side < 2 { (v, centre) } else { (v.map(|v| -v), -centre) };
         v.iter().any(|v| *v < centre || (sides < 16 && *v == centre))
     })
@@ -777,7 +777,7 @@ fn sample_rule(all: &[Answered], p: usize, alone: Option<usize>) -> Option<Hypot
         "a sample on an edge that the top-left rule decides",
     );
     Some(by_masks(all, says, move |corners, window, drawn| {
-        let ties = if area2(corners) > 0 { clockwise } else { other };
+        let ties = if twice_area(corners) > 0 { clockwise } else { other };
         let usual = Convention::default().ties;
         SAMPLES.iter().enumerate().all(|(bit, (x, y))| {
             let shape = Shape::Point { x: 16 * x, y: 16 * y };
@@ -844,7 +844,7 @@ fn extreme(t: &Triangle, start: f64, of: fn(f64, f64) -> f64) -> f64 {
 }
 
 fn size(t: &Triangle) -> f64 {
-    area2(&t.corners()).unsigned_abs() as f64
+    twice_area(&t.corners()).unsigned_abs() as f64
 }
 
 type Quantise = fn(f64, i32) -> f64;
@@ -967,7 +967,7 @@ const DEPTHS: &[DepthMistake] = &[
         does: "turns the sign of the depths of counterclockwise triangles",
         repair: "divide the weighted sum by the area with its sign",
         refuted: "a counterclockwise triangle that lies behind and is not seen",
-        key: |a| if area2(&a.triangle.corners()) < 0 { -a.depth } else { a.depth },
+        key: |a| if twice_area(&a.triangle.corners()) < 0 { -a.depth } else { a.depth },
         last: None,
         place: CENTRE,
     },
@@ -1022,7 +1022,7 @@ fn at_another_place(place: Place, at: &str) -> (String, DepthMistake) {
 
 /// The depth, with something added where a triangle is counterclockwise.
 fn behind_by(a: &Layer<'_>, by: f64) -> f64 {
-    a.depth + if area2(&a.triangle.corners()) < 0 { by } else { 0.0 }
+    a.depth + if twice_area(&a.triangle.corners()) < 0 { by } else { 0.0 }
 }
 
 /// Differences of depth that are tried, times a power of ten.

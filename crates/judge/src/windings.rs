@@ -5,10 +5,11 @@ use super::ask::{Answer, Asked, Question, Subject};
 use super::declared::Declared;
 use super::expected::Expect as _;
 use super::pixels::picture_of;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Shape;
-use rasterproof_verify::comparison::{Winding, area2};
+use rasterproof_verify::comparison::Winding;
 
 /// How many plain triangles of each winding were drawn; seen on a screen with y down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -93,8 +94,11 @@ fn is_fat(corners: &Corners, window: PixelRect, declared: &Declared) -> bool {
 
 fn count(windings: &mut Windings, corners: &Corners, window: PixelRect, answer: &Answer) {
     let Some(drawn) = picture_of(answer, window) else { return };
-    let of =
-        if area2(corners) > 0 { &mut windings.clockwise } else { &mut windings.counter_clockwise };
+    let of = if twice_area(corners) > 0 {
+        &mut windings.clockwise
+    } else {
+        &mut windings.counter_clockwise
+    };
     of[0] += u64::from(drawn.covered() > 0);
     of[1] += 1;
 }

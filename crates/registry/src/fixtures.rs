@@ -13,6 +13,7 @@ use crate::engines::{Engine, LineEngine};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::{centre_of, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::{Corners, PixelPoint};
@@ -431,8 +432,7 @@ impl Drawing {
 /// Marks samples on edges that belong to one triangle alone; a triangle without area has none.
 fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
     let mut edges: BTreeMap<[SubpixelPoint; 2], u32> = BTreeMap::new();
-    let area = |[a, b, c]: &Corners| rasterproof_verify::comparison::area2(&[*a, *b, *c]);
-    for [a, b, c] in triangles.iter().filter(|corners| area(corners) != 0) {
+    for [a, b, c] in triangles.iter().filter(|corners| twice_area(corners) != 0) {
         for [from, to] in [[a, b], [b, c], [c, a]] {
             *edges.entry([*from.min(to), *from.max(to)]).or_default() += 1;
         }
@@ -441,10 +441,10 @@ fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
     for [a, b] in edges.into_iter().filter(|(_, count)| count % 2 == 1).map(|(edge, _)| edge) {
         for y_px in window.y0..window.y1 {
             for x_px in window.x0..window.x1 {
-                let [x, y] = [x_px, y_px].map_array(|px| px * SUBPIXELS + HALF_PIXEL);
+                let sample = centre_of(x_px, y_px);
                 let is_between = |v: i32, p: i32, q: i32| (p.min(q)..=p.max(q)).contains(&v);
-                let is_near = is_between(x, a.x, b.x) && is_between(y, a.y, b.y);
-                if is_near && area(&[a, b, SubpixelPoint::new(x, y)]) == 0 {
+                let is_near = is_between(sample.x, a.x, b.x) && is_between(sample.y, a.y, b.y);
+                if is_near && twice_area(&[a, b, sample]) == 0 {
                     outline.row_mut(y_px)[(x_px - window.x0) as usize] = 1;
                 }
             }

@@ -10,6 +10,7 @@
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::sorted;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_render::effects::render::BadScene;
@@ -193,10 +194,8 @@ impl<'a> Surfaces<'a> {
     fn are_same(&self, a: u32, b: u32) -> bool {
         let corners = |piece: u32| {
             let vertices = &self.pieces[piece as usize].triangle.vertices;
-            let corner = vertices.map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
-            let mut corners = corner;
-            corners.sort_unstable();
-            corners
+            let corners = vertices.map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
+            sorted(corners, |a, b| a > b)
         };
         corners(a) == corners(b)
     }

@@ -124,10 +124,10 @@ mod tests {
     use super::*;
     use glam::DVec3;
     use rasterproof_core::contract::Rasterize as _;
+    use rasterproof_core::random::Rng;
     use rasterproof_core::raster::scanline::Scanline;
     use rasterproof_render::pipeline::transform::perspective;
     use rasterproof_render::scene::{Corner, Material, Mesh};
-    use rasterproof_verify::cases::Rng;
 
     use crate::view::pieces;
 

@@ -191,6 +191,7 @@ pub mod judge;
 pub mod mistakes;
 pub mod oracle;
 pub mod partition;
+mod promise;
 // So that whoever judges needs this crate alone.
 #[doc(inline)]
 pub use rasterproof_core::{contract, frame, grid, triangle};

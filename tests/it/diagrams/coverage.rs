@@ -2,12 +2,12 @@
 
 use super::{Drawing, Point, between};
 use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::Corners;
 use rasterproof_exhaustive::Enumeration as _;
 use rasterproof_exhaustive::triangles::Triangles;
-use rasterproof_render::pipeline::assemble::twice_area;
 
 fn snapped(corners: [Point; 3]) -> Corners {
     corners.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("diagrams stay in the domain"))
@@ -61,7 +61,7 @@ pub fn edge_sign() -> String {
     let mut drawing = Drawing::new(440.0, 388.0);
     for (y, x) in (0..7).flat_map(|y| (0..9).map(move |x| (y, x))) {
         let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-        let value = twice_area(snapped([a, b, p])) / i128::from(SUBPIXELS).pow(2);
+        let value = twice_area(&snapped([a, b, p])) / i128::from(SUBPIXELS).pow(2);
         let class = ["dot2", "ring", "dot1"][(value.signum() + 1) as usize];
         let [px, py] = at(p);
         drawing.dot(class, [px, py], 4.0);
@@ -128,7 +128,7 @@ pub fn dda_row() -> String {
 pub fn areas() -> String {
     let (corners, p) = ([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [3.0, 3.0]);
     let at = |[x, y]: Point| [60.0 + x * 36.0, 40.0 + y * 36.0];
-    let area = |corners| twice_area(snapped(corners)) / i128::from(SUBPIXELS).pow(2);
+    let area = |corners| twice_area(&snapped(corners)) / i128::from(SUBPIXELS).pow(2);
     let whole = area(corners);
     let mut drawing = Drawing::new(400.0, 370.0);
     for (i, class) in ["fill1", "fill2", "fill3"].into_iter().enumerate() {
@@ -191,7 +191,7 @@ pub fn winding() -> String {
     let other = [clockwise[0], clockwise[2], clockwise[1]];
     for (left, corners) in [(20.0, clockwise), (240.0, other)] {
         let at = |[x, y]: Point| [left + x * 28.0, y * 28.0];
-        let area = twice_area(snapped(corners)) as f64 / f64::from(SUBPIXELS).powi(2);
+        let area = twice_area(&snapped(corners)) as f64 / f64::from(SUBPIXELS).powi(2);
         drawing.polygon(if area > 0.0 { "fill1" } else { "fill2" }, &corners.map(at));
         for i in 0..3 {
             let (from, to) = (at(corners[i]), at(corners[(i + 1) % 3]));
@@ -262,7 +262,7 @@ pub fn owners() -> String {
             let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
             for (corners, class) in halves.into_iter().zip(["fill1", "fill2"]) {
                 let [a, b, c] = corners;
-                let least = [[a, b, p], [b, c, p], [c, a, p]].map(|t| twice_area(snapped(t)));
+                let least = [[a, b, p], [b, c, p], [c, a, p]].map(|t| twice_area(&snapped(t)));
                 let least = least.into_iter().min().unwrap_or(0);
                 let covers = match i {
                     0 => least > 0,

@@ -4,8 +4,8 @@ use glam::DVec3;
 use rasterproof_core::angle::sin_cos;
 
 use super::{Drawing, Point};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
-use rasterproof_render::pipeline::assemble::twice_area;
 use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_render::pipeline::shade::Light;
 
@@ -42,7 +42,7 @@ pub fn samples() -> String {
         let sub = |v: f64| (v * f64::from(SUBPIXELS)).round() as i32;
         SubpixelPoint::new(sub(x), sub(y))
     };
-    let is_in = |p: Point| twice_area([snapped(a), snapped(b), snapped(p)]) > 0;
+    let is_in = |p: Point| twice_area(&[snapped(a), snapped(b), snapped(p)]) > 0;
     let mut drawing = Drawing::new(360.0, 320.0);
     drawing.polygon("fill1", &[at(a), at(b), at([1.0, 1.0]), at([0.0, 1.0])]);
     drawing.grid(at([0.0, 0.0]), 15.0, 16, 16);

@@ -2,7 +2,8 @@
 
 use super::each_sample;
 use rasterproof_core::contract::{Interpolate, Rasterize};
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry::centre_of;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 use rasterproof_verify::oracle::Oracle;
 
@@ -34,9 +35,8 @@ impl Rasterize for OracleMutant {
         if *self == Self::AffineValues {
             return Oracle.spans(corners, bounds, &mut emit);
         }
-        let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL);
         let inside = |x_px, y_px| {
-            let sample = SubpixelPoint::new(centre(x_px), centre(y_px));
+            let sample = centre_of(x_px, y_px);
             let crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|&(i, j)| {
                 let (a, b) = (corners[i], corners[j]);
                 match (a.y <= sample.y, b.y <= sample.y) {

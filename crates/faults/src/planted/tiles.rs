@@ -2,7 +2,8 @@
 //! for vectors goes wrong.
 
 use super::each_sample;
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry::centre_of;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_tiles::coverage::{CoverList, NARROW_EXTENT, Piece, SIDE_PX, Tile, Tiles};
 
@@ -98,9 +99,8 @@ fn wrapping([a, b, c]: &Corners, bounds: PixelRect, triangle: u32, pieces: &mut 
             .wrapping_sub(dy.wrapping_mul(i32::wrapping_sub(x, from.x)))
             .wrapping_sub(i32::from(!top_left))
     };
-    let centre = |px: i32| px.wrapping_mul(SUBPIXELS).wrapping_add(HALF_PIXEL);
     let inside = |x_px, y_px| {
-        let (x, y) = (centre(x_px), centre(y_px));
+        let SubpixelPoint { x, y } = centre_of(x_px, y_px);
         let all = |b, c| edge(a, b, x, y) | edge(b, c, x, y) | edge(c, a, x, y);
         all(b, c) >= 0 || all(c, b) >= 0
     };

@@ -6,11 +6,11 @@
 use super::each_sample;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate, Rasterize};
+use rasterproof_core::geometry::{centre_of, pixel_box, sorted, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::raster::edge_function::{self, EdgeFunction};
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
-use rasterproof_render::pipeline::assemble::twice_area;
 
 planted! {
     TriangleMutant {
@@ -100,7 +100,7 @@ impl TriangleMutant {
                 }
             }),
             Self::CullsOneWinding => {
-                if twice_area(corners) > 0 {
+                if twice_area(&corners) > 0 {
                     Scanline.cover(corners, bounds, emit);
                 }
             }
@@ -148,10 +148,11 @@ impl TriangleMutant {
                     emit(Span { x0_px, ..span });
                 }
             }),
-            Self::FillsZeroArea if twice_area(corners) == 0 => {
+            Self::FillsZeroArea if twice_area(&corners) == 0 => {
                 fills_zero_area(corners, bounds, emit)
             }
-            Self::RejectsThin if twice_area(corners).abs() < i128::from(SUBPIXELS * SUBPIXELS) => {}
+            Self::RejectsThin if twice_area(&corners).abs() < i128::from(SUBPIXELS * SUBPIXELS) => {
+            }
             Self::SplitsAtRoundedPoint => splits_at_rounded_point(corners, bounds, emit),
             Self::StepsInF32 => steps_in_f32(corners, bounds, emit),
             _ => EdgeFunction.cover(corners, bounds, emit),
@@ -235,19 +236,19 @@ fn on_outline<V: Varying>(
     let mut vertices = triangle.vertices;
     let top = (0..3).min_by_key(|&i| (vertices[i].position.y, vertices[i].position.x));
     vertices.rotate_left(top.unwrap_or(0));
-    if twice_area(triangle.corners()) < 0 {
+    if twice_area(&triangle.corners()) < 0 {
         vertices.swap(1, 2);
     }
     let [v0, v1, v2] = &vertices;
     let corners = [v0.position, v1.position, v2.position];
-    let area = twice_area(corners);
+    let area = twice_area(&corners);
     let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
     let q = [v0.inv_w, v1.inv_w, v2.inv_w].map_array(|inv_w| inv_w / largest);
     for x_px in row.x0..row.x1 {
         let sample = centre_of(x_px, row.y0);
         let [a, b, c] = corners;
         let e =
-            [twice_area([b, c, sample]), twice_area([c, a, sample]), twice_area([a, b, sample])];
+            [twice_area(&[b, c, sample]), twice_area(&[c, a, sample]), twice_area(&[a, b, sample])];
         if area == 0 || e.iter().any(|&e| e < 0) {
             continue;
         }
@@ -277,11 +278,7 @@ fn scanline_spans(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span
 
 /// The pixels of `bounds` that can hold anything of the triangle, with one to spare.
 fn near(corners: &Corners, bounds: PixelRect) -> PixelRect {
-    let px = |sub: i32| sub.div_euclid(SUBPIXELS);
-    let (xs, ys) = (corners.map_array(|p| px(p.x)), corners.map_array(|p| px(p.y)));
-    let low = |v: [i32; 3]| v.into_iter().min().unwrap_or(0) - 1;
-    let high = |v: [i32; 3]| v.into_iter().max().unwrap_or(0) + 2;
-    PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&bounds)
+    pixel_box(corners, 1).intersect(&bounds)
 }
 
 /// Tests each sample of `rect` against three edges: `keeps` says for an edge from a to b, inside to
@@ -292,7 +289,7 @@ fn by_edges(
     keeps: &dyn Fn([SubpixelPoint; 2], i32, i32) -> bool,
     emit: &mut dyn FnMut(Span),
 ) {
-    match twice_area(corners).signum() {
+    match twice_area(&corners).signum() {
         0 => return,
         -1 => corners.swap(1, 2),
         _ => {}
@@ -311,22 +308,24 @@ fn by_rule(
     owns: fn(i128, i128) -> bool,
     emit: &mut dyn FnMut(Span),
 ) {
-    let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL + sample_shift);
     let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
         let (dx, dy) = (i128::from(b.x) - i128::from(a.x), i128::from(b.y) - i128::from(a.y));
-        let edge = twice_area([a, b, SubpixelPoint::new(centre(x_px), centre(y_px))]);
+        let SubpixelPoint { x, y } = centre_of(x_px, y_px);
+        let sample =
+            SubpixelPoint::new(x.saturating_add(sample_shift), y.saturating_add(sample_shift));
+        let edge = twice_area(&[a, b, sample]);
         edge > 0 || (edge == 0 && owns(dx, dy))
     };
     by_edges(corners, near(&corners, bounds), &keeps, emit);
 }
 
 fn wrapping(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
-    let centre = |px: i32| px.wrapping_mul(SUBPIXELS).wrapping_add(HALF_PIXEL);
     let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
+        let sample = centre_of(x_px, y_px);
         let (dx, dy) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
         let edge = dx
-            .wrapping_mul(centre(y_px).wrapping_sub(a.y))
-            .wrapping_sub(dy.wrapping_mul(centre(x_px).wrapping_sub(a.x)));
+            .wrapping_mul(sample.y.wrapping_sub(a.y))
+            .wrapping_sub(dy.wrapping_mul(sample.x.wrapping_sub(a.x)));
         edge > 0 || (edge == 0 && (dy < 0 || (dy == 0 && dx > 0)))
     };
     by_edges(corners, bounds, &keeps, emit);
@@ -334,21 +333,16 @@ fn wrapping(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
 
 /// The top-left rule is forgotten; of the three edges as they come the last one is inclusive.
 fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
-    let sign = twice_area(corners).signum();
+    let sign = twice_area(&corners).signum();
     let [a, b, c] = corners;
     let inside = |x_px, y_px| {
         let sample = centre_of(x_px, y_px);
         let edges =
-            [twice_area([a, b, sample]), twice_area([b, c, sample]), twice_area([c, a, sample])];
+            [twice_area(&[a, b, sample]), twice_area(&[b, c, sample]), twice_area(&[c, a, sample])];
         let [first, second, last] = edges.map_array(|edge| edge * sign);
         sign != 0 && first > 0 && second > 0 && last >= 0
     };
     each_sample(near(&corners, bounds), &inside, emit);
-}
-
-fn centre_of(x_px: i32, y_px: i32) -> SubpixelPoint {
-    let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL);
-    SubpixelPoint::new(centre(x_px), centre(y_px))
 }
 
 fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
@@ -357,8 +351,9 @@ fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Spa
         |p: i32, v: [i32; 3]| v.into_iter().min() <= Some(p) && v.into_iter().max() >= Some(p);
     let inside = |x_px, y_px| {
         let p = centre_of(x_px, y_px);
-        let on_line =
-            twice_area([a, b, p]) == 0 && twice_area([b, c, p]) == 0 && twice_area([c, a, p]) == 0;
+        let on_line = twice_area(&[a, b, p]) == 0
+            && twice_area(&[b, c, p]) == 0
+            && twice_area(&[c, a, p]) == 0;
         on_line && within(p.x, [a.x, b.x, c.x]) && within(p.y, [a.y, b.y, c.y])
     };
     each_sample(near(&corners, bounds), &inside, emit);
@@ -367,10 +362,10 @@ fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Spa
 /// The book's section 2.2: the long edge is cut at the height of the middle vertex, and two flat
 /// triangles are drawn. The cut has to be somewhere on the lattice, so it bends the edge.
 fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
-    corners.sort_by_key(|p| (p.y, p.x));
+    corners = sorted(corners, |a, b| (a.y, a.x) > (b.y, b.x));
     let [top, middle, bottom] = corners;
     let height = i128::from(bottom.y) - i128::from(top.y);
-    if height == 0 || twice_area(corners) == 0 {
+    if height == 0 || twice_area(&corners) == 0 {
         return;
     }
     let down = i128::from(middle.y) - i128::from(top.y);
@@ -382,8 +377,8 @@ fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, emit: &mut d
 }
 
 /// The book's scanline fill with half-open ranges, stepped down the edges in f32 pixels.
-fn steps_in_f32(mut corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
-    corners.sort_by_key(|p| (p.y, p.x));
+fn steps_in_f32(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+    let corners = sorted(corners, |a, b| (a.y, a.x) > (b.y, b.x));
     let px = |p: SubpixelPoint| (p.x as f32 / SUBPIXELS as f32, p.y as f32 / SUBPIXELS as f32);
     let [top, middle, bottom] = corners.map_array(px);
     let row = |y: f32| (y - 0.5).ceil() as i32;
@@ -439,7 +434,7 @@ fn barycentric<V: Varying>(
 ) {
     let [v0, v1, v2] = &triangle.vertices;
     let corners = triangle.corners();
-    let area = twice_area(corners) as f64;
+    let area = twice_area(&corners) as f64;
     let mut row = |span: Span| {
         for x_px in span.x0_px..span.x1_px {
             let e = edge_function::edge_values(&corners, x_px, span.y_px)

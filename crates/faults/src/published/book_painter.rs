@@ -10,6 +10,7 @@ use glam::DVec2;
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, empty, fill, fragments};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::sorted;
 
 /// Three blades, each turned by a third of a circle; each starts near, broad, and ends far under
 /// the next one, or lies flat at a depth of its own.
@@ -33,8 +34,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
     let mut image = empty(SIDE);
     if version == Version::Published {
         let mean = |i: usize| blades[i].iter().map(|(_, depth)| depth).sum::<f64>();
-        let mut order = [0, 1, 2];
-        order.sort_by(|&a, &b| mean(b).total_cmp(&mean(a)));
+        let order = sorted([0, 1, 2], |&a, &b| mean(a).total_cmp(&mean(b)).is_lt());
         for i in order {
             fill(&mut image, &blades[i].map_array(|(corner, _)| corner), COLOURS[i]);
         }

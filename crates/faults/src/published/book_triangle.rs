@@ -16,6 +16,7 @@ use super::{
     int_loop, to_int,
 };
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
@@ -37,13 +38,7 @@ pub(super) fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
 /// The corners from the lowest up, by three exchanges of neighbours: `order[k]` is the number of
 /// the corner at place k.
 pub(super) fn sorted(corners: [DVec2; 3]) -> [usize; 3] {
-    let mut order = [0, 1, 2];
-    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
-        if corners[order[i]].y > corners[order[j]].y {
-            order.swap(i, j);
-        }
-    }
-    order
+    geometry::sorted([0, 1, 2], |&i: &usize, &j: &usize| corners[i].y > corners[j].y)
 }
 
 /// One side of a half: where x starts, where it ends, and how much it grows with each row.

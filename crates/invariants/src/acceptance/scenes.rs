@@ -3,10 +3,11 @@
 use glam::{DVec2, DVec3};
 
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof_render::scene::shapes;
 use rasterproof_verify::cases::triangles::FAMILIES;
-use rasterproof_verify::cases::{Rng, Shape, Triangle};
+use rasterproof_verify::cases::{Shape, Triangle};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paint {

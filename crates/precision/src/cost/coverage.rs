@@ -487,8 +487,8 @@ mod tests {
     fn floats_are_exact_where_theory_says() {
         let window = PixelRect::window(16, 16);
         for index in 0..2000 {
-            let mut rng = rasterproof_verify::cases::Rng::new("theory", 1, index);
-            let px = |rng: &mut rasterproof_verify::cases::Rng, side: i64| {
+            let mut rng = rasterproof_core::random::Rng::new("theory", 1, index);
+            let px = |rng: &mut rasterproof_core::random::Rng, side: i64| {
                 rng.int(0, side * 256) as f64 / 256.0
             };
             let small = [(); 3].map(|()| [px(&mut rng, 15), px(&mut rng, 15)]);

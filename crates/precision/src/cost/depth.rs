@@ -7,7 +7,7 @@ use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_verify::cases::Rng;
+use rasterproof_core::random::Rng;
 
 /// Distances from the eye; the last is that of the classic table.
 const DISTANCES: [(&str, f64); 5] =

@@ -10,8 +10,8 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::line::dda::Dda;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
-use rasterproof_verify::cases::Rng;
 use rasterproof_verify::oracle::Oracle;
 
 type Ends = [PixelPoint; 2];

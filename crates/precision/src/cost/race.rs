@@ -146,7 +146,7 @@ fn decide(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     /// By hand: of 12 values all lie on one side of the median with probability 2^-12, and at most one on a side with
     /// 13 times that.

@@ -7,8 +7,8 @@
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::FreeCorners;
-use rasterproof_verify::cases::Rng;
 
 #[derive(Clone, Debug)]
 pub struct Scene {

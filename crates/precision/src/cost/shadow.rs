@@ -6,7 +6,7 @@
 
 use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
-use rasterproof_verify::cases::Rng;
+use rasterproof_core::random::Rng;
 
 struct Class {
     name: &'static str,

@@ -225,7 +225,7 @@ fn cut(columns: &mut [i32; 2], [a, b]: [[i64; 2]; 2], y_px: i32, all: bool) {
 mod tests {
     use super::*;
     use rasterproof_core::grid::SubpixelPoint;
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     fn corners(points: [[i32; 2]; 3]) -> Corners {
         points.map(|[x, y]| SubpixelPoint::new(x, y))

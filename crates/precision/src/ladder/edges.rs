@@ -15,6 +15,7 @@ use robust::{Coord, orient2d};
 
 use super::{Cover, Real, Work, centre, snap, snappable};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, FreeCorners, Span};
 
@@ -271,8 +272,7 @@ where
             // The window may lie so far off that E there would not fit.
             return Work::default();
         }
-        let start = [rect.x0, rect.y0]
-            .map_array(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
+        let start = [rect.x0, rect.y0].map_array(geometry::centre);
         let row = edges.map_array(|[a, b]| -> W {
             let bias = if is_top_left(&a, &b) { T::zero() } else { T::one() };
             // An arithmetic shift is a floor.

@@ -12,7 +12,8 @@ use std::marker::PhantomData;
 
 use super::{Real, centre};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry;
+use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
 
 #[derive(Clone, Copy, Debug)]
@@ -193,8 +194,7 @@ impl<T: Real> Values for Offset<T> {
         let edges = [(1, 2), (2, 0), (0, 1)].map_array(|(i, j)| (p[i], p[j]));
         let right = edges.map_array(|(a, b)| (a[1] - b[1]) * i64::from(SUBPIXELS));
         for span in spans {
-            let start = [span.x0_px, span.y_px]
-                .map_array(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
+            let start = [span.x0_px, span.y_px].map_array(geometry::centre);
             let mut e = edges.map_array(|(a, b)| side(a, b, start));
             for x_px in span.x0_px..span.x1_px {
                 let [a0, a1, a2] = [0, 1, 2].map_array(|i| whole::<T>(e[i]) * q[i]);
@@ -229,8 +229,8 @@ struct Sorted<T> {
 impl<T: Real> Sorted<T> {
     #[inline]
     fn new(triangle: &Valued, carried: impl Fn(T, T) -> [T; 2]) -> Self {
-        let mut order = [0, 1, 2];
-        order.sort_by_key(|&i| (triangle.corners[i].y, triangle.corners[i].x));
+        let height = |i: usize| (triangle.corners[i].y, triangle.corners[i].x);
+        let order = geometry::sorted([0, 1, 2], |&i, &j| height(i) > height(j));
         let t = Floats::<T>::new(triangle);
         Self {
             at: order.map_array(|i| t.at[i]),

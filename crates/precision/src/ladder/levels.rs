@@ -7,9 +7,9 @@
 use std::marker::PhantomData;
 
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::{Corners, Span};
-use rasterproof_render::pipeline::assemble::twice_area;
 
 use super::interpolation::{Slopes, Values, inv_area, position};
 use super::{Real, centre};
@@ -85,7 +85,7 @@ impl Values<Textured> for OfTriangle {
     fn values(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
         let [a, b, c] = triangle.uv;
         let texels = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * SIDE * SIDE;
-        let pixels = twice_area(triangle.corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
+        let pixels = twice_area(&triangle.corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
         let level = 0.5 * libm::log2((texels / pixels).abs());
         for span in spans {
             (span.x0_px..span.x1_px).for_each(|x_px| emit(x_px, span.y_px, level));

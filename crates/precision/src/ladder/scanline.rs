@@ -13,6 +13,7 @@ use num_traits::{Euclid, Float, ToPrimitive};
 
 use super::{Cover, Real, Work, centre};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
@@ -84,17 +85,8 @@ fn first_centre<T: Real>(v: T) -> i32 {
 
 #[inline]
 fn sorted<T: Real>(corners: &FreeCorners) -> [[T; 2]; 3] {
-    let [mut a, mut b, mut c] = corners.px().map_array(|p| p.map_array(T::of));
-    if b[1] < a[1] {
-        (a, b) = (b, a);
-    }
-    if c[1] < b[1] {
-        (b, c) = (c, b);
-    }
-    if b[1] < a[1] {
-        (a, b) = (b, a);
-    }
-    [a, b, c]
+    let corners = corners.px().map_array(|p| p.map_array(T::of));
+    geometry::sorted(corners, |a, b| b[1] < a[1])
 }
 
 struct AccumulatedSide<T> {
@@ -212,8 +204,7 @@ impl Side for BigSide {
 
 impl Cover for BigIntegers {
     fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
-        let mut corners = free.px();
-        corners.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        let corners = geometry::sorted(free.px(), |a, b| a[1].total_cmp(&b[1]).is_gt());
         // The smallest unit of which every coordinate and every centre is a whole number.
         let bits = corners.as_flattened().iter().map(|&v| bits_after_point(v)).fold(1, u32::max);
         let whole = |v: f64| {

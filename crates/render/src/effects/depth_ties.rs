@@ -15,13 +15,13 @@ use super::samples::pattern::{Pattern, scaled};
 use glam::DVec2;
 
 use crate::pipeline::Counters;
-use crate::pipeline::assemble::twice_area;
 use crate::pipeline::shade::{Attributes, PLACED};
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::{sorted, twice_area};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::{Corners, Fragment};
@@ -264,12 +264,9 @@ impl<'a> TiedPieces<'a> {
     /// Whether two pieces have the same corners and depths, in any order.
     fn are_equal(&self, a: u32, b: u32) -> bool {
         let corners = |piece: u32| {
-            let mut corners = self.pieces[piece as usize]
-                .1
-                .vertices
-                .map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
-            corners.sort_unstable();
-            corners
+            let vertices = &self.pieces[piece as usize].1.vertices;
+            let corners = vertices.map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
+            sorted(corners, |a, b| a > b)
         };
         corners(a) == corners(b)
     }
@@ -365,7 +362,7 @@ fn error_in_f32((piece, depths): (&Piece, &DepthPlane), size: PixelRect, scale: 
     let x0 = start(corners.map_array(|c| c.x), size.x0);
     let y0 = start(corners.map_array(|c| c.y), size.y0);
     let [a, b, c] = corners.map_array(|c| (px(c.x), px(c.y)));
-    let area = twice_area(corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
+    let area = twice_area(&corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
     let slope = |one: f64, other: f64| 2.0 * (one.abs() + other.abs()) / area.abs();
     let (steep_x, steep_y) = (slope(b.1 - a.1, c.1 - a.1), slope(b.0 - a.0, c.0 - a.0));
     let reach_x = (x0 - a.0).abs() + f64::from(size.width()) * f64::from(scale);

@@ -12,6 +12,7 @@ use glam::{DVec2, DVec4};
 use super::clip::{self, Outcode, Polygon};
 use super::{ClipVertex, Counters};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, Refusal, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, MAX_W, ScreenTriangle, ScreenVertex, Varying};
 
@@ -38,18 +39,10 @@ impl Cull {
     pub fn removes(self, corners: Corners) -> bool {
         match self {
             Self::None => false,
-            Self::Clockwise => twice_area(corners) > 0,
-            Self::CounterClockwise => twice_area(corners) < 0,
+            Self::Clockwise => twice_area(&corners) > 0,
+            Self::CounterClockwise => twice_area(&corners) < 0,
         }
     }
-}
-
-/// Twice the area in square subpixels; y points down, so clockwise as seen is positive.
-pub fn twice_area([a, b, c]: Corners) -> i128 {
-    let product = |x: i32, x0: i32, y: i32, y0: i32| {
-        (i128::from(x) - i128::from(x0)) * (i128::from(y) - i128::from(y0))
-    };
-    product(b.x, a.x, c.y, a.y) - product(b.y, a.y, c.x, a.x)
 }
 
 /// Where clip space lands in the window.
@@ -360,7 +353,7 @@ mod tests {
                     let mut counters = Counters::default();
                     let mut pieces = 0;
                     assembler.assemble(points.each_ref(), varyings, &mut counters, |piece| {
-                        let is_back = two_sided && twice_area(piece.corners()) > 0;
+                        let is_back = two_sided && twice_area(&piece.corners()) > 0;
                         let expected = DVec2::splat(f64::from(u8::from(is_back)));
                         assert!(piece.vertices.iter().all(|v| v.varying == expected));
                         pieces += 1;

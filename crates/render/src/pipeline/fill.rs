@@ -233,10 +233,10 @@ mod tests {
     use crate::pipeline::depth::DepthFormat;
     use crate::pipeline::shade::Attributes;
     use rasterproof_core::grid::SubpixelPoint;
+    use rasterproof_core::random::Rng;
     use rasterproof_core::raster::edge_function::EdgeFunction;
     use rasterproof_core::raster::scanline::Scanline;
     use rasterproof_core::triangle::{Fragment, ScreenVertex};
-    use rasterproof_verify::cases::Rng;
 
     const WIDTH_PX: u32 = 50;
     const HEIGHT_PX: u32 = 12;

@@ -174,7 +174,7 @@ impl Veil {
 mod tests {
     use super::*;
     use crate::pipeline::transform::frustum;
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     fn veil(growth: Growth) -> Veil {
         let projection = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 20.0).unwrap();

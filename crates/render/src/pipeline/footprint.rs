@@ -19,10 +19,10 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::Corners;
 
-use super::assemble::twice_area;
 use super::depth::OFF_FRACTION;
 use super::ends;
 use super::texture::Texture;
+use rasterproof_core::geometry::twice_area;
 
 /// The slopes of a triangle's texture coordinates, in texels.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,7 @@ impl Footprint {
     pub fn new(corners: Corners, inv_w: [f64; 3], uv: [DVec2; 3], size: (u32, u32)) -> Self {
         let [a, b, c] = corners.map_array(|corner| DVec2::new(corner.x.into(), corner.y.into()));
         // Per pixel: area and edges are in subpixels.
-        let area = twice_area(corners) as f64 / f64::from(SUBPIXELS);
+        let area = twice_area(&corners) as f64 / f64::from(SUBPIXELS);
         let per_area = if area == 0.0 { 0.0 } else { 1.0 / area };
         let (to_b, to_c) = ((b - a) * per_area, (c - a) * per_area);
         let slope = |[p, q, r]: [f64; 3]| {
@@ -246,7 +246,7 @@ impl Reading {
 mod tests {
     use super::*;
     use rasterproof_core::grid::SubpixelPoint;
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     /// Corners, 1/w and texture coordinates.
     type Triangle = (Corners, [f64; 3], [DVec2; 3]);
@@ -257,7 +257,7 @@ mod tests {
             let mut corner =
                 |_: i32| SubpixelPoint::new(rng.int(0, 25_600) as i32, rng.int(0, 25_600) as i32);
             let corners = [0; 3].map_array(&mut corner);
-            if twice_area(corners).abs() > 1 << 20 {
+            if twice_area(&corners).abs() > 1 << 20 {
                 let inv_w = [0; 3].map_array(|_| 0.05 + rng.unit());
                 let scale = rng.unit().powi(4);
                 let uv = [0; 3].map_array(|_| DVec2::new(rng.signed(), rng.signed()) * scale);

@@ -142,7 +142,7 @@ pub fn brightened([r, g, b, a]: Colour, [x, y, z]: [u8; 3]) -> Colour {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     type Condition = fn(&Highlight, [DVec3; 3]) -> bool;
 

@@ -119,7 +119,7 @@ mod tests {
     use super::*;
     use crate::pipeline::depth::DepthFormat;
     use crate::pipeline::target::{Antialias, Target};
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     #[test]
     fn many_layers_are_sorted_as_few_are() {

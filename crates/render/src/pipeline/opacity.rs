@@ -270,7 +270,7 @@ fn blocks(wrap: Wrap, ends: [i64; 2], side: i64) -> [Range<usize>; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     /// A picture of mostly opaque and mostly clear parts with a speck here and there, a triangle in it, and how far around its
     /// fragments and up to which level it is read.

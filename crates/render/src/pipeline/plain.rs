@@ -151,7 +151,7 @@ mod tests {
     use crate::pipeline::texture::{Filter, Texture, Wrap};
     use glam::DVec2;
     use rasterproof_core::arrays::MapArray as _;
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     type Condition = fn(&Texture, [DVec2; 3], f64, f64) -> bool;
 

@@ -502,9 +502,9 @@ mod tests {
     use super::*;
     use crate::scene::{Material, random, shapes};
     use glam::DMat4;
+    use rasterproof_core::random::Rng;
     use rasterproof_core::raster::edge_function::EdgeFunction;
     use rasterproof_core::raster::scanline::Scanline;
-    use rasterproof_verify::cases::Rng;
 
     fn direction(rng: &mut Rng) -> DVec3 {
         let direction = DVec3::new(rng.signed(), rng.signed(), rng.signed());

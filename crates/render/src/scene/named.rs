@@ -5,8 +5,8 @@
 
 use glam::{DVec2, DVec4};
 
-use crate::pipeline::Counters;
 use crate::pipeline::assemble::{Assembler, Cull};
+use crate::pipeline::counters::Counters;
 use crate::pipeline::multisample::{SAMPLES, onto_centre};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};

@@ -19,7 +19,7 @@ use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use crate::pipeline::transform::{about, frustum};
 use rasterproof_core::angle::{turn_x, turn_y};
-use rasterproof_verify::cases::Rng;
+use rasterproof_core::random::Rng;
 
 /// The scene of a seed and a number.
 ///

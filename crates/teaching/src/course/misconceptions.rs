@@ -5,13 +5,13 @@
 //! mistaken, by [`stages`] where values, depths, samples or the near plane are, and here for the rest. A program with two mistakes at once
 //! follows none of them, and nothing is named.
 
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Span;
 use rasterproof_judge::ask::{Answer, Asked, Question};
 use rasterproof_judge::check::{Check, Truth, expected_answer};
 use rasterproof_judge::pixels::picture_of;
 use rasterproof_judge::stages::{self, Answered};
-use rasterproof_verify::comparison::area2;
 use rasterproof_verify::convention::{
     Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
     Rounding, Shape, Ties, Windings,
@@ -359,7 +359,7 @@ fn boxed(question: &Question) -> Option<Answer> {
     };
     let ((x0_px, x1_px), (y0, y1)) =
         (ends(|p| p.x, question.width)?, ends(|p| p.y, question.height)?);
-    if area2(corners) == 0 || x0_px >= x1_px {
+    if twice_area(corners) == 0 || x0_px >= x1_px {
         return None;
     }
     Some(Answer::Coverage((y0..y1).map(|y_px| Span { y_px, x0_px, x1_px }).collect()))

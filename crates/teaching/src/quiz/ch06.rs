@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{Solution, Text};
+use rasterproof_core::geometry::ORDERS;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::pipeline::transform::frustum;
@@ -25,8 +26,7 @@ fn equal(_: &[Text]) -> Solution {
 
 fn order(_: &[Text]) -> Solution {
     let all = [(5, 50), (3, 30), (8, 80)];
-    let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-    let mut shown = orders.map(|order| drawn(&order.map(|i: usize| all[i]))).to_vec();
+    let mut shown = ORDERS.map(|order| drawn(&order.map(|i| all[i]))).to_vec();
     shown.sort_unstable();
     shown.dedup();
     Solution::count(shown.len() as u64)

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::tools::{Px, corners, draw};
 use super::{Solution, Text};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SUBPIXELS;
-use rasterproof_render::pipeline::assemble::{Cull, twice_area};
+use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::target::Antialias;
 
 solvers!(winding, area, thin, shared);
@@ -25,7 +26,7 @@ fn winding(_: &[Text]) -> Solution {
 
 fn area(_: &[Text]) -> Solution {
     let square = f64::from(SUBPIXELS).powi(2);
-    let value = twice_area(corners(RIGHT_ANGLE)) as f64 / square;
+    let value = twice_area(&corners(RIGHT_ANGLE)) as f64 / square;
     Solution::number(value, 0)
 }
 

@@ -42,7 +42,7 @@ pub use answer::{Given, Right};
 use std::sync::LazyLock;
 
 use rasterproof_core::frame::Coverage;
-use rasterproof_verify::cases::Rng;
+use rasterproof_core::random::Rng;
 use rasterproof_verify::judge::ascii;
 use serde::Deserialize;
 

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Rng, Shape, family, pixel};
+use super::{Case, Family, Shape, family, pixel};
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 
 /// Every family of lines.

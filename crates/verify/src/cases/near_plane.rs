@@ -5,8 +5,9 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Rng, Shape, Triangle, family, sub};
+use super::{Case, Family, Shape, Triangle, family, sub};
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
 /// Every family of stages.

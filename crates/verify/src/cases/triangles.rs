@@ -4,9 +4,11 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Rng, Shape, Triangle, family, sub};
+use super::{Case, Family, Shape, Triangle, family, sub};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::centre_of;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
 /// Every family of triangles.
@@ -82,7 +84,7 @@ fn points(rng: &mut Rng, low: i64, high: i64) -> Corners {
 
 /// A point on a pixel centre, pixels low..=high.
 fn on_centre(rng: &mut Rng, low_px: i64, high_px: i64) -> SubpixelPoint {
-    sub(rng.int(low_px, high_px) * 256 + 128, rng.int(low_px, high_px) * 256 + 128)
+    centre_of(rng.coordinate(low_px, high_px), rng.coordinate(low_px, high_px))
 }
 
 fn uniform(rng: &mut Rng) -> Case {

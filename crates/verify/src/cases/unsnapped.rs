@@ -8,9 +8,10 @@
 //!
 //! Only additions, multiplications and conversions are used, which round alike on every machine.
 
-use super::{Case, Family, Rng, Shape, family};
+use super::{Case, Family, Shape, family};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::FreeCorners;
 
 /// Every family of triangles off the lattice.

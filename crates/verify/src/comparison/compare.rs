@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::cause::Cause;
-use super::convention::{Convention, Rule};
 use super::finding::{Finding, Tally};
 use super::pixels::{self, few};
 use super::spans::{
@@ -18,10 +17,12 @@ use crate::judge::{EnginePanic, caught};
 use crate::mistakes::{self, Mistakes};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
+use crate::promise::{Convention, Rule};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
+use rasterproof_core::geometry::{centre_of, twice_area};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{
     Corners, Fragment, PixelPoint, ScreenLine, ScreenTriangle, Span, Varying,
 };
@@ -352,13 +353,8 @@ fn collect_fragments(
 
 /// Whether the centre of the pixel lies in the triangle or on its outline.
 fn holds_centre(corners: &Corners, f: &Fragment<DVec2>) -> bool {
-    let centre = |px: i32| i128::from(px) * i128::from(SUBPIXELS) + i128::from(HALF_PIXEL);
-    let (x, y) = (centre(f.x_px), centre(f.y_px));
-    let side = |i: usize, j: usize| {
-        let [ax, ay, bx, by] = [corners[i].x, corners[i].y, corners[j].x, corners[j].y];
-        let [ax, ay, bx, by] = [ax, ay, bx, by].map(i128::from);
-        ((bx - ax) * (y - ay) - (by - ay) * (x - ax)).signum()
-    };
+    let sample = centre_of(f.x_px, f.y_px);
+    let side = |i: usize, j: usize| twice_area(&[corners[i], corners[j], sample]);
     let sides = [side(0, 1), side(1, 2), side(2, 0)];
     sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0)
 }

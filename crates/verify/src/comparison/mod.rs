@@ -12,7 +12,6 @@
 
 mod cause;
 mod compare;
-mod convention;
 mod disagreement;
 mod finding;
 mod nothing;
@@ -44,14 +43,15 @@ use tolerance::Tolerance;
 pub use crate::judge::{EnginePanic, NoSuchShard, NothingJudged, Shard};
 #[doc(hidden)]
 pub use crate::judge::{Watch, caught, is_judging};
+#[doc(hidden)]
+pub use crate::promise::Expectation;
+pub use crate::promise::{Convention, Rule, Winding};
 pub use cause::Cause;
-pub use convention::{Convention, Rule, Winding};
 pub use disagreement::Disagreement;
 pub use finding::{Finding, Tally};
 #[doc(hidden)]
 pub use {
     compare::{is_sliver, line_has_tie},
-    convention::{Expectation, area2},
     spans::{
         engine_coverage, exact_coverage, line_coverage, oracle_coverage, oracle_hits,
         oracle_pixels_each,

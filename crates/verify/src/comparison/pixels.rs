@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::convention::Expectation;
 use super::finding::Tally;
+use crate::promise::Expectation;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};

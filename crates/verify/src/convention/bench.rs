@@ -3,9 +3,9 @@
 use super::mask::{Mask, SIDE_PX};
 use super::mirror::Mirror;
 use super::rule::Convention;
-use crate::cases::Rng;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Corners;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

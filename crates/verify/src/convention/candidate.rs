@@ -1,13 +1,13 @@
 //! A hypothesis about grid and shape, and what it says of a triangle while its ties are open.
 
 use super::bench::Drawn;
-use super::general::area;
 use super::mask::Mask;
 use super::place::{Place, turn};
 use super::quantum::Quantum;
 use super::rule::Windings;
 use super::scan::Scan;
 use super::shape::Shape;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
@@ -53,7 +53,7 @@ impl Candidate {
     pub(super) fn is_silent(&self, corners: &Corners) -> bool {
         let turned = turn(&self.quantum.corners(corners)).signum();
         // Who culls may do so before or after.
-        let culled = self.draws != Windings::Both && turned != area(corners).signum();
+        let culled = self.draws != Windings::Both && turned != twice_area(corners).signum();
         culled || (turned == 0 && !self.shape.draws_flat())
     }
 

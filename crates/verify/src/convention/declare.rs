@@ -6,7 +6,7 @@ use super::diagnosis::{Confidence, Diagnosis};
 use super::mirror::Mirror;
 use super::rule::{Convention, CornerRule, Ties, Windings};
 use super::shape::Shape;
-use crate::comparison::{Convention as Promised, Rule, Winding};
+use crate::promise::{Convention as Promised, Rule, Winding};
 use rasterproof_core::grid::SUBPIXEL_BITS;
 
 impl From<&Promised> for Known {

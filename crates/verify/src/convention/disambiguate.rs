@@ -2,10 +2,11 @@
 
 use super::bench::Bench;
 use super::candidate::Candidate;
-use super::general::{area, drawable};
+use super::general::drawable;
 use super::quantum::{Quantum, Rounding};
 use super::rule::Windings;
 use super::search::Scored;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
@@ -65,7 +66,7 @@ impl Bench<'_> {
                 break;
             }
             let corners = drawable(self.odd(negative), draws);
-            if area(&corners) == 0 {
+            if twice_area(&corners) == 0 {
                 continue;
             }
             let before = open.len();

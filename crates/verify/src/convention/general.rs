@@ -1,26 +1,17 @@
 //! The questions that need no hypothesis: triangles in general position, edges that are moved until
 //! a pixel flips, orders of the corners, triangles without area.
 
+use super::Count;
 use super::bench::{Bench, Drawn};
-use super::place::turn;
 use super::rule::Windings;
-use super::{Count, Quantum};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::{ORDERS, twice_area};
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
-/// The six orders of three corners: the even ones first.
-pub(super) const ORDERS: [[usize; 3]; 6] =
-    [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
-
-/// Twice the area; positive where the corners turn clockwise on the screen.
-pub(super) fn area(corners: &Corners) -> i128 {
-    turn(&Quantum::NONE.corners(corners))
-}
-
 /// The corners in an order that is drawn.
 pub(super) fn drawable(mut corners: Corners, draws: Windings) -> Corners {
-    if !draws.draws(area(&corners) > 0) {
+    if !draws.draws(twice_area(&corners) > 0) {
         corners.swap(1, 2);
     }
     corners
@@ -48,7 +39,7 @@ impl Bench<'_> {
                 let off = [self.coordinate(0, 1), self.coordinate(0, 1)];
                 corners[2] = SubpixelPoint::new(near(a.x, b.x) + off[0], near(a.y, b.y) + off[1]);
             }
-            if area(&corners) != 0 {
+            if twice_area(&corners) != 0 {
                 return corners;
             }
         }
@@ -71,7 +62,7 @@ impl Bench<'_> {
             .map(|_| {
                 loop {
                     let corners = drawable(self.general(), Windings::Clockwise);
-                    if area(&corners) > 20 * 65536 {
+                    if twice_area(&corners) > 20 * 65536 {
                         break corners;
                     }
                 }

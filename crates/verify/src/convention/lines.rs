@@ -4,9 +4,9 @@
 use super::diagnosis::Confidence;
 use super::outline::{End, Line, LineTie};
 use super::ties::Count;
-use crate::cases::Rng;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LineQuestion {

@@ -3,11 +3,12 @@
 
 use super::bench::{Bench, Drawn};
 use super::candidate::Candidate;
-use super::general::{area, drawable};
+use super::general::drawable;
 use super::place::Place;
 use super::rule::{CornerRule, Ties, Windings};
 use super::shape::Shape;
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
@@ -137,7 +138,7 @@ impl Bench<'_> {
             }
             let aimed = self.rng.chance(2).then(|| self.aimed(candidate)).flatten();
             let corners = drawable(aimed.unwrap_or_else(|| self.aligned(candidate)), draws);
-            if area(&corners) == 0 || candidate.is_silent(&corners) {
+            if twice_area(&corners) == 0 || candidate.is_silent(&corners) {
                 continue;
             }
             let mut here = [0; 10];

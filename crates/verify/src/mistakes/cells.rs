@@ -180,7 +180,7 @@ pub(super) fn touched([mut a, mut b]: [Place; 2], window: PixelRect, open: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     /// Half of a pixel is drawn as its exact area says, but for what rounding to 1/256 px can decide; and a walk along an edge
     /// lights what it passes.

@@ -2,8 +2,8 @@
 
 use super::Answered;
 use super::fills;
-use crate::comparison::area2;
 use crate::convention::{LineQuestion, Mask, TriangleQuestion};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 
 /// What can be said of a question and its answer.
@@ -101,7 +101,7 @@ impl Seen {
     pub(super) fn triangle(answered: &Answered<TriangleQuestion>) -> Self {
         let TriangleQuestion { corners, window } = answered.question;
         let corners = &corners;
-        let clockwise = area2(corners) > 0;
+        let clockwise = twice_area(corners) > 0;
         let leaves = corners.iter().any(|c| !fills::holds(window, *c));
         let [a, b, c] = corners;
         let straight = fills::flat(corners).is_some() || a.x == b.x || b.x == c.x || c.x == a.x;

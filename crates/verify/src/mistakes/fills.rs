@@ -1,9 +1,9 @@
 //! The wrong fills that the table names, as functions of the corners in subpixels (1/256 px).
 
 use super::values::rounded;
-use crate::comparison::area2;
 use crate::convention::{Convention, Mask, Ties, facing};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::{self, centre, twice_area};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -35,7 +35,7 @@ pub(super) fn by_edges(
     base: &Convention,
     test: &dyn Fn(usize, i128, bool) -> bool,
 ) -> Mask {
-    if area2(corners) == 0 {
+    if twice_area(corners) == 0 {
         return Mask::default();
     }
     let owns = owned(corners, base);
@@ -46,7 +46,7 @@ pub(super) fn by_edges(
 
 /// Which edges of a triangle own the samples that lie on them; one without area is counterclockwise.
 fn owned(corners: &Corners, base: &Convention) -> [bool; 3] {
-    let (points, sign) = (points(corners), if area2(corners) > 0 { 1 } else { -1 });
+    let (points, sign) = (points(corners), if twice_area(corners) > 0 { 1 } else { -1 });
     [0, 1, 2].map_array(|i: usize| {
         let [p, q] = [points[i], points[(i + 1) % 3]];
         match [sign * (p[1] - q[1]), sign * (q[0] - p[0])] {
@@ -65,7 +65,7 @@ pub(super) fn by_all_edges(
     test: &dyn Fn([i128; 3]) -> bool,
 ) -> Mask {
     let points = points(corners);
-    let sign = area2(corners).signum() as i64;
+    let sign = twice_area(corners).signum() as i64;
     if sign == 0 {
         return Mask::default();
     }
@@ -125,7 +125,7 @@ pub(super) fn wrapping(corners: &Corners, window: PixelRect, base: &Convention, 
         sum(word((b[0] - a[0]) * (c[1] - a[1])) - word((b[1] - a[1]) * (c[0] - a[0])))
     };
     let [a, b, c] = points;
-    let area = if knows_winding { area2(corners) } else { cross(a, b, c) };
+    let area = if knows_winding { twice_area(corners) } else { cross(a, b, c) };
     if area == 0 {
         return Mask::default();
     }
@@ -205,9 +205,7 @@ pub(super) fn clipped(corners: &Corners, window: PixelRect, step: i64, how: i64)
 
 /// The corners from top to bottom.
 pub(super) fn sorted(corners: &Corners) -> [Point; 3] {
-    let mut points = points(corners);
-    points.sort_by_key(|p| p[1]);
-    points
+    geometry::sorted(points(corners), |a, b| a[1] > b[1])
 }
 
 /// The row of the first sample below the middle corner.
@@ -253,7 +251,9 @@ type Metric = fn(&Corners) -> i64;
 
 /// What may be measured, in which unit that is said, and how much it is.
 pub(super) const METRICS: [(&str, &str, Metric); 9] = [
-    ("area", "square px", |corners| i64::try_from(area2(corners).abs()).unwrap_or(i64::MAX / 32)),
+    ("area", "square px", |corners| {
+        i64::try_from(twice_area(corners).abs()).unwrap_or(i64::MAX / 32)
+    }),
     ("width", "px", |corners| extent(xs(corners))),
     ("height", "px", |corners| extent(ys(corners))),
     ("longer side", "px", |corners| extent(xs(corners)).max(extent(ys(corners)))),
@@ -266,7 +266,7 @@ pub(super) const METRICS: [(&str, &str, Metric); 9] = [
                 (bx - ax).powi(2) + (by - ay).powi(2)
             })
             .fold(1.0, f64::max);
-        (area2(corners).abs() as f64 / longest * RATIOS as f64) as i64
+        (twice_area(corners).abs() as f64 / longest * RATIOS as f64) as i64
     }),
     ("farthest coordinate", "px", |corners| farthest(xs(corners)).max(farthest(ys(corners)))),
     ("farthest x", "px", |corners| farthest(xs(corners))),
@@ -397,7 +397,7 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
     let (test, side, full) = (p / 100, (p % 100) as i32, *mask);
     let has = |x: i32, y: i32| full.has(x.min(window.x1 - 1), y.min(window.y1 - 1));
     let is_drawn = |x: i32, y: i32| window.contains(x, y) && full.has(x, y);
-    let (points, sign) = (points(corners), area2(corners).signum() as f64);
+    let (points, sign) = (points(corners), twice_area(corners).signum() as f64);
     // Whether no edge has the point farther outside than this.
     let holds = |x: i32, y: i32, most_px: f64| {
         (0..3).all(|i| {
@@ -415,7 +415,7 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
             let [dx, dy] = [bx - ax, by - ay].map_array(|v| i128::from(v) * sign as i128);
             let far = |is_last: bool| i32::from(is_last) * (side - 1);
             let at = [x + far((dy < 0) != is_out[0]), y + far((dx > 0) != is_out[1])];
-            let at = at.map_array(|v| i64::from(v) * 256 + 128);
+            let at = at.map_array(centre);
             dx * i128::from(at[1] - ay) - dy * i128::from(at[0] - ax) >= 0
         })
     };
@@ -424,7 +424,7 @@ pub(super) fn tiles(mask: &mut Mask, corners: &Corners, window: PixelRect, p: i6
         true => full.has(x, y),
         false => points.into_iter().zip([1, 2, 0]).all(|([ax, ay], next)| {
             let [bx, by] = points[next];
-            let [px, py] = [x, y].map_array(|v| i64::from(v) * 256 + 128);
+            let [px, py] = [x, y].map_array(centre);
             sign * ((bx - ax) as f64 * (py - ay) as f64 - (by - ay) as f64 * (px - ax) as f64) > 0.0
         }),
     };
@@ -492,7 +492,7 @@ pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p:
     let [wide, high] = [p % 5, p / 5 % 5].map(|power| 1 << power);
     let sample = super::sample_of(base).map_array(i64::from);
     let mut mask = Mask::default();
-    let sign = area2(corners).signum() as i64;
+    let sign = twice_area(corners).signum() as i64;
     if sign == 0 || [wide, high] == [1, 1] || (p / 25 == 4 && wide.min(high) == 1) {
         return mask;
     }
@@ -670,10 +670,10 @@ pub(super) fn searched(mask: &mut Mask, window: PixelRect, p: i64) {
 pub(super) fn slid(mask: &mut Mask, corners: &Corners, window: PixelRect, base: &Convention) {
     let points = points(corners);
     let left = points.iter().map(|p| p[0].div_euclid(256)).min().unwrap_or(0);
-    if left >= i64::from(window.x0) || area2(corners) == 0 {
+    if left >= i64::from(window.x0) || twice_area(corners) == 0 {
         return;
     }
-    let sign = area2(corners).signum();
+    let sign = twice_area(corners).signum();
     let (owns, sample) = (owned(corners, base), super::sample_of(base));
     for y in window.y0..window.y1 {
         // The first sample on the inner side of every edge, and the one after the last.
@@ -734,7 +734,7 @@ pub(super) fn twice(mask: &Mask, corners: &Corners, window: PixelRect, p: i64) -
 /// the step, from 4 on the value there is a whole number, too, and from 8 on triangles without area are drawn as others.
 pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
     let step = [256, 128, 64, 16][(p % 4) as usize];
-    let sign = match area2(corners).signum() as i64 {
+    let sign = match twice_area(corners).signum() as i64 {
         0 if p < 8 => return Mask::default(),
         0 => -1,
         sign => sign,
@@ -819,7 +819,7 @@ pub(super) fn float(
         return Mask::default();
     }
     let formula = if has_rule { [21, 22, 23, 30][formula - 31] } else { formula };
-    let turns = area2(corners).signum() as i64;
+    let turns = twice_area(corners).signum() as i64;
     if turns == 0 {
         return Mask::default();
     }

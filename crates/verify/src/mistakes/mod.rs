@@ -21,7 +21,6 @@ mod weigh;
 use std::cell::OnceCell;
 use std::fmt;
 
-use crate::comparison::area2;
 use crate::convention::{
     Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
     LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape, Ties,
@@ -30,6 +29,7 @@ use crate::convention::{
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use triangles::{BY_WINDING, Fill, Reach};
@@ -738,7 +738,7 @@ fn pixel(
 
 /// Whether a convention draws triangles that turn like this one; those without area are drawn where both windings are.
 fn is_faced(convention: &Convention, corners: &Corners) -> bool {
-    match area2(corners) {
+    match twice_area(corners) {
         0 => convention.draws == Windings::Both,
         area => convention.draws.draws(area > 0),
     }

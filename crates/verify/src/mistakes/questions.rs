@@ -1,9 +1,9 @@
 //! What a program is asked when it is wrong: triangles and lines of every kind in which mistakes differ.
 
-use crate::cases::Rng;
 use crate::convention::{Known, LineQuestion, TriangleQuestion};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Corners;
 
 /// The largest side of a window that is asked for, in pixels.

@@ -4,6 +4,7 @@ use super::cells::{Place, places};
 use super::fills::{Digits, MOST_ROWS, wrap};
 use crate::convention::Mask;
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::sorted;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 
@@ -735,7 +736,7 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
         3 => (v as i64) as f64,
         _ => up(v) as f64,
     };
-    let mut exact = corners.map_array(|p| {
+    let exact = corners.map_array(|p| {
         let y = p[1];
         let height = match (how.whole, how.sorted) {
             (0, 0) | (1.., 1) => y,
@@ -746,8 +747,8 @@ fn scan(corners: [Place; 3], window: PixelRect, how: Scan) -> Mask {
         };
         (height, p)
     });
-    exact.sort_by(|p, q| p.0.total_cmp(&q.0));
-    let sorted = exact.map_array(|(_, p)| p.map_array(whole));
+    let sorted = sorted(exact, |p, q| p.0.total_cmp(&q.0).is_gt());
+    let sorted = sorted.map_array(|(_, p)| p.map_array(whole));
     let [top, middle, bottom] = sorted;
     let mut mask = Mask::default();
     let clamp = |v: i64| v.clamp(0, window.x1.into()) as i32;

@@ -4,9 +4,9 @@ use super::cells;
 use super::fills::{self, Words};
 use super::scans::{self, Scan};
 use super::{Mistake, Parameters, border};
-use crate::comparison::area2;
 use crate::convention::{Convention, Mask, Quantum, Rounding, Ties, Windings};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -56,7 +56,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         parameters: Parameters::Fixed(&PAIRS),
         draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
             let (clockwise, other) = pair(p);
-            let rule = if area2(corners) > 0 { clockwise } else { other };
+            let rule = if twice_area(corners) > 0 { clockwise } else { other };
             base.with_rule(RULES[rule]).mask(corners, window).unwrap_or_default()
         }),
     },
@@ -99,7 +99,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a triangle whose corners are rotated and that draws the same samples",
         parameters: Parameters::Below(3 * OF_BOTH),
         draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
-            let (base, clockwise) = (base.with_rule(RULES[0]), area2(corners) > 0);
+            let (base, clockwise) = (base.with_rule(RULES[0]), twice_area(corners) > 0);
             // The same for all edges is no rule by order.
             if matches!(p % 27, 0 | 13 | 26) && p < OF_BOTH {
                 return Mask::default();
@@ -177,7 +177,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             32, 33, 34, 35, 36,
         ]),
         draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
-            let whole = if p / 10 % 2 == 0 { area2(corners).abs() as f64 } else { 65536.0 };
+            let whole = if p / 10 % 2 == 0 { twice_area(corners).abs() as f64 } else { 65536.0 };
             let size = EPSILONS[(p % 10) as usize];
             fills::by_edges(corners, window, base, &|_, value, _| match p / 20 {
                 0 => value as f64 / whole >= -size,
@@ -220,7 +220,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         refuted: "a sample beyond that edge alone that is not drawn",
         parameters: Parameters::Below(3 * ORDERS.len() as i64),
         draws: Fill::Ruled(Reach::Pixel, |corners, window, base, p| {
-            let clockwise = area2(corners) > 0;
+            let clockwise = twice_area(corners) > 0;
             fills::by_edges(corners, window, base, &|edge, value, owns| {
                 let edge = place_of_edge(edge, p / 3, clockwise);
                 edge as i64 == p % 3 || value > 0 || (value == 0 && owns)
@@ -374,7 +374,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         parameters: Parameters::Below(80 * (1 + RECIPROCAL_BITS.len() as i64)),
         draws: Fill::Sampled(Reach::Pixel, |corners, window, base, p| {
             let bits = WEIGHT_BITS[(p / 10 % 8) as usize];
-            let area = area2(corners);
+            let area = twice_area(corners);
             let whole = area.abs().max(1);
             let reciprocal = (p >= 80).then(|| RECIPROCAL_BITS[(p / 80 - 1) as usize]);
             let cut = |value: i128| match (reciprocal, p % 2) {
@@ -618,7 +618,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
         parameters: Parameters::Below(2 * BOXES_OF_TWO),
         draws: Fill::Changed(|mask, corners, window, p| {
             let order = p / 18 % ORDERS.len() as i64;
-            let ordered = in_order(corners, order, area2(corners) > 0);
+            let ordered = in_order(corners, order, twice_area(corners) > 0);
             let (side, without) = (p % 6, (p / 6 % 3) as usize);
             if side < 2 && p >= BOXES_OF_TWO {
                 return;
@@ -1049,7 +1049,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
                 mask.retain(window, &|x, y| !inner(x, y));
                 return;
             }
-            if p == 0 && area2(corners) == 0 {
+            if p == 0 && twice_area(corners) == 0 {
                 return;
             }
             let ends =
@@ -1168,30 +1168,30 @@ const KINDS: [(&str, IsKind); 19] = [
     ("whose first corner lies outside the window", |c, w| !fills::holds(w, c[0])),
     ("with a negative coordinate", |c, _| c.iter().any(|p| p.x < 0 || p.y < 0)),
     ("that have no area once their corners are rounded to whole pixels", |c, _| {
-        area2(&whole(c, 128)) == 0
+        twice_area(&whole(c, 128)) == 0
     }),
     ("that have no area once their corners are cut to whole pixels", |c, _| {
-        area2(&whole(c, 0)) == 0
+        twice_area(&whole(c, 0)) == 0
     }),
     ("that turn round or have no area once their corners are rounded to whole pixels", |c, _| {
-        area2(&whole(c, 128)).signum() != area2(c).signum()
+        twice_area(&whole(c, 128)).signum() != twice_area(c).signum()
     }),
     ("that turn round or have no area once their corners are cut to whole pixels", |c, _| {
-        area2(&whole(c, 0)).signum() != area2(c).signum()
+        twice_area(&whole(c, 0)).signum() != twice_area(c).signum()
     }),
     ("whose area of 8 bits of fraction has another sign in 32 bits", |c, _| {
-        (area2(c) as i32).signum() != area2(c).signum() as i32
+        (twice_area(c) as i32).signum() != twice_area(c).signum() as i32
     }),
     ("whose area of 4 bits of fraction has another sign in 32 bits", |c, _| {
-        ((area2(c) >> 8) as i32).signum() != area2(c).signum() as i32
+        ((twice_area(c) >> 8) as i32).signum() != twice_area(c).signum() as i32
     }),
     ("whose winding is not that of the first product of their area alone", |[a, b, c], _| {
         let first = (i64::from(b.x) - i64::from(a.x)) * (i64::from(c.y) - i64::from(a.y));
-        (first >= 0) != (area2(&[*a, *b, *c]) > 0)
+        (first >= 0) != (twice_area(&[*a, *b, *c]) > 0)
     }),
     ("whose winding is not that of the second product of their area alone", |[a, b, c], _| {
         let second = (i64::from(b.y) - i64::from(a.y)) * (i64::from(c.x) - i64::from(a.x));
-        (second < 0) != (area2(&[*a, *b, *c]) > 0)
+        (second < 0) != (twice_area(&[*a, *b, *c]) > 0)
     }),
     (
         "whose middle corner lies left of the long edge, from the upper corner that is named first",

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
 use crate::cases::{self, Shape, Triangle};
-use crate::comparison::area2;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Fragment};
 
@@ -63,7 +63,7 @@ fn exchanged(t: &Triangle, weights: [f64; 3], i: usize, j: usize) -> [f64; 3] {
 
 /// Twice the signed area in pixels squared.
 fn twice_px(t: &Triangle) -> f64 {
-    area2(&t.corners()) as f64 / f64::from(SUBPIXELS * SUBPIXELS)
+    twice_area(&t.corners()) as f64 / f64::from(SUBPIXELS * SUBPIXELS)
 }
 
 const VALUES: &[ValueMistake] = &[
@@ -235,7 +235,7 @@ const VALUES: &[ValueMistake] = &[
         page: "ch05",
         refuted: "a counterclockwise triangle with right values",
         values: |t, [a, b, c]| {
-            right_values(t, if area2(&t.corners()) < 0 { [a, c, b] } else { [a, b, c] })
+            right_values(t, if twice_area(&t.corners()) < 0 { [a, c, b] } else { [a, b, c] })
         },
     },
     ValueMistake {
@@ -681,7 +681,7 @@ impl ValueHypothesis {
         let triangle = &changed;
         let corners =
             triangle.corners().map(|p| SubpixelPoint::new((self.moved)(p.x), (self.moved)(p.y)));
-        if area2(&corners) == 0 {
+        if twice_area(&corners) == 0 {
             return None;
         }
         let in_bits = |kept: Option<(Kept, i32)>| {

@@ -2,8 +2,8 @@
 //! pixel's centre say whether it is inside. Corners are whole numbers in clip space, where the planes are
 //! z = 0 and z = w, and the view is a cell of [`CELL_PX`].
 
-use crate::cases::Rng;
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::random::Rng;
 
 /// The side of the cell that the view volume is drawn in, in px.
 pub const CELL_PX: u32 = 64;

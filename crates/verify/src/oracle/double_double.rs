@@ -339,7 +339,7 @@ mod tests {
     fn no_distance_along_a_line_exceeds_what_is_said() {
         use crate::oracle::values::along_line;
         let (mut count, mut close) = (0, 0);
-        let mut rng = crate::cases::Rng::new("along", 1, 0);
+        let mut rng = rasterproof_core::random::Rng::new("along", 1, 0);
         for _ in 0..500 {
             let ends = [rng.signed(), rng.signed() * 100.0];
             let length = rng.int(0, 40).unsigned_abs();

@@ -6,9 +6,9 @@
 
 use super::region::region;
 use super::{FillRule, Point, Polygon};
-use crate::cases::Rng;
 use crate::cases::unsnapped::{nudge_f32, nudge_f64};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::random::Rng;
 
 /// Which numbers a tessellator takes as coordinates, so that it is judged by what it was given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

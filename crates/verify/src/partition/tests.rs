@@ -3,8 +3,8 @@
 use super::exact::orientation;
 use super::families::star;
 use super::*;
-use crate::cases::Rng;
 use crate::cases::unsnapped::nudge_f64;
+use rasterproof_core::random::Rng;
 
 fn square(low: f64, high: f64) -> Vec<Point> {
     vec![[low, low], [high, low], [high, high], [low, high]]

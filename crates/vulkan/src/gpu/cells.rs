@@ -63,7 +63,7 @@ pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
 
 pub fn twice_area_px2(corners: &Corners) -> f64 {
     let square = f64::from(SUBPIXELS) * f64::from(SUBPIXELS);
-    rasterproof_verify::comparison::area2(corners).unsigned_abs() as f64 / square
+    rasterproof_core::geometry::twice_area(corners).unsigned_abs() as f64 / square
 }
 
 pub fn in_perspective(declared: &Declared, seed: u64, cases: u64) -> Vec<Triangle> {

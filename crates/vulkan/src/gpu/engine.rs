@@ -16,7 +16,7 @@ use crate::device::draw::{Draw, Painter, Pictures, Vertex};
 use crate::device::find::{self, About, Listed};
 use crate::device::kind::{CELL_PX, Kind, PAGE_PX};
 use crate::device::open::Opened;
-use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry::centre_of;
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_judge::ask::runs_of;
 use rasterproof_judge::ask::{Answer, Asked, Breach, Question, Subject};
@@ -205,8 +205,7 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
         Asked::Coverage(corners) | Asked::Samples(corners) => plain(corners, half_px),
         Asked::Values(triangle) => valued(triangle, half_px),
         Asked::Line { ends: [a, b], .. } => {
-            let centre = |px: i32| px * SUBPIXELS + SUBPIXELS / 2;
-            let [a, b] = [a, b].map(|p| SubpixelPoint::new(centre(p.x), centre(p.y)));
+            let [a, b] = [a, b].map(|p| centre_of(p.x, p.y));
             plain(&[a, b, b], half_px)
         }
         Asked::Depth(_) | Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,

@@ -7,9 +7,10 @@ use super::outcome::Outcome;
 use crate::device::Error;
 use crate::device::draw::Pictures;
 use crate::device::kind::{CELL_PX, Kind};
+use rasterproof_core::geometry::sorted;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_judge::ask::runs_of;
-use rasterproof_verify::cases::Rng;
 use rasterproof_verify::oracle::segments::{self as segment, Fit, Pixels};
 use rasterproof_verify::specification::Standing;
 
@@ -109,8 +110,8 @@ pub(super) fn joined(
     let mut places = Places::new("vulkan-joined-lines", gpu, seed);
     let mut lines = Vec::new();
     for n in 0..cases {
-        let mut points = [places.point(n), places.point(n), places.point(n)];
-        points.sort_by_key(|p| p.x);
+        let points = [places.point(n), places.point(n), places.point(n)];
+        let mut points = sorted(points, |a, b| a.x > b.x);
         if n % 2 == 1 {
             points.reverse();
         }

@@ -13,12 +13,13 @@ use crate::device::draw::Vertex;
 use crate::device::kind::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::{centre_of, twice_area};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::adapt_case;
 use rasterproof_judge::ask::Subject as _;
-use rasterproof_verify::cases::{self, Rng, Shape};
-use rasterproof_verify::comparison::area2;
+use rasterproof_verify::cases::{self, Shape};
 use rasterproof_verify::comparison::single_precision::linear_bounds;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
@@ -278,13 +279,12 @@ const LARGE_PX2: f64 = 8_388_608.0;
 
 /// The distance of a pixel's centre from the nearest of the lines through the edges, in px.
 fn from_edges_px(corners: &Corners, x: i32, y: i32) -> f64 {
-    let centre = |px: i32| px * SUBPIXELS + SUBPIXELS / 2;
-    let s = SubpixelPoint::new(centre(x), centre(y));
+    let s = centre_of(x, y);
     let distance = |i: usize| {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         let (x, y) = (f64::from(b.x - a.x), f64::from(b.y - a.y));
         let length = (x * x + y * y).sqrt();
-        let twice = area2(&[a, b, s]).unsigned_abs() as f64;
+        let twice = twice_area(&[a, b, s]).unsigned_abs() as f64;
         if length > 0.0 { twice / length / f64::from(SUBPIXELS) } else { f64::INFINITY }
     };
     distance(0).min(distance(1)).min(distance(2))

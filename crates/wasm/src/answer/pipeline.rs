@@ -8,13 +8,14 @@ use super::picture::Picture;
 use super::pixels::{digits, lattice_engine};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_faults::published;
 use rasterproof_faults::published::book_near_clip::clip_near;
 use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::ClipVertex;
-use rasterproof_render::pipeline::assemble::{Cull, twice_area};
+use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::clip::{ClipPlane, clip};
 use rasterproof_render::pipeline::multisample::masks;
 
@@ -172,7 +173,7 @@ impl Culling {
             if !removed {
                 engine.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
             }
-            let area = twice_area(corners);
+            let area = twice_area(&corners);
             areas.push(json!({
                 "twiceArea": area.to_string(), "sign": area.signum(), "removed": removed,
             }));

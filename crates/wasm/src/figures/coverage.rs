@@ -3,12 +3,12 @@
 use super::drawing::{Drawing, Panel, Point};
 use super::{Drawn, Given, Predict, cover, number, snapped, with_triangles};
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::snap;
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_faults::published::book_triangle::BookChapter2;
 use rasterproof_faults::published::{Published as _, bare};
 use rasterproof_registry::engines::Engine;
-use rasterproof_render::pipeline::assemble::twice_area;
 
 /// A square against the centres of the pixels.
 pub(super) fn one_sample(given: &Given<'_>) -> Result<Drawn, String> {
@@ -74,7 +74,7 @@ pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
     let mut pixels = Vec::new();
     for pixel in panel.pixels() {
         let corners = snapped(&[[a, b, pixel.map(|v| f64::from(v) + 0.5)]])?[0];
-        let sign = twice_area(corners).signum();
+        let sign = twice_area(&corners).signum();
         let (class, letter) = [("on", "−"), ("twice", "0"), ("one", "+")][(sign + 1) as usize];
         drawing.pixel(&panel, pixel, class, letter);
         pixels.push((pixel, sign == 0));
@@ -134,7 +134,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
     for pixel in panel.pixels() {
         let has = |hits: &Coverage| hits.get(pixel[0], pixel[1]) != Some(0);
         let centre = pixel.map(|v| f64::from(v) + 0.5);
-        let is_tie = twice_area(snapped(&[[p, q, centre]])?[0]) == 0;
+        let is_tie = twice_area(&snapped(&[[p, q, centre]])?[0]) == 0;
         let letter = if is_tie { "0" } else { "" };
         for (i, (hits, class)) in [(&upper, "one"), (&lower, "two")].into_iter().enumerate() {
             if has(hits) {

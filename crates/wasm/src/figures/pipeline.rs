@@ -8,9 +8,10 @@ use super::lines::drawn;
 use super::{Drawn, Given, Predict, answer_value, cover, number, snapped, with_triangles};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::ClipVertex;
-use rasterproof_render::pipeline::assemble::{Viewport, twice_area};
+use rasterproof_render::pipeline::assemble::Viewport;
 use rasterproof_render::pipeline::clip::{ClipPlane, clip};
 use rasterproof_render::pipeline::transform::{about, frustum};
 
@@ -310,7 +311,7 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
     let heights = [0.0, given.at[0][1], 1.1];
     let corners = [0, 1, 2].map(|i| [i as f64, heights[i] / 256.0]);
     let snapped = snapped(&[corners])?[0];
-    let sign = twice_area(snapped).signum();
+    let sign = twice_area(&snapped).signum();
     let place = |x: f64, sub: f64| [30.0 + x * 150.0, 24.0 + sub * 100.0];
     let mut drawing = Drawing::new(184.0, given.is_answered);
     for row in [0.0, 1.0] {
@@ -329,7 +330,7 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
     }
     drawing.named_grip(exact[1], [0.0, 100.0], "b");
     let before = heights[2] - 2.0 * heights[1];
-    let square = twice_area(snapped) as f64 / 256.0;
+    let square = twice_area(&snapped) as f64 / 256.0;
     Ok(Drawn {
         drawing,
         predict: Predict::Choice(match sign {

@@ -115,9 +115,9 @@ mod tests {
     use base64::Engine as _;
     use base64::engine::general_purpose::STANDARD;
     use rasterproof_core::contract::Rasterize as _;
+    use rasterproof_core::geometry::twice_area;
     use rasterproof_core::grid::{PixelRect, SubpixelPoint};
     use rasterproof_core::triangle::Corners;
-    use rasterproof_verify::comparison::area2;
     use rasterproof_verify::oracle::Oracle;
 
     /// What is said of a device that moves corners before it draws them rightly, and in how many pictures.
@@ -185,7 +185,7 @@ mod tests {
         let coarse =
             move |c: Corners| Some(c.map(|p| SubpixelPoint::new(coarse(p.x), coarse(p.y))));
         cause(8, &coarse, "It moves corners to 1/4 px");
-        let small = |c: Corners| (area2(&c).abs() > 65_536).then_some(c);
+        let small = |c: Corners| (twice_area(&c).abs() > 65_536).then_some(c);
         cause(8, &small, "It does not draw triangles whose area is below about 0.5");
     }
 }

@@ -1,8 +1,9 @@
 //! What each check expects in a cell, and how a pixel that differs stands to the specification.
 
-use super::place::{Place, RULES, area2, centre, cover, on_shared_edge, place};
+use super::place::{Place, RULES, cover, on_shared_edge, place};
 use super::subjects::{area, is_front, whole};
 use super::{Device, Drawing, Interface, Topic, Vertex};
+use rasterproof_core::geometry::{centre_of, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Triangle;
@@ -107,10 +108,10 @@ fn each(cell: i32, mut see: impl FnMut(i32, i32, usize)) {
 /// The depth of a triangle's plane at a pixel's centre, in f64, whose error is far below any bound here.
 fn depth(triangle: &Triangle, x: i32, y: i32) -> f64 {
     let [a, b, c] = triangle.corners();
-    let s = centre(x, y);
+    let s = centre_of(x, y);
     let [za, zb, zc] = triangle.vertices.map(|v| v.depth);
-    let weight = |p, q| area2(p, q, s) as f64;
-    (weight(b, c) * za + weight(c, a) * zb + weight(a, b) * zc) / area2(a, b, c) as f64
+    let weight = |p, q| twice_area(&[p, q, s]) as f64;
+    (weight(b, c) * za + weight(c, a) * zb + weight(a, b) * zc) / twice_area(&[a, b, c]) as f64
 }
 
 /// What a triangle of the depth test leaves where it is kept: its first attribute.
@@ -169,7 +170,7 @@ impl<'a> Forgiving<'a> {
                 let [dx, dy] = SAMPLES[plane];
                 self.is_between(SubpixelPoint::new(x * SUBPIXELS + dx, y * SUBPIXELS + dy), hits)
             }
-            _ => self.is_between(centre(x, y), hits),
+            _ => self.is_between(centre_of(x, y), hits),
         };
         if free { Standing::Allowed } else { Standing::Outside }
     }
@@ -198,8 +199,8 @@ impl<'a> Forgiving<'a> {
             let inside = square.iter().all(|p| place(c, *p) != Place::Outside);
             let beyond = |i: usize| {
                 let (a, b) = (c[i], c[(i + 1) % 3]);
-                let turn = area2(c[0], c[1], c[2]).signum();
-                square.iter().all(|p| area2(a, b, *p) * turn < 0)
+                let turn = twice_area(c).signum();
+                square.iter().all(|p| twice_area(&[a, b, *p]) * turn < 0)
             };
             match (inside, (0..3).any(beyond)) {
                 (true, _) => hits == all,
@@ -254,7 +255,7 @@ impl<'a> Forgiving<'a> {
     /// Where depths are nearer than they are exact, or a rule decides about an edge, either may be kept.
     fn depth_is_open(&self, x: i32, y: i32, hits: u8) -> bool {
         let triangles = self.subject.triangles();
-        let places = triangles.iter().map(|t| place(&t.corners(), centre(x, y)));
+        let places = triangles.iter().map(|t| place(&t.corners(), centre_of(x, y)));
         let places: Vec<_> = places.collect();
         let mut covering = triangles.iter().zip(&places).filter(|(_, p)| **p != Place::Outside);
         if places.contains(&Place::Edge) {

@@ -1,12 +1,13 @@
 //! Compares what was read back with what is expected.
 
 use super::expected::{Forgiving, Planes, expected, line_fits, planes};
-use super::place::{Place, RULES, centre, cover, place};
+use super::place::{Place, RULES, cover, place};
 use super::shrink::is_tiling;
 use super::{Batch, Device, Drawing, Interface, Layout, Topic};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec2;
+use rasterproof_core::geometry::centre_of;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::single_precision::perspective_bounds;
@@ -248,7 +249,7 @@ fn explaining(subject: &Drawing, hits: &[u8], side: i32) -> Vec<bool> {
                 columns.clone().all(|x| {
                     let hits = hits[(y * side + x) as usize];
                     inside += u32::from(hits);
-                    match place(&snapped, centre(x, y)) {
+                    match place(&snapped, centre_of(x, y)) {
                         Place::Inside => hits == 1,
                         Place::Edge => hits <= 1,
                         Place::Outside => hits == 0,
@@ -296,7 +297,7 @@ fn values(device: Device, subject: &Drawing, cell: &Cell) -> Judged {
     for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {
         let drawn = cell.values(x, y);
         judged.theirs[0][(y * side + x) as usize] = u8::from(drawn[3] != 0.0);
-        if place(&triangle.corners(), centre(x, y)) != Place::Inside {
+        if place(&triangle.corners(), centre_of(x, y)) != Place::Inside {
             continue;
         }
         judged.ours[0][(y * side + x) as usize] = 1;
@@ -725,7 +726,7 @@ mod tests {
             );
             let (Some(exact), [x0, y0]) = (exact, layout.origin(index)) else { continue };
             for (y, x) in (0..layout.cell).flat_map(|y| (0..layout.cell).map(move |x| (y, x))) {
-                if place(&t.corners(), centre(x, y)) == Place::Inside {
+                if place(&t.corners(), centre_of(x, y)) == Place::Inside {
                     let (depth, [a, b]) = exact.at(x, y);
                     let at = ((y0 + y) * layout.side + x0 + x) as usize * 16;
                     for (i, v) in

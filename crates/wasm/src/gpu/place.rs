@@ -1,7 +1,8 @@
 //! Where a sample lies with respect to a triangle, by the signs of three edge functions in whole numbers,
 //! and what the fill rules make of it. The oracle decides by other means, so that the two check each other.
 
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry::twice_area;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::oracle::Oracle;
 
@@ -14,21 +15,10 @@ pub(super) enum Place {
     Outside,
 }
 
-pub(super) fn centre(x_px: i32, y_px: i32) -> SubpixelPoint {
-    SubpixelPoint::new(x_px * SUBPIXELS + HALF_PIXEL, y_px * SUBPIXELS + HALF_PIXEL)
-}
-
-/// Twice the area of a triangle; positive where its corners turn from x to y.
-pub(super) fn area2(a: SubpixelPoint, b: SubpixelPoint, p: SubpixelPoint) -> i64 {
-    let (dx, dy) = (i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y));
-    let (px, py) = (i64::from(p.x) - i64::from(a.x), i64::from(p.y) - i64::from(a.y));
-    dx * py - dy * px
-}
-
 /// The place of a sample. Of a triangle without area nothing is inside and everything on it is an edge.
 pub(super) fn place(&[a, b, c]: &Corners, sample: SubpixelPoint) -> Place {
-    let area = area2(a, b, c);
-    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| area2(p, q, sample) * area.signum());
+    let area = twice_area(&[a, b, c]);
+    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| twice_area(&[p, q, sample]) * area.signum());
     if area == 0 {
         let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(p, q)| on_segment(p, q, sample));
         return if ab || bc || ca { Place::Edge } else { Place::Outside };
@@ -43,7 +33,7 @@ pub(super) fn place(&[a, b, c]: &Corners, sample: SubpixelPoint) -> Place {
 /// Whether a sample lies on a segment, its ends included.
 fn on_segment(p: SubpixelPoint, q: SubpixelPoint, sample: SubpixelPoint) -> bool {
     let between = |a: i32, b: i32, v: i32| (a.min(b)..=a.max(b)).contains(&v);
-    area2(p, q, sample) == 0 && between(p.x, q.x, sample.x) && between(p.y, q.y, sample.y)
+    twice_area(&[p, q, sample]) == 0 && between(p.x, q.x, sample.x) && between(p.y, q.y, sample.y)
 }
 
 /// Whether a sample lies on an edge that two triangles share, one on each side, and on no end of it.
@@ -56,7 +46,7 @@ pub(super) fn on_shared_edge(triangles: &[Corners], sample: SubpixelPoint) -> bo
         }
     }
     let [(p, q, a), (r, s, b)] = found[..] else { return false };
-    (p, q) == (r, s) && area2(p, q, a).signum() * area2(p, q, b).signum() < 0
+    (p, q) == (r, s) && twice_area(&[p, q, a]).signum() * twice_area(&[p, q, b]).signum() < 0
 }
 
 /// The rules that are told apart: those of a window whose axes may be turned over.
@@ -87,6 +77,7 @@ pub(super) fn cover(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasterproof_core::geometry::centre_of;
     use rasterproof_verify::cases::{self, Shape};
 
     fn px(points: [(f64, f64); 3]) -> Corners {
@@ -104,7 +95,7 @@ mod tests {
             let found: Vec<_> = (0..16).filter(|i| hits[*i] == 1).collect();
             assert_eq!(found, pixels, "{rule:?}");
         }
-        let at = |x, y| place(&triangle, centre(x, y));
+        let at = |x, y| place(&triangle, centre_of(x, y));
         assert_eq!([at(0, 0), at(1, 1), at(2, 1)], [Place::Edge, Place::Edge, Place::Outside]);
         assert_eq!(place(&triangle, SubpixelPoint::new(200, 200)), Place::Inside);
     }
@@ -113,10 +104,10 @@ mod tests {
     fn a_shared_edge_by_hand() {
         let square =
             [px([(0.5, 0.5), (3.5, 0.5), (3.5, 3.5)]), px([(0.5, 0.5), (3.5, 3.5), (0.5, 3.5)])];
-        assert!(on_shared_edge(&square, centre(1, 1)));
-        assert!(!on_shared_edge(&square, centre(0, 0)), "an end");
-        assert!(!on_shared_edge(&square, centre(1, 0)), "a border");
-        assert!(!on_shared_edge(&[square[0], square[0]], centre(1, 1)), "twice the same side");
+        assert!(on_shared_edge(&square, centre_of(1, 1)));
+        assert!(!on_shared_edge(&square, centre_of(0, 0)), "an end");
+        assert!(!on_shared_edge(&square, centre_of(1, 0)), "a border");
+        assert!(!on_shared_edge(&[square[0], square[0]], centre_of(1, 1)), "twice the same side");
     }
 
     /// What all rules cover is inside, what any of them covers is inside or on an edge.
@@ -134,7 +125,7 @@ mod tests {
                 });
                 for (x, y) in (0..48).flat_map(|y| (0..48).map(move |x| (x, y))) {
                     let by = all.each_ref().map(|hits| hits[(y * 48 + x) as usize]);
-                    match place(&corners, centre(x, y)) {
+                    match place(&corners, centre_of(x, y)) {
                         Place::Inside => assert_eq!(by, [1; 4]),
                         Place::Outside => assert_eq!(by, [0; 4]),
                         Place::Edge => ties += 1,

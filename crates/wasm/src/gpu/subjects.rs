@@ -1,9 +1,11 @@
 //! The subjects of each check: the hard cases of the comparison on the device's lattice, and some of this page.
 
 use super::{Device, Drawing, Interface, Layout, Topic, Vertex};
+use rasterproof_core::geometry::{ORDERS, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
-use rasterproof_verify::cases::{Family, Rng, Shape, Triangle, triangles};
+use rasterproof_verify::cases::{Family, Shape, Triangle, triangles};
 use rasterproof_verify::oracle::clipped;
 
 /// The checks with the numbers of their batches.
@@ -144,7 +146,7 @@ impl Drawing {
 /// The vertices that are drawn of a subject. To see whether the order of corners matters, all six are drawn.
 pub(super) fn drawn(check: Topic, Drawing(shapes): &Drawing) -> Vec<Vertex> {
     let orders: &[[usize; 3]] = match check {
-        Topic::Order => &[[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]],
+        Topic::Order => &ORDERS,
         _ => return shapes.concat(),
     };
     let in_order =
@@ -337,8 +339,8 @@ pub(super) fn whole(Drawing(shapes): &Drawing) -> Option<[clipped::Whole; 3]> {
 }
 
 /// Whether a triangle is a front face: WebGL counts rows from below, and counter-clockwise is the front of both.
-pub(super) fn is_front(device: Device, &[a, b, c]: &Corners) -> bool {
-    let area = super::place::area2(a, b, c);
+pub(super) fn is_front(device: Device, corners: &Corners) -> bool {
+    let area = twice_area(corners);
     match device.interface {
         Interface::Webgl2 => area > 0,
         Interface::Webgpu => area < 0,

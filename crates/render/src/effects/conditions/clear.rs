@@ -9,10 +9,10 @@ use super::depth::share_an_edge;
 use crate::effects::plan::{Canvas, Clear, Decision, FramePlan, PiecePlan, Samples};
 use crate::effects::primitive::{Piece, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
-use crate::pipeline::assemble::twice_area;
 use crate::pipeline::target::Antialias;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::geometry::{centre_of, twice_area};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 
 /// Side of the tiles whose clearing is decided together.
@@ -51,7 +51,7 @@ fn tiles(canvas: &Canvas, (pieces, plans): PlannedPieces<'_>) -> Option<Vec<Pixe
     let tile_area = i128::from(TILE_PX * SUBPIXELS).pow(2);
     let large = touched.width() as i32 >= TILE_PX
         && touched.height() as i32 >= TILE_PX
-        && twice_area(first).abs() >= 2 * tile_area;
+        && twice_area(&first).abs() >= 2 * tile_area;
     if !large || canvas.antialias == Antialias::Multisample4 {
         return None;
     }
@@ -81,10 +81,9 @@ fn tiles(canvas: &Canvas, (pieces, plans): PlannedPieces<'_>) -> Option<Vec<Pixe
 /// Whether the centres of the four corner pixels, between two opposite ones, lie strictly inside.
 fn holds(corners: Corners, [(x0, y0), (x1, y1)]: [(i32, i32); 2]) -> bool {
     let [a, b, c] = corners;
-    let centre = |px: i32| px * SUBPIXELS + HALF_PIXEL;
     [(x0, y0), (x1, y0), (x0, y1), (x1, y1)].iter().all(|&(x, y)| {
-        let p = SubpixelPoint::new(centre(x), centre(y));
-        let sides = [[a, b, p], [b, c, p], [c, a, p]].map_array(|side| twice_area(side).signum());
+        let p = centre_of(x, y);
+        let sides = [[a, b, p], [b, c, p], [c, a, p]].map_array(|side| twice_area(&side).signum());
         sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2]
     })
 }
@@ -110,6 +109,7 @@ pub fn explain(effects: &Effects, canvas: &Canvas, frame: &FramePlan) -> Decisio
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasterproof_core::grid::SubpixelPoint;
 
     /// On a border some rasterizer may not cover the pixel.
     #[test]

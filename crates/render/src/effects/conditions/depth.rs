@@ -8,10 +8,10 @@ use super::account::Account;
 use crate::effects::plan::{Canvas, Decision};
 use crate::effects::primitive::{Piece, Prepared, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
-use crate::pipeline::assemble::twice_area;
 use crate::pipeline::target::Antialias;
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -225,6 +225,6 @@ pub fn share_an_edge(a: &Corners, b: &Corners) -> bool {
     let (Some(third_a), Some(third_b)) = (third_a, third_b) else { return false };
     let mut shared = a.iter().filter(|corner| *corner != third_a);
     let (Some(p), Some(q)) = (shared.next(), shared.next()) else { return false };
-    let side = |r: &SubpixelPoint| twice_area([*p, *q, *r]).signum();
+    let side = |r: &SubpixelPoint| twice_area(&[*p, *q, *r]).signum();
     side(third_a) * side(third_b) < 0
 }

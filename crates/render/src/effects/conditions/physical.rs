@@ -227,7 +227,7 @@ mod tests {
     use crate::pipeline::punctual::Kind;
     use glam::DMat4;
     use rasterproof_core::angle::{turn_x, turn_y};
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     type Reaches = fn(&PunctualLight, [DVec3; 3], [DVec3; 3]) -> bool;
 

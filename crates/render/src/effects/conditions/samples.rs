@@ -10,7 +10,8 @@ use crate::effects::plan::{Canvas, Decision, PiecePlan, Samples};
 use crate::effects::primitive::{Prepared, touched};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::ClipVertex;
-use crate::pipeline::assemble::{ClipPoint, Viewport, twice_area};
+use crate::pipeline::assemble::{ClipPoint, Viewport};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 
@@ -82,7 +83,7 @@ impl Estimate {
         let rect = rect.intersect(&self.canvas.size());
         // The window of a supersampled picture has `scale` subpixels more on each side of a pixel.
         let side = u64::from(SUBPIXELS.unsigned_abs() * self.canvas.antialias.scale());
-        let twice = u64::try_from(twice_area(*corners).unsigned_abs()).unwrap_or(u64::MAX);
+        let twice = u64::try_from(twice_area(corners).unsigned_abs()).unwrap_or(u64::MAX);
         let (width, height) = (u64::from(rect.width()), u64::from(rect.height()));
         let area = (width * height).min(twice / (2 * side.pow(2)));
         if plan.is_one_colour() {

@@ -140,7 +140,7 @@ fn faces_away(light: &Light, normals: [DVec3; 3]) -> bool {
 mod tests {
     use super::*;
     use crate::pipeline::highlight::{Highlight, Specular};
-    use rasterproof_verify::cases::Rng;
+    use rasterproof_core::random::Rng;
 
     type Condition = fn(&Light, [DVec3; 3]) -> bool;
 

@@ -3,9 +3,9 @@
 
 use super::pattern::Pattern;
 use crate::effects::primitive::Piece;
-use crate::pipeline::assemble::twice_area;
 use crate::pipeline::depth::DepthFormat;
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SUBPIXELS;
 
 /// The plane of a piece's depth over pixels.
@@ -43,7 +43,7 @@ impl DepthPlane {
         let [a, b, c] = piece
             .vertices
             .map_array(|vertex| (i128::from(vertex.position.x), i128::from(vertex.position.y)));
-        let area = twice_area(piece.corners());
+        let area = twice_area(&piece.corners());
         let pixel = i128::from(pattern.scale * SUBPIXELS);
         let [first, second, third] = piece.vertices.map_array(|vertex| vertex.depth);
         let weight = |from: (i128, i128), to: (i128, i128), depth: f64| {
@@ -107,11 +107,11 @@ mod tests {
     use rasterproof_core::contract::Interpolate as _;
     use rasterproof_core::grid::PixelRect;
     use rasterproof_core::grid::SubpixelPoint;
+    use rasterproof_core::random::Rng;
     use rasterproof_core::raster::edge_function::EdgeFunction;
     use rasterproof_core::raster::scanline::Scanline;
     use rasterproof_core::triangle::ScreenTriangle;
     use rasterproof_core::triangle::ScreenVertex;
-    use rasterproof_verify::cases::Rng;
 
     const SIZE_PX: u32 = 12;
 

@@ -12,6 +12,7 @@ use std::fmt;
 use crate::cases::{Case, Shape, Triangle};
 use crate::oracle::Oracle;
 use rasterproof_core::contract::Rasterize;
+use rasterproof_core::geometry::{centre_of, pixel_box, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
 
@@ -205,7 +206,7 @@ impl Convention {
     /// What has to be drawn of a triangle, and what may be.
     #[must_use]
     pub fn expected(&self, corners: &Corners, window: PixelRect) -> Expectation {
-        let area = area2(corners);
+        let area = twice_area(corners);
         let rule = self.seen_rule();
         if !self.draws(area) {
             return Expectation::default();
@@ -337,19 +338,6 @@ pub struct Expectation {
     pub may: Option<Vec<Span>>,
 }
 
-/// Twice the area, positive where the corners run clockwise on a screen with y down.
-#[must_use]
-pub fn area2(&[a, b, c]: &Corners) -> i128 {
-    edge(a, b, c)
-}
-
-fn edge(a: SubpixelPoint, b: SubpixelPoint, p: SubpixelPoint) -> i128 {
-    // Written out, not mapped: this is asked of every triangle, in a crate that inlines little.
-    let (dx, dy) = (i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y));
-    let (px, py) = (i64::from(p.x) - i64::from(a.x), i64::from(p.y) - i64::from(a.y));
-    i128::from(dx) * i128::from(py) - i128::from(dy) * i128::from(px)
-}
-
 /// What the oracle draws of the mirror image, mirrored back.
 fn mirrored(corners: &Corners, window: PixelRect, in_x: bool, in_y: bool) -> Vec<Span> {
     // About the middle of the window, so that it is its own image.
@@ -378,29 +366,26 @@ fn mirrored(corners: &Corners, window: PixelRect, in_x: bool, in_y: bool) -> Vec
 /// Pixels whose centres lie inside, or with `closed` also on the boundary.
 fn by_edges(corners: &Corners, window: PixelRect, closed: bool) -> Vec<Span> {
     let [a, mut b, mut c] = *corners;
-    if area2(corners) < 0 {
+    if twice_area(corners) < 0 {
         (b, c) = (c, b);
     }
     let least = i128::from(!closed);
     let range = |v: [i32; 3]| {
         let [a, b, c] = v;
-        (a.min(b).min(c), a.max(b).max(c))
+        a.min(b).min(c)..=a.max(b).max(c)
     };
-    let ((left, right), (top, bottom)) = (range([a.x, b.x, c.x]), range([a.y, b.y, c.y]));
-    let px = |sub: i32| sub.div_euclid(SUBPIXELS);
-    let rect = PixelRect { x0: px(left), y0: px(top), x1: px(right) + 1, y1: px(bottom) + 1 };
-    let rect = rect.intersect(&window);
+    let (columns, rows) = (range([a.x, b.x, c.x]), range([a.y, b.y, c.y]));
+    let rect = pixel_box(corners, 0).intersect(&window);
     let mut runs: Vec<Span> = Vec::new();
     for y_px in rect.y0..rect.y1 {
         for x_px in rect.x0..rect.x1 {
-            let at = |px: i32| px * SUBPIXELS + HALF_PIXEL;
-            let p = SubpixelPoint::new(at(x_px), at(y_px));
+            let p = centre_of(x_px, y_px);
             // The box matters where there is no area: then the edges are one line without ends.
-            let is_in_box = (left..=right).contains(&p.x) && (top..=bottom).contains(&p.y);
+            let is_in_box = columns.contains(&p.x) && rows.contains(&p.y);
             if is_in_box
-                && edge(a, b, p) >= least
-                && edge(b, c, p) >= least
-                && edge(c, a, p) >= least
+                && twice_area(&[a, b, p]) >= least
+                && twice_area(&[b, c, p]) >= least
+                && twice_area(&[c, a, p]) >= least
             {
                 match runs.last_mut() {
                     Some(run) if run.y_px == y_px && run.x1_px == x_px => run.x1_px += 1,
@@ -489,7 +474,7 @@ mod tests {
                 let case = by(Rule::TopRight).place(family.case(3, index));
                 let Shape::Triangles { list, .. } = case.shape else { continue };
                 let corners = list[0].corners();
-                if area2(&corners) == 0 {
+                if twice_area(&corners) == 0 {
                     continue;
                 }
                 let sorted = |rule: Rule| pixels(&by(rule).expected(&corners, case.window).must);
