@@ -10,6 +10,7 @@ use rasterproof_judge::check::{Check, Counted};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_judge::pictured::Pictured;
+use rasterproof_judge::polygons;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{Found, MOST_DEATHS, MOST_DEATHS_IN_ALL, Row as FamilyRow, Sides};
 use rasterproof_judge::verdict::{self, Count, Score, Scores as _, Verdict, per_million};
@@ -140,10 +141,18 @@ pub fn of_polygons(
         let show = |polygon: &Polygon| format!("{:?}", polygon.contours);
         let _ = report.write(&mut grid, &show, repeat);
     }
-    let [polygons, triangles, left_out, wrong] =
-        [sum.polygons, sum.triangles, sum.left_out, sum.wrong].map(thousands);
+    let until = match polygons::is_out_of_time(report) {
+        true => format!(", of {} when the time was up", thousands(polygons::of_polygons(report))),
+        false => String::new(),
+    };
+    let found = match agrees {
+        true => "all are covered exactly once".to_owned(),
+        false => sum.describe(""),
+    };
+    let [polygons, triangles, left_out] =
+        [sum.polygons, sum.triangles, sum.left_out].map(thousands);
     let sentence = format!(
-        "{polygons} polygons, {triangles} triangles, {left_out} polygons not taken; {wrong} are not covered exactly once"
+        "{polygons} polygons, {triangles} triangles, {left_out} polygons not taken{until}; {found}"
     );
     Report {
         about,
