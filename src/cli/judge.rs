@@ -139,7 +139,7 @@ fn tessellator(
             "{name} declares partition and more; a tessellator is a program of its own, with partition alone"
         )));
     }
-    if let Some(option) = typed.given(&["seconds", "baseline", "against", "report"]) {
+    if let Some(option) = typed.given(&["baseline", "against", "report"]) {
         return Err(usage(format!(
             "--{option} is not for tessellators, and {name} is one; leave it out"
         )));

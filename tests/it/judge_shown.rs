@@ -18,7 +18,7 @@ use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::Outcome;
 use rasterproof_judge::verdict::Scores as _;
-use rasterproof_judge::{Step, adapt_case, judge};
+use rasterproof_judge::{Options, Step, adapt_case, judge};
 use rasterproof_registry::engines;
 use rasterproof_report::html::page;
 use rasterproof_report::judge_text as shown;
@@ -100,9 +100,92 @@ fn judge_pictures_every_stage() {
     // The cause first, then the counts.
     let (_, verdict) = page.split_once("id=\"verdict\"").unwrap();
     let (answer, counts) = verdict.split_once("id=\"counts\"").unwrap();
-    assert!(answer.contains(" is not right") && !answer.contains("wrong pixels"), "{answer}");
-    assert!(counts.lines().next().unwrap().contains("wrong pixels"), "{counts}");
+    assert!(answer.contains(" is not right") && !answer.contains("wrong corners"), "{answer}");
+    assert!(counts.lines().next().unwrap().contains("wrong corners"), "{counts}");
     assert!(text.contains("(x and y of clip space, before the division; a cell is "), "{text}");
+}
+
+/// A score counts what its check judges, in the words of that check, and so does the last line.
+#[test]
+fn scores_count_what_is_judged() {
+    let shown = |program: Box<dyn Subject>, options: &Options| {
+        let verdict = judged(program, options);
+        let report = shown::report(&verdict, "", &|_, _| String::new(), false);
+        (verdict.agrees(), text(&report, false, false, 1000))
+    };
+    let program = |words: &str, spoil: fn(&mut Careless, &[Question], u64) -> Vec<Answer>| {
+        let mut engine = Careless(Inside::new(engines::find("scanline").unwrap()));
+        let declared = Declared::parse(&format!("HELLO 2 x {words}")).unwrap();
+        Box::new(Answering(declared, move |questions: &[Question], most| {
+            spoil(&mut engine, questions, most)
+        }))
+    };
+    let last =
+        |text: &str| text.lines().rfind(|line| line.contains("AGREES: ")).unwrap().to_owned();
+    let spoilt: fn(&mut Careless, &[Question], u64) -> Vec<Answer> = |engine, questions, most| {
+        let mut answers = engine.ask(questions, most);
+        for answer in &mut answers {
+            if let Answer::Values(fragments) = answer {
+                fragments.iter_mut().for_each(|f| f.varying.x += 1.0);
+            }
+        }
+        answers
+    };
+    for (capability, what) in [
+        ("depth", "pixels that show the wrong triangle"),
+        ("attributes", "values beyond the tolerance"),
+        ("clip", "wrong corners"),
+        ("samples4", "wrong samples"),
+    ] {
+        let (agrees, text) = shown(program(capability, spoilt), &options(40, &[]));
+        let last = last(&text);
+        let count = last.split(", ").find_map(|part| part.split("; ").next()?.strip_suffix(what));
+        let count: u64 = count.unwrap_or_else(|| panic!("{what}: {last}")).trim().parse().unwrap();
+        assert!(!agrees && count > 0 && !last.contains(" 0 wrong"), "{last}");
+        assert!(text.contains(&format!("{count} {what}, ")), "{text}");
+        // Values have pixels of their own, which are right.
+        assert_eq!(text.contains("0 wrong pixels"), capability == "attributes", "{text}");
+        let right = program(capability, |engine, questions, most| engine.0.ask(questions, most));
+        let (agrees, text) = shown(right, &options(40, &[]));
+        let right = if capability == "attributes" { "wrong pixels" } else { what };
+        assert!(agrees && ends_with_none(&text, right), "{text}");
+    }
+    // Whose pictures may be as they are, and have holes together.
+    let mut strict = Inside::new(&engines::find_planted("exclusive-edges").unwrap());
+    let declared = Declared::parse("HELLO 2 x coverage rule=none").unwrap();
+    let answer = move |questions: &[Question], most| strict.ask(questions, most);
+    let (agrees, text) = shown(Box::new(Answering(declared, answer)), &options(40, &[]));
+    let last = last(&text);
+    assert!(!agrees && last.contains(" holes and doubles of meshes; "), "{last}");
+}
+
+fn ends_with_none(text: &str, what: &str) -> bool {
+    let line = text.lines().find(|line| line.contains("AGREES: "));
+    line.is_some_and(|line| line.trim_end().ends_with(&format!(", 0 {what}")))
+}
+
+/// Cases that show the same are shown once, with the families that have them; what shows something else is shown beside it.
+#[test]
+fn each_kind_of_failing_case_is_shown_once() {
+    for (name, line) in [("exclusive-edges", false), ("book-dda", true)] {
+        let verdict = judged(inside(name), &patient(60, &[]));
+        let pictures = verdict.failures.iter().filter_map(|f| {
+            let picture = f.evidence.picture.as_ref()?;
+            let grid = ascii::grid(&picture.drawn, &picture.expected);
+            Some((f.evidence.check, grid.concat().replace(['.', '#'], "")))
+        });
+        let mut seen: Vec<(Check, String)> = Vec::new();
+        for picture in pictures {
+            assert!(!seen.contains(&picture), "{name}: {picture:?} twice");
+            seen.push(picture);
+        }
+        let of = if line { Check::Line } else { Check::Coverage };
+        let first = verdict.failures.iter().find(|f| f.evidence.check == of).unwrap();
+        assert!(first.evidence.also.len() >= 3, "{name}: {:?}", first.evidence.also);
+        let report = shown::report(&verdict, "", &|_, _| String::new(), false);
+        let said = format!("the same in {} others: ", first.evidence.also.len());
+        assert!(text(&report, false, false, WIDTH).contains(&said), "{name}");
+    }
 }
 
 /// What leaves its group and outlives its program is ended with the judge.

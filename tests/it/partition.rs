@@ -1,6 +1,7 @@
 //! Partitions of a second source: what spade makes of the generated polygons has no fault, and has one when anything is changed.
 
 use std::collections::VecDeque;
+use std::time::Duration;
 
 use rasterproof::assert_partition;
 use rasterproof::partition::{
@@ -49,6 +50,20 @@ fn spade(polygon: &Polygon) -> Vec<Triangle> {
     }
     let inside = mesh.inner_faces().filter(|face| is_inside[face.fix().index()] == Some(true));
     inside.map(|face| face.positions().map(|corner| [corner.x, corner.y])).collect()
+}
+
+/// The same where vertices on straight edges go, so that edges become longer.
+fn without_straight_vertices(polygon: &Polygon) -> Vec<Triangle> {
+    let turns = |[a, b, c]: [[f64; 2]; 3]| {
+        let value = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+        value != 0.0
+    };
+    let kept = |c: &Vec<[f64; 2]>| {
+        let n = c.len();
+        let is_kept = |i: &usize| turns([c[(i + n - 1) % n], c[*i], c[(i + 1) % n]]);
+        (0..n).filter(is_kept).map(|i| c[i]).collect()
+    };
+    spade(&Polygon::new(polygon.contours.iter().map(kept).collect()))
 }
 
 /// 10,120 polygons, of whose triangulations none is blamed. Spade refuses coordinates below 2^-142, so they are whole.
@@ -138,9 +153,9 @@ fn partition_programs_are_judged() {
     folder.check(case, 1).prints("1 of 1 polygons are not covered exactly once");
     folder
         .check(format!("judge --cases 5 --family Star --format junit {fan}"), 1)
-        .prints_all(["name=\"Star\"", "every polygon is covered exactly once: wrong in"]);
+        .prints_all(["name=\"Star\"", "every polygon is triangulated as declared: "]);
     folder.check(format!("judge --family flat {fan}"), 2).says("these families hold no polygons");
-    folder.check(format!("judge --seconds 5 {fan}"), 2).says("--seconds is not for tessellators");
+    folder.check(format!("judge --baseline known.txt {fan}"), 2).says("--baseline is not for tess");
     let none = program("none.py", "print('E', words[1], 'unsupported', flush=True)");
     folder.check(format!("judge --cases 5 {none}"), 2).says("accepts none of the polygons");
     let refuses = program("refuses.py", "print('E', words[1], 'too hard', flush=True)");
@@ -149,6 +164,59 @@ fn partition_programs_are_judged() {
     folder.check(format!("judge --cases 5 {dies}"), 1).prints("given up after 3 times");
     let lies = program("lies.py", "print('Z', words[1], 1, 0, 0, 1, flush=True)");
     folder.check(format!("judge --cases 5 {lies}"), 1).prints("prints nonsense");
+}
+
+/// The first line says what is wrong. Each polygon counts by its gravest fault, and one that is covered exactly once is not said
+/// to be otherwise.
+#[test]
+fn what_is_wrong_with_polygons_is_said() {
+    let options =
+        Options::default().cases(60).coordinates(Coordinates::Integer).family(Family::Collinear);
+    let said = |make: &(dyn Fn(&Polygon) -> Vec<Triangle> + Sync), options: &Options| {
+        let message = judge_partitions(&make, options).unwrap().check().unwrap_err().to_string();
+        message.lines().next().unwrap().to_owned()
+    };
+    let junctions = said(&without_straight_vertices, &options);
+    let (count, what) = junctions.split_once(" of 60 polygons ").unwrap();
+    let count: u64 = count.parse().unwrap();
+    assert_eq!(what, "have T-junctions, and all are covered exactly once");
+    let turned = said(&spade, &options.clone().winding(Winding::Clockwise));
+    let turns = "have triangles that turn the other way, and all are covered exactly once";
+    assert_eq!(turned, format!("60 of 60 polygons {turns}"));
+    let some_lost = |polygon: &Polygon| {
+        let mut all = without_straight_vertices(polygon);
+        if polygon.contours[0].len().is_multiple_of(2) {
+            all.pop();
+        }
+        all
+    };
+    let both = said(&some_lost, &options);
+    let (lost, rest) = both.split_once(" of 60 polygons are not covered exactly once, ").unwrap();
+    let lost: u64 = lost.parse().unwrap();
+    let more: u64 = rest.strip_suffix(" more have T-junctions").unwrap().parse().unwrap();
+    assert!(lost > 0 && more > 0 && lost + more >= count && more <= count, "{both}");
+}
+
+/// A limited time is kept with a slow tessellator: each family is asked, and what was not done is said.
+#[test]
+fn tessellators_are_judged_within_their_time() {
+    let folder = Folder::new("slow-tessellator");
+    let program = "import sys, time\nfor line in sys.stdin:\n    words = line.split()\n    \
+                   if words[0] == 'HELLO': print('HELLO 2 mine partition', flush=True)\n    \
+                   else: time.sleep(float(sys.argv[1])); print('Z', words[1], 0, flush=True)\n";
+    folder.put("slow.py", program);
+    let start = std::time::Instant::now();
+    let run = folder.check("judge --seconds 3 --cases 1000000 -- python3 slow.py 0.02", 1);
+    let took = start.elapsed();
+    // One block of each family takes 14 s.
+    assert!(took < Duration::from_secs(8), "{took:?}");
+    let run = run.prints_all([" of 11,000,000 when the time was up;", "gap: the smallest polygon"]);
+    for family in Family::ALL {
+        assert!(run.out.contains(&format!(" {} ", family.name())), "{family:?}: {}", run.out);
+    }
+    folder
+        .check("judge --seconds 0.5 -- python3 slow.py 9", 2)
+        .says("nothing was judged within --seconds 0.5");
 }
 
 /// A triangulation that leaves out the second contour covers the hole, and the report says so and where.
@@ -194,19 +262,6 @@ fn mistakes_of_tessellators_are_named() {
     let holes_lost = |polygon: &Polygon| {
         if polygon.contours.len() > 1 { Vec::new() } else { spade(polygon) }
     };
-    // Vertices on straight edges go, and edges become longer.
-    let straight_lost = |polygon: &Polygon| {
-        let turns = |[a, b, c]: [[f64; 2]; 3]| {
-            let value = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
-            value != 0.0
-        };
-        let kept = |c: &Vec<[f64; 2]>| {
-            let n = c.len();
-            let is_kept = |i: &usize| turns([c[(i + n - 1) % n], c[*i], c[(i + 1) % n]]);
-            (0..n).filter(is_kept).map(|i| c[i]).collect()
-        };
-        spade(&Polygon::new(polygon.contours.iter().map(kept).collect()))
-    };
     let rounds = |polygon: &Polygon| {
         let round = |p: &[f64; 2]| p.map(|v| (v / 16.0).round() * 16.0);
         let contours = polygon.contours.iter().map(|c| c.iter().map(round).collect());
@@ -248,7 +303,11 @@ fn mistakes_of_tessellators_are_named() {
             "probable cause: It makes no triangles of polygons of more than one contour",
         ),
         (&spade, &wound, "probable cause: It winds all triangles the other way"),
-        (&straight_lost, &straight, "probable cause: It leaves out vertices on straight edges"),
+        (
+            &without_straight_vertices,
+            &straight,
+            "probable cause: It leaves out vertices on straight edges",
+        ),
         (&rounds, &options, "no cause was recognised: "),
         (&last_lost, &options, "no cause was recognised: "),
     ];

@@ -78,39 +78,26 @@ impl Truth {
     }
 }
 
+rasterproof_core::named! {
+    /// What is counted where answers are wrong. A score is of one of these.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Counted {
+        Pixels = "wrong pixels",
+        Values = "values beyond the tolerance",
+        Samples = "wrong samples",
+        /// Of several triangles.
+        Seen = "pixels that show the wrong triangle",
+        Corners = "wrong corners",
+        /// Between answers of the same program, as the rest.
+        Changes = "pixels that differ",
+        Meshes = "holes and doubles of meshes",
+        Outlines = "pixels that contradict the outline",
+    }
+}
+
 impl Judged {
     pub fn describe(&self, check: Check) -> String {
-        let Tally { missing, extra, twice, order } = self.finding.tally;
-        let behind = if check == Check::Depth { "show what lies behind" } else { "out of order" };
-        let counts = match check {
-            _ if self.right.is_some() => vec![
-                (missing, "only in the second answer"),
-                (extra, "only in the first"),
-                (twice, "drawn another number of times"),
-            ],
-            Check::Outline => {
-                vec![(missing, "not filled within the outline"), (extra, "filled outside of it")]
-            }
-            Check::Watertight => vec![(missing, "holes"), (twice, "drawn by two triangles")],
-            Check::Order | Check::Direction => vec![(missing + extra + twice, "pixels differ")],
-            Check::Samples => {
-                vec![(missing, "samples missing"), (extra, "extra"), (twice, "twice")]
-            }
-            Check::Near => {
-                vec![(missing, "corners missing"), (extra, "corners that are not there")]
-            }
-            Check::Carried => vec![
-                (missing, "corners missing, or with another attribute"),
-                (extra, "corners with an attribute that no such corner has, or that are not there"),
-            ],
-            _ => vec![(missing, "missing"), (extra, "extra"), (twice, "twice")],
-        };
-        let mut parts: Vec<String> = counts
-            .into_iter()
-            .chain([(order, if self.right.is_some() { "that differ" } else { behind })])
-            .filter(|(n, _)| *n > 0)
-            .map(|(n, what)| format!("{n} {what}"))
-            .collect();
+        let mut parts = check.describe(&self.finding.tally, self.right.is_some());
         if self.finding.worst() > 1.0 {
             parts.push(format!("a value off by {:.3e} times the tolerance", self.finding.worst()));
         }
@@ -123,6 +110,72 @@ impl Judged {
 }
 
 impl Check {
+    /// What is counted where its pixels, samples or corners are wrong.
+    #[must_use]
+    pub fn counted(self) -> Counted {
+        match self {
+            Self::Coverage | Self::Line | Self::Values => Counted::Pixels,
+            Self::Samples => Counted::Samples,
+            Self::Depth => Counted::Seen,
+            Self::Near | Self::Carried => Counted::Corners,
+            Self::Order | Self::Direction => Counted::Changes,
+            Self::Watertight => Counted::Meshes,
+            Self::Outline => Counted::Outlines,
+        }
+    }
+
+    /// The counts of a tally in the words of the check, those of two compared programs in words of their own.
+    #[must_use]
+    pub fn describe(self, tally: &Tally, of_two: bool) -> Vec<String> {
+        let Tally { missing, extra, twice, order } = *tally;
+        let counts = match self {
+            _ if of_two => vec![
+                (missing, "only in the second answer"),
+                (extra, "only in the first"),
+                (twice, "drawn another number of times"),
+                (order, "that differ"),
+            ],
+            Self::Outline => {
+                vec![(missing, "not filled within the outline"), (extra, "filled outside of it")]
+            }
+            Self::Watertight => vec![(missing, "holes"), (twice, "drawn by two triangles")],
+            Self::Order | Self::Direction => vec![(missing + extra + twice, "pixels differ")],
+            Self::Samples => {
+                vec![(missing, "samples missing"), (extra, "extra"), (twice, "twice")]
+            }
+            Self::Near => vec![
+                (missing, "corners missing"),
+                (extra, "corners that are not there"),
+                (order, "polygons that run the other way round"),
+            ],
+            Self::Carried => vec![
+                (missing, "corners missing, or with another attribute"),
+                (extra, "corners with an attribute that no such corner has, or that are not there"),
+                (order, "polygons that run the other way round"),
+            ],
+            Self::Depth => vec![
+                (missing, "missing"),
+                (extra, "extra"),
+                (twice, "twice"),
+                (order, "show what lies behind"),
+            ],
+            Self::Coverage | Self::Line | Self::Values => vec![
+                (missing, "missing"),
+                (extra, "extra"),
+                (twice, "twice"),
+                (order, "out of order"),
+            ],
+        };
+        let counts = counts.into_iter().filter(|(n, _)| *n > 0);
+        counts.map(|(n, what)| format!("{n} {what}")).collect()
+    }
+
+    /// Whether answers of the same program are compared with each other, and with nothing that is expected.
+    #[must_use]
+    pub fn compares_answers(self) -> bool {
+        matches!(self, Self::Order | Self::Watertight | Self::Direction | Self::Outline)
+    }
+
     /// Whether a case can be asked: a mesh that falls apart has no holes.
     #[must_use]
     pub fn fits(self, case: &Case) -> bool {
@@ -156,10 +209,7 @@ impl Check {
     #[must_use]
     pub fn of_truth(family: &str, case: &Case, index: u64, truth: &Truth) -> Vec<Self> {
         let mut checks = Self::of(family, case, index, &truth.declared);
-        let compares_answers = |check: &Self| {
-            matches!(check, Self::Order | Self::Watertight | Self::Direction | Self::Outline)
-        };
-        checks.retain(|check| truth.of_two.is_none() || !compares_answers(check));
+        checks.retain(|check| truth.of_two.is_none() || !check.compares_answers());
         checks
     }
 
@@ -397,7 +447,9 @@ fn one_triangle(
     let corners = triangle.corners();
     let Some(picture) = truth.expect.picture(&corners, window) else { return };
     judged.shapes += 1;
-    judged.pixels += length(&picture.must);
+    if !matches!(answer, Answer::Samples(_)) {
+        judged.pixels += length(&picture.must);
+    }
     let compare_both = |runs: &[Span], judged: &mut Judged| {
         let before = judged.finding.tally.total();
         compare(&mut judged.finding.tally, &mut judged.mark, runs, &picture, window);
@@ -487,6 +539,7 @@ fn samples(
     judged.finding.tally.extra += outside;
     for (y, row) in actual.rows() {
         for ((&a, &e), &n) in row.iter().zip(expected.row(y)).zip(hit.row(y)) {
+            judged.pixels += u64::from(e.count_ones());
             judged.finding.tally.missing += u64::from((e & !a).count_ones());
             judged.finding.tally.extra += u64::from((a & !e).count_ones());
             judged.finding.tally.twice += u64::from(n.saturating_sub(1));

@@ -11,7 +11,11 @@ use super::judged::Judged;
 use super::pictured::{Pictured, pictured};
 use super::run::{Failing, Found, MOST_DEATHS, Row};
 use super::shrink::smaller;
-use rasterproof_verify::cases::Case;
+use rasterproof_core::grid::SUBPIXELS;
+use rasterproof_core::triangle::Corners;
+use rasterproof_verify::cases::{Case, Shape, Triangle};
+use rasterproof_verify::comparison::area2;
+use rasterproof_verify::judge::ascii;
 
 /// A failing case with the requests of the smallest one, and their answers.
 pub type Failure = rasterproof_verify::judge::Failure<Case, Exchanged>;
@@ -20,6 +24,8 @@ pub type Failure = rasterproof_verify::judge::Failure<Case, Exchanged>;
 #[derive(Clone, Debug)]
 pub struct Exchanged {
     pub property: &'static str,
+    /// The other properties whose smallest case shows the same.
+    pub also: Vec<&'static str>,
     pub check: Check,
     /// How far it was made smaller, in words.
     pub shrunk: &'static str,
@@ -40,11 +46,19 @@ pub struct Exchange {
     pub expected: String,
 }
 
-/// Properties whose first failing case is shown.
+impl Exchanged {
+    /// Whether it shows what is wrong with a property.
+    #[must_use]
+    pub fn shows(&self, property: &str) -> bool {
+        self.property == property || self.also.contains(&property)
+    }
+}
+
+/// Kinds of failing cases that are shown.
 const MOST_SHOWN: usize = 6;
 
-/// The first failing case of each property that is not known, shrunk: holes and doubles, then those of the most
-/// often wrong. Where the pictures show what is wrong, it comes first.
+/// The first failing case of each property that is not known, shrunk, and each kind once: holes and doubles, then those of the
+/// most often wrong. Where the pictures show what is wrong, it comes first.
 pub fn failures(
     program: &mut dyn Subject,
     found: &Found,
@@ -52,7 +66,10 @@ pub fn failures(
     truth: &Truth,
 ) -> Vec<Failure> {
     let mut rows: Vec<_> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
-    let share = |row: &Row| if row.name == "watertight" { f64::INFINITY } else { row.share() };
+    let share = |row: &Row| match row.check {
+        Some(Check::Watertight) => f64::INFINITY,
+        _ => row.share(),
+    };
     rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let is_known = |f: &Failing| {
         !options.terms.known.is_empty()
@@ -60,9 +77,26 @@ pub fn failures(
     };
     let news: Vec<&Failing> = found.failing.iter().filter(|f| !is_known(f)).collect();
     let of = |name: &str| news.iter().find(|f| f.property == name);
-    let firsts = rows.into_iter().filter_map(|row| of(row.name)).take(MOST_SHOWN);
-    let shown = firsts.filter_map(|failing| failure(program, found, failing, options, truth));
-    let mut shown: Vec<_> = shown.collect();
+    let firsts = rows.into_iter().filter_map(|row| of(row.name));
+    let start = Instant::now();
+    let mut shown: Vec<Failure> = Vec::new();
+    let mut kinds: Vec<Kind> = Vec::new();
+    for (done, failing) in firsts.enumerate() {
+        // Beyond as many searches as cases are shown, others are for what is still to be seen.
+        let is_over = done >= MOST_SHOWN && start.elapsed() >= options.terms.patience;
+        if shown.len() == MOST_SHOWN || is_over {
+            break;
+        }
+        let Some(failure) = failure(program, found, failing, options, truth) else { continue };
+        let kind = Kind::of(&failure, truth.declared.convention.sample);
+        match kinds.iter().position(|known| *known == kind) {
+            Some(at) => shown[at].evidence.also.push(failing.property),
+            None => {
+                kinds.push(kind);
+                shown.push(failure);
+            }
+        }
+    }
     let is_same = |f: &Failure| f.evidence.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
     shown.sort_by_key(is_same);
     shown
@@ -200,6 +234,7 @@ impl Search<'_> {
         });
         let evidence = Exchanged {
             property: failing.property,
+            also: Vec::new(),
             check,
             shrunk,
             exchanges: exchanges.collect(),
@@ -216,4 +251,85 @@ pub fn judge(check: Check, case: &Case, answers: &[Answer], of: usize, truth: &T
     } else {
         check.judge(case, answers, truth)
     }
+}
+
+/// What a shrunk case shows, whatever its family, its corners and their order.
+#[derive(PartialEq)]
+struct Kind {
+    check: Check,
+    /// What is wrong, without the numbers.
+    words: Vec<String>,
+    pixels: Vec<Pixel>,
+    /// Whether the sample of the first of these lies exactly on an edge.
+    on_edge: bool,
+    /// What was asked, where the pictures do not show what is wrong.
+    requests: Vec<String>,
+}
+
+/// A wrong pixel, counted from the upper left corner of the box around all of them.
+#[derive(PartialEq)]
+struct Pixel {
+    x: usize,
+    y: usize,
+    mark: char,
+}
+
+impl Kind {
+    /// The kind of a failing case; `sample` is the place of a sample in its pixel.
+    fn of(failure: &Failure, sample: [i32; 2]) -> Self {
+        let evidence = &failure.evidence;
+        let mut kind = Self {
+            check: evidence.check,
+            words: words(&failure.what),
+            pixels: Vec::new(),
+            on_edge: false,
+            requests: Vec::new(),
+        };
+        if let Some(picture) = &evidence.picture {
+            let target = picture.other.as_ref().unwrap_or(&picture.expected);
+            for (y, (drawn, target)) in picture.drawn.rows().zip(target.rows()).enumerate() {
+                for (x, (&drawn, &target)) in drawn.1.iter().zip(target.1).enumerate() {
+                    if drawn != target {
+                        kind.pixels.push(Pixel { x, y, mark: ascii::mark(drawn, target) });
+                    }
+                }
+            }
+        }
+        let Some(first) = kind.pixels.first() else {
+            kind.requests = evidence.exchanges.iter().map(|e| e.request.clone()).collect();
+            return kind;
+        };
+        if let (Check::Coverage | Check::Values, Shape::Triangles { list, .. }) =
+            (kind.check, &failure.case.shape)
+        {
+            let window = failure.case.window;
+            let place = |pixel: i32, sample: i32| pixel * SUBPIXELS + sample;
+            let [x, y] = [window.x0 + first.x as i32, window.y0 + first.y as i32];
+            let at = [place(x, sample[0]), place(y, sample[1])];
+            kind.on_edge =
+                list.iter().map(Triangle::corners).any(|corners| is_on_edge(corners, at));
+        }
+        let left = kind.pixels.iter().map(|pixel| pixel.x).min().unwrap_or(0);
+        let top = kind.pixels.iter().map(|pixel| pixel.y).min().unwrap_or(0);
+        for pixel in &mut kind.pixels {
+            pixel.x -= left;
+            pixel.y -= top;
+        }
+        kind
+    }
+}
+
+fn words(what: &str) -> Vec<String> {
+    let words = what.split(' ').filter(|word| !word.starts_with(|c: char| c.is_ascii_digit()));
+    words.map(|word| word.trim_end_matches(',').to_owned()).collect()
+}
+
+fn is_on_edge([a, b, c]: Corners, [x, y]: [i32; 2]) -> bool {
+    [[a, b], [b, c], [c, a]].iter().any(|&[from, to]| {
+        let mut at = from;
+        (at.x, at.y) = (x, y);
+        let is_between = (from.x.min(to.x)..=from.x.max(to.x)).contains(&x)
+            && (from.y.min(to.y)..=from.y.max(to.y)).contains(&y);
+        is_between && area2(&[from, to, at]) == 0
+    })
 }

@@ -14,7 +14,10 @@ pub struct Judged {
     /// Wrong pixels, of a mesh its holes and doubles; and errors of values as fractions of the tolerance.
     pub finding: Finding,
     pub shapes: u64,
+    /// Pixels expected, of four samples the samples, of the near plane the corners.
     pub pixels: u64,
+    /// Pixels with a value beyond the tolerance.
+    pub wrong_values: u64,
     /// Wrong pixels by what was recognised.
     pub other: Tally,
     /// Pixels expected by what was recognised.
@@ -70,6 +73,7 @@ impl Judged {
             self.finding.compare(attribute, depth);
         }
         self.finding.values += 1;
+        self.wrong_values += u64::from(!errors.iter().all(|error| *error <= 1.0));
         if self.finding.worst() > before {
             self.worst_at = Some((fragment.x_px, fragment.y_px));
         }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::check::Check;
 use super::verdict::{Score, Scores as _, Verdict};
 
 /// An adapter, as `adapters/league.json` names it.
@@ -59,7 +60,7 @@ pub struct League {
 impl Ranked {
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
-        let row = |name: &str| verdict.families.iter().find(|row| row.name == name);
+        let row = |check: Check| verdict.families.iter().find(|row| row.check == Some(check));
         let kind = |lines: bool, about: &str| {
             let as_declared = verdict.score(Some(lines), |r| (r.tally.total(), r.pixels, 0));
             let found = verdict
@@ -76,7 +77,7 @@ impl Ranked {
             let kind = Kind { sentence, as_declared, by_convention, mistake };
             (as_declared.pixels > 0).then_some(kind)
         };
-        let changed = |name| row(name).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
+        let changed = |check| row(check).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
         let sum = |of: fn(&super::run::Row) -> u64| verdict.families.iter().map(of).sum();
         Self {
             name: adapter.name.clone(),
@@ -87,9 +88,10 @@ impl Ranked {
             declares: verdict.more.declared.to_string(),
             triangles: kind(false, "Triangles: "),
             lines: kind(true, "Lines: "),
-            meshes: row("watertight").map_or([0; 3], |r| [r.cases, r.tally.missing, r.tally.twice]),
-            orders: changed("vertex-order"),
-            directions: changed("line-direction"),
+            meshes: row(Check::Watertight)
+                .map_or([0; 3], |r| [r.cases, r.tally.missing, r.tally.twice]),
+            orders: changed(Check::Order),
+            directions: changed(Check::Direction),
             unanswered: [sum(|r| r.refused), sum(|r| r.deaths)],
         }
     }

@@ -2,11 +2,13 @@
 //! [`rasterproof_verify::partition`].
 
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 use super::Options;
 use super::ask::{Answer, Asked, Question, Subject};
 use super::declared::Declared;
 use super::run::{Found, MOST_DEATHS, Row};
+use super::timed::Timed;
 use super::verdict::{self, Particulars, Verdict};
 use rasterproof_verify::partition::{self, Family, Polygon, Refused, Triangle};
 
@@ -17,7 +19,24 @@ fn options(options: &Options, declared: &Declared) -> partition::Options {
     let mut all =
         partition::Options::default().seed(seed).cases(cases).terms(declared.tessellation);
     (all.only, all.families) = (options.only, Family::ALL.into_iter().filter(wanted).collect());
+    // The last tenth is for smaller polygons, and for the cause.
+    all.time_limit = options.time_limit.map(|limit| limit - limit / 10);
     all
+}
+
+/// How many polygons there are by these options.
+#[must_use]
+pub fn of_polygons(report: &partition::Verdict) -> u64 {
+    let (options, families) = (&report.options, report.families.len() as u64);
+    let each = if options.only.is_some() { 1 } else { options.cases };
+    each.saturating_mul(families)
+}
+
+/// Whether the time was up before all of them were judged.
+#[must_use]
+pub fn is_out_of_time(report: &partition::Verdict) -> bool {
+    let sum = report.sum();
+    report.options.time_limit.is_some() && sum.polygons + sum.left_out < of_polygons(report)
 }
 
 /// Judges whoever answers polygons. An answer that begins with `unsupported` leaves a polygon out.
@@ -29,7 +48,9 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
     if options.families.is_empty() && !given.families.is_empty() {
         return Err("no case was judged: these families hold no polygons".to_owned());
     }
-    let asked = Mutex::new((program, 0, String::new()));
+    let end = given.time_limit.map(|limit| Instant::now() + limit);
+    program.end_at(end);
+    let asked = Mutex::new((Timed::new(program, end), 0, String::new()));
     let answer = |polygons: &[Polygon]| -> Vec<Option<Result<Vec<Triangle>, Refused>>> {
         let mut asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
         let (program, deaths, last) = &mut *asked;
@@ -42,8 +63,9 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
         if let (Some(what), Some(answer)) = (program.strays().pop(), answers.last_mut()) {
             *answer = Answer::Died(what);
         }
+        let asked = if program.is_late { answers.len() } else { polygons.len() };
         let mut answers = answers.into_iter();
-        let made = polygons.iter().map(|_| match answers.next() {
+        let made = polygons[..asked].iter().map(|_| match answers.next() {
             Some(Answer::Triangles(triangles)) => Some(Ok(triangles)),
             Some(Answer::Refused(why)) if why.starts_with("unsupported") => None,
             Some(Answer::Refused(why)) => Some(Err(Refused(why))),
@@ -59,7 +81,13 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
         });
         made.collect()
     };
-    partition::judge_partitions_of(&answer, &options).map_err(|nothing| nothing.to_string())
+    let judged = partition::judge_partitions_of(&answer, &options);
+    let (mut program, ..) = asked.into_inner().unwrap_or_else(PoisonError::into_inner);
+    program.end_at(None);
+    judged.map_err(|nothing| match given.time_limit.filter(|_| program.is_late) {
+        Some(limit) => verdict::nothing_within(limit),
+        None => nothing.to_string(),
+    })
 }
 
 /// The report as a verdict with a property for each family, for what is written for machines.
@@ -73,13 +101,26 @@ pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdi
         ..Row::default()
     };
     let rows = report.families.iter().map(row).collect();
-    let found = Found { rows, answered: report.sum().polygons, ..Found::default() };
+    let sum = report.sum();
+    let found = Found {
+        rows,
+        answered: sum.polygons,
+        cases: sum.polygons + sum.left_out,
+        of_cases: of_polygons(report),
+        out_of_time: is_out_of_time(report),
+        ..Found::default()
+    };
     let more = Particulars { declared: declared.clone(), found, ..Particulars::default() };
     let mut verdict = verdict::verdict(options, more, Vec::new(), Vec::new());
     // The families of cases have a text of their own.
-    for property in verdict.more.properties.iter_mut().filter(|property| property.about.is_empty())
-    {
-        "every polygon is covered exactly once".clone_into(&mut property.about);
+    for family in &report.families {
+        let name = family.family.name();
+        for property in verdict.more.properties.iter_mut().filter(|one| one.name == name) {
+            "every polygon is triangulated as declared".clone_into(&mut property.about);
+            if family.wrong > 0 {
+                property.detail = family.describe(&format!(" of {} polygons", family.polygons));
+            }
+        }
     }
     verdict
 }

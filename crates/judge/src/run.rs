@@ -33,8 +33,12 @@ pub const MOST_INCIDENTS: usize = 24;
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Row {
     pub name: &'static str,
+    /// The check that its cases were judged by; none of polygons, and of a family that was given up before the first case.
+    #[serde(skip)]
+    pub check: Option<Check>,
     pub cases: u64,
     pub shapes: u64,
+    /// Pixels expected, of four samples the samples, of the near plane the corners.
     pub pixels: u64,
     pub wrong_cases: u64,
     /// Wrong pixels as declared.
@@ -49,6 +53,8 @@ pub struct Row {
     pub unscored_wrong: u64,
     pub refused: u64,
     pub values: u64,
+    /// Those of them that are beyond the tolerance.
+    pub wrong_values: u64,
     /// The largest error of a value as a fraction of the tolerance.
     pub worst: f64,
     /// Times the program had to be started again.
@@ -100,8 +106,8 @@ impl Row {
         self.wrong_cases as f64 / self.cases.max(1) as f64
     }
 
-    fn new(name: &'static str) -> Self {
-        Self { name, ..Self::default() }
+    fn new(name: &'static str, check: Option<Check>) -> Self {
+        Self { name, check, ..Self::default() }
     }
 
     fn count(&mut self, judged: &Judged) {
@@ -116,6 +122,7 @@ impl Row {
         self.unscored_wrong += judged.unscored_wrong;
         self.refused += judged.refused;
         self.values += judged.finding.values;
+        self.wrong_values += judged.wrong_values;
         self.worst = self.worst.max(judged.finding.worst());
         self.deaths += judged.died.len() as u64;
         self.add_sides(judged.right.map(|right| Sides::of(right, judged.is_wrong())));
@@ -141,6 +148,7 @@ impl AddAssign<&Row> for Row {
         self.unscored_wrong += other.unscored_wrong;
         self.refused += other.refused;
         self.values += other.values;
+        self.wrong_values += other.wrong_values;
         self.worst = self.worst.max(other.worst);
         self.deaths += other.deaths;
         self.stopped |= other.stopped;
@@ -199,9 +207,9 @@ pub struct Found {
 }
 
 impl Found {
-    fn row(&mut self, name: &'static str) -> &mut Row {
+    fn row(&mut self, name: &'static str, check: Option<Check>) -> &mut Row {
         let at = self.rows.iter().position(|row| row.name == name).unwrap_or_else(|| {
-            self.rows.push(Row::new(name));
+            self.rows.push(Row::new(name, check));
             self.rows.len() - 1
         });
         &mut self.rows[at]
@@ -213,8 +221,8 @@ impl Found {
         let is_explained = |row: &Row| {
             row.recognised_pixels > 0 && row.recognised.total() == 0 && row.unscored == 0
         };
-        let is_wrong = |row: &&Row| match row.name {
-            "values" => row.worst > 1.0,
+        let is_wrong = |row: &&Row| match row.check {
+            Some(Check::Values) => row.worst > 1.0,
             _ => row.tally.total() > 0 && !is_explained(row),
         };
         checks_of(self.rows.iter().filter(is_wrong))
@@ -222,7 +230,7 @@ impl Found {
 
     fn merge(&mut self, other: Self) {
         for row in &other.rows {
-            *self.row(row.name) += row;
+            *self.row(row.name, row.check) += row;
         }
         self.failing.extend(other.failing);
         self.described.extend(other.described);
@@ -238,20 +246,8 @@ impl Found {
 
 /// The checks that these rows count and of which a cause can be found, each once.
 pub(super) fn checks_of<'a>(rows: impl Iterator<Item = &'a Row>) -> Vec<Check> {
-    let families = adapt_case::families(&[]);
-    let check = |row: &Row| match row.name {
-        "values" => Some(Check::Values),
-        "samples4" => Some(Check::Samples),
-        "depth-order" | "depth-near-tie" => Some(Check::Depth),
-        "near-plane" => Some(Check::Near),
-        "clip-attributes" => Some(Check::Carried),
-        name => families
-            .iter()
-            .find(|family| family.name == name)
-            .map(|family| if adapt_case::is_lines(family) { Check::Line } else { Check::Coverage }),
-    };
     let mut checks = Vec::new();
-    for check in rows.filter_map(check) {
+    for check in rows.filter_map(|row| row.check).filter(|check| !check.compares_answers()) {
         if !checks.contains(&check) {
             checks.push(check);
         }
@@ -365,7 +361,7 @@ pub fn run(
     whole.seconds = shared.start.elapsed().as_secs_f64();
     for (family, deaths) in shared.families.iter().cycle().zip(&shared.deaths) {
         if deaths.load(Ordering::Relaxed) >= MOST_DEATHS {
-            whole.row(family.name).stopped = true;
+            whole.row(family.name, None).stopped = true;
         }
     }
     whole
@@ -478,7 +474,7 @@ fn note(
 ) {
     let property = check.name(family.name);
     found.answered += judged.answered;
-    found.row(property).count(judged);
+    found.row(property, Some(check)).count(judged);
     if remember {
         found.judged.push((property, family.name, index));
     }

@@ -1,7 +1,10 @@
 //! What came of it: one property after the other, passed or failed.
 
+use std::time::Duration;
+
 use super::Options;
 use super::adapt_case;
+use super::check::{Check, Counted};
 use super::declared::Declared;
 use super::failures::Failure;
 use super::recognise::{Said, Why};
@@ -68,21 +71,36 @@ pub struct Score {
     pub unscored: u64,
 }
 
+/// How much of one kind of thing is wrong; its pixels are values, samples or corners where these are what is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
+    pub what: Counted,
+    pub score: Score,
+}
+
 /// Wrong pixels per million expected; cases where nothing is expected count as one pixel.
 pub fn per_million(wrong: u64, pixels: u64) -> f64 {
     1e6 * wrong as f64 / pixels.max(1) as f64
 }
 
 /// What the checks over all families say.
-const CHECKS: [(&str, &str); 7] = [
-    ("watertight", "meshes have no holes and no pixels drawn by two triangles"),
-    ("vertex-order", "the order of the vertices does not change the picture"),
-    ("values", "values lie within the tolerance of the exact ones"),
-    ("samples4", "four samples a pixel are covered as the oracle says"),
-    ("clip-attributes", "corners that the near plane makes have the attributes of their place"),
-    ("line-direction", "a line drawn backwards lights the same pixels"),
-    ("fill-and-outline", "the fill of a triangle is what its outline encloses"),
+const CHECKS: [(Check, &str); 7] = [
+    (Check::Watertight, "meshes have no holes and no pixels drawn by two triangles"),
+    (Check::Order, "the order of the vertices does not change the picture"),
+    (Check::Values, "values lie within the tolerance of the exact ones"),
+    (Check::Samples, "four samples a pixel are covered as the oracle says"),
+    (Check::Carried, "corners that the near plane makes have the attributes of their place"),
+    (Check::Direction, "a line drawn backwards lights the same pixels"),
+    (Check::Outline, "the fill of a triangle is what its outline encloses"),
 ];
+
+/// What is said where the time was up before anything was judged.
+pub(super) fn nothing_within(limit: Duration) -> String {
+    let seconds = limit.as_secs_f64();
+    format!(
+        "nothing was judged within --seconds {seconds}: the answers take too long; allow more seconds"
+    )
+}
 
 /// The verdict on a program, from everything that was found.
 pub fn verdict(
@@ -95,7 +113,8 @@ pub fn verdict(
     let rank = |row: &Row| {
         let family = families.iter().position(|f| f.name == row.name);
         family.unwrap_or_else(|| {
-            families.len() + CHECKS.iter().position(|(name, _)| *name == row.name).unwrap_or(0)
+            let place = CHECKS.iter().position(|(check, _)| row.check == Some(*check));
+            families.len() + place.unwrap_or(0)
         })
     };
     let mut rows = std::mem::take(&mut of.found.rows);
@@ -132,7 +151,7 @@ fn properties(of: &Particulars, rows: &[Row]) -> Vec<Property> {
     for row in rows {
         let about = match &of.against {
             Some(_) => format!("both answer the same: {}", row.name),
-            None => about(row.name),
+            None => about(row),
         };
         all.push(property(row.name, &about, row.wrong_cases == 0, sentence(row)));
     }
@@ -186,10 +205,7 @@ pub trait Scores {
         let is_empty = families.is_empty();
         let limit = options.time_limit.filter(|_| more.found.out_of_time);
         match limit {
-            Some(limit) if is_empty || is_blank => Some(format!(
-                "nothing was judged within --seconds {}: the answers take too long; allow more seconds",
-                limit.as_secs_f64()
-            )),
+            Some(limit) if is_empty || is_blank => Some(nothing_within(limit)),
             _ if is_empty => Some(
                 "no case was judged: the program does not draw what these families hold".to_owned(),
             ),
@@ -203,16 +219,37 @@ pub trait Scores {
 
     /// Triangles or lines that were judged against an expected picture.
     fn shapes(&self, lines: bool) -> u64 {
-        let is_lines = |row: &&Row| row.name.starts_with("line-") == lines;
+        let is_lines = |row: &&Row| (row.check == Some(Check::Line)) == lines;
         self.pictures().filter(is_lines).map(|row| row.shapes).sum()
     }
 
     /// Rows that compare with an expected picture; not those that compare answers.
     fn pictures(&self) -> impl Iterator<Item = &Row> {
-        let compares = |name: &str| {
-            ["watertight", "vertex-order", "line-direction", "fill-and-outline"].contains(&name)
+        let rows = self.verdict().families.iter();
+        rows.filter(|row| !row.check.is_some_and(Check::compares_answers))
+    }
+
+    /// What is wrong as declared, each kind of thing that was judged in its own words.
+    #[must_use]
+    fn counts(&self) -> Vec<Count> {
+        let mut counts: Vec<Count> = Vec::new();
+        let mut add = |what: Counted, wrong: u64, pixels: u64| {
+            let at = counts.iter().position(|count| count.what == what).unwrap_or_else(|| {
+                counts.push(Count { what, score: Score::default() });
+                counts.len() - 1
+            });
+            counts[at].score.wrong += wrong;
+            counts[at].score.pixels += pixels;
         };
-        self.verdict().families.iter().filter(move |row| !compares(row.name))
+        for row in &self.verdict().families {
+            let Some(check) = row.check else { continue };
+            add(check.counted(), row.tally.total(), row.pixels);
+            if check == Check::Values {
+                add(Counted::Values, row.wrong_values, row.values);
+            }
+        }
+        counts.sort_by_key(|count| count.what as usize);
+        counts
     }
 
     #[must_use]
@@ -238,10 +275,11 @@ pub trait Scores {
     /// Sums over the rows, those of lines or of triangles alone where that is asked.
     #[must_use]
     fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
-        let is_asked = |row: &&Row| lines.is_none_or(|l| row.name.starts_with("line-") == l);
+        let is_asked = |check: Check| lines.is_none_or(|lines| (check == Check::Line) == lines);
         // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
-        let others = ["samples4", "depth-order", "depth-near-tie", "near-plane", "clip-attributes"];
-        let rows = self.pictures().filter(|row| !others.contains(&row.name)).filter(is_asked);
+        let is_of_pixels = |check: Check| check.counted() == Counted::Pixels && is_asked(check);
+        let rows = self.verdict().families.iter();
+        let rows = rows.filter(|row| row.check.is_some_and(is_of_pixels));
         rows.map(of).fold(Score::default(), |sum, (wrong, pixels, unscored)| Score {
             wrong: sum.wrong + wrong,
             pixels: sum.pixels + pixels,
@@ -256,11 +294,11 @@ impl Scores for Verdict {
     }
 }
 
-fn about(name: &str) -> String {
-    if let Some((_, about)) = CHECKS.iter().find(|(check, _)| *check == name) {
+fn about(row: &Row) -> String {
+    if let Some((_, about)) = CHECKS.iter().find(|(check, _)| row.check == Some(*check)) {
         return (*about).to_owned();
     }
-    let family = adapt_case::families(&[]).into_iter().find(|f| f.name == name);
+    let family = adapt_case::families(&[]).into_iter().find(|f| f.name == row.name);
     family.map_or_else(String::new, |f| format!("as expected: {}", f.about))
 }
 
@@ -270,16 +308,10 @@ pub fn sentence(row: &Row) -> String {
         n if row.sides.is_some() => format!("different in {n} of {} cases", row.cases),
         n => format!("wrong in {n} of {} cases", row.cases),
     };
-    let (missing, twice) =
-        if row.name == "watertight" { ("holes", "drawn by two") } else { ("missing", "twice") };
-    let counts = [
-        (row.tally.missing, missing),
-        (row.tally.extra, "extra"),
-        (row.tally.twice, twice),
-        (row.tally.order, "out of order"),
-        (row.refused, "refused"),
-        (row.deaths, "without an answer"),
-    ];
+    for count in row.check.iter().flat_map(|c| c.describe(&row.tally, row.sides.is_some())) {
+        out += &format!(", {count}");
+    }
+    let counts = [(row.refused, "refused"), (row.deaths, "without an answer")];
     for (n, what) in counts.iter().filter(|(n, _)| *n > 0) {
         out += &format!(", {n} {what}");
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use rasterproof_judge::verdict::{Scores as _, Verdict as Judgement};
+use rasterproof_judge::verdict::{Score, Scores as _, Verdict as Judgement};
 use rasterproof_registry::digest::DigestRow;
 use rasterproof_verify::cases::Kind;
 use rasterproof_verify::comparison::{Verdict, shrink};
@@ -61,7 +61,7 @@ pub fn judgement(
     let d = &verdict.more.declared;
     let failures = verdict.failures.iter().map(|f| {
         json!({
-            "property": f.evidence.property, "family": f.family, "index": f.index, "what": f.what,
+            "property": f.evidence.property, "also": f.evidence.also, "family": f.family, "index": f.index, "what": f.what,
             "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
             "exchanges": f.evidence.exchanges, "repeat": repeat(f.family, f.index),
         })
@@ -73,6 +73,10 @@ pub fn judgement(
             "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
         })
     });
+    let counts = verdict.counts().into_iter().map(|count| {
+        let Score { wrong, pixels, .. } = count.score;
+        json!({ "what": count.what.name(), "wrong": wrong, "of": pixels })
+    });
     let mut all = json!({
         "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
         "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.options.seed,
@@ -80,7 +84,7 @@ pub fn judgement(
         "all_cases": verdict.more.found.of_cases, "out_of_time": verdict.more.found.out_of_time,
         "known_failures": verdict.more.known, "agrees": verdict.agrees(), "windings": verdict.more.windings,
         "recognised": verdict.more.recognised, "score_as_declared": verdict.as_declared(),
-        "score_by_convention": verdict.by_convention(), "answers": verdict.more.found.answered,
+        "score_by_convention": verdict.by_convention(), "counts": counts.collect::<Vec<_>>(), "answers": verdict.more.found.answered,
         "properties": verdict.more.properties, "rows": verdict.families, "failures": failures.collect::<Vec<_>>(),
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.more.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),

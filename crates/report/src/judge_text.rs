@@ -6,13 +6,14 @@ use super::table::{Row, Table};
 use super::words::{of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
-use rasterproof_judge::check::Check;
+use rasterproof_judge::check::{Check, Counted};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_judge::pictured::Pictured;
+use rasterproof_judge::polygons;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{Found, MOST_DEATHS, MOST_DEATHS_IN_ALL, Row as FamilyRow, Sides};
-use rasterproof_judge::verdict::{self, Score, Scores as _, Verdict, per_million};
+use rasterproof_judge::verdict::{self, Count, Score, Scores as _, Verdict, per_million};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::judge::ascii;
 use rasterproof_verify::partition::{self, Polygon};
@@ -140,10 +141,18 @@ pub fn of_polygons(
         let show = |polygon: &Polygon| format!("{:?}", polygon.contours);
         let _ = report.write(&mut grid, &show, repeat);
     }
-    let [polygons, triangles, left_out, wrong] =
-        [sum.polygons, sum.triangles, sum.left_out, sum.wrong].map(thousands);
+    let until = match polygons::is_out_of_time(report) {
+        true => format!(", of {} when the time was up", thousands(polygons::of_polygons(report))),
+        false => String::new(),
+    };
+    let found = match agrees {
+        true => "all are covered exactly once".to_owned(),
+        false => sum.describe(""),
+    };
+    let [polygons, triangles, left_out] =
+        [sum.polygons, sum.triangles, sum.left_out].map(thousands);
     let sentence = format!(
-        "{polygons} polygons, {triangles} triangles, {left_out} polygons not taken; {wrong} are not covered exactly once"
+        "{polygons} polygons, {triangles} triangles, {left_out} polygons not taken{until}; {found}"
     );
     Report {
         about,
@@ -210,22 +219,41 @@ fn dangers(verdict: &Verdict) -> Table {
     summary::judged("", out)
 }
 
-/// The score, with the wrong pixels of the shapes that it leaves out.
-fn score(of: Score, left_out_wrong: u64) -> String {
+/// A score in the words of what it counts.
+fn score(what: Counted, of: Score) -> String {
     let share = per_million(of.wrong, of.pixels);
+    format!("{} {}, {share:.0} in a million", of.wrong, what.name())
+}
+
+/// The score by a convention, with the wrong pixels of the shapes that it leaves out.
+fn score_by_convention(of: Score, left_out_wrong: u64) -> String {
     let unscored = match of.unscored {
         0 => String::new(),
         n => format!(
             "; {n} triangles or lines of which it says nothing are left out, with {left_out_wrong} wrong pixels as declared"
         ),
     };
-    format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
+    score(Counted::Pixels, of) + &unscored
+}
+
+/// What is wrong as declared: of pixels always, if any were judged; of other things where they are wrong, or nothing else was judged.
+/// What answers have between each other comes of the same faults, and has no score.
+fn as_declared(verdict: &Verdict) -> Vec<Count> {
+    let counts = verdict.counts();
+    let is_by_picture =
+        |what| !matches!(what, Counted::Changes | Counted::Meshes | Counted::Outlines);
+    let draws = counts.iter().any(|count| count.what == Counted::Pixels);
+    let is_shown = |count: &Count| match count.what {
+        Counted::Pixels => true,
+        what => is_by_picture(what) && (count.score.wrong > 0 || !draws),
+    };
+    counts.into_iter().filter(is_shown).collect()
 }
 
 fn scores(verdict: &Verdict) -> Table {
     let found = match (&verdict.more.recognised, verdict.by_convention()) {
         (None, _) => "the same: no other one was recognised".to_owned(),
-        (Some(_), Some(found)) => score(found, verdict.left_out_wrong()),
+        (Some(_), Some(found)) => score_by_convention(found, verdict.left_out_wrong()),
         (Some(_), None) => "unexplained, so there is no score".to_owned(),
     };
     let mut notes = Vec::new();
@@ -238,10 +266,17 @@ fn scores(verdict: &Verdict) -> Table {
             notes.push(format!("to be judged by it: --declare '{declare}'{turned}"));
         }
     }
-    let rows = vec![
-        Row::of(&[&"as declared:", &score(verdict.as_declared(), 0)]),
-        Row::of(&[&"by its convention:", &found]),
-    ];
+    let counts = as_declared(verdict);
+    let draws = counts.iter().any(|count| count.what == Counted::Pixels);
+    let titles = ["as declared:"].into_iter().chain(std::iter::repeat(""));
+    let mut rows: Vec<Row> = titles
+        .zip(counts)
+        .map(|(title, Count { what, score: of })| Row::of(&[&title, &score(what, of)]))
+        .collect();
+    // A convention is one of pixels.
+    if draws || verdict.more.recognised.is_some() {
+        rows.push(Row::of(&[&"by its convention:", &found]));
+    }
     Table::new("", "~score 22 | ~found 1", rows).noted(notes)
 }
 
@@ -264,6 +299,18 @@ fn families(verdict: &Verdict) -> Table {
     let mut notes = vec![
         "wrong: share of the cases with anything wrong; of meshes, missing are holes".to_owned(),
     ];
+    let judged =
+        |what| verdict.families.iter().any(|r| r.check.is_some_and(|c| c.counted() == what));
+    let others = [
+        (Counted::Samples, "of four samples, samples are counted"),
+        (Counted::Corners, "of the near plane, corners; order are polygons that run the other way"),
+        (Counted::Seen, "of depth, order are pixels that show what lies behind"),
+    ];
+    let others: Vec<&str> =
+        others.into_iter().filter_map(|(what, note)| judged(what).then_some(note)).collect();
+    if !others.is_empty() {
+        notes.push(others.join("; "));
+    }
     let tolerance = verdict.more.declared.tolerance;
     for FamilyRow { name, values, worst, .. } in verdict.families.iter().filter(|r| r.values > 0) {
         let worst = of_bound(*worst).replace("bound", "tolerance");
@@ -291,7 +338,10 @@ pub(super) fn excerpts(
     let drawn_by =
         names.as_ref().map_or(vec!["judged"], |names| names.each_ref().map(|name| &**name).into());
     let broken = if is_asked("protocol") { incidents(verdict, repeat) } else { Vec::new() };
-    let failures = verdict.failures.iter().filter(|f| is_asked(f.evidence.property));
+    let failures = verdict
+        .failures
+        .iter()
+        .filter(|f| property.is_none_or(|property| f.evidence.shows(property)));
     let failures = failures.map(|f| excerpt(f, &drawn_by, repeat(f.family, f.index)));
     broken.into_iter().chain(failures).collect()
 }
@@ -344,6 +394,7 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
     if more > 0 {
         notes.push(format!("and {more} requests more"));
     }
+    notes.extend(also(&failure.evidence).map(|also| format!("({also})")));
     let picture = failure.evidence.picture.as_ref();
     if let Some(of) = picture.map(|picture| &picture.of).filter(|of| !of.is_empty()) {
         notes.push(format!("({of})"));
@@ -354,6 +405,16 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
         grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
         notes,
         places: Vec::from_iter((!command.is_empty()).then_some(("repeat with", command))),
+    }
+}
+
+/// The other families or checks whose smallest case shows the same.
+fn also(evidence: &Exchanged) -> Option<String> {
+    let also = &evidence.also;
+    match also.len() {
+        0 => None,
+        1 => Some(format!("the same in {}", also[0])),
+        n => Some(format!("the same in {n} others: {}", also.join(", "))),
     }
 }
 
@@ -408,8 +469,26 @@ fn by_share(verdict: &Verdict) -> Vec<&FamilyRow> {
     rows
 }
 
+/// What is wrong, in counts, behind a comma; that nothing is, is said where all properties hold.
+fn wrong(verdict: &Verdict) -> String {
+    let counts = verdict.counts();
+    let of_pictures = as_declared(verdict);
+    let (is_right, is_clean) =
+        (verdict.agrees(), of_pictures.iter().all(|count| count.score.wrong == 0));
+    let counts = if is_clean && !is_right { counts } else { of_pictures };
+    let mut said: Vec<String> = counts
+        .iter()
+        .filter(|count| count.score.wrong > 0 || is_right && is_clean)
+        .map(|count| format!(", {} {}", count.score.wrong, count.what.name()))
+        .collect();
+    let sum = |of: fn(&FamilyRow) -> u64| verdict.families.iter().map(of).sum::<u64>();
+    let unanswered = [(sum(|r| r.refused), "refused"), (sum(|r| r.deaths), "without an answer")];
+    let unanswered = unanswered.iter().filter(|(n, _)| *n > 0);
+    said.extend(unanswered.map(|(n, what)| format!(", {n} requests {what}")));
+    said.concat()
+}
+
 fn closing(verdict: &Verdict) -> String {
-    let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
         verdict.more.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
     let Found { cases, of_cases, out_of_time, .. } = verdict.more.found;
@@ -418,7 +497,8 @@ fn closing(verdict: &Verdict) -> String {
         false => String::new(),
     };
     let [triangles, lines] = [false, true].map(|lines| verdict.shapes(lines));
-    let what = format!("{triangles} triangles and {lines} lines, {wrong} wrong pixels{until}");
+    let wrong = wrong(verdict);
+    let what = format!("{triangles} triangles and {lines} lines{wrong}{until}");
     let known =
         verdict.more.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
     let known = match known.count() {
@@ -443,7 +523,8 @@ fn views(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<page_ca
         let Failure { family, index, evidence, .. } = f;
         let Exchanged { property, shrunk, picture, check, .. } = evidence;
         let name = format!("{family}#{index}");
-        let about = format!("{property}: found in {family} #{index}, {shrunk}");
+        let also = also(evidence).map_or(String::new(), |also| format!("; {also}"));
+        let about = format!("{property}: found in {family} #{index}, {shrunk}{also}");
         let mut view = page_cases::of_program(name, about, &f.case, &programs, picture.as_ref());
         view.found.clone_from(&f.what);
         view.command = repeat(family, *index);
@@ -465,7 +546,7 @@ fn properties(verdict: &Verdict) -> Table {
     let row = |p: &verdict::Property| {
         let is_good = p.outcome.is_good();
         let word = if is_good { "holds" } else { "fails" };
-        let has_case = verdict.failures.iter().any(|f| f.evidence.property == p.name);
+        let has_case = verdict.failures.iter().any(|f| f.evidence.shows(p.name));
         let row = Row::of(&[&p.name, &word, &p.about, &p.detail]).marked(is_good);
         Row { search: has_case.then(|| p.name.to_owned()), ..row }
     };

@@ -241,8 +241,11 @@ pub(crate) fn in_blocks<P: Send, F: Sync, T: Sync>(
     let start = Instant::now();
     let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
     let mut found: Vec<Option<P>> = (0..families).map(|_| None).collect();
-    // With a time limit, families advance together, a few blocks at a time.
-    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
+    // With a time limit, families advance together, one case at first, and a few blocks at a time in the end.
+    let (mut round, most) = match options.time_limit {
+        Some(_) => (1, BLOCK * 8),
+        None => (MOST_PER_ROUND, MOST_PER_ROUND),
+    };
     let all = options.numbers();
     let Shard { part, parts } = options.shard;
     let mut done = all.start;
@@ -260,6 +263,7 @@ pub(crate) fn in_blocks<P: Send, F: Sync, T: Sync>(
             *slot = slot.take().into_iter().chain(blocks).reduce(merge);
         }
         done = end;
+        round = most.min(2 * round);
     }
     found.into_iter().flatten().collect()
 }

@@ -296,6 +296,22 @@ rasterproof_core::named! {
     }
 }
 
+impl FaultKind {
+    /// What is said of polygons by their gravest fault.
+    pub(crate) fn says(self) -> &'static str {
+        match self {
+            Self::Panicked => "make it panic",
+            Self::Refused => "are refused or not answered",
+            Self::NotFinite | Self::Overlap | Self::Gap | Self::Outside => {
+                "are not covered exactly once"
+            }
+            Self::Flipped => "have triangles that turn the other way",
+            Self::TJunction => "have T-junctions",
+            Self::Degenerate => "have triangles without area",
+        }
+    }
+}
+
 /// One thing that is wrong with the triangles of a polygon.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

@@ -1,8 +1,10 @@
 //! A tessellator judged over the families, and what is said about it.
 
+use std::cell::RefCell;
 use std::error::Error;
 use std::fmt;
 use std::slice;
+use std::time::Instant;
 
 use super::cause::{self, Made};
 use super::families::is_as_generated;
@@ -34,7 +36,9 @@ pub struct Polygons {
     pub wrong: u64,
     /// Polygons with a fault of each kind, in the order of [`FaultKind::ALL`].
     pub faults: [u64; FaultKind::ALL.len()],
-    /// The same of what is allowed.
+    /// Polygons by the gravest of their faults, so that each is counted once.
+    pub gravest: [u64; FaultKind::ALL.len()],
+    /// The faults of what is allowed, as [`Polygons::faults`].
     pub allowed: [u64; FaultKind::ALL.len()],
     /// Corners of triangles that are no vertices.
     pub added_points: u64,
@@ -43,7 +47,7 @@ pub struct Polygons {
 impl Polygons {
     fn new(family: Family) -> Self {
         let none = [0; FaultKind::ALL.len()];
-        let (faults, allowed) = (none, none);
+        let (faults, gravest, allowed) = (none, none, none);
         Self {
             family,
             polygons: 0,
@@ -51,6 +55,7 @@ impl Polygons {
             triangles: 0,
             wrong: 0,
             faults,
+            gravest,
             allowed,
             added_points: 0,
         }
@@ -61,6 +66,10 @@ impl Polygons {
         self.triangles += triangles as u64;
         self.wrong += u64::from(!finding.faults.is_empty());
         self.added_points += finding.added_points as u64;
+        let gravest = finding.faults.iter().map(|fault| fault.kind).min();
+        for (count, kind) in self.gravest.iter_mut().zip(FaultKind::ALL) {
+            *count += u64::from(gravest == Some(kind));
+        }
         let counts = [(&mut self.faults, &finding.faults), (&mut self.allowed, &finding.allowed)];
         for (counts, faults) in counts {
             for (count, kind) in counts.iter_mut().zip(FaultKind::ALL) {
@@ -79,7 +88,34 @@ impl Polygons {
             sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
         };
         add(&mut self.faults, &other.faults);
+        add(&mut self.gravest, &other.gravest);
         add(&mut self.allowed, &other.allowed);
+    }
+
+    /// What is wrong with how many polygons, each counted by its gravest fault; `of` follows the first number.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn describe(&self, of: &str) -> String {
+        let mut said: Vec<(&str, u64)> = Vec::new();
+        for (kind, &count) in FaultKind::ALL.into_iter().zip(&self.gravest) {
+            let what = kind.says();
+            match said.last_mut() {
+                Some((last, sum)) if *last == what => *sum += count,
+                _ => said.push((what, count)),
+            }
+        }
+        said.retain(|(_, count)| *count > 0);
+        let mut parts: Vec<String> = Vec::new();
+        for (what, count) in &said {
+            let of = if parts.is_empty() { of } else { " more" };
+            parts.push(format!("{count}{of} {what}"));
+        }
+        // No triangles and wrong triangles come before what is wrong although each point is covered once.
+        let covered = [FaultKind::Flipped, FaultKind::TJunction, FaultKind::Degenerate];
+        if said.iter().all(|(what, _)| covered.iter().any(|kind| kind.says() == *what)) {
+            parts.push("and all are covered exactly once".to_owned());
+        }
+        parts.join(", ")
     }
 }
 
@@ -158,7 +194,7 @@ impl Verdict {
     ) -> fmt::Result {
         let Self { options, families, failures, cause, .. } = self;
         let sum = self.sum();
-        writeln!(f, "{} of {} polygons are not covered exactly once", sum.wrong, sum.polygons)?;
+        writeln!(f, "{}", sum.describe(&format!(" of {} polygons", sum.polygons)))?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
         if sum.left_out > 0 {
             writeln!(f, "  not judged, as the tessellator does not accept them: {}", sum.left_out)?;
@@ -259,7 +295,7 @@ pub fn judge_partitions_of(
     judge(&|polygons| answer(polygons).into_iter().map(fault).collect(), options)
 }
 
-/// What is made of a polygon, if it is taken.
+/// What is made of a polygon, if it is taken. Fewer answers than polygons are those of whose time is up.
 type Answer<E> = Option<Result<Vec<Triangle>, E>>;
 type Answered<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Refused>> + Sync + 'a;
 type Asked<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Fault>> + Sync + 'a;
@@ -285,23 +321,36 @@ fn ask(
 fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudged> {
     options.check()?;
     let wanted = wanted(options);
-    let block =
-        |family: usize, numbers: &[u64]| judge_block(tessellator, options, wanted[family], numbers);
-    let parts = judge::in_blocks(wanted.len(), options, &|_| (), &block, Part::merge);
-    let sum = |kind: usize| {
-        let of_kind = |part: &Part| Some((part.smallest[kind]?, part.polygons.family));
-        parts.iter().filter_map(of_kind).min_by_key(|((vertices, _), _)| *vertices)
+    let start = Instant::now();
+    let block = |family: usize, numbers: &[u64]| {
+        // Of a slow tessellator the first block of all families takes long.
+        let is_late = options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
+        let numbers = if is_late { &[] } else { numbers };
+        judge_block(tessellator, options, wanted[family], numbers)
     };
-    let failing: Vec<_> = (0..FaultKind::ALL.len())
-        .filter_map(|kind| sum(kind).map(|found| (FaultKind::ALL[kind], found)))
-        .collect();
-    let families: Vec<Polygons> = parts.into_iter().map(|part| part.polygons).collect();
+    let parts = judge::in_blocks(wanted.len(), options, &|_| (), &block, Part::merge);
+    let (families, found): (Vec<Polygons>, Vec<_>) =
+        parts.into_iter().map(|part| (part.polygons, part.smallest)).unzip();
+    let mut failing: Vec<(FaultKind, Family, Failing)> = Vec::new();
+    for (family, smallest) in families.iter().zip(found) {
+        for (kind, found) in FaultKind::ALL.into_iter().zip(smallest) {
+            let Some(found) = found else { continue };
+            match failing.iter_mut().find(|(known, ..)| *known == kind) {
+                None => failing.push((kind, family.family, found)),
+                Some(best) if found.vertices < best.2.vertices => {
+                    (best.1, best.2) = (family.family, found);
+                }
+                Some(_) => {}
+            }
+        }
+    }
+    failing.sort_by_key(|(kind, ..)| *kind);
     if families.iter().all(|family| family.polygons == 0) {
         return Err(NothingJudged::NoneAccepted);
     }
     let failures = parallel::map(failing.len(), |number| {
-        let (kind, ((_, index), family)) = failing[number];
-        smallest(tessellator, options, kind, family, index)
+        let (kind, family, found) = &failing[number];
+        smallest(tessellator, options, *kind, *family, found)
     });
     let cause = match failures.is_empty() {
         true => None,
@@ -338,15 +387,23 @@ const OF_A_FAMILY: u64 = 40;
 /// What some polygons of a family came to.
 struct Part {
     polygons: Polygons,
-    /// Of each kind of fault the polygon with the fewest vertices: how many, and its number.
-    smallest: [Option<(usize, u64)>; FaultKind::ALL.len()],
+    /// Of each kind of fault the polygon with the fewest vertices.
+    smallest: [Option<Failing>; FaultKind::ALL.len()],
+}
+
+/// A polygon with a fault, as it was generated, and what became of it.
+struct Failing {
+    vertices: usize,
+    index: u64,
+    triangles: Vec<Triangle>,
+    faults: Faults,
 }
 
 impl Part {
     fn merge(mut self, other: Self) -> Self {
         self.polygons.add(&other.polygons);
         for (best, found) in self.smallest.iter_mut().zip(other.smallest) {
-            *best = best.take().into_iter().chain(found).min_by_key(|(vertices, _)| *vertices);
+            *best = best.take().into_iter().chain(found).min_by_key(|failing| failing.vertices);
         }
         self
     }
@@ -365,8 +422,9 @@ fn judge_block(tessellator: &Asked, options: &Options, family: Family, numbers: 
         part.polygons.count(&faults, triangles.len());
         let vertices = polygon.contours.iter().map(Vec::len).sum();
         for (best, kind) in part.smallest.iter_mut().zip(FaultKind::ALL) {
-            if faults.has(kind) && best.is_none_or(|best| vertices < best.0) {
-                *best = Some((vertices, index));
+            if faults.has(kind) && best.as_ref().is_none_or(|best| vertices < best.vertices) {
+                let (triangles, faults) = (triangles.clone(), faults.clone());
+                *best = Some(Failing { vertices, index, triangles, faults });
             }
         }
     }
@@ -378,16 +436,22 @@ fn smallest(
     options: &Options,
     kind: FaultKind,
     family: Family,
-    index: u64,
+    found: &Failing,
 ) -> Failure {
     let (seed, coordinates) = (options.seed, options.terms.coordinates);
-    let one =
-        |polygon: &Polygon| ask(tessellator, slice::from_ref(polygon), options).pop().flatten();
+    let index = found.index;
+    // What became of the smallest polygon so far: once the time is up, nobody answers.
+    let last = RefCell::new((found.triangles.clone(), found.faults.clone()));
     let fails = |polygon: &Polygon| {
-        is_as_generated(polygon, family) && one(polygon).is_some_and(|(_, faults)| faults.has(kind))
+        let asked = || ask(tessellator, slice::from_ref(polygon), options).pop().flatten();
+        let made = is_as_generated(polygon, family).then(asked).flatten();
+        let made = made.filter(|(_, faults)| faults.has(kind));
+        let fails = made.is_some();
+        made.into_iter().for_each(|made| *last.borrow_mut() = made);
+        fails
     };
     let case = shrink(family.polygon(seed, index, coordinates), coordinates, &fails);
-    let (triangles, faults) = one(&case).unwrap_or_default();
+    let (triangles, faults) = last.into_inner();
     let (family, what) = (family.name(), faults.to_string());
     Failure { family, index, seed, what, case, evidence: Triangulated { kind, triangles, faults } }
 }

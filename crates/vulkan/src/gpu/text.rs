@@ -91,11 +91,7 @@ pub fn report(
             format!("{}: {}", f.rule.section, f.rule.says),
         ],
         mark: if f.class.is_good() { Mark::Plain } else { Mark::Wrong },
-        search: verdict
-            .failures
-            .iter()
-            .any(|x| x.evidence.property == f.name)
-            .then(|| f.name.clone()),
+        search: verdict.failures.iter().any(|x| x.evidence.shows(&f.name)).then(|| f.name.clone()),
         ..Row::default()
     };
     let mut notes = Vec::new();
