@@ -128,6 +128,11 @@ impl Answer {
         }
     }
 
+    /// Whether another answer to the same question says the same, also where it holds what is not a number.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self == other || format!("{self:?}") == format!("{other:?}")
+    }
+
     /// Whether the program had to be started again.
     #[must_use]
     pub fn is_death(&self) -> bool {
