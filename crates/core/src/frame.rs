@@ -194,10 +194,14 @@ impl<T: Copy> Frame<T> {
 /// Holds columns `x0_px..x1_px` of row `y_px` to a window.
 ///
 /// # Panics
-/// If they lie outside.
+/// If they lie outside, or the end lies before the beginning.
 #[doc(hidden)]
 #[inline]
 pub fn assert_inside(window: PixelRect, y_px: i32, x0_px: i32, x1_px: i32) {
+    assert!(
+        x0_px <= x1_px,
+        "the span of row {y_px} begins at column {x0_px} and ends before it, at column {x1_px}"
+    );
     assert!(
         (window.y0..window.y1).contains(&y_px) && x0_px >= window.x0 && x1_px <= window.x1,
         "pixels {x0_px}..{x1_px} of row {y_px} lie outside the window"
@@ -208,7 +212,7 @@ impl Coverage {
     /// Counts one hit more for each of the columns `x0_px..x1_px` of row `y_px`.
     ///
     /// # Panics
-    /// If they lie outside the frame: an engine that leaves its bounds is caught here.
+    /// If they lie outside the frame, or the end lies before the beginning: an engine that leaves its bounds is caught here.
     #[inline]
     pub fn hit(&mut self, y_px: i32, x0_px: i32, x1_px: i32) {
         assert_inside(self.bounds, y_px, x0_px, x1_px);
@@ -290,5 +294,14 @@ mod tests {
     #[should_panic(expected = "outside the window")]
     fn a_hit_outside_is_caught() {
         Coverage::new(PixelRect::window(4, 4), 0).hit(1, 2, 5);
+    }
+
+    /// Both ends lie in the window.
+    #[test]
+    #[should_panic(
+        expected = "the span of row 1 begins at column 3 and ends before it, at column 2"
+    )]
+    fn a_span_that_ends_before_it_begins_is_caught() {
+        Coverage::new(PixelRect::window(4, 4), 0).hit(1, 3, 2);
     }
 }

@@ -125,9 +125,14 @@ pub fn compare(
     let mut found = run::run(&mut askers, limited, &truth, &|cases| progress(Step::Judged(cases)));
     progress(Step::Smaller);
     let pair = &mut pairs[0];
-    let failures = failures::failures(&mut Timed::new(pair, end), &found, limited, &truth);
-    progress(Step::Cause);
-    let causes = causes(pair, &found, limited, &truth, end);
+    let (failures, causes) = if found.changing.is_empty() {
+        let failures = failures::failures(&mut Timed::new(pair, end), &found, limited, &truth);
+        progress(Step::Cause);
+        (failures, causes(pair, &found, limited, &truth, end))
+    } else {
+        // What is said of one answer is not true of the next: then nothing is shrunk or explained.
+        (failures::changing(&found, limited, &truth), Vec::new())
+    };
     found.strays.extend(pair.strays());
     pair.end_at(None);
     let [declared, second] = both;

@@ -101,6 +101,19 @@ impl Answer {
         }
     }
 
+    /// The first run that ends before it begins.
+    pub(super) fn backward_run(&self) -> Option<Span> {
+        let is_backward = |run: &Span| run.x1_px < run.x0_px;
+        match self {
+            Self::Coverage(runs) => runs.iter().copied().find(is_backward),
+            Self::Samples(runs) | Self::Seen(runs) => {
+                runs.iter().map(|(run, _)| *run).find(is_backward)
+            }
+            Self::Two(both) => both.iter().find_map(Self::backward_run),
+            _ => None,
+        }
+    }
+
     /// Whether nothing is in it: no pixel, no corner.
     pub(super) fn is_blank(&self) -> bool {
         match self {
@@ -113,6 +126,11 @@ impl Answer {
             Self::Two(both) => both.iter().all(Self::is_blank),
             Self::Refused(_) | Self::Died(_) => true,
         }
+    }
+
+    /// Whether another answer to the same question says the same, also where it holds what is not a number.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self == other || format!("{self:?}") == format!("{other:?}")
     }
 
     /// Whether the program had to be started again.
@@ -282,7 +300,7 @@ impl Question {
     ///
     /// # Errors
     /// A letter that does not belong to the question, a number that cannot be read, a count that is
-    /// not that of what follows, a run that ends before it begins.
+    /// not that of what follows. A run that ends before it begins is read, and judged like a pixel outside the window.
     pub fn read(&self, letter: u8, words: &mut Words<'_>) -> Result<Answer, &'static str> {
         if letter == b'E' {
             return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
@@ -323,14 +341,13 @@ fn each<T>(
         if words.is_empty() {
             return Err("less follows than it counts");
         }
-        items.push(item(words).ok_or("a number cannot be read, or a run ends before it begins")?);
+        items.push(item(words).ok_or("a number cannot be read")?);
     }
     Ok(items)
 }
 
 fn span(words: &mut Words<'_>) -> Option<Span> {
-    let span = Span { y_px: words.int()?, x0_px: words.int()?, x1_px: words.int()? };
-    (span.x0_px <= span.x1_px).then_some(span)
+    Some(Span { y_px: words.int()?, x0_px: words.int()?, x1_px: words.int()? })
 }
 
 /// A run, and the mask or the triangle of its pixels.

@@ -104,6 +104,11 @@ impl Judged {
         if self.refused > 0 {
             parts.push(format!("{} refused ({})", self.refused, self.reason));
         }
+        if let Some(Span { y_px, x0_px, x1_px }) = self.backward {
+            parts.push(format!(
+                "the run of row {y_px} begins at column {x0_px} and ends before it, at column {x1_px}"
+            ));
+        }
         parts.extend(self.died.iter().map(|(_, m)| m.to_string()));
         if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
     }
@@ -329,7 +334,8 @@ impl Check {
     /// What happened instead of answers, where some of them are missing.
     #[must_use]
     pub fn judge_deaths(answers: &[Answer]) -> Judged {
-        let mut judged = Judged { mark: 0xcbf2_9ce4_8422_2325, ..Judged::default() };
+        let backward = answers.iter().find_map(Answer::backward_run);
+        let mut judged = Judged { mark: 0xcbf2_9ce4_8422_2325, backward, ..Judged::default() };
         for (i, answer) in answers.iter().enumerate() {
             match answer {
                 Answer::Died(misbehaviour) => judged.died.push((i, misbehaviour.clone())),

@@ -7,14 +7,15 @@ use super::Options;
 use super::adapt_case;
 use super::ask::{Answer, Breach, Misbehaviour, Question, Subject, show};
 use super::check::{Check, Truth, expected_answer};
+use super::difference;
 use super::judged::Judged;
 use super::pictured::{Pictured, pictured};
-use super::run::{Failing, Found, MOST_DEATHS, Row};
+use super::run::{Changing, Failing, Found, MOST_DEATHS, Row};
 use super::shrink::smaller;
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::{Case, Shape, Triangle};
-use rasterproof_verify::comparison::area2;
 use rasterproof_verify::judge::ascii;
 
 /// A failing case with the requests of the smallest one, and their answers.
@@ -32,6 +33,8 @@ pub struct Exchanged {
     pub exchanges: Vec<Exchange>,
     /// All its answers as one picture, and the one expected, where there are both.
     pub picture: Option<Pictured>,
+    /// Whether the answers changed when it was asked a second time. These stand where those of a second program do.
+    pub changes: bool,
 }
 
 /// A request, its answer, and the answer that was expected; as lines of the protocol.
@@ -39,7 +42,7 @@ pub struct Exchanged {
 pub struct Exchange {
     pub request: String,
     pub answer: String,
-    /// What the other of two compared programs answered, or nothing.
+    /// What the other of two compared programs answered, or the same program the second time; or nothing.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub other: String,
     /// What was expected instead, or nothing.
@@ -100,6 +103,61 @@ pub fn failures(
     let is_same = |f: &Failure| f.evidence.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
     shown.sort_by_key(is_same);
     shown
+}
+
+/// The first case of each property whose answers change, as it was asked: what was shrunk would answer otherwise again.
+pub fn changing(found: &Found, options: &Options, truth: &Truth) -> Vec<Failure> {
+    let one = |changing: &Changing| {
+        let Changing { failing, check, questions, answers } = changing;
+        let family = adapt_case::family(failing.family)?;
+        let case = adapt_case::put(family.case(options.seed, failing.index), &truth.declared);
+        // Of two programs that are compared the one whose answers change is shown.
+        let mut answers = answers.clone();
+        let (mut truth, mut who) = (truth, String::new());
+        if let Some(of_two) = &truth.of_two {
+            let [first, again] = answers.each_ref().map(|answers| difference::sides(answers));
+            let is_same = |side: usize| {
+                first[side].iter().zip(&again[side]).all(|(first, again)| first.is_same(again))
+            };
+            let side = usize::from(is_same(0));
+            answers = [&first, &again].map(|sides| sides[side].clone());
+            truth = &of_two[side];
+            who = format!("{}: ", truth.declared.name);
+        }
+        let [first, again] = &answers;
+        let said = |answers: &[Answer]| {
+            judge(*check, &case, answers, questions.len(), truth).describe(*check)
+        };
+        let what = format!("{who}first {}, then {}", said(first), said(again));
+        let mut picture = pictured(*check, &case, first, truth);
+        if let Some(picture) = &mut picture {
+            picture.other = pictured(*check, &case, again, truth).map(|again| again.drawn);
+        }
+        let exchanges = questions.iter().zip(first.iter().zip(again));
+        let exchanges = exchanges.map(|(question, (first, again))| Exchange {
+            request: question.text(1),
+            answer: show(first, 1),
+            other: show(again, 1),
+            expected: expected(*check, question, truth),
+        });
+        let evidence = Exchanged {
+            property: failing.property,
+            also: Vec::new(),
+            check: *check,
+            shrunk: "as it is",
+            exchanges: exchanges.collect(),
+            picture,
+            changes: true,
+        };
+        Some(Failure::new(failing.family, failing.index, options.seed, what, case, evidence))
+    };
+    found.changing.iter().filter_map(one).take(MOST_SHOWN).collect()
+}
+
+/// The answer that was expected, as a line of the protocol; nothing of checks that compare answers with each other.
+fn expected(check: Check, question: &Question, truth: &Truth) -> String {
+    let expected = expected_answer(question, truth).filter(|_| check.is_one_by_one());
+    expected.map_or_else(String::new, |expected| show(&expected, 1))
 }
 
 /// A case that was asked, with what came of it.
@@ -219,10 +277,6 @@ impl Search<'_> {
             true => judged.describe(check),
             false => "wrong at first, right when asked again".to_owned(),
         };
-        let expected = |question: &Question| {
-            let expected = expected_answer(question, truth).filter(|_| check.is_one_by_one());
-            expected.map_or_else(String::new, |expected| show(&expected, 1))
-        };
         let exchanges = questions.iter().zip(&answers).map(|(question, answer)| Exchange {
             request: question.text(1),
             answer: show(answer, 1),
@@ -230,7 +284,7 @@ impl Search<'_> {
                 Answer::Two(both) => show(&both[1], 1),
                 _ => String::new(),
             },
-            expected: expected(question),
+            expected: expected(check, question, truth),
         });
         let evidence = Exchanged {
             property: failing.property,
@@ -239,6 +293,7 @@ impl Search<'_> {
             shrunk,
             exchanges: exchanges.collect(),
             picture: pictured(check, &case, &answers, truth),
+            changes: false,
         };
         Failure::new(failing.family, failing.index, seed, what, case, evidence)
     }
@@ -330,6 +385,107 @@ fn is_on_edge([a, b, c]: Corners, [x, y]: [i32; 2]) -> bool {
         (at.x, at.y) = (x, y);
         let is_between = (from.x.min(to.x)..=from.x.max(to.x)).contains(&x)
             && (from.y.min(to.y)..=from.y.max(to.y)).contains(&y);
-        is_between && area2(&[from, to, at]) == 0
+        is_between && twice_area(&[from, to, at]) == 0
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::against;
+    use crate::declared::Declared;
+    use crate::in_process::Inside;
+    use crate::verdict::{Scores as _, Verdict};
+    use rasterproof_core::triangle::Span;
+    use rasterproof_registry::engines;
+
+    /// An engine whose answers are altered before the judge reads them, by how many there were before.
+    struct Altered {
+        engine: Inside,
+        answered: u64,
+        alter: fn(&mut Answer, u64),
+    }
+
+    impl Subject for Altered {
+        fn declared(&self) -> &Declared {
+            self.engine.declared()
+        }
+
+        fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+            let mut answers = self.engine.ask(questions, most_deaths);
+            for answer in &mut answers {
+                (self.alter)(answer, self.answered);
+                self.answered += 1;
+            }
+            answers
+        }
+    }
+
+    fn altered(alter: fn(&mut Answer, u64)) -> Box<dyn Subject> {
+        let engine = Inside::new(&engines::find("scanline").unwrap());
+        Box::new(Altered { engine, answered: 0, alter })
+    }
+
+    fn options() -> Options {
+        Options::default().cases(40).family("half-integer".to_owned())
+    }
+
+    fn judged(alter: fn(&mut Answer, u64)) -> Verdict {
+        crate::judge(&mut [altered(alter)], &options(), &|_| None, &|_| ())
+    }
+
+    /// It was called nonsense, that a number cannot be read.
+    #[test]
+    fn a_run_that_ends_before_it_begins_is_a_finding() {
+        let verdict = judged(|answer, _| {
+            if let Answer::Coverage(runs) = answer {
+                for run in runs.iter_mut().filter(|run| run.y_px == 2) {
+                    *run = Span { x0_px: run.x1_px, x1_px: run.x0_px, ..*run };
+                }
+            }
+        });
+        assert!(!verdict.agrees() && verdict.more.found.incidents.is_empty());
+        let first = &verdict.failures[0];
+        let said = "the run of row 2 begins at column ";
+        assert!(first.what.contains(said), "{}", first.what);
+        assert!(first.what.contains(" and ends before it, at column "), "{}", first.what);
+        assert!(first.evidence.exchanges[0].request.starts_with("T 1 "));
+    }
+
+    /// Drops the first run of every third answer. There are two or three questions about a case.
+    fn forget(answer: &mut Answer, before: u64) {
+        if let Answer::Coverage(runs) = answer {
+            if before % 5 == 0 && !runs.is_empty() {
+                runs.remove(0);
+            }
+        }
+    }
+
+    #[test]
+    fn answers_that_change_are_shown_and_not_shrunk() {
+        let verdict = judged(forget);
+        assert!(verdict.cause.is_empty() && verdict.more.recognised.is_none());
+        let first = &verdict.failures[0];
+        assert!(first.what.starts_with("first "), "{}", first.what);
+        assert!(first.what.contains(", then "), "{}", first.what);
+        let evidence = &first.evidence;
+        assert!(evidence.changes && evidence.shrunk == "as it is");
+        assert!(evidence.exchanges.iter().any(|exchange| exchange.answer != exchange.other));
+        assert!(verdict.failures.iter().all(|failure| failure.evidence.changes));
+        // Who is wrong in the same way each time is made smaller.
+        let same = judged(|answer, _| forget(answer, 0));
+        assert!(same.failures.iter().all(|failure| !failure.evidence.changes));
+        assert_eq!(same.failures[0].evidence.shrunk, "shrunk");
+    }
+
+    #[test]
+    fn of_two_programs_the_one_that_changes_is_shown() {
+        let right: fn(&mut Answer, u64) = |_, _| ();
+        let mut pairs = [[altered(right), altered(forget)]];
+        let verdict = against::compare(&mut pairs, &options(), &|_| ());
+        let first = &verdict.failures[0];
+        assert!(first.evidence.changes && verdict.cause.is_empty());
+        assert!(first.what.starts_with("scanline: first "), "{}", first.what);
+        assert!(first.evidence.exchanges.iter().any(|e| e.answer != e.other));
+    }
 }

@@ -29,6 +29,8 @@ pub struct Judged {
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
     pub reason: String,
+    /// The first run of the answers that ends before it begins; its pixels count as pixels outside the window.
+    pub backward: Option<Span>,
     /// Where the value is whose error is the largest.
     pub worst_at: Option<(i32, i32)>,
     pub answered: u64,
@@ -43,7 +45,8 @@ pub struct Judged {
 impl Judged {
     #[must_use]
     pub fn is_wrong(&self) -> bool {
-        self.finding.is_wrong() || self.refused > 0 || !self.died.is_empty()
+        let has_no_answer = self.refused > 0 || !self.died.is_empty();
+        self.finding.is_wrong() || self.backward.is_some() || has_no_answer
     }
 
     /// A number that changes when what is wrong changes; not with the last bits of values.

@@ -152,8 +152,14 @@ pub fn judge(
     found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];
     progress(Step::Smaller);
-    let failures = failures::failures(&mut Timed::new(first, end), &found, asked, &truth);
-    let checks = found.unexplained();
+    // What is said of one answer is not true of the next: then nothing is shrunk or explained.
+    let changes = !found.changing.is_empty();
+    let failures = match changes {
+        true => failures::changing(&found, asked, &truth),
+        false => failures::failures(&mut Timed::new(first, end), &found, asked, &truth),
+    };
+    let recognised = recognised.filter(|_| !changes);
+    let checks = if changes { Vec::new() } else { found.unexplained() };
     if !checks.is_empty() {
         progress(Step::Cause);
     }

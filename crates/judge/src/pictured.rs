@@ -75,7 +75,9 @@ fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &Judged) -> Str
             .to_owned(),
         );
     }
-    if outside > 0 {
+    if let Some(Span { y_px, x0_px, x1_px }) = judged.backward {
+        parts.push(format!("a run of row {y_px} from column {x0_px} to column {x1_px}"));
+    } else if outside > 0 {
         parts.push(format!("{outside} pixels outside the window"));
     }
     if judged.finding.tally.order > 0 && check != Check::Depth {

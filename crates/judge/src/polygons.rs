@@ -162,7 +162,8 @@ mod tests {
             let mut bad = Bad { declared: Declared::default(), asked: Vec::new(), is_alone };
             let given = Options::default().cases(128);
             let report = judge(&mut bad, &given).unwrap();
-            assert_eq!(bad.asked, [64; 3]);
+            // What failed in the first block and has an answer is asked a second time.
+            assert_eq!(bad.asked, [64, 63, 64]);
             assert_eq!(report.sum().wrong, 128 * Family::ALL.len() as u64);
             let said = report.check().unwrap_err().to_string();
             assert!(said.contains(&format!("the last time it {how}")), "{said}");

@@ -28,6 +28,9 @@ pub const MOST_REMEMBERED: usize = 1 << 20;
 /// Failing cases of a property that are remembered without one, by each copy.
 const KEPT: usize = 4;
 pub const MOST_INCIDENTS: usize = 24;
+/// Failing cases of a property that are asked a second time, by each copy. A program whose answers change seldom has few failing
+/// cases, and of one whose answers change often one of these will do.
+const MOST_ASKED_AGAIN: u64 = 64;
 
 /// What came of a property: of a family, or of a check over all families.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
@@ -183,10 +186,22 @@ pub struct Incident {
     pub request: String,
 }
 
+/// A failing case whose answers are others when it is asked a second time.
+#[derive(Clone, Debug)]
+pub struct Changing {
+    pub failing: Failing,
+    pub check: Check,
+    pub questions: Vec<Question>,
+    /// The answers of each time.
+    pub answers: [Vec<Answer>; 2],
+}
+
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     pub rows: Vec<Row>,
     pub failing: Vec<Failing>,
+    /// The first case of each property whose answers changed.
+    pub changing: Vec<Changing>,
     /// What is wrong in words, by [`Failing::name`], of the first few of each property.
     pub described: BTreeMap<String, String>,
     /// Cases that were judged, by property and family, where they are remembered.
@@ -215,6 +230,12 @@ impl Found {
         &mut self.rows[at]
     }
 
+    fn change(&mut self, changing: Changing) {
+        if self.changing.iter().all(|first| first.failing.property != changing.failing.property) {
+            self.changing.push(changing);
+        }
+    }
+
     /// What is wrong that no recognised convention explains, one check of each kind.
     #[must_use]
     pub fn unexplained(&self) -> Vec<Check> {
@@ -233,6 +254,7 @@ impl Found {
             *self.row(row.name, row.check) += row;
         }
         self.failing.extend(other.failing);
+        other.changing.into_iter().for_each(|changing| self.change(changing));
         self.described.extend(other.described);
         self.out_of_time |= other.out_of_time;
         self.judged.extend(other.judged);
@@ -442,13 +464,14 @@ fn block(
     let left = MOST_DEATHS.saturating_sub(deaths.load(Ordering::Relaxed));
     let answers = asker.ask(&questions, left.max(1));
     let mut whole = 0;
+    let mut wrong = Vec::new();
     for (at, (index, first, check, case)) in jobs.iter().enumerate() {
         let next = jobs.get(at + 1).map_or(questions.len(), |(_, next, ..)| *next);
         // Where the program was given up, the rest of the answers is not there.
         let here = &answers[*first.min(&answers.len())..next.min(answers.len())];
         let is_whole = here.len() == next - first;
         let judged = match (is_whole, here.iter().any(Answer::is_death)) {
-            (false, false) => return whole,
+            (false, false) => break,
             (true, _) => check.judge(&cases[*case], here, truth),
             (false, true) => Check::judge_deaths(here),
         };
@@ -458,10 +481,53 @@ fn block(
         shared.answered.fetch_add(judged.answered, Ordering::Relaxed);
         let asked = &questions[*first..next];
         note(found, family, *index, *check, &judged, (asked, shared.options.terms.remember));
+        let property = check.name(family.name);
+        if judged.is_wrong()
+            && died == 0
+            && found.row(property, Some(*check)).wrong_cases <= MOST_ASKED_AGAIN
+        {
+            let (index, fingerprint) = (*index, judged.fingerprint());
+            let failing = Failing { property, family: family.name, index, fingerprint };
+            wrong.push((failing, *check, *first..next));
+        }
         let is_last = jobs.get(at + 1).is_none_or(|(.., next)| next != case);
         whole += u64::from(is_last);
     }
+    let mut asked_again = Vec::new();
+    for (.., range) in &wrong {
+        asked_again.extend_from_slice(&questions[range.clone()]);
+    }
+    if !asked_again.is_empty() {
+        let again = asker.ask(&asked_again, left.max(1));
+        shared.answered.fetch_add(again.len() as u64, Ordering::Relaxed);
+        ask_again(&wrong, &questions, &answers, &again, found);
+    }
     whole
+}
+
+/// Notes which of the failing cases are answered otherwise `again`. Where answers are missing, the time is up or the program was
+/// given up.
+fn ask_again(
+    wrong: &[(Failing, Check, std::ops::Range<usize>)],
+    questions: &[Question],
+    answers: &[Answer],
+    again: &[Answer],
+    found: &mut Found,
+) {
+    let mut rest = again;
+    for (failing, check, range) in wrong {
+        let Some((again, after)) = rest.split_at_checked(range.len()) else { return };
+        rest = after;
+        let first = &answers[range.clone()];
+        if !first.iter().zip(again).all(|(first, again)| first.is_same(again)) {
+            found.change(Changing {
+                failing: failing.clone(),
+                check: *check,
+                questions: questions[range.clone()].to_vec(),
+                answers: [first.to_vec(), again.to_vec()],
+            });
+        }
+    }
 }
 
 fn note(

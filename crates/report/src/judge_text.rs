@@ -115,6 +115,9 @@ fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
 
 /// The first mistake that is known, or what the convention is, after a colon.
 fn why_in_short(verdict: &Verdict) -> String {
+    if verdict.failures.iter().any(|failure| failure.evidence.changes) {
+        return ": its answers change from one time to the next".to_owned();
+    }
     let mistake = verdict.cause.iter().find_map(|Why { why, .. }| why.causes.first());
     let convention = verdict.more.recognised.as_ref().filter(|found| found.is_explained);
     match (mistake, convention) {
@@ -382,10 +385,13 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
 pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt {
     let (family, index) = (failure.family, failure.index);
     let (property, what) = (failure.evidence.property, &failure.what);
+    let changes = failure.evidence.changes;
+    let drawn_by = if changes { &["first", "again"] } else { drawn_by };
     let exchanges = failure.evidence.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
         let Exchange { request, answer, other, expected } = exchange;
+        let second = if changes { "again" } else { "other" };
         let lines =
-            [("request", request), ("answer", answer), ("other", other), ("expected", expected)];
+            [("request", request), ("answer", answer), (second, other), ("expected", expected)];
         let lines = lines.into_iter().filter(|(_, line)| !line.is_empty());
         lines.map(|(what, line)| (what, line.clone()))
     });

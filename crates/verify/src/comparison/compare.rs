@@ -244,6 +244,14 @@ impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
             let spans: Vec<_> = covered.iter().map(|c| c.as_ref().ok().map(|c| c.of(at))).collect();
             self.judge_values(triangle, case.window, &spans, alone, each_other);
         }
+        let hits =
+            |covered: &Result<Covered, EnginePanic>| covered.as_ref().ok().map(Covered::hits);
+        for (finding, covered) in alone.iter_mut().zip(&covered) {
+            finding.keep(|| [hits(covered), None]);
+        }
+        for (finding, two) in each_other.iter_mut().zip(covered.windows(2)) {
+            finding.keep(|| [hits(&two[0]), hits(&two[1])]);
+        }
         (facts, findings)
     }
 }
@@ -434,6 +442,8 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
         let Shape::Lines(lines) = &case.shape else {
             return (facts, findings);
         };
+        // The pixels of all lines, by engine; nothing of one that has panicked.
+        let mut all: Vec<Option<Vec<(i32, i32)>>> = vec![Some(Vec::new()); self.engines.len()];
         for line in lines {
             let mut truth = Vec::new();
             Oracle
@@ -455,6 +465,12 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
             let of = |drawn: &[Fragment<DVec2>]| -> Vec<(i32, i32)> {
                 drawn.iter().map(|f| (f.x_px, f.y_px)).collect()
             };
+            for (all, drawn) in all.iter_mut().zip(&drawn) {
+                match (&mut *all, drawn) {
+                    (Some(pixels), Ok(drawn)) => pixels.extend(of(drawn)),
+                    _ => *all = None,
+                }
+            }
             let pixels: Vec<(i32, i32)> = truth.iter().map(|&(x, y, _)| (x, y)).collect();
             for (finding, drawn) in findings.iter_mut().zip(&drawn) {
                 match drawn {
@@ -473,6 +489,17 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
                     (Err(panic), _) | (_, Err(panic)) => finding.panic = Some(panic.0.clone()),
                 }
             }
+        }
+        let hits = |pixels: &Option<Vec<(i32, i32)>>| {
+            let runs = pixels::as_runs(pixels.as_ref()?);
+            Some(pixels::hits(&runs, case.window).0)
+        };
+        let (alone, each_other) = findings.split_at_mut(all.len());
+        for (finding, pixels) in alone.iter_mut().zip(&all) {
+            finding.keep(|| [hits(pixels), None]);
+        }
+        for (finding, two) in each_other.iter_mut().zip(all.windows(2)) {
+            finding.keep(|| [hits(&two[0]), hits(&two[1])]);
         }
         (facts, findings)
     }
@@ -532,6 +559,7 @@ impl<E: RasterizeExact + Sync> CompareCases for UnsnappedComparer<'_, E> {
                 Ok((hits, decisions)) => {
                     finding.tally += Tally::between(&hits, &target);
                     finding.decisions += decisions;
+                    finding.keep(|| [Some(hits), None]);
                 }
                 Err(panic) => finding.panic = Some(panic.0),
             }

@@ -3,14 +3,57 @@
 use std::error::Error;
 use std::fmt;
 
-use super::{Cause, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
+use super::{Cause, Changed, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
 use crate::cases::{FamilyName, Shape};
 use crate::judge::ascii;
+use rasterproof_core::frame::Coverage;
 
 /// Lines of the list of families are no longer.
 const MOST_COLUMNS: usize = 80;
 /// Larger grids are left out of the message.
 const MOST_SIDE_PX: u32 = 40;
+/// Of more triangles or lines the message has the number only. What was shrunk has fewer.
+const MOST_SHAPES: usize = 6;
+/// Pixels that are listed where the grid is left out.
+const MOST_PIXELS: usize = 6;
+
+impl Changed {
+    /// Both answers: beside each other, or where they are large the pixels in which they differ.
+    fn write(&self, f: &mut fmt::Formatter<'_>, expected: &Coverage) -> fmt::Result {
+        let [Some(first), Some(again)] = &self.drawn else {
+            for (time, drawn) in ["the first time", "the second time"].iter().zip(&self.drawn) {
+                let what = if drawn.is_some() { "draws it" } else { "panics on it" };
+                writeln!(f, "  {time} {} {what}", self.engine)?;
+            }
+            return Ok(());
+        };
+        let bounds = first.bounds();
+        if bounds.width().max(bounds.height()) <= MOST_SIDE_PX {
+            return f.write_str(&ascii::beside(
+                &["first", "again"],
+                &[first, again],
+                expected,
+                MOST_COLUMNS,
+            ));
+        }
+        let mut differ = 0;
+        for ((y_px, first), (_, again)) in first.rows().zip(again.rows()) {
+            for ((x_px, first), again) in (bounds.x0..).zip(first).zip(again) {
+                if first == again {
+                    continue;
+                }
+                differ += 1;
+                if differ <= MOST_PIXELS {
+                    writeln!(f, "  pixel {x_px},{y_px}: drawn {first} times, then {again} times")?;
+                }
+            }
+        }
+        match differ.saturating_sub(MOST_PIXELS) {
+            0 => Ok(()),
+            more => writeln!(f, "  and {more} more pixels"),
+        }
+    }
+}
 
 /// What was wrong in a verdict. Its text is the whole message: print it.
 #[derive(Clone, Debug)]
@@ -69,6 +112,17 @@ impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [wrong, all] = self.wrong_cases;
         let two = self.smallest.as_ref().filter(|failure| failure.evidence.pair[1] != ORACLE);
+        let changed = self.smallest.as_ref().and_then(|failure| failure.evidence.changed.as_ref());
+        if changed.is_some() {
+            writeln!(
+                f,
+                "The answers change from one time to the next: asked again, a case that failed is"
+            )?;
+            writeln!(
+                f,
+                "drawn otherwise. So nothing was made smaller, and no cause was looked for.\n"
+            )?;
+        }
         let what = if two.is_some() { "pixels differ" } else { "wrong pixels" };
         writeln!(f, "{} {what}, in {wrong} of {all} cases", self.wrong_pixels)?;
         if self.panics > 0 {
@@ -78,12 +132,26 @@ impl fmt::Display for Disagreement {
         if let Some(failure) = &self.smallest {
             let Failure { family, index, what, case, evidence, .. } = failure;
             let kind = if matches!(case.shape, Shape::Lines(_)) { "line" } else { "triangle" };
-            let (described, window) = (shrink::describe(case), case.window);
+            let window = case.window;
+            let shapes = match &case.shape {
+                Shape::Triangles { list, .. } => list.len(),
+                Shape::Lines(lines) => lines.len(),
+                Shape::Unsnapped { list, .. } => list.len(),
+            };
+            let described = match shapes {
+                few if few <= MOST_SHAPES => format!("{kind} {}", shrink::describe(case)),
+                many => format!("{many} {kind}s"),
+            };
             let [width, height] = [window.width(), window.height()];
-            writeln!(f, "\n{family}: {what} (from {family} #{index}, shrunk)")?;
-            writeln!(f, "  {kind} {described} in a window of {width} x {height} px")?;
+            let shrunk = if changed.is_some() { "as it is" } else { "shrunk" };
+            writeln!(f, "\n{family}: {what} (from {family} #{index}, {shrunk})")?;
+            writeln!(f, "  {described} in a window of {width} x {height} px")?;
+            if let Some(changed) = changed {
+                changed.write(f, &evidence.expected)?;
+            }
             let names: &[&str] = if two.is_some() { &["first", "second"] } else { &["judged"] };
             match &evidence.drawn {
+                _ if changed.is_some() => {}
                 Some(drawn) if width.max(height) <= MOST_SIDE_PX => {
                     let drawn: Vec<_> = [drawn].into_iter().chain(&evidence.other).collect();
                     let expected = &evidence.expected;
@@ -92,7 +160,7 @@ impl fmt::Display for Disagreement {
                 Some(_) => {}
                 None => writeln!(f, "  the engine panics on it")?,
             }
-            if two.is_some() {
+            if two.is_some() && changed.is_none() {
                 let [first, second] = [&failure.evidence.drawn, &failure.evidence.other]
                     .map(|drawn| drawn.as_ref() == Some(&failure.evidence.expected));
                 let who = match (first, second) {
@@ -140,8 +208,10 @@ mod tests {
     use crate::cases::FamilyName;
     use crate::comparison::{
         Convention, NothingJudged, Options, Rule, Verdict, compare_coverage, compare_lines,
-        judge_coverage,
+        judge_coverage, judge_lines,
     };
+    use std::sync::atomic::{AtomicU64, Ordering};
+
     use rasterproof_core::contract::{DrawLine, Rasterize};
     use rasterproof_core::grid::PixelRect;
     use rasterproof_core::line::bresenham::Bresenham;
@@ -189,6 +259,103 @@ mod tests {
         fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
             (0..self.0).for_each(|_| Scanline.cover(corners, bounds, &mut emit));
         }
+    }
+
+    /// Emits the spans of one row of each triangle with the ends exchanged.
+    struct EndBeforeBeginning;
+    impl Rasterize for EndBeforeBeginning {
+        fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+            Scanline.cover(corners, bounds, |span| {
+                let Span { y_px, x0_px, x1_px } = span;
+                let is_exchanged = y_px == 3 && x0_px < x1_px;
+                emit(if is_exchanged { Span { y_px, x0_px: x1_px, x1_px: x0_px } } else { span });
+            });
+        }
+    }
+
+    /// Both ends lie in the window; that was the end of the test without a verdict.
+    #[test]
+    fn a_span_that_ends_before_it_begins_is_a_finding() {
+        let options = Options::default().cases(20).family(FamilyName::HalfInteger);
+        let message = whole(judge_coverage(&EndBeforeBeginning, &options)).replace('\n', " ");
+        for part in [
+            "panics (the span of row 3 begins at column ",
+            " and ends before it, at column ",
+            " triangle ",
+            "repeat with: Options::default().seed(1).family(FamilyName::HalfInteger).only(",
+        ] {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+    }
+
+    /// Leaves out the first pixel of every second triangle that it is given.
+    struct EverySecond(AtomicU64);
+    impl Rasterize for EverySecond {
+        fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+            let mut left_out = self.0.fetch_add(1, Ordering::Relaxed) % 2;
+            Scanline.cover(corners, bounds, |mut span| {
+                span.x0_px += i32::from(std::mem::take(&mut left_out) > 0);
+                emit(span);
+            });
+        }
+    }
+
+    /// Lights its last pixel only the first time, as do programs that keep something from before.
+    struct Once(AtomicU64);
+    impl DrawLine for Once {
+        fn draw<V: Varying>(
+            &self,
+            line: &ScreenLine<V>,
+            bounds: PixelRect,
+            emit: impl FnMut(Fragment<V>),
+        ) {
+            let mut pixels = Vec::new();
+            Dda.draw(line, bounds, |pixel| pixels.push(pixel));
+            if self.0.fetch_add(1, Ordering::Relaxed) == 0 {
+                pixels.pop();
+            }
+            pixels.into_iter().for_each(emit);
+        }
+    }
+
+    /// Every failing case is drawn again. What changes is said first, with both answers; nothing is shrunk or explained.
+    #[test]
+    fn answers_that_change_are_said_first() {
+        let says_so = |message: &str, parts: &[&str]| {
+            assert!(
+                message.starts_with("The answers change from one time to the next"),
+                "{message}"
+            );
+            for part in parts {
+                assert!(message.contains(part), "{part}: {message}");
+            }
+            for part in ["shrunk", "probable cause", "no cause was recognised"] {
+                assert!(!message.contains(part), "{part}: {message}");
+            }
+        };
+        let options = Options::default().cases(40).family(FamilyName::HalfInteger);
+        let answers = |said: &str| said.replace('\n', " ");
+        let verdict = judge_coverage(&EverySecond(AtomicU64::new(0)), &options);
+        let message = answers(&whole(verdict));
+        says_so(
+            &message,
+            &[
+                ": first 1 missing, then agrees (from half-integer #",
+                "first ",
+                "again ",
+                "repeat with",
+            ],
+        );
+        let lines = Options::default().cases(40).family(FamilyName::LineTies);
+        let message = answers(&whole(judge_lines(&Once(AtomicU64::new(0)), &lines)));
+        says_so(&message, &[": first 1 missing, then agrees (from line-ties #"]);
+        let second = EverySecond(AtomicU64::new(0));
+        let message = answers(&whole(compare_coverage(&Scanline, &second, &options)));
+        says_so(&message, &["first 1 extra, then agrees"]);
+        // Who is wrong in the same way each time is explained.
+        let strict = Convention::default().rule(Rule::Strict);
+        let message = whole(judge_coverage(&strict, &options));
+        assert!(message.contains("shrunk") && message.contains("probable cause"), "{message}");
     }
 
     struct Backwards;

@@ -86,6 +86,9 @@ pub struct Finding {
     pub decisions: Decisions,
     /// What an engine said when it panicked.
     pub panic: Option<String>,
+    /// The pixels of both, where they do not agree or `keeps_pixels`; none of the oracle, and of one that panics.
+    pub(super) drawn: [Option<Coverage>; 2],
+    pub(super) keeps_pixels: bool,
 }
 
 impl Finding {
@@ -132,6 +135,23 @@ impl Finding {
     #[must_use]
     pub fn known(attribute: f64, depth: f64) -> Self {
         Self { attribute: attribute.min(1.0), depth: depth.min(1.0), ..Self::default() }
+    }
+
+    /// Whether the answers to the same case, asked a second time, are the same as far as they are compared. What a panic says
+    /// may change.
+    pub(super) fn is_repeated_by(&self, again: &Self) -> bool {
+        let values = |finding: &Self| [finding.attribute, finding.depth].map(f64::to_bits);
+        self.drawn == again.drawn
+            && [self.tally, self.fragments] == [again.tally, again.fragments]
+            && values(self) == values(again)
+            && self.panic.is_some() == again.panic.is_some()
+    }
+
+    /// Keeps the pixels of both, where somebody will look at them.
+    pub(super) fn keep(&mut self, pixels: impl FnOnce() -> [Option<Coverage>; 2]) {
+        if self.keeps_pixels || self.is_wrong() {
+            self.drawn = pixels();
+        }
     }
 
     /// Adds what comparing two coverages came to.

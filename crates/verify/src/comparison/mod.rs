@@ -11,6 +11,7 @@
 //! options leave no case, since a verdict on nothing would agree.
 
 mod cause;
+mod changed;
 mod compare;
 mod disagreement;
 mod finding;
@@ -30,6 +31,7 @@ use std::ops::AddAssign;
 
 use crate::cases::{Case, Family, FamilyName, Kind, Shape};
 use crate::judge;
+use changed::Changing;
 use compare::{
     CompareCases, Cover, CoverageOnly, EachOther, LineComparer, ORACLE, OneOf, TriangleComparer,
     UnsnappedComparer,
@@ -47,6 +49,7 @@ pub use crate::judge::{Watch, caught, is_judging};
 pub use crate::promise::Expectation;
 pub use crate::promise::{Convention, Rule, Winding};
 pub use cause::Cause;
+pub use changed::Changed;
 pub use disagreement::Disagreement;
 pub use finding::{Finding, Tally};
 #[doc(hidden)]
@@ -163,6 +166,8 @@ pub struct Compared {
     pub other: Option<Coverage>,
     /// What the oracle draws.
     pub expected: Coverage,
+    /// Two answers of an engine that does not draw the case the same each time. Such a case is not shrunk.
+    pub changed: Option<Changed>,
 }
 
 impl Compared {
@@ -182,7 +187,8 @@ impl fmt::Display for Failure {
 }
 
 /// The outcome of a run. Its failures are the smallest of each family and pair, smallest first; its cause is looked for where one
-/// engine alone is judged and is wrong.
+/// engine alone is judged and is wrong. Every failing case is drawn a second time. Of an engine that draws it otherwise then the
+/// failures are such cases, not shrunk, with both answers, and no cause is looked for.
 pub type Verdict = judge::Verdict<Options, FamilyReport, Failure, Option<Cause>>;
 
 impl Verdict {
@@ -453,7 +459,8 @@ fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict
     }
     let watch = Watch::begin();
     let mut verdict = drive(&[comparer], options, &|_| (), &watch).of_cases()?;
-    if !verdict.agrees() {
+    let changes = verdict.failures.iter().any(|failure| failure.evidence.changed.is_some());
+    if !verdict.agrees() && !changes {
         let who =
             verdict.failures.first().map_or(CANDIDATE, |f| f.evidence.who_is_wrong()).to_owned();
         verdict.cause = watch.during(|| comparer.cause(&who));
@@ -476,6 +483,8 @@ struct Partial {
     report: FamilyReport,
     /// Pair and number of failing cases, lowest numbers first.
     failing: Vec<(usize, u64)>,
+    /// The first case of each pair that was not drawn the same twice.
+    changing: Vec<Changing>,
 }
 
 impl Partial {
@@ -485,6 +494,12 @@ impl Partial {
         self.failing.sort_unstable();
         let pairs = self.failing.chunk_by(|a, b| a.0 == b.0);
         self.failing = pairs.flat_map(|pair| pair.iter().take(KEPT)).copied().collect();
+        // The lower numbers are in front.
+        for changing in other.changing {
+            if self.changing.iter().all(|first| first.pair != changing.pair) {
+                self.changing.push(changing);
+            }
+        }
         self
     }
 }
@@ -521,13 +536,23 @@ fn drive(
 fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Partial {
     let mut report = FamilyReport::new(chosen);
     let mut failing = Vec::new();
+    let mut changing: Vec<Changing> = Vec::new();
     for &index in indices {
         // What an earlier case reached need not be looked into again.
         let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
-        let known = report.pairs.iter().map(known).collect();
+        let known: Vec<_> = report.pairs.iter().map(known).collect();
         let case = options.terms.place(chosen.family.case(options.seed, index));
-        let (facts, findings) = chosen.comparer.judge(&case, known);
+        let (facts, findings) = chosen.comparer.judge(&case, known.clone());
         report.count(&facts);
+        if findings.iter().any(Finding::is_wrong) {
+            let keep = |known| Finding { keeps_pixels: true, ..known };
+            let again = chosen.comparer.judge(&case, known.into_iter().map(keep).collect()).1;
+            for found in Changing::between(index, &findings, again) {
+                if changing.iter().all(|first| first.pair != found.pair) {
+                    changing.push(found);
+                }
+            }
+        }
         for (pair, finding) in findings.iter().enumerate() {
             report.pairs[pair].count(index, finding);
             if finding.is_wrong() && failing.iter().filter(|(p, _)| *p == pair).count() < KEPT {
@@ -535,7 +560,7 @@ fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Parti
             }
         }
     }
-    Partial { report, failing }
+    Partial { report, failing, changing }
 }
 
 impl AddAssign for FamilyReport {
@@ -627,6 +652,13 @@ fn shrink_failures(
     options: &Options,
     watch: &Watch,
 ) -> Vec<Failure> {
+    let changes = changed::failures(partials, chosen, options);
+    let is_steady = |pair: &[String; 2]| {
+        let has_changed = |engine: &String| {
+            changes.iter().any(|failure| failure.evidence.changed_engine() == Some(engine))
+        };
+        !pair.iter().any(has_changed)
+    };
     let mut failing = Vec::new();
     for (place, (partial, Chosen { pairs, .. })) in partials.iter().zip(chosen).enumerate() {
         let by_oracle = |pair: usize| pairs[pair][1] == ORACLE;
@@ -637,6 +669,7 @@ fn shrink_failures(
             !by_oracle(pair) && pairs[pair].iter().any(wrong)
         };
         let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
+        let unknown = unknown.filter(|(pair, _)| is_steady(&pairs[*pair]));
         failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
     }
     let shrunk = |number: usize| {
@@ -651,6 +684,7 @@ fn shrink_failures(
             drawn: comparer.coverage(&pairs[pair][0], &case),
             other: comparer.coverage(&pairs[pair][1], &case),
             expected: expected(&case, options.terms),
+            changed: None,
         };
         let what = comparer.findings(&case)[pair].describe();
         Failure { family: family.name, index, seed: options.seed, what, case, evidence }
@@ -665,5 +699,5 @@ fn shrink_failures(
     shrunk.dedup_by_key(|(origin, _)| *origin);
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
     failures.sort_by_cached_key(size);
-    failures
+    changes.into_iter().chain(failures).collect()
 }

@@ -97,7 +97,8 @@ impl Covered {
         Tally::between(&self.hits(), &target.hits())
     }
 
-    fn hits(&self) -> Coverage {
+    /// How often each pixel is hit.
+    pub fn hits(&self) -> Coverage {
         hits_of(&self.spans, self.window)
     }
 }

@@ -403,6 +403,11 @@ impl Faults {
         self.faults.iter().any(|fault| fault.kind == kind)
     }
 
+    /// Whether there are triangles that can be wrong: no panic, and no refusal.
+    fn is_of_an_answer(&self) -> bool {
+        !self.has(FaultKind::Panicked) && !self.has(FaultKind::Refused)
+    }
+
     fn add(&mut self, fault: Fault, options: &Options) {
         let list = if options.allows(fault.kind) { &mut self.allowed } else { &mut self.faults };
         list.push(fault);

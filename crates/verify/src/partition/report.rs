@@ -132,10 +132,13 @@ pub struct Triangulated {
     pub triangles: Vec<Triangle>,
     /// What is wrong with them.
     pub faults: Faults,
+    /// Other triangles that it made of the same polygon when it was asked again. Such a polygon is not made smaller.
+    pub again: Option<(Vec<Triangle>, Faults)>,
 }
 
 /// The outcome of a run. Its failures are the smallest polygon of each kind of fault, grave ones first; its cause explains the wrong
-/// polygons, or says what is known of them.
+/// polygons, or says what is known of them. Every failing polygon is asked a second time. Where the triangles are others then,
+/// the failures are such polygons, and no cause is looked for.
 pub type Verdict = judge::Verdict<Options, Polygons, Failure, Option<Mistakes>>;
 
 impl Verdict {
@@ -194,6 +197,16 @@ impl Verdict {
     ) -> fmt::Result {
         let Self { options, families, failures, cause, .. } = self;
         let sum = self.sum();
+        if failures.iter().any(|failure| failure.evidence.again.is_some()) {
+            writeln!(
+                f,
+                "The answers change from one time to the next: asked again, a polygon that failed has"
+            )?;
+            writeln!(
+                f,
+                "other triangles. So nothing was made smaller, and no cause was looked for.\n"
+            )?;
+        }
         writeln!(f, "{}", sum.describe(&format!(" of {} polygons", sum.polygons)))?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
         if sum.left_out > 0 {
@@ -212,21 +225,13 @@ impl Verdict {
             wrong.map(|report| format!("{} {}", report.family.name(), report.wrong)).collect();
         writeln!(f, "  polygons by family: {}", wrong.join(", "))?;
         for failure in failures {
-            writeln!(
-                f,
-                "\n{}: the smallest polygon that was found\n  {}",
-                failure.evidence.kind.name(),
-                show(&failure.case)
-            )?;
-            let Triangulated { triangles, .. } = &failure.evidence;
-            for (number, triangle) in triangles.iter().take(MOST_TRIANGLES).enumerate() {
-                writeln!(f, "  triangle {number}: {triangle:?}")?;
-            }
-            if triangles.len() > MOST_TRIANGLES {
-                writeln!(f, "  and {} more triangles", triangles.len() - MOST_TRIANGLES)?;
-            }
-            for line in failure.what.lines() {
-                writeln!(f, "  {line}")?;
+            let Triangulated { kind, triangles, again, .. } = &failure.evidence;
+            let which = if again.is_some() { "a polygon" } else { "the smallest polygon" };
+            writeln!(f, "\n{}: {which} that was found\n  {}", kind.name(), show(&failure.case))?;
+            write_triangles(f, triangles, &failure.what)?;
+            if let Some((triangles, faults)) = again {
+                writeln!(f, "  asked again:")?;
+                write_triangles(f, triangles, &faults.to_string())?;
             }
             let rule = options.terms.fill_rule;
             if let Some(picture) = cause::picture(&failure.case, triangles, rule) {
@@ -236,6 +241,20 @@ impl Verdict {
         }
         Ok(())
     }
+}
+
+/// The triangles of a polygon, and what is wrong with them.
+fn write_triangles(f: &mut dyn fmt::Write, triangles: &[Triangle], what: &str) -> fmt::Result {
+    for (number, triangle) in triangles.iter().take(MOST_TRIANGLES).enumerate() {
+        writeln!(f, "  triangle {number}: {triangle:?}")?;
+    }
+    if triangles.len() > MOST_TRIANGLES {
+        writeln!(f, "  and {} more triangles", triangles.len() - MOST_TRIANGLES)?;
+    }
+    for line in what.lines() {
+        writeln!(f, "  {line}")?;
+    }
+    Ok(())
 }
 
 /// What has to be declared to repeat a polygon.
@@ -329,22 +348,30 @@ fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudge
         judge_block(tessellator, options, wanted[family], numbers)
     };
     let parts = judge::in_blocks(wanted.len(), options, &|_| (), &block, Part::merge);
-    let (families, found): (Vec<Polygons>, Vec<_>) =
-        parts.into_iter().map(|part| (part.polygons, part.smallest)).unzip();
+    let (mut families, mut changing) = (Vec::new(), Vec::new());
     let mut failing: Vec<(FaultKind, Family, Failing)> = Vec::new();
-    for (family, smallest) in families.iter().zip(found) {
-        for (kind, found) in FaultKind::ALL.into_iter().zip(smallest) {
+    for part in parts {
+        let family = part.polygons.family;
+        for (kind, found) in FaultKind::ALL.into_iter().zip(part.smallest) {
             let Some(found) = found else { continue };
             match failing.iter_mut().find(|(known, ..)| *known == kind) {
-                None => failing.push((kind, family.family, found)),
+                None => failing.push((kind, family, found)),
                 Some(best) if found.vertices < best.2.vertices => {
-                    (best.1, best.2) = (family.family, found);
+                    (best.1, best.2) = (family, found);
                 }
                 Some(_) => {}
             }
         }
+        changing.extend(part.changing.map(|(_, failure)| failure));
+        families.push(part.polygons);
     }
     failing.sort_by_key(|(kind, ..)| *kind);
+    if !changing.is_empty() {
+        changing.sort_by_key(|failure| failure.evidence.kind);
+        changing.dedup_by_key(|failure| failure.evidence.kind);
+        let options = options.clone();
+        return Ok(Verdict { options, families, failures: changing, cause: None, more: () });
+    }
     if families.iter().all(|family| family.polygons == 0) {
         return Err(NothingJudged::NoneAccepted);
     }
@@ -389,6 +416,8 @@ struct Part {
     polygons: Polygons,
     /// Of each kind of fault the polygon with the fewest vertices.
     smallest: [Option<Failing>; FaultKind::ALL.len()],
+    /// The polygon with the fewest vertices of which other triangles were made the second time: how many, and both answers.
+    changing: Option<(usize, Failure)>,
 }
 
 /// A polygon with a fault, as it was generated, and what became of it.
@@ -405,12 +434,16 @@ impl Part {
         for (best, found) in self.smallest.iter_mut().zip(other.smallest) {
             *best = best.take().into_iter().chain(found).min_by_key(|failing| failing.vertices);
         }
+        let both = self.changing.into_iter().chain(other.changing);
+        self.changing = both.min_by_key(|(vertices, _)| *vertices);
         self
     }
 }
 
 fn judge_block(tessellator: &Asked, options: &Options, family: Family, numbers: &[u64]) -> Part {
-    let mut part = Part { polygons: Polygons::new(family), smallest: Default::default() };
+    let polygons_of = Polygons::new(family);
+    let mut part = Part { polygons: polygons_of, smallest: Default::default(), changing: None };
+    let mut failing = Vec::new();
     let polygons = polygons(family, numbers.iter().copied(), options);
     let answers = ask(tessellator, &polygons, options);
     for ((&index, polygon), answer) in numbers.iter().zip(&polygons).zip(answers) {
@@ -427,8 +460,38 @@ fn judge_block(tessellator: &Asked, options: &Options, family: Family, numbers: 
                 *best = Some(Failing { vertices, index, triangles, faults });
             }
         }
+        // Who has no answer to a polygon is not asked for it again: that may take long.
+        if !faults.faults.is_empty() && faults.is_of_an_answer() {
+            failing.push((index, polygon.clone(), triangles, faults));
+        }
+    }
+    let of_failing: Vec<Polygon> = failing.iter().map(|(_, polygon, ..)| polygon.clone()).collect();
+    if of_failing.is_empty() {
+        return part;
+    }
+    let again = ask(tessellator, &of_failing, options);
+    for ((index, case, triangles, faults), again) in failing.into_iter().zip(again) {
+        let is_other = |(other, of): &(Vec<Triangle>, Faults)| {
+            of.is_of_an_answer() && !is_same(other, &triangles)
+        };
+        let Some(again) = again.filter(is_other) else { continue };
+        let vertices = case.contours.iter().map(Vec::len).sum();
+        if part.changing.as_ref().is_none_or(|(fewest, _)| vertices < *fewest) {
+            let (seed, what, kind) = (options.seed, faults.to_string(), faults.faults[0].kind);
+            let evidence = Triangulated { kind, triangles, faults, again: Some(again) };
+            let failure = Failure { family: family.name(), index, seed, what, case, evidence };
+            part.changing = Some((vertices, failure));
+        }
     }
     part
+}
+
+/// Whether the corners are the same, also where they are no numbers.
+fn is_same(a: &[Triangle], b: &[Triangle]) -> bool {
+    let bits = |triangles: &[Triangle]| -> Vec<u64> {
+        triangles.as_flattened().as_flattened().iter().map(|v| v.to_bits()).collect()
+    };
+    bits(a) == bits(b)
 }
 
 fn smallest(
@@ -453,7 +516,8 @@ fn smallest(
     let case = shrink(family.polygon(seed, index, coordinates), coordinates, &fails);
     let (triangles, faults) = last.into_inner();
     let (family, what) = (family.name(), faults.to_string());
-    Failure { family, index, seed, what, case, evidence: Triangulated { kind, triangles, faults } }
+    let evidence = Triangulated { kind, triangles, faults, again: None };
+    Failure { family, index, seed, what, case, evidence }
 }
 
 /// Ends a test with the whole message unless every polygon was covered exactly once.

@@ -1,5 +1,7 @@
 //! Partitions that are right by construction, faults planted in them, and cases by hand.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::exact::orientation;
 use super::families::star;
 use super::*;
@@ -401,6 +403,33 @@ fn a_tessellator_is_judged() {
         report.failures.iter().find(|failure| failure.evidence.kind == FaultKind::Outside).unwrap();
     assert_eq!(outside.case.contours[0].len(), 4, "{message}");
     println!("{message}");
+}
+
+/// A fan around another vertex each time.
+struct Turning(AtomicUsize);
+impl Tessellate for Turning {
+    fn triangles(&self, polygon: &Polygon) -> Result<Vec<Triangle>, Refused> {
+        let mut turned = polygon.clone();
+        let vertices = &mut turned.contours[0];
+        let by = self.0.fetch_add(1, Ordering::Relaxed) % vertices.len();
+        vertices.rotate_left(by);
+        Ok(fan_of_first(&turned))
+    }
+}
+
+/// Every failing polygon is asked again. What changes is said first, with both answers; nothing is made smaller or explained.
+#[test]
+fn answers_that_change_are_said_first() {
+    let options = Options::default().cases(50).family(Family::Star).family(Family::Comb);
+    let report = judge_partitions(&Turning(AtomicUsize::new(0)), &options).unwrap();
+    let message = report.check().unwrap_err().to_string();
+    assert!(message.starts_with("The answers change from one time to the next"), "{message}");
+    for part in [": a polygon that was found", "triangle 0: [[", "asked again:", "found in: "] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    for part in ["the smallest polygon", "cause was recognised", "probable cause"] {
+        assert!(!message.contains(part), "{part}: {message}");
+    }
 }
 
 struct Refusing;
