@@ -56,7 +56,7 @@ const KNOWN: &[Known] = known![
 
     "outside", "you draw pixels outside the window",
     "The window is 4 pixels wide. Which numbers have its columns, and what does your test say about -1 and about 4?",
-    [|q, _| uncut_line(q)];
+    [|q, _| uncut_line(q, false), |q, _| uncut_line(q, true)];
 
     "lost-end-pixel", "your line ends one pixel early",
     "How many pixels has a line from column 0 to column 5, and how often does your loop run?",
@@ -286,16 +286,20 @@ fn point_twice(question: &Question, truth: &Truth) -> Option<Answer> {
     Some(Answer::Line(pixels))
 }
 
-/// All pixels of a line, wherever the window is.
-fn uncut_line(question: &Question) -> Option<Answer> {
+/// The pixels of a line that is not cut to the window, or is cut along its longer axis alone.
+fn uncut_line(question: &Question, is_major_cut: bool) -> Option<Answer> {
     let asked = line_question(question)?;
     let [a, b] = asked.ends;
-    let window = PixelRect {
-        x0: a[0].min(b[0]),
-        y0: a[1].min(b[1]),
-        x1: a[0].max(b[0]).checked_add(1)?,
-        y1: a[1].max(b[1]).checked_add(1)?,
+    let distance = |axis: usize| a[axis].abs_diff(b[axis]);
+    let major = usize::from(distance(1) > distance(0));
+    let columns_or_rows = |axis: usize, size: u32| {
+        let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]).checked_add(1)?);
+        let is_cut = is_major_cut && axis == major;
+        Some(if is_cut { (low.max(0), high.min(size as i32)) } else { (low, high) })
     };
+    let (x0, x1) = columns_or_rows(0, question.width)?;
+    let (y0, y1) = columns_or_rows(1, question.height)?;
+    let window = PixelRect { x0, y0, x1, y1 };
     right_line().pixels(&LineQuestion { window, ..asked }).map(as_line)
 }
 
