@@ -2,7 +2,7 @@
 
 // ---- YOUR PLACE: six functions, empty as they stand ----
 
-// Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3).
+// Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 to 3).
 static void line(int x0, int y0, int x1, int y1, int width, int height, rasterproof_set_pixel set_pixel) {
     (void)x0, (void)y0, (void)x1, (void)y1, (void)width, (void)height, (void)set_pixel;
 }

@@ -8,7 +8,7 @@ clip_attributes = None
 
 
 def line(x0, y0, x1, y1, width, height, set_pixel):
-    """Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3)."""
+    """Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 to 3)."""
 
 
 def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):

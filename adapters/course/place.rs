@@ -8,7 +8,7 @@ const CLIP: Option<Clip<4>> = Some(clip);
 /// To be judged with attributes, too, let it be a function of corners x, y, z, w, a (step 11).
 const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 
-/// Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3).
+/// Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 to 3).
 fn line(
     from: (i32, i32),
     to: (i32, i32),

@@ -59,7 +59,8 @@ def line(x0, y0, x1, y1, width, height, set_pixel):
     for k in reversed(steps) if turned else steps:
         u = start[0] + k
         v = start[1] + sign * ((2 * k * dv + du) // (2 * du) if du else 0)
-        set_pixel(*((v, u) if steep else (u, v)))
+        if 0 <= v < (width if steep else height):
+            set_pixel(*((v, u) if steep else (u, v)))
 
 
 def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):

@@ -5,17 +5,17 @@ pub struct Vertex {
     values: [f64; 5],
 }
 
-/// How far a vertex lies before the near plane: not at all where this is negative.
-fn before_near(vertex: &Vertex) -> f64 {
+/// How far a vertex lies beyond the near plane; negative on the side of the eye.
+fn beyond_near(vertex: &Vertex) -> f64 {
     vertex.clip[2] + vertex.clip[3]
 }
 
-/// The part of a polygon before the near plane, where every w is positive.
+/// The part of a polygon beyond the near plane, where every w is positive.
 fn clip_near(polygon: &[Vertex]) -> Vec<Vertex> {
     let mut kept = Vec::new();
     for (i, &to) in polygon.iter().enumerate() {
         let from = polygon[(i + polygon.len() - 1) % polygon.len()];
-        let (a, b) = (before_near(&from), before_near(&to));
+        let (a, b) = (beyond_near(&from), beyond_near(&to));
         if (a < 0.0) != (b < 0.0) {
             // Always cut from the inner end to the outer one: the neighbour cuts at the same point.
             let (inner, outer, a, b) = if a < 0.0 { (to, from, b, a) } else { (from, to, a, b) };

@@ -36,6 +36,39 @@ fn put(starter: &str, place: &str) -> Option<String> {
     Some(format!("{head}{place}\n{}", &starter[after..]))
 }
 
+/// The window tests of the starters, and what stands there in the course. There a pixel outside the window goes to the
+/// judge: that a program leaves it out is asked in step 1, and could not be seen otherwise.
+const WINDOW_TESTS: &[(&str, &str)] = &[
+    (
+        r#"        if 0 <= x < width and 0 <= y < height:
+            if len(hits) == MOST_HITS:
+                raise Refused(f"more than {MOST_HITS} pixels set")
+            hits.append((y, x, *more))
+"#,
+        r#"        if len(hits) == MOST_HITS:
+            raise Refused(f"more than {MOST_HITS} pixels set")
+        hits.append((y, x, *more))
+"#,
+    ),
+    (
+        "fn drawn<T>(\n    width: i32,\n    height: i32,\n",
+        "fn drawn<T>(\n    _width: i32,\n    _height: i32,\n",
+    ),
+    (
+        "if (0..width).contains(&x) && (0..height).contains(&y) && hits.len() <= MOST_HITS {",
+        "if hits.len() <= MOST_HITS {",
+    ),
+    (
+        "    if (x < 0 || y < 0 || x >= rasterproof_plane.width || y >= rasterproof_plane.height) return;\n",
+        "",
+    ),
+    ("outside the window it does nothing", "outside the window it is a mistake"),
+];
+
+fn without_window_test(text: &str) -> String {
+    WINDOW_TESTS.iter().fold(text.to_owned(), |text, (test, none)| text.replace(test, none))
+}
+
 pub fn files(language: Language, solution: bool) -> Vec<File> {
     macro_rules! starter {
         ($ending:literal) => {
@@ -53,8 +86,8 @@ pub fn files(language: Language, solution: bool) -> Vec<File> {
         Language::Python => starter!("py"),
     };
     let text = put(starter, if solution { solved } else { place });
-    let text = text.unwrap_or_else(|| starter.to_owned());
-    let header = include_str!("../../adapters/rasterproof.h").to_owned();
+    let text = without_window_test(&text.unwrap_or_else(|| starter.to_owned()));
+    let header = without_window_test(include_str!("../../adapters/rasterproof.h"));
     let header = File { name: "rasterproof.h", text: header };
     let header = Some(header).filter(|_| language == Language::Cpp);
     [File { name, text }].into_iter().chain(header).collect()
@@ -89,6 +122,19 @@ pub fn commands(language: Language) -> (Vec<String>, Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Each window test is in a file of the adapters, so that none is left in the course by a change of words.
+    #[test]
+    fn starters_leave_the_window_to_the_student() {
+        let adapters = [
+            include_str!("../../adapters/starter.py"),
+            include_str!("../../adapters/starter.rs"),
+            include_str!("../../adapters/rasterproof.h"),
+        ];
+        for (test, _) in WINDOW_TESTS {
+            assert!(adapters.iter().any(|text| text.contains(test)), "{test}");
+        }
+    }
 
     /// The starters have the two lines that are looked for, and the example is gone.
     #[test]

@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::line::dda::Dda;
 use rasterproof_core::raster::edge_function::EdgeFunction;
@@ -14,6 +15,7 @@ use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{about, frustum};
 use rasterproof_verify::comparison::oracle_coverage;
+use rasterproof_verify::convention::{Convention, Shape};
 
 const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 12, y1: 12 };
 
@@ -139,6 +141,26 @@ pub fn window() -> Vec<f64> {
 /// Chapter 9: twice the area of a triangle, which is the sum of its edge functions.
 pub fn winding() -> Vec<f64> {
     vec![edge_functions([[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]], [1, 1], 1.0).iter().sum()]
+}
+
+/// Chapter 1: the square of the specimen `games101-int`, with its samples in the corners and a right rule for edges. As in the
+/// published program, y points up, so that the lower left corner of a pixel is its sample.
+pub fn corner_square() -> Vec<f64> {
+    let halves = [[[2.5, 2.5], [10.5, 2.5], [10.5, 10.5]], [[2.5, 10.5], [2.5, 2.5], [10.5, 10.5]]];
+    let corner = Convention { shape: Shape::Point { x: 0, y: SUBPIXELS }, ..Convention::default() };
+    let window = PixelRect::window(14, 14);
+    let mut hits = Coverage::new(window, 0);
+    for half in halves {
+        for (y_px, x0_px, x1_px) in corner.cover(&corners(half), window).unwrap().runs() {
+            hits.hit(y_px, x0_px, x1_px);
+        }
+    }
+    // No hole and no double hit: each of the rows 2 to 9 has the columns 3 to 10, once.
+    for (y_px, row) in hits.rows() {
+        let is_in = |x: usize| (2..10).contains(&y_px) && (3..11).contains(&x);
+        assert!(row.iter().enumerate().all(|(x, &n)| n == u8::from(is_in(x))), "row {y_px}");
+    }
+    vec![hits.covered() as f64]
 }
 
 /// Chapter 10: scaled and moved, moved and scaled, and turned about another point.

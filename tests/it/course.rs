@@ -190,6 +190,36 @@ fn course_starters_start() {
     }
 }
 
+/// A program without the test of the window, and one that draws a pixel twice, fail step 1, and each is told why. The request names whole
+/// pixels, as the page of the step does.
+#[test]
+fn course_sees_the_window_in_step_1() {
+    if !has("python3") {
+        return;
+    }
+    let folder = Folder::new("course-window");
+    course(&folder, "start --language python", 0);
+    let path = folder.join("starter.py");
+    let empty = fs::read_to_string(&path).unwrap();
+    let written = |body: &str| {
+        let place = "nothing outside the window (steps 1 to 3).\"\"\"\n";
+        assert!(empty.contains(place));
+        fs::write(&path, empty.replace(place, &format!("{place}    {body}\n"))).unwrap();
+    };
+    let test = "if 0 <= x0 < width and 0 <= y0 < height:";
+    for (body, said) in [
+        ("set_pixel(x0, y0)".to_owned(), "you draw pixels outside the window"),
+        (format!("{test} set_pixel(x0, y0); set_pixel(x1, y1)"), "you draw a pixel twice"),
+    ] {
+        written(&body);
+        let out = course(&folder, "check pixel --cases 50", 1).prints(said).out;
+        let request = out.lines().find(|line| line.contains("request:")).unwrap();
+        assert!(!request.contains('.'), "{request}");
+    }
+    written(&format!("{test} set_pixel(x0, y0)"));
+    course(&folder, "check pixel --cases 50", 0);
+}
+
 /// The solution in Python passes every step, as `course_solutions_pass` shows, and parts of it that are changed do not.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, DVec4, Vec4};
 use rasterproof_core::frame::{Coverage, Frame};
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_faults::published::PublishedLine as _;
 use rasterproof_faults::published::bare;
@@ -78,6 +78,7 @@ fn shadow_bits() -> Vec<f64> {
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
 pub const ALL: &[(&str, Values)] = &[
     ("hand-square", by_hand::square),
+    ("corner-square", by_hand::corner_square),
     ("hand-lines", by_hand::lines),
     ("hand-step", by_hand::step),
     ("hand-edges", by_hand::edges),
@@ -156,6 +157,12 @@ pub const ALL: &[(&str, Values)] = &[
     ("t-of-row-1", || vec![1.0 / 1.2, (1.0 - 0.9) / 1.2, (1.5 - 0.9) / 1.2]),
     ("t-of-row-2", || vec![2.0 / 1.2, (2.0 - 0.9) / 1.2]),
     ("depth-poison", || vec![bug("depth_poison")["z_at_10_1"].as_f64().unwrap()]),
+    ("plain-i32", || {
+        // The side of a square whose edge functions themselves fit 32 bits, without and with the step beyond it.
+        let fits = |side_px: &i32| (side_px * SUBPIXELS).checked_mul(side_px * SUBPIXELS).is_some();
+        let widest = (1..).take_while(fits).last().unwrap();
+        vec![f64::from(widest), f64::from(widest - 1)]
+    }),
     ("widest-i32", || widest(&[WordWidth::I32])),
     ("widest-i64", || widest(&[WordWidth::I32, WordWidth::I64])),
     ("square-overflow", || {

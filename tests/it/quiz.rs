@@ -46,14 +46,32 @@ fn quiz_pages_say_what_is_computed() {
     renewal.check("quiz_pages");
 }
 
-/// The answers of a page are those of the code.
+/// The answers of a page are those of the code, and all of them follow the last question: who reads the page in an editor,
+/// where nothing is hidden, does not see an answer beside its question.
 #[test]
 fn quiz_pages_have_a_key() {
     for chapter in CHAPTERS.iter() {
         let page = section(chapter, Language::English);
+        let (questions, answers) = page.split_once("<details>").unwrap();
+        for (number, exercise) in (1..).zip(&chapter.exercises) {
+            assert!(questions.contains(&format!("\n**{number}.** ")), "{}", chapter.page);
+            let answer = exercise.solution().answer.text();
+            let key = format!("Answer {number}</summary>\n\n**{answer}**");
+            assert!(answers.contains(&key), "{}", exercise.question[0]);
+        }
+    }
+}
+
+/// The pages of chapter 2 ask what they have taught: lines on the first one, and the rule for edges on the second.
+#[test]
+fn quiz_asks_no_page_early() {
+    let pages: Vec<_> = CHAPTERS.iter().take(5).map(|chapter| chapter.page.as_str()).collect();
+    assert_eq!(pages, ["ch01", "ch02", "ch02-edge-functions", "ch02-scanline", "ch03"]);
+    for chapter in CHAPTERS.iter().take(2) {
         for exercise in &chapter.exercises {
-            let key = format!("Answer</summary>\n\n**{}**", exercise.solution().answer.text());
-            assert!(page.contains(&key), "{}", exercise.question[0]);
+            let text = exercise.question[0].to_lowercase() + &exercise.why[0].to_lowercase();
+            let early = ["edge", "top-left", "twice"].into_iter().find(|word| text.contains(word));
+            assert_eq!(early, None, "{}: {text}", chapter.page);
         }
     }
 }
@@ -84,20 +102,21 @@ fn quiz_counts_right_answers() {
 
 #[test]
 fn quiz_says_what_is_wrong_and_why() {
-    // Chapter 2 by a student: a wrong count, the pixel, the choice by its pixel, a pass, the number.
-    let out = check("ch02", "4\n4,2\n2,2\n\n10\n", 1)
-        .prints("No: 10. ")
-        .prints("Passed: a. ")
-        .prints("Right: (4, 2). ")
+    // A student: a wrong count, the pixel, the number.
+    let out = check("ch02", "4\n4,2\n0\n", 1).prints("No: 10. ").prints("Right: (4, 2). ").out;
+    assert!(out.ends_with("\n2 of 3 right\n"), "{out}");
+    // The choice by its pixel, a pass, the number, a letter.
+    let out = check("ch02-edge-functions", "2,2\n\n10\nb\n", 1)
         .prints("Right: c. ")
+        .prints("Passed: a. ")
         .out;
-    assert!(out.contains("\n2###+") && out.ends_with("\n3 of 5 right\n"), "{out}");
+    assert!(out.contains("\n2###+") && out.ends_with("\n3 of 4 right\n"), "{out}");
 }
 
 #[test]
 fn quiz_ends_with_its_input() {
     let Run { out, errors, .. } = check("2", "10\n", 1);
-    assert!(out.ends_with("1 of 5 right, 4 not answered\n"), "{out}");
+    assert!(out.ends_with("1 of 3 right, 2 not answered\n"), "{out}");
     assert_eq!(errors, "");
     assert!(check("", "", 1).out.contains("0 of "));
 }
@@ -106,7 +125,7 @@ fn quiz_ends_with_its_input() {
 fn quiz_refuses_what_is_no_answer() {
     check("2", "10\n4;2\n", 2)
         .says("standard input, line 2: '4;2' is no answer here; give a pixel");
-    check("12", "", 2).says("no chapter '12'").says("2, 3");
+    check("12", "", 2).says("no chapter '12'").says("2, ch02-edge-functions, ");
     check("2 --answers no/such/file", "", 2).says("no/such/file");
     check("2 --language la", "", 2);
     check("2 --seed x", "", 2);
@@ -117,7 +136,7 @@ fn quiz_reads_a_file_and_asks_in_an_order() {
     let file = shared().join("answers.txt");
     fs::write(&file, key(&CHAPTERS[1])).unwrap();
     let file = file.to_str().unwrap();
-    assert!(check(&format!("2 --answers {file}"), "", 0).out.contains("5 of 5 right"));
+    assert!(check(&format!("2 --answers {file}"), "", 0).out.contains("3 of 3 right"));
     let first = |out: &str| out.lines().nth(1).unwrap().to_owned();
     let seeds =
         ["1", "2", "3", "4"].map(|seed| first(&check(&format!("--seed {seed}"), "", 1).out));
@@ -128,7 +147,7 @@ fn quiz_reads_a_file_and_asks_in_an_order() {
 #[test]
 fn quiz_speaks_chinese_and_lists() {
     let out = check("2 --language zh", &key(&CHAPTERS[1]), 0).out;
-    assert!(out.ends_with("5 题答对 5 题\n"), "{out}");
+    assert!(out.ends_with("3 题答对 3 题\n"), "{out}");
     let out = check("--list", "", 0).out;
     for chapter in CHAPTERS.iter() {
         assert!(

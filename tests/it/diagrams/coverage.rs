@@ -187,10 +187,11 @@ pub fn snapping() -> String {
 /// The two windings and their signs, y down.
 pub fn winding() -> String {
     let mut drawing = Drawing::new(460.0, 220.0);
-    let clockwise = [[1.0, 1.0], [6.0, 1.0], [1.0, 6.0]];
+    // The example of chapter 9.
+    let clockwise = [[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]];
     let other = [clockwise[0], clockwise[2], clockwise[1]];
     for (left, corners) in [(20.0, clockwise), (240.0, other)] {
-        let at = |[x, y]: Point| [left + x * 28.0, y * 28.0];
+        let at = |[x, y]: Point| [left + x * 44.0, y * 44.0];
         let area = twice_area(&snapped(corners)) as f64 / f64::from(SUBPIXELS).powi(2);
         drawing.polygon(if area > 0.0 { "fill1" } else { "fill2" }, &corners.map(at));
         for i in 0..3 {
@@ -200,7 +201,7 @@ pub fn winding() -> String {
         }
         drawing.text(
             "start",
-            at([0.7, 7.2]),
+            at([0.7, 4.7]),
             &format!("2A = {area} {}", if area > 0.0 { "↻" } else { "↺" }),
         );
     }

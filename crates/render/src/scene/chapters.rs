@@ -37,7 +37,7 @@ pub const SCENES: &[Entry] = &[
         clipped,
     ),
     entry("frustum", "8.3: a triangle that all six planes cut", frustum_scene),
-    entry("culled", "9.3: an open box, its outside culled", culled),
+    entry("culled", "9.3: a closed box, of which the wrong half is culled", culled),
     entry("spinning", "10.6: a triangle that turns about a point in front of the eye", spinning),
     entry("cube", "11: a textured cube in diffuse light", cube),
     entry("sphere", "11: a sphere with interpolated normals, texture and light", sphere),

@@ -50,6 +50,14 @@ macro_rules! known {
 
 /// Every misconception that is known, the more particular ones first.
 const KNOWN: &[Known] = known![
+    "twice", "you draw a pixel twice where both ends of a line are the same pixel",
+    "Both ends are drawn. How many pixels has a line that begins and ends in the same pixel?",
+    [|q, t| point_twice(q, t)];
+
+    "outside", "you draw pixels outside the window",
+    "The window is 4 pixels wide. Which numbers have its columns, and what does your test say about -1 and about 4?",
+    [|q, _| uncut_line(q, false), |q, _| uncut_line(q, true)];
+
     "lost-end-pixel", "your line ends one pixel early",
     "How many pixels has a line from column 0 to column 5, and how often does your loop run?",
     [|q, _| line(q, LineConvention { ends: Ends::WithoutLast, ..right_line() }),
@@ -183,7 +191,7 @@ const KNOWN: &[Known] = known![
     "A corner lies behind the eye. What is x / w there, and on which side of the picture does it appear?",
     [] ["does not clip"];
 
-    "dropped", "you drop every triangle that has a corner behind the near plane",
+    "dropped", "you drop every triangle that has a corner on the eye's side of the near plane",
     "You stand on a large floor. Where are its corners, and what would be left of it?",
     [] ["drops a triangle with any corner behind the near plane"];
 
@@ -266,6 +274,33 @@ fn as_line(pixels: Vec<[i32; 2]>) -> Answer {
 
 fn line(question: &Question, convention: LineConvention) -> Option<Answer> {
     convention.pixels(&line_question(question)?).map(as_line)
+}
+
+/// The right pixels, and that of a line between a pixel and itself once for each end.
+fn point_twice(question: &Question, truth: &Truth) -> Option<Answer> {
+    let Some(Answer::Line(mut pixels)) = expected_answer(question, truth) else { return None };
+    let [a, b] = line_question(question)?.ends;
+    if a == b {
+        pixels.extend_from_within(..);
+    }
+    Some(Answer::Line(pixels))
+}
+
+/// The pixels of a line that is not cut to the window, or is cut along its longer axis alone.
+fn uncut_line(question: &Question, is_major_cut: bool) -> Option<Answer> {
+    let asked = line_question(question)?;
+    let [a, b] = asked.ends;
+    let distance = |axis: usize| a[axis].abs_diff(b[axis]);
+    let major = usize::from(distance(1) > distance(0));
+    let columns_or_rows = |axis: usize, size: u32| {
+        let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]).checked_add(1)?);
+        let is_cut = is_major_cut && axis == major;
+        Some(if is_cut { (low.max(0), high.min(size as i32)) } else { (low, high) })
+    };
+    let (x0, x1) = columns_or_rows(0, question.width)?;
+    let (y0, y1) = columns_or_rows(1, question.height)?;
+    let window = PixelRect { x0, y0, x1, y1 };
+    right_line().pixels(&LineQuestion { window, ..asked }).map(as_line)
 }
 
 fn line_tie(question: &Question, tie: LineTie) -> Option<Answer> {

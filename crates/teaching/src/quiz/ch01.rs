@@ -1,12 +1,12 @@
 //! Chapter 1: pixels, the window and the lattice.
 
 use super::answer::pixel;
-use super::tools::{Px, hits, published, truth};
+use super::tools::{Px, published, truth};
 use super::{Solution, Text};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
 use rasterproof_faults::published::games101_strict::Games101Strict;
 
-solvers!(negative, tie, small, base);
+solvers!(negative, tie, small);
 
 fn negative(choices: &[Text]) -> Solution {
     let point = SubpixelPoint::from_px(-0.3, 0.2).expect("within the domain");
@@ -32,17 +32,4 @@ fn small(_: &[Text]) -> Solution {
         .figure(cast.covered())
         .grid("games101-int", &cast, &right)
         .grid("oracle", &right, &right)
-}
-
-const STANDING: Px = [[1.5, 3.5], [6.5, 3.5], [4.0, 0.5]];
-const HANGING: Px = [[1.5, 3.5], [6.5, 3.5], [4.0, 6.5]];
-
-fn base(_: &[Text]) -> Solution {
-    let window = PixelRect::window(8, 8);
-    let [upper, lower] = [STANDING, HANGING].map(|triangle| truth(&[triangle], window));
-    let owns = |coverage| (1..7).any(|x| hits(coverage, [x, 3]) > 0);
-    let (above, below) = (owns(&upper), owns(&lower));
-    let all = [above && !below, below && !above, above && below, !above && !below];
-    let row = lower.row(3).iter().map(|&n| u32::from(n)).sum::<u32>();
-    Solution::choice(&all).figure(row).grid("upper", &upper, &upper).grid("lower", &lower, &lower)
 }

@@ -1,17 +1,14 @@
-//! Chapter 2: lines and triangles.
+//! Chapter 2: lines.
 
-use super::answer::pixel;
-use super::tools::{Px, hits, published, truth};
+use super::tools::hits;
 use super::{Right, Solution, Text};
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
-use rasterproof_faults::published::games101_strict::Games101Strict;
-use rasterproof_faults::published::sysu_inclusive::SysuInclusive;
 
-solvers!(longer, halfway, twice, holes, owned);
+solvers!(longer, halfway, drift);
 
 fn line(from: [i32; 2], to: [i32; 2], window: PixelRect) -> Coverage {
     let end = |[x, y]: [i32; 2]| LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 };
@@ -35,52 +32,9 @@ fn halfway(_: &[Text]) -> Solution {
     Solution::new(Right::Pixel([4, row])).grid("0,0 8,3", &there, &there)
 }
 
-/// A square of two halves with its corners on centres.
-const CENTRED: [Px; 2] =
-    [[[0.5, 0.5], [4.5, 0.5], [4.5, 4.5]], [[0.5, 0.5], [4.5, 4.5], [0.5, 4.5]]];
-
-fn twice(choices: &[Text]) -> Solution {
-    let window = PixelRect::window(6, 6);
-    let inclusive = published(&SysuInclusive, &CENTRED, window);
-    let right = truth(&CENTRED, window);
-    let twice = |text: &Text| pixel(&text[0]).is_some_and(|p| hits(&inclusive, p) == 2);
-    let all: Vec<_> = choices.iter().map(twice).collect();
-    let doubles = inclusive.rows().flat_map(|(_, row)| row).filter(|&&n| n == 2).count();
-    Solution::choice(&all)
-        .figure(doubles)
-        .grid("sysu-inclusive", &inclusive, &right)
-        .grid("oracle", &right, &right)
-}
-
-fn holes(_: &[Text]) -> Solution {
-    let window = PixelRect::window(6, 6);
-    let right = truth(&CENTRED, window);
-    let strict = Games101Strict { whole_samples: false, true_w: false };
-    let strict = published(&strict, &CENTRED, window);
-    let inclusive = published(&SysuInclusive, &CENTRED, window);
-    let is_hole = |(a, t): (&u8, &u8)| *a == 0 && *t > 0;
-    let has_hole = |c: &Coverage| {
-        c.rows().zip(right.rows()).any(|((_, a), (_, t))| a.iter().zip(t).any(is_hole))
-    };
-    let all = [&strict, &inclusive, &right].map(has_hole);
-    Solution::choice(&all)
-        .figure(right.covered() - strict.covered())
-        .grid("games101-strict", &strict, &right)
-        .grid("sysu-inclusive", &inclusive, &right)
-        .grid("oracle", &right, &right)
-}
-
-const RIGHT_ANGLE: Px = [[0.5, 0.5], [4.5, 0.5], [0.5, 4.5]];
-
-fn owned(_: &[Text]) -> Solution {
-    let window = PixelRect::window(6, 6);
-    let right = truth(&[RIGHT_ANGLE], window);
-    let strict = Games101Strict { whole_samples: false, true_w: false };
-    let strict = published(&strict, &[RIGHT_ANGLE], window);
-    let inclusive = published(&SysuInclusive, &[RIGHT_ANGLE], window);
-    Solution::count(right.covered())
-        .figure(strict.covered())
-        .figure(inclusive.covered())
-        .grid("oracle", &right, &right)
-        .grid("sysu-inclusive", &inclusive, &right)
+fn drift(_: &[Text]) -> Solution {
+    let right = line([0, 0], [20, 2], PixelRect::window(21, 3));
+    let right = (0..3).find(|&y| hits(&right, [10, y]) > 0).expect("every column is lit");
+    let height: f64 = std::iter::repeat_n(2.0 / 20.0, 10).sum();
+    Solution::count(height as u64).figure(right).figure(height)
 }

@@ -21,6 +21,8 @@ mod answer;
 pub mod ask;
 mod ch01;
 mod ch02;
+mod ch02_edge_functions;
+mod ch02_scanline;
 mod ch03;
 mod ch04;
 mod ch05;
@@ -151,9 +153,24 @@ pub struct Chapter {
 /// Every chapter that has exercises, in the order of reading.
 pub static CHAPTERS: LazyLock<Vec<Chapter>> = LazyLock::new(chapters);
 
-/// The functions that compute answers, by the page and the name that `exercises.toml` gives.
+/// The functions that compute answers, by the module of a page and the name that `exercises.toml` gives.
 const SOLVERS: &[(&str, &[(&str, Solve)])] = solvers_of!(
-    ch01, ch02, ch03, ch04, ch05, ch06, ch07, ch08, ch09, ch10, ch11, games101, sysu, effects,
+    ch01,
+    ch02,
+    ch02_edge_functions,
+    ch02_scanline,
+    ch03,
+    ch04,
+    ch05,
+    ch06,
+    ch07,
+    ch08,
+    ch09,
+    ch10,
+    ch11,
+    games101,
+    sysu,
+    effects,
     stability
 );
 
@@ -166,7 +183,8 @@ fn chapters() -> Vec<Chapter> {
         toml::from_str(include_str!("exercises.toml")).expect("the tests read the same text");
     let mut chapters = texts.chapter;
     for chapter in &mut chapters {
-        let solvers = SOLVERS.iter().find(|(page, _)| *page == chapter.page);
+        let module = chapter.module();
+        let solvers = SOLVERS.iter().find(|(name, _)| *name == module);
         for exercise in &mut chapter.exercises {
             let named =
                 solvers.and_then(|(_, s)| s.iter().find(|(name, _)| *name == exercise.solve));
@@ -177,14 +195,25 @@ fn chapters() -> Vec<Chapter> {
 }
 
 impl Chapter {
+    /// The digits of its number, where it is the first page of a chapter: `02` of `ch02`.
+    fn digits(&self) -> Option<&str> {
+        let digits = self.page.strip_prefix("ch")?;
+        digits.bytes().all(|b| b.is_ascii_digit()).then_some(digits)
+    }
+
     /// What one calls it on the command line: `2` for `ch02`.
     pub fn word(&self) -> &str {
-        self.page.strip_prefix("ch").map_or(&self.page, |number| number.trim_start_matches('0'))
+        self.digits().map_or(&self.page, |digits| digits.trim_start_matches('0'))
+    }
+
+    /// The name of the module that has its functions.
+    fn module(&self) -> String {
+        self.page.replace('-', "_")
     }
 
     /// What it is called in a sentence: `chapter 2`, or the name of its page.
     pub fn name(&self, language: Language) -> String {
-        match (self.page.starts_with("ch"), language) {
+        match (self.digits().is_some(), language) {
             (true, Language::English) => format!("chapter {}", self.word()),
             (true, Language::Chinese) => format!("第 {} 章", self.word()),
             (false, _) => self.page.clone(),
@@ -217,15 +246,22 @@ mod tests {
         for word in ["2", "02", "ch02"] {
             assert_eq!(chapter(word).unwrap().page, "ch02");
         }
+        let scanline = chapter("ch02-scanline").unwrap();
+        assert_eq!(
+            (scanline.word(), scanline.name(Language::English)),
+            ("ch02-scanline", "ch02-scanline".to_owned())
+        );
         assert!(["", "0", "12", "ch", "two"].iter().all(|word| chapter(word).is_none()));
     }
 
     /// A function without an exercise is not counted by the exercises, and an exercise without a function panics.
     #[test]
     fn exercises_and_functions_belong_together() {
-        let texts = CHAPTERS.iter().flat_map(|c| c.exercises.iter().map(|e| (&*c.page, &*e.solve)));
-        let functions =
-            SOLVERS.iter().flat_map(|(page, s)| s.iter().map(|(name, _)| (*page, *name)));
+        let texts =
+            CHAPTERS.iter().flat_map(|c| c.exercises.iter().map(|e| (c.module(), &*e.solve)));
+        let functions = SOLVERS
+            .iter()
+            .flat_map(|(module, s)| s.iter().map(|(name, _)| (module.to_string(), *name)));
         assert!(texts.eq(functions), "in the same order");
     }
 

@@ -31,18 +31,22 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
     let axes = if solutions.iter().any(|s| legend(s, language).is_some()) { axes } else { "" };
     let mut out = HEADINGS[language as usize].to_owned() + "\n\n";
     out += &format!("{}\n", wrapped(&format!("{intro}{axes}"), language));
-    for ((number, exercise), solution) in (1..).zip(&chapter.exercises).zip(solutions) {
-        let question = exercise.question_with_form(language, &solution);
+    // In a text editor an answer is not hidden, so all questions come before the first of them.
+    for ((number, exercise), solution) in (1..).zip(&chapter.exercises).zip(&solutions) {
+        let question = exercise.question_with_form(language, solution);
         out += &format!("\n{}", wrapped(&format!("**{number}.** {question}"), language));
         if !exercise.choices.is_empty() {
             out += &format!("\n\n{}", wrapped(&choices(exercise, language).join(" · "), language));
         }
+        out += "\n";
+    }
+    for ((number, exercise), solution) in (1..).zip(&chapter.exercises).zip(&solutions) {
         let word = ["Answer", "答案"][language as usize];
         let answer = solution.answer.text();
-        let why = exercise.explanation(language, &solution);
-        out += &format!("\n\n<details><summary>{word}</summary>\n\n");
+        let why = exercise.explanation(language, solution);
+        out += &format!("\n<details><summary>{word} {number}</summary>\n\n");
         out += &wrapped(&format!("**{answer}** {why}"), language);
-        let grids = grids(&solution);
+        let grids = grids(solution);
         if !grids.is_empty() {
             out += &format!("\n\n```text\n{grids}```");
         }
