@@ -412,12 +412,17 @@ fn the_cause_of_what_the_order_decides_is_named() {
     let near = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 1e-8\nv 1 -1 1e-8\nv 1 1 1e-8\nv -1 1 1e-8\n";
     folder
         .put("near.obj", format!("mtllib m.mtl\n{near}usemtl a\nf 1 2 3 4\nusemtl b\nf 5 6 7 8\n"));
+    // Sixty decals in one place, with more samples that blend than layers are kept for.
+    let decals = "usemtl red\nf 1 2 3 4\nusemtl blue\nf 1 2 3 4\n".repeat(30);
+    folder.put("decals.obj", format!("mtllib m.mtl\n{glass}{decals}"));
     for (model, cause, cure) in [
         ("glass.obj", "by blending", "--layers"),
+        ("decals.obj --size 720x480", "by blending", "--layers"),
         ("twice.obj", "by equal depths", "in the model"),
         ("near.obj --depth unorm24", "equal in unorm24", "--depth f64"),
     ] {
-        let words = format!("verify {model} --size 160x120 --yaw 0 --pitch 0 --json");
+        let size = if model.contains("--size") { "" } else { "--size 160x120" };
+        let words = format!("verify {model} {size} --yaw 0 --pitch 0 --json");
         let json = folder.check(&*words, 0).json();
         let cases = json["hard_cases"]["cases"].as_array().unwrap();
         let order = cases.iter().find(|case| case["kind"] == "pixels by drawing order").unwrap();

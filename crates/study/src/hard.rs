@@ -26,7 +26,7 @@ use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 use crate::effects::differing;
 use crate::face_of;
 use crate::shape::{Edge, SLIVER, Shape};
-use crate::ties::{Class, Classes, Surfaces, TiedPair};
+use crate::ties::{Class, Classes, Surfaces, TiedPair, blends};
 use crate::view::{NOTHING, Piece, Sampled, pieces};
 use crate::work::Work;
 
@@ -562,8 +562,15 @@ impl Search<'_> {
         let mut scene = self.scene.clone();
         let mut left = pixels.clone();
         let blended = Work::of(self.scene, self.sampled.window).blended;
-        if self.scene.layers.is_none() && (1..=MOST_BLENDED).contains(&blended) {
-            (scene.layers, other.layers) = (LAYERS, LAYERS);
+        if self.scene.layers.is_none() && blended > 0 {
+            for scene in [&mut scene, &mut other] {
+                if blended <= MOST_BLENDED {
+                    scene.layers = LAYERS;
+                } else {
+                    // What is opaque alone: the rest differs by what blends.
+                    scene.items.retain(|item| !blends(item));
+                }
+            }
             left = differs(&scene, &other, target)?;
         }
         let blending = pixels.len() - left.len();
