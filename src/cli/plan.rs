@@ -64,8 +64,10 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     drop(progress);
     let survey_us = savings::survey_us(&scene, &target)?;
     let frames = frames.each_ref();
+    let kind = if arguments.what.source().is_ok() { "scene" } else { "model" };
+    let savings = &measured;
     let measurement =
-        Measurement { scene: &scene, frames, savings: &measured, survey_us, is_whole: whole };
+        Measurement { scene: &scene, kind, frames, savings, survey_us, is_whole: whole };
     let mut report = measurement.report(typed.line(), page.is_some());
     if arguments.json {
         report.data = measurement.data();

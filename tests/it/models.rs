@@ -4,6 +4,8 @@
 use std::fs;
 use std::path::Path;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
 use rasterproof_core::random::Rng;
@@ -1028,4 +1030,84 @@ fn folded_polygons_keep_their_triangles() {
     let text = "v 0 0 0\nv 4 0 1.333333\nv 4 4 0\nv 2 0 .666667\nv 0 4 -1.333333\nf 1 2 3 4 5\n";
     let model = read(&folder, text, Shading::Flat);
     assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+}
+
+/// The linear light of a channel in [0, 1] that is encoded as sRGB, and the reverse.
+fn decoded(channel: f64) -> f64 {
+    if channel <= 0.04045 { channel / 12.92 } else { ((channel + 0.055) / 1.055).powf(2.4) }
+}
+
+fn encoded(light: f64) -> f64 {
+    if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Whether a byte is what a light comes to that may be this much off.
+fn is_byte_of(byte: u8, light: f64, off: f64) -> bool {
+    let [least, most] =
+        [light - off, light + off].map(|light| encoded(light.clamp(0.0, 1.0)) * 255.0);
+    (least - 0.501..=most + 0.501).contains(&f64::from(byte))
+}
+
+/// A picture of 5 x 3 texels on 56 x 42 pixels, and colours of corners in its place: each pixel has the mean of amounts of
+/// light, whatever the shading is. The coordinates of a texel are rounded to 1/256, so each mean may be off by half of that.
+#[test]
+fn what_is_unlit_is_filtered_and_interpolated_in_linear_light() {
+    let folder = Folder::new("models-unlit");
+    let text = include_str!("../data/models/unlit.gltf");
+    let document: serde_json::Value = serde_json::from_str(text).unwrap();
+    let uri = document["images"][0]["uri"].as_str().unwrap();
+    let png = STANDARD.decode(uri.rsplit(',').next().unwrap()).unwrap();
+    let texels = image::load_from_memory(&png).unwrap().into_rgb8();
+    let factor = [0.5, 0.3, 0.9];
+    let picture = |words: &str| {
+        folder.check(format!("render m.gltf --camera 1 --size 64x48 -o out.png {words}"), 0);
+        image::open(folder.join("out.png")).unwrap().into_rgb8()
+    };
+    folder.put("m.gltf", text);
+    for words in ["", "--shading flat", "--shading gouraud", "--effects all"] {
+        let drawn = picture(words);
+        for (x, y) in (3..45).flat_map(|y| (4..60).map(move |x| (x, y))) {
+            // From the centre of the first texel; what lies beyond is on the other side of the picture.
+            let u = (f64::from(x) + 0.5 - 4.0) / 56.0 * 5.0 - 0.5;
+            let v = (f64::from(y) + 0.5 - 3.0) / 42.0 * 3.0 - 0.5;
+            for channel in 0..3 {
+                let texel = |du: i32, dv: i32| {
+                    let x = (u.floor() as i32 + du).rem_euclid(5) as u32;
+                    let y = (v.floor() as i32 + dv).rem_euclid(3) as u32;
+                    decoded(f64::from(texels[(x, y)][channel]) / 255.0) * factor[channel]
+                };
+                let [a, b, c, d] = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
+                let (right, down) = (u - u.floor(), v - v.floor());
+                let mean = (a * (1.0 - right) + b * right) * (1.0 - down)
+                    + (c * (1.0 - right) + d * right) * down;
+                let steep = (b - a).abs().max((d - c).abs()) + (c - a).abs().max((d - b).abs());
+                let byte = drawn[(x, y)][channel];
+                assert!(is_byte_of(byte, mean, steep / 512.0), "{words} {x},{y}: {byte}, {mean}");
+            }
+        }
+    }
+    // White and black corners: between them, the light of a pixel grows by a 56th of all from column to column.
+    let mut coloured = document.clone();
+    let colours: Vec<u8> =
+        [0.0f32, 1.0, 1.0, 0.0].iter().flat_map(|c| [*c; 3]).flat_map(f32::to_le_bytes).collect();
+    let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&colours));
+    let add = |list: &mut serde_json::Value, one| list.as_array_mut().unwrap().push(one);
+    add(&mut coloured["buffers"], json!({ "byteLength": colours.len(), "uri": uri }));
+    add(&mut coloured["bufferViews"], json!({ "buffer": 1, "byteLength": colours.len() }));
+    let accessor = json!({ "bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC3" });
+    add(&mut coloured["accessors"], accessor);
+    coloured["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(3);
+    let pbr = &mut coloured["materials"][0]["pbrMetallicRoughness"];
+    pbr.as_object_mut().unwrap().remove("baseColorTexture");
+    folder.put("m.gltf", coloured.to_string());
+    for words in ["", "--shading gouraud"] {
+        let drawn = picture(words);
+        for (x, y) in (3..45).flat_map(|y| (4..60).map(move |x| (x, y))) {
+            let light = (f64::from(x) + 0.5 - 4.0) / 56.0;
+            for channel in 0..3 {
+                let byte = drawn[(x, y)][channel];
+                assert!(is_byte_of(byte, light * factor[channel], 0.0), "{words} {x},{y}: {byte}");
+            }
+        }
+    }
 }

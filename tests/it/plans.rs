@@ -251,3 +251,24 @@ fn what_overlaps_at_first_sight_is_not_listed() {
     // One square alone may be apart.
     assert!(is_listed(vec![squares(0.0, 0.5, 300), squares(1.8, 1.0, 1)]));
 }
+
+/// The file of a user is no scene of the book, whatever it is called, and the data repeat the words of the text.
+#[test]
+fn text_and_data_of_a_plan_say_the_same_of_a_model() {
+    let folder = folder("words");
+    fs::copy(folder.join("squares.obj"), folder.join("cube.obj")).unwrap();
+    let words = ["plan", "cube.obj", "--whole", "--rounds", "1", "--size", "160x120"];
+    let page = folder.run([&words[..], &["--report", "--out", "."]].concat()).has(0);
+    let html = fs::read_to_string(folder.join("plan.html")).unwrap();
+    assert!(html.contains("What the model cube calls for"), "{html:.300}");
+    assert!(!page.out.contains("the scene cube"), "{}", page.out);
+    let of_scene = ["plan", "panels", "--whole", "--rounds", "1", "--report", "--out", "."];
+    folder.run(&of_scene[..]).has(0);
+    let html = fs::read_to_string(folder.join("plan.html")).unwrap();
+    assert!(html.contains("What the scene panels calls for"), "{html:.300}");
+    let json = folder.run([&words[..], &["--json"]].concat()).has(0).json();
+    assert_eq!(json["outcome"], "AGREES");
+    assert!(page.out.contains("\nAGREES: Planned, it was drawn "), "{}", page.out);
+    let sentence = json["sentence"].as_str().unwrap();
+    assert!(sentence.starts_with("Planned, it was drawn "), "{sentence}");
+}

@@ -412,12 +412,17 @@ fn the_cause_of_what_the_order_decides_is_named() {
     let near = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 1e-8\nv 1 -1 1e-8\nv 1 1 1e-8\nv -1 1 1e-8\n";
     folder
         .put("near.obj", format!("mtllib m.mtl\n{near}usemtl a\nf 1 2 3 4\nusemtl b\nf 5 6 7 8\n"));
+    // Sixty decals in one place, with more samples that blend than layers are kept for.
+    let decals = "usemtl red\nf 1 2 3 4\nusemtl blue\nf 1 2 3 4\n".repeat(30);
+    folder.put("decals.obj", format!("mtllib m.mtl\n{glass}{decals}"));
     for (model, cause, cure) in [
         ("glass.obj", "by blending", "--layers"),
+        ("decals.obj --size 720x480", "by blending", "--layers"),
         ("twice.obj", "by equal depths", "in the model"),
         ("near.obj --depth unorm24", "equal in unorm24", "--depth f64"),
     ] {
-        let words = format!("verify {model} --size 160x120 --yaw 0 --pitch 0 --json");
+        let size = if model.contains("--size") { "" } else { "--size 160x120" };
+        let words = format!("verify {model} {size} --yaw 0 --pitch 0 --json");
         let json = folder.check(&*words, 0).json();
         let cases = json["hard_cases"]["cases"].as_array().unwrap();
         let order = cases.iter().find(|case| case["kind"] == "pixels by drawing order").unwrap();
@@ -714,4 +719,114 @@ fn a_study_answers_in_three_sentences_that_other_commands_confirm() {
 
 fn thousands(number: f64) -> String {
     rasterproof_report::words::thousands(number as u64)
+}
+
+/// A file of triangles in the plane z = 0, whose y points down in the window, and a camera with a pixel for each unit of a window of 9 x 5 px.
+fn plane(triangles: &[[[f32; 2]; 3]], is_double_sided: bool) -> String {
+    let corners: Vec<[f32; 3]> = triangles.iter().flatten().map(|[x, y]| [*x, -y, 0.0]).collect();
+    let bytes: Vec<u8> = corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
+    let camera = json!({ "xmag": 4.5, "ymag": 2.5, "znear": 1, "zfar": 20 });
+    let document = json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
+        "nodes": [{ "mesh": 0 }, { "camera": 0, "translation": [4.5, -2.5, 10] }],
+        "cameras": [{ "type": "orthographic", "orthographic": camera }],
+        "materials": [{ "doubleSided": is_double_sided }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "material": 0 }] }],
+        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": corners.len(), "type": "VEC3" }],
+        "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
+        "buffers": [{ "byteLength": bytes.len(), "uri": format!("data:application/octet-stream;base64,{data}") }],
+    });
+    document.to_string()
+}
+
+/// How many triangles hit each pixel of the window once their corners are snapped to 1/256 px, by edge functions in whole numbers
+/// and the rule that left and top edges belong to a triangle.
+fn hits(triangles: &[[[f32; 2]; 3]]) -> Vec<([i64; 2], u32)> {
+    let all = (0..5).flat_map(|y| (0..9).map(move |x| [x, y]));
+    let hit = |[x, y]: [i64; 2], triangle: &[[f32; 2]; 3]| {
+        let mut corners =
+            triangle.map(|of| of.map(|at| (f64::from(at) * 256.0).round_ties_even() as i64));
+        let edge = |a: [i64; 2], b: [i64; 2], [x, y]: [i64; 2]| {
+            (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
+        };
+        let area = edge(corners[0], corners[1], corners[2]);
+        if area < 0 {
+            corners.swap(1, 2);
+        }
+        area != 0
+            && [(0, 1), (1, 2), (2, 0)].into_iter().all(|(a, b)| {
+                let (a, b) = (corners[a], corners[b]);
+                let is_top_left = b[1] < a[1] || b[1] == a[1] && b[0] > a[0];
+                let side = edge(a, b, [256 * x + 128, 256 * y + 128]);
+                side > 0 || side == 0 && is_top_left
+            })
+    };
+    all.map(|px| (px, triangles.iter().filter(|of| hit(px, of)).count() as u32)).collect()
+}
+
+/// A point of a long edge as the corner of two other faces, and a narrow part of a plane, each computed apart in whole numbers: the pixel
+/// that is lost or hit three times is named with what mends it. The same meshes without a corner on an edge, or without the narrow
+/// part, have no such case.
+#[test]
+fn cracks_and_folds_by_snapping_are_found() {
+    let folder = Folder::new("study-snapping");
+    let [o, e, r, s] = [[0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]];
+    let q = [4.065_213_2, 2.258_452];
+    let crack = [[o, r, s], [o, e, q], [e, r, q]];
+    let whole = [[o, q, s], [q, r, s], [o, e, q], [e, r, q]];
+    let [m, n] = [[2.664_98, 1.479_642_4], [2.608_712_2, 1.449_805_7]];
+    let fold = [[o, e, m], [e, r, m], [o, m, n], [m, r, n], [o, n, s], [n, r, s]];
+    let merged = [[o, e, m], [e, r, m], [o, m, s], [m, r, s]];
+    // A wall in front of a plane, seen from its edge, that snapping moves onto a pixel centre: an outline, and no fold.
+    let [u, v, w, x] = [[4.5019, 2.25], [4.502, 2.25], [4.502, 2.75], [4.5019, 2.75]];
+    let wall = [[o, r, s], [o, e, r], [u, v, w], [u, w, x]];
+    let on_wall = hits(&wall).into_iter().find(|(pixel, _)| *pixel == [4, 2]);
+    assert_eq!(on_wall, Some(([4, 2], 2)));
+    folder.put("m.gltf", plane(&wall, true));
+    let view = "--camera 1 --size 9x5";
+    for kind in ["cracks by snapping", "folds by snapping"] {
+        assert_eq!(numbers(&folder, &format!("m.gltf {view}"), kind), None);
+    }
+    // Of the fold two triangles are turned over. Where backs are culled, none of them is drawn, and the others overlap still.
+    let turned = "triangles turned by snapping";
+    let backwards = fold.map(|[a, b, c]| [a, c, b]);
+    for (triangles, is_double_sided, expected) in
+        [(&fold, true, [2, 1, 0]), (&backwards, false, [2, 0, 0])]
+    {
+        folder.put("m.gltf", plane(triangles, is_double_sided));
+        let [count, in_view, _] = numbers(&folder, &format!("m.gltf {view}"), turned).unwrap();
+        assert_eq!([count, in_view, 0], expected);
+        let found = numbers(&folder, &format!("m.gltf {view}"), "folds by snapping");
+        assert_eq!(found, Some([1, 1, 1]));
+    }
+    for (name, triangles, kind, count) in [
+        ("crack", &crack[..], "cracks by snapping", 0),
+        ("whole", &whole[..], "", 1),
+        ("fold", &fold[..], "folds by snapping", 3),
+        ("merged", &merged[..], "", 1),
+    ] {
+        let wrong: Vec<_> = hits(triangles).into_iter().filter(|(_, hits)| *hits != 1).collect();
+        let expected: &[([i64; 2], u32)] = if kind.is_empty() { &[] } else { &[([4, 2], count)] };
+        assert_eq!(wrong, expected, "{name}");
+        folder.put("m.gltf", plane(triangles, true));
+        let json = folder.check(&*format!("verify m.gltf {view} --json"), 0).json();
+        let cases = json["hard_cases"]["cases"].as_array().unwrap();
+        let found: Vec<_> = cases
+            .iter()
+            .filter(|case| case["kind"].as_str().unwrap().ends_with("s by snapping"))
+            .map(|case| (case["kind"].as_str().unwrap(), case["in_view"].as_u64().unwrap()))
+            .collect();
+        let expected: &[(&str, u64)] = if kind.is_empty() { &[] } else { &[(kind, 1)] };
+        assert_eq!(found, expected, "{name}");
+        if kind.is_empty() {
+            continue;
+        }
+        let text = folder.check(&*format!("study m.gltf {view} --once"), 0).out;
+        let line = format!("{kind}: the first at 4,2, of faces ");
+        assert!(text.contains(&line), "{name}: {text}");
+        let (_, after) = text.split_once(&line).unwrap();
+        let command = after.lines().find_map(|line| line.trim().strip_prefix("rasterproof "));
+        folder.check(command.unwrap().replace('\'', ""), 0).prints(kind);
+    }
 }

@@ -5,6 +5,7 @@ use std::hash::Hash;
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::LoadOptions;
 use crate::cameras::Camera;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_render::pipeline::highlight::Specular;
@@ -444,6 +445,14 @@ pub(crate) struct Surface {
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
     pub sides: Sides,
+}
+
+impl Surface {
+    /// Whether it is drawn in linear light. Gouraud shading has no fragment in which light could be encoded; what is unlit
+    /// is drawn alike by every shading.
+    pub fn is_linear(&self, options: LoadOptions) -> bool {
+        self.physical.is_some() && (self.unlit || options.is_per_fragment())
+    }
 }
 
 /// What is seen of the backs of faces, those that are clockwise as the eye sees them.

@@ -71,7 +71,7 @@ pub(crate) fn model(
     let mut first_face = 1;
     for mut part in std::mem::take(&mut contents.parts) {
         let surface = part.material.and_then(|number| contents.materials.get(number));
-        if surface.is_some_and(|surface| surface.physical.is_some()) && !options.is_per_fragment() {
+        if surface.is_some_and(|of| of.physical.is_some() && !of.is_linear(options)) {
             part.colours.iter_mut().for_each(|colour| *colour = colour.map(encoded));
         }
         let material = material(surface, &part, options);
@@ -109,7 +109,8 @@ pub(crate) fn model(
         let key = "specular colour, with Gouraud shading, of material".to_owned();
         contents.not_drawn.insert(key, shiny);
     }
-    let physical = contents.materials.iter().filter(|surface| surface.physical.is_some()).count();
+    let is_physical = |surface: &&Surface| surface.physical.is_some() && !surface.unlit;
+    let physical = contents.materials.iter().filter(is_physical).count();
     if options.shading == Shading::Gouraud && physical > 0 {
         let key = "metal and roughness, with Gouraud shading, of material".to_owned();
         contents.not_drawn.insert(key, physical as u64);
@@ -283,7 +284,7 @@ fn material(surface: Option<&Surface>, part: &FilePart, options: LoadOptions) ->
                 physical: None,
             };
             match &surface.physical {
-                Some((colour, physical)) if options.is_per_fragment() => {
+                Some((colour, physical)) if surface.is_linear(options) => {
                     material.colour = *colour;
                     material.physical = Some(Arc::clone(physical));
                 }

@@ -26,8 +26,10 @@ use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 use crate::effects::differing;
 use crate::face_of;
 use crate::shape::{Edge, SLIVER, Shape};
-use crate::ties::{Class, Classes, Surfaces, TiedPair};
+use crate::snapping;
+use crate::ties::{Class, Classes, Surfaces, TiedPair, blends};
 use crate::view::{NOTHING, Piece, Sampled, pieces};
+use crate::winding::Change;
 use crate::work::Work;
 
 rasterproof_core::named! {
@@ -49,6 +51,9 @@ rasterproof_core::named! {
         WideW = "wide ranges of w",
         SinglePrecision = "positions lost by f32",
         FarTexture = "texture coordinates far out",
+        Crack = "cracks by snapping",
+        Fold = "folds by snapping",
+        Turned = "triangles turned by snapping",
     }
 }
 
@@ -76,10 +81,15 @@ impl Kind {
             Self::WideW => "over 4096 within a triangle: 1/w in f32 may be a visible step off",
             Self::SinglePrecision => "as f32 a corner moves by over 1/256 px: shapes are distorted",
             Self::FarTexture => "as f32 they miss half a texel: textures in blocks",
+            Self::Crack => {
+                "lost between snapped corners: split a long edge where a corner lies on it"
+            }
+            Self::Fold => "hit more often once snapped: merge triangles thinner than 1/256 px",
+            Self::Turned => "thinner than 1/256 px, turned over or flattened: culled, or reversed",
         }
     }
 
-    fn bit(self) -> u16 {
+    fn bit(self) -> u32 {
         1 << self as u16
     }
 }
@@ -110,12 +120,12 @@ pub struct HardCases {
     /// Those that occur, in the order of [`Kind::ALL`].
     pub cases: Vec<HardCase>,
     /// For each pixel which kinds are seen there, as bits.
-    touched: Frame<u16>,
+    touched: Frame<u32>,
     pub picture: Frame<Colour>,
     /// How it is decided which surface is seen at each pixel.
     pub classes: Classes,
     /// For each triangle of the scene which kinds it is of, as bits.
-    marks: Vec<u16>,
+    marks: Vec<u32>,
     /// The smallest and the largest w in the window.
     pub w: Option<[f64; 2]>,
     /// Pixels that change when positions are rounded to f32.
@@ -171,6 +181,7 @@ pub fn find(
     let planes = planes.map(|pieces| Surfaces::of(scene, pieces, sampled.window));
     let mut search = Search {
         scene,
+        origins,
         pieces,
         sampled,
         surfaces: planes.collect(),
@@ -183,6 +194,8 @@ pub fn find(
     let drawn = || {
         let classes = search.look();
         search.samples_on_edges();
+        search.broken();
+        search.turned();
         search.wide_w();
         search.far_textures();
         let picture = draw(scene, target)?;
@@ -233,15 +246,16 @@ const LAYERS: Option<NonZeroU32> = NonZeroU32::new(64);
 
 struct Search<'a> {
     scene: &'a Scene,
+    origins: &'a [Origin],
     pieces: &'a [Piece],
     sampled: &'a Sampled,
     surfaces: Vec<Surfaces<'a>>,
-    marks: Vec<u16>,
+    marks: Vec<u32>,
     /// For each triangle whether it is seen at a sample.
     is_seen: Vec<bool>,
     /// Which triangle is seen in each pixel.
     seen_at: Frame<u32>,
-    touched: Frame<u16>,
+    touched: Frame<u32>,
     found: Vec<HardCase>,
 }
 
@@ -259,7 +273,7 @@ impl Noted {
     }
 
     /// Adds one with its triangles; the worst or first ones first.
-    fn add(&mut self, marks: &mut [u16], triangles: &[u32], in_view: bool) {
+    fn add(&mut self, marks: &mut [u32], triangles: &[u32], in_view: bool) {
         self.count += 1;
         self.in_view += u64::from(in_view);
         let first = &mut self.first[usize::from(in_view)];
@@ -504,6 +518,56 @@ impl Search<'_> {
         self.note(noted, String::new());
     }
 
+    /// Cracks and folds that snapping makes, seen where nothing that hides them lies in front.
+    fn broken(&mut self) {
+        let mut all = [(Kind::Crack, true), (Kind::Fold, false)]
+            .map(|(kind, is_crack)| (Noted::new(kind), is_crack, None));
+        let planes = self.sampled.planes.iter().zip(&self.sampled.lost);
+        for (surfaces, (pieces, lost)) in self.surfaces.iter().zip(planes) {
+            for broken in snapping::broken(self.scene, (pieces, lost), self.sampled.window) {
+                let pixel @ [x, y] = self.sampled.pixel(broken.sample);
+                let is_seen = broken.pieces.iter().any(|piece| {
+                    surfaces.before(piece, broken.sample).is_none_or(|[by, off]| by <= off)
+                });
+                let faces: Vec<u32> = broken.pieces.iter().map(|piece| piece.face).collect();
+                let Some((noted, _, first)) =
+                    all.iter_mut().find(|(_, is_crack, _)| *is_crack == broken.is_crack)
+                else {
+                    continue;
+                };
+                noted.add(&mut self.marks, &faces, is_seen);
+                if is_seen {
+                    self.touched.span_mut(y, x, x + 1)[0] |= noted.kind.bit();
+                    first.get_or_insert((pixel, faces));
+                }
+            }
+        }
+        for (noted, _, first) in all {
+            let note = first.map_or(String::new(), |([x, y], faces)| {
+                let faces = faces.iter().take(3);
+                let faces = faces.map(|face| face_of(self.scene, self.origins, *face).to_string());
+                format!("the first at {x},{y}, of faces {}", faces.collect::<Vec<_>>().join(", "))
+            });
+            self.note(noted, note);
+        }
+    }
+
+    /// Triangles that snapping turns over or flattens.
+    fn turned(&mut self) {
+        let mut noted = Noted::new(Kind::Turned);
+        let mut flat = 0;
+        let (pieces, lost) = (self.sampled.at_centres(), self.sampled.lost_at_centres());
+        for piece in pieces.iter().chain(lost) {
+            let change = piece.change();
+            if change != Change::None {
+                flat += u64::from(change == Change::Flat);
+                noted.add(&mut self.marks, &[piece.face], self.is_seen[piece.face as usize]);
+            }
+        }
+        let note = format!("{} turned over, {flat} flattened", noted.count - flat);
+        self.note(noted, note);
+    }
+
     fn wide_w(&mut self) {
         let ratio = |piece: &Piece| {
             let [a, b, c] = piece.w;
@@ -562,8 +626,15 @@ impl Search<'_> {
         let mut scene = self.scene.clone();
         let mut left = pixels.clone();
         let blended = Work::of(self.scene, self.sampled.window).blended;
-        if self.scene.layers.is_none() && (1..=MOST_BLENDED).contains(&blended) {
-            (scene.layers, other.layers) = (LAYERS, LAYERS);
+        if self.scene.layers.is_none() && blended > 0 {
+            for scene in [&mut scene, &mut other] {
+                if blended <= MOST_BLENDED {
+                    scene.layers = LAYERS;
+                } else {
+                    // What is opaque alone: the rest differs by what blends.
+                    scene.items.retain(|item| !blends(item));
+                }
+            }
             left = differs(&scene, &other, target)?;
         }
         let blending = pixels.len() - left.len();

@@ -10,8 +10,10 @@ pub mod memory;
 pub mod report;
 pub mod savings;
 mod shape;
+mod snapping;
 pub mod ties;
 pub mod view;
+mod winding;
 pub mod work;
 
 use rasterproof_models::Origin;

@@ -72,6 +72,21 @@ impl Savings {
     pub fn factors(&self) -> [f64; 2] {
         [&self.everything, &self.usual].map(|other| other.time_us / self.planned.time_us)
     }
+
+    /// The same in words. No number is given where no difference was measured: the middle halves of the rounds overlap, or the
+    /// factor rounds to 1.
+    #[must_use]
+    pub fn phrases(&self) -> [String; 2] {
+        let phrase = |other: &Measured| {
+            let factor = format!("{:.1}", other.time_us / self.planned.time_us);
+            let has_quartiles = self.planned.rounds.min(other.rounds) >= FEWEST_ROUNDS;
+            match has_quartiles && self.planned.is_noise(other) || factor == "1.0" {
+                true => "as fast".to_owned(),
+                false => format!("{factor} times as fast"),
+            }
+        };
+        [&self.everything, &self.usual].map(phrase)
+    }
 }
 
 const WHOLE: [(&str, Effects); 3] =
@@ -199,4 +214,37 @@ pub fn survey_us(scene: &Scene, target: &Target) -> Result<Option<f64>, BadScene
     })?;
     times.sort_by(f64::total_cmp);
     Ok(times.get(ROUNDS / 2).copied())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured(time_us: f64, quartiles_us: [f64; 2], rounds: usize) -> Measured {
+        let (effects, range_us) = (String::new(), quartiles_us);
+        Measured { effects, rounds, time_us, range_us, quartiles_us, same: true }
+    }
+
+    /// A number is said of what differs alone.
+    #[test]
+    fn what_does_not_differ_has_no_factor() {
+        let phrases = |usual: Measured, rounds: usize| {
+            let savings = Savings {
+                everything: measured(85.0, [80.0, 90.0], rounds),
+                usual,
+                planned: measured(10.0, [9.0, 11.0], rounds),
+                effects: Vec::new(),
+                mixtures: Vec::new(),
+            };
+            savings.phrases()
+        };
+        let slow = "8.5 times as fast".to_owned();
+        let like = [slow.clone(), "as fast".to_owned()];
+        assert_eq!(phrases(measured(12.0, [10.0, 14.0], 9), 9), like, "within the noise");
+        assert_eq!(phrases(measured(10.3, [10.0, 10.6], 1), 1), like, "1.0 times");
+        let faster = [slow, "1.2 times as fast".to_owned()];
+        assert_eq!(phrases(measured(12.0, [11.5, 14.0], 9), 9), faster);
+        // Too few rounds for quartiles.
+        assert_eq!(phrases(measured(12.0, [10.0, 14.0], 1), 1), faster);
+    }
 }

@@ -16,7 +16,7 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::pipeline::target::Target;
-use rasterproof_render::scene::Scene;
+use rasterproof_render::scene::{Item, Scene};
 
 use crate::view::{NOTHING, Piece, each_plane};
 
@@ -118,14 +118,16 @@ pub(crate) struct Surfaces<'a> {
     nearest: Frame<(f64, u32)>,
 }
 
+/// Whether an item blends, so that it hides nothing that lies behind it.
+pub(crate) fn blends(item: &Item) -> bool {
+    item.material.opacity.as_ref().is_some_and(|opacity| opacity.mode == AlphaMode::Blend)
+}
+
 const NONE: (f64, u32) = (f64::INFINITY, NOTHING);
 
 impl<'a> Surfaces<'a> {
     pub fn of(scene: &Scene, pieces: &'a [Piece], window: PixelRect) -> Self {
-        let blends = |piece: &Piece| {
-            let opacity = scene.items[piece.item as usize].material.opacity.as_ref();
-            opacity.is_some_and(|opacity| opacity.mode == AlphaMode::Blend)
-        };
+        let blends = |piece: &Piece| blends(&scene.items[piece.item as usize]);
         let mut surfaces = Self {
             pieces,
             window,
@@ -254,7 +256,7 @@ mod tests {
     use rasterproof_render::pipeline::depth::DepthFormat;
     use rasterproof_render::pipeline::target::Antialias;
     use rasterproof_render::pipeline::transform::perspective;
-    use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
+    use rasterproof_render::scene::{Corner, Material, Mesh};
 
     /// A tilted square that is cut along one of its diagonals, and moved towards the eye.
     fn square(other_diagonal: bool, nearer: f64) -> Item {

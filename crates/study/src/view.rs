@@ -16,6 +16,8 @@ use rasterproof_render::pipeline::multisample::{self, SAMPLES};
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::Scene;
 
+use crate::winding::{self, Change};
+
 /// What clipping leaves of a triangle, or a part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
@@ -46,6 +48,11 @@ impl Piece {
         ScreenTriangle { vertices }
     }
 
+    /// What snapping does to it.
+    pub(crate) fn change(&self) -> Change {
+        winding::change(self.px, self.px_error, self.corners())
+    }
+
     /// The corners as they are; none beyond the domain of the engines.
     pub fn free(&self) -> Option<FreeCorners> {
         FreeCorners::new(self.px).ok()
@@ -54,9 +61,15 @@ impl Piece {
 
 /// The pieces of a scene in drawing order, culled as the scene asks.
 pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> {
+    Ok(pieces_and_lost(scene, window)?.0)
+}
+
+/// The pieces of a scene, and those that culling removes only since snapping has turned them over.
+fn pieces_and_lost(scene: &Scene, window: PixelRect) -> Result<(Vec<Piece>, Vec<Piece>), BadScene> {
     let (width, height) = (f64::from(window.width()), f64::from(window.height()));
     let viewport = Viewport::new(window);
     let mut pieces = Vec::with_capacity(scene.triangles());
+    let mut lost = Vec::new();
     let mut face = 0;
     for (index, item) in scene.items.iter().enumerate() {
         let points = clip_points(scene, index)?;
@@ -84,10 +97,8 @@ pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> 
                 let corners = [first, previous, next];
                 previous = next;
                 let triangle = ScreenTriangle { vertices: corners.map_array(|(.., v)| v) };
-                if item.cull.removes(triangle.corners()) {
-                    continue;
-                }
                 let (px, w) = (corners.map_array(|(px, ..)| px), corners.map_array(|(_, w, _)| w));
+                let is_removed = item.cull.removes(triangle.corners());
                 let positions =
                     item_triangle.map_array(|c| item.mesh.positions[c.position as usize]);
                 let most = positions.map_array(|position| sums * position.abs().extend(1.0));
@@ -97,12 +108,17 @@ pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> 
                 // Within the window |x|, |y| and |z| are at most w; half of that is the side of the window.
                 let px_error = (off.x.max(off.y) + off.w) * width.max(height) / 2.0;
                 let depth_error = (off.z + off.w) / 2.0;
-                let (face, item) = (face - 1, index as u32);
-                pieces.push(Piece { face, item, px, w, px_error, depth_error, triangle });
+                let (face, number) = (face - 1, index as u32);
+                let piece = Piece { face, item: number, px, w, px_error, depth_error, triangle };
+                if !is_removed {
+                    pieces.push(piece);
+                } else if piece.change() == Change::Over {
+                    lost.push(piece);
+                }
             }
         }
     }
-    Ok(pieces)
+    Ok((pieces, lost))
 }
 
 /// What a coordinate in clip space may be off, in what the same sums with positive terms alone come to. Three matrices
@@ -138,31 +154,43 @@ pub struct Sampled {
     pub window: PixelRect,
     /// The pieces, moved so that the samples of a plane fall on the centres: four planes with multisampling, else one.
     pub planes: Vec<Vec<Piece>>,
-    /// The pieces in the pixels of the picture, where they are no plane.
-    centre: Option<Vec<Piece>>,
+    /// For each plane the pieces that culling removes only since snapping has turned them over.
+    pub lost: Vec<Vec<Piece>>,
+    /// The pieces in the pixels of the picture, where they are no plane, and those of them that are lost.
+    centre: Option<[Vec<Piece>; 2]>,
 }
 
 impl Sampled {
     pub fn of(scene: &Scene, target: &Target) -> Result<Self, BadScene> {
         let (size, window) = (target.size(), target.bounds());
-        let at_centres = pieces(scene, size)?;
-        let sampled = |planes, centre| Self { size, window, planes, centre };
+        let (at_centres, lost) = pieces_and_lost(scene, size)?;
+        let sampled = |planes, lost, centre| Self { size, window, planes, lost, centre };
         Ok(match target.antialias() {
-            Antialias::None => sampled(vec![at_centres], None),
-            Antialias::Supersample(_) => sampled(vec![pieces(scene, window)?], Some(at_centres)),
+            Antialias::None => sampled(vec![at_centres], vec![lost], None),
+            Antialias::Supersample(_) => {
+                let (pieces, lost_there) = pieces_and_lost(scene, window)?;
+                sampled(vec![pieces], vec![lost_there], Some([at_centres, lost]))
+            }
             Antialias::Multisample4 => {
-                let plane = |sample| {
-                    let moved = at_centres.iter().filter_map(|piece| moved(piece, sample));
-                    moved.collect::<Vec<_>>()
+                let plane = |pieces: &[Piece], sample| {
+                    pieces.iter().filter_map(|piece| moved(piece, sample)).collect::<Vec<_>>()
                 };
-                sampled(SAMPLES.into_iter().map(plane).collect(), Some(at_centres))
+                let planes = |pieces: &[Piece]| {
+                    SAMPLES.into_iter().map(|sample| plane(pieces, sample)).collect()
+                };
+                sampled(planes(&at_centres), planes(&lost), Some([at_centres, lost]))
             }
         })
     }
 
     /// The pieces with pixel centres as samples, whatever the picture has.
     pub fn at_centres(&self) -> &[Piece] {
-        self.centre.as_deref().unwrap_or(&self.planes[0])
+        self.centre.as_ref().map_or(&self.planes[0], |[pieces, _]| pieces)
+    }
+
+    /// The pieces at pixel centres that culling removes only since snapping has turned them over.
+    pub fn lost_at_centres(&self) -> &[Piece] {
+        self.centre.as_ref().map_or(&self.lost[0], |[_, lost]| lost)
     }
 
     /// The pieces at the samples that are shaded, and their window.

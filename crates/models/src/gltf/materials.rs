@@ -149,8 +149,13 @@ pub(super) fn describe(
             }
         }
     });
-    let physical = is_physical.then(|| {
+    // Textures and colours of an unlit surface are decoded before they are filtered or interpolated, as those of a physical one.
+    let is_linear = is_physical || unlit;
+    let physical = is_linear.then(|| {
         let linear = DVec3::new(r.into(), g.into(), b.into()).clamp(DVec3::ZERO, DVec3::ONE);
+        if unlit {
+            return (linear, Arc::new(Physical::default()));
+        }
         let mut missing = |map: Map, cause: String| {
             let name = printable_short(&name, 40);
             let text =
@@ -164,7 +169,7 @@ pub(super) fn describe(
     // A file may let blend what is opaque everywhere.
     let is_opaque = map.is_none() && factor == 1.0;
     let opacity = mode.filter(|_| !is_opaque).map(|mode| Opacity { factor, map, mode });
-    let texture = decoded.map(|decoded| match is_physical {
+    let texture = decoded.map(|decoded| match is_linear {
         true => Arc::new(decoded.texture.decoded()),
         false => Arc::new(decoded.texture),
     });

@@ -265,7 +265,16 @@ fn first_screen(subject: &Places<'_>, found: &Found<'_>) -> Vec<Table> {
     let hidden: Vec<_> =
         hidden.map(|case| format!("{} {}", thousands(case.count), case.kind.name())).collect();
     let hidden = listed("only in the mesh", &hidden);
-    let seen = short(columns, seen.iter().map(row).collect(), hidden);
+    // These are few pixels mostly, and in none of the rows then; what mends them is said here.
+    let is_broken = |case: &&&HardCase| [Kind::Crack, Kind::Fold].contains(&case.kind);
+    let broken = seen.iter().filter(is_broken).flat_map(|case| {
+        let about = format!("{}: {}; {}", case.kind.name(), case.note, case.kind.about());
+        let command = case.triangles.first().map(|one| subject.command(*one));
+        std::iter::once(about).chain(command)
+    });
+    let broken: Vec<String> = broken.collect();
+    let mut seen = short(columns, seen.iter().map(row).collect(), hidden);
+    seen.notes.extend(broken);
     let of = |state: State| found.needs.needs.iter().filter(move |need| need.state() == state);
     let row = |need: &Need| {
         let time = takes(found.needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));

@@ -97,6 +97,8 @@ pub fn reasons(decisions: &[Decision], effect: Effect) -> Vec<String> {
 /// What planning the effects of a scene saves, with the frames that were drawn to find it.
 pub struct Measurement<'a> {
     pub scene: &'a Scene,
+    /// `model` where the scene was read from a file, else `scene`.
+    pub kind: &'a str,
     /// Drawn with everything, and planned.
     pub frames: [&'a Rendered; 2],
     pub savings: &'a Savings,
@@ -112,28 +114,36 @@ impl Measurement<'_> {
         self.savings.all().all(|mixture| mixture.same)
     }
 
-    /// The tables of the plan, and the frames as layers where there is a page.
-    pub fn report(&self, command: String, is_page: bool) -> Report {
-        let Self { scene, frames, savings, survey_us, is_whole } = *self;
-        let ([all, usual], same) = (savings.factors(), self.is_same());
+    /// What the measurement comes to, on the screen and in the data.
+    fn outcome(&self) -> Outcome {
+        let ([all, usual], same) = (self.savings.phrases(), self.is_same());
+        if same && self.frames[0].counters.fragments == 0 {
+            return Outcome::nothing_drawn();
+        }
         let sentence = match same {
+            true if all == usual => format!(
+                "Planned, it was drawn {all} as with everything on and as usual, with the same bits."
+            ),
             true => format!(
-                "Planned, it was drawn {all:.1} times as fast as with everything on, and {usual:.1} \
-                 times as fast as usual, with the same bits."
+                "Planned, it was drawn {all} as with everything on, and {usual} as usual, with the \
+                 same bits."
             ),
             false => "A plan changed the picture.".to_owned(),
         };
+        Outcome::of(same, sentence)
+    }
+
+    /// The tables of the plan, and the frames as layers where there is a page.
+    pub fn report(&self, command: String, is_page: bool) -> Report {
+        let Self { scene, kind, frames, savings, survey_us, is_whole } = *self;
         let mut tables = vec![table(&frames[1].plan.decisions), counts(frames)];
         tables.extend((!savings.effects.is_empty()).then(|| of_each(savings)));
         tables.push(whole(savings, survey_us, is_whole));
         let view = is_page.then(|| view(command.clone(), scene, frames));
         Report {
-            title: format!("What the scene {} calls for", scene.name),
+            title: format!("What the {kind} {} calls for", scene.name),
             about: format!("{}: {}", scene.name, scene.about),
-            outcome: Some(match frames[0].counters.fragments {
-                0 if same => Outcome::nothing_drawn(),
-                _ => Outcome::of(same, sentence),
-            }),
+            outcome: Some(self.outcome()),
             command,
             tables,
             frames: Vec::from_iter(view),
@@ -145,6 +155,7 @@ impl Measurement<'_> {
     pub fn data(&self) -> Value {
         let Self { scene, frames: [everything, planned], savings, survey_us, .. } = *self;
         let is_compared = everything.counters.fragments > 0 || !self.is_same();
+        let Outcome { word, sentence, .. } = self.outcome();
         value(&Data {
             scene: &scene.name,
             plan: Plan { scene: Some(SceneDigest::of(scene)), ..planned.plan.clone() },
@@ -153,6 +164,8 @@ impl Measurement<'_> {
             measured: savings,
             survey_us,
             same: is_compared.then(|| self.is_same()),
+            outcome: word,
+            sentence,
         })
     }
 }
@@ -167,6 +180,9 @@ struct Data<'a> {
     survey_us: Option<f64>,
     /// Nothing where no fragment was drawn, so that two backgrounds would be compared.
     same: Option<bool>,
+    /// The first words of the text, and what follows them.
+    outcome: String,
+    sentence: String,
 }
 
 /// A saving in percent, unless it is within the noise.
@@ -211,7 +227,10 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
         changed.map(|m| format!("DIFFERENT PICTURE with the effects {}", m.effects)).collect();
     let [all, usual] = savings.factors();
     notes.extend([
-        format!("planned as a whole: {all:.2} times as fast as everything, {usual:.2} as usual"),
+        format!(
+            "planned as a whole: {all:.2} times as fast as everything, {usual:.2} as usual{}",
+            if savings.phrases()[1] == "as fast" { ", which is noise" } else { "" }
+        ),
         "usual: what a renderer does without a planner (cuts what crosses, culls, one depth test)"
             .to_owned(),
     ]);

@@ -1,0 +1,178 @@
+//! What snapping breaks: triangles that it turns over or flattens, samples of a surface that no triangle covers after it, and samples
+//! that more triangles cover than before.
+//!
+//! Two exact engines count how many pieces cover each sample: one with the corners as they are given, one with the snapped ones. Where the
+//! counts differ, an outline of the model may just have moved across the sample, which is no fault. A corner moves by at most half a step
+//! of the grid, 1/512 px in x and in y. The eight points of a square around the sample, [`RING`] px from it, therefore tell: an outline that can
+//! reach the sample runs between them, so that not all of them are covered equally often. Where they are, the sample lies inside a
+//! surface, and a crack or a fold is what snapping made there.
+//!
+//! A wall that is seen from its edge may lie between the points unseen, and it is as thin after snapping as before, somewhere else. So a
+//! sample with a piece that no point tells of has no fold, unless snapping has turned that piece over: a fold without a corner on an edge
+//! consists of pieces that are turned over and their neighbours.
+
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::raster::scanline_exact::ScanlineExact;
+use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::scene::Scene;
+
+use crate::view::Piece;
+use crate::winding::{Change, area};
+
+/// How far the points around a sample are from it in x and in y: more than 1/512 px, and no multiple of a step of the grid, so that edges
+/// on the grid seldom run through them.
+const RING: f64 = 1.0 / 300.0;
+
+/// The points around a sample, from -1 to 1.
+const AROUND: [[f64; 2]; 8] = [
+    [-1.0, -1.0],
+    [0.0, -1.0],
+    [1.0, -1.0],
+    [1.0, 0.0],
+    [1.0, 1.0],
+    [0.0, 1.0],
+    [-1.0, 1.0],
+    [-1.0, 0.0],
+];
+
+/// A sample inside a surface that snapping broke.
+pub(crate) struct Broken<'a> {
+    pub sample: [i32; 2],
+    /// Whether fewer pieces cover it than before, else more.
+    pub is_crack: bool,
+    /// The pieces around it as given for a crack, those that cover it for a fold.
+    pub pieces: Vec<&'a Piece>,
+}
+
+/// What is known of a sample whose counts differ.
+struct Candidate<'a> {
+    sample: [i32; 2],
+    snapped: u32,
+    /// How many pieces cover each point around it as they are given; nothing once doubles could not tell.
+    around: Option<[u32; AROUND.len()]>,
+    given_here: Vec<&'a Piece>,
+    snapped_here: Vec<&'a Piece>,
+}
+
+/// The samples that snapping broke, from the top left. `lost` are the pieces that culling removes only since snapping has turned them over.
+pub(crate) fn broken<'a>(
+    scene: &Scene,
+    (pieces, lost): (&'a [Piece], &'a [Piece]),
+    window: PixelRect,
+) -> Vec<Broken<'a>> {
+    let is_culled = |piece: &Piece| scene.items[piece.item as usize].cull != Cull::None;
+    // What culling would remove if nothing was snapped is drawn, and not part of the surface as given.
+    let is_given = |piece: &Piece| !is_culled(piece) || piece.change() != Change::Over;
+    let given = || pieces.iter().filter(|piece| is_given(piece)).chain(lost);
+    let mut counts = Frame::new(window, [0u32; 2]);
+    for piece in given() {
+        let Some(corners) = piece.free() else { continue };
+        ScanlineExact.cover_exact(&corners, window, |span| {
+            for [given, _] in counts.span_mut(span.y_px, span.x0_px, span.x1_px) {
+                *given += 1;
+            }
+        });
+    }
+    for piece in pieces.iter().filter(|piece| piece.free().is_some()) {
+        Scanline.cover(piece.corners(), window, |span| {
+            for [_, snapped] in counts.span_mut(span.y_px, span.x0_px, span.x1_px) {
+                *snapped += 1;
+            }
+        });
+    }
+    let mut candidates = Vec::new();
+    for (y, row) in counts.rows() {
+        for (x, [given, snapped]) in (window.x0..).zip(row) {
+            if given != snapped {
+                let (sample, snapped) = ([x, y], *snapped);
+                let around = Some([0; AROUND.len()]);
+                let (given_here, snapped_here) = (Vec::new(), Vec::new());
+                candidates.push(Candidate { sample, snapped, around, given_here, snapped_here });
+            }
+        }
+    }
+    for piece in given() {
+        near(&mut candidates, piece, |candidate| look_around(candidate, piece));
+    }
+    for piece in pieces {
+        near(&mut candidates, piece, |candidate| {
+            let [x, y] = candidate.sample;
+            let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
+            Scanline.cover(piece.corners(), pixel, |_| candidate.snapped_here.push(piece));
+        });
+    }
+    let broken = |candidate: Candidate<'a>| {
+        let Candidate { sample, snapped, around, given_here, snapped_here } = candidate;
+        let around = around?;
+        let is_inside = around[0] > 0 && around.iter().all(|count| *count == around[0]);
+        let is_crack = snapped < around[0];
+        let is_known = |piece: &&Piece| {
+            piece.change() == Change::Over
+                || given_here.iter().any(|given| std::ptr::eq(*given, *piece))
+        };
+        if !is_crack && !snapped_here.iter().all(is_known) {
+            return None;
+        }
+        let pieces = if is_crack { given_here } else { snapped_here };
+        (is_inside && snapped != around[0]).then_some(Broken { sample, is_crack, pieces })
+    };
+    candidates.into_iter().filter_map(broken).collect()
+}
+
+/// Calls `visit` with each candidate in or beside the box of a piece.
+fn near<'a>(
+    candidates: &mut [Candidate<'a>],
+    piece: &'a Piece,
+    mut visit: impl FnMut(&mut Candidate<'a>),
+) {
+    let [a, b, c] = piece.px;
+    let ends = |i: usize| {
+        let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+        // A pixel more on both sides is more than snapping and the points around a sample need.
+        [least.floor() as i32 - 1, most.ceil() as i32 + 1]
+    };
+    let ([x0, x1], [y0, y1]) = (ends(0), ends(1));
+    let first = candidates.partition_point(|candidate| candidate.sample[1] < y0);
+    for candidate in &mut candidates[first..] {
+        let [x, y] = candidate.sample;
+        if y > y1 {
+            break;
+        }
+        if (x0..=x1).contains(&x) {
+            visit(candidate);
+        }
+    }
+}
+
+/// Counts the points around a sample that a piece covers as it is given.
+fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece) {
+    let Some(around) = &mut candidate.around else { return };
+    let [a, b, c] = piece.px;
+    let sign = area(piece.px).signum();
+    if area(piece.px) == 0.0 {
+        return;
+    }
+    let mut is_here = false;
+    for (count, by) in around.iter_mut().zip(AROUND) {
+        let [x, y] = candidate.sample.map_array(|at| f64::from(at) + 0.5);
+        let point = [x + by[0] * RING, y + by[1] * RING];
+        let sides = [[a, b, point], [b, c, point], [c, a, point]].map_array(|of| area(of) * sign);
+        if sides.iter().any(|side| *side < 0.0) {
+            continue;
+        }
+        if sides.contains(&0.0) {
+            // It lies on an edge, or doubles cannot tell: nothing is said of this sample.
+            candidate.around = None;
+            return;
+        }
+        *count += 1;
+        is_here = true;
+    }
+    if is_here {
+        candidate.given_here.push(piece);
+    }
+}
