@@ -36,6 +36,7 @@ mod live_figures;
 mod matrix;
 mod misbehave;
 mod mistakes;
+mod model_cases;
 mod model_files;
 mod model_formats;
 mod models;
