@@ -38,7 +38,6 @@ mod misbehave;
 mod mistakes;
 mod model_cases;
 mod model_files;
-mod model_formats;
 mod models;
 mod mutants;
 mod not_judged;

@@ -7,16 +7,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3, DVec4};
-use rasterproof_models::{BadFile, LoadOptions, Model, Normals, Origin, Up};
+use rasterproof_models::{BadFile, LoadOptions, Model, Normals, Origin, Pose, Up};
 use rasterproof_render::scene::{Item, Material, Shading};
 use serde_json::{Value, to_value};
 
 use crate::snapshots::{each, settings};
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/models");
+pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/models");
 
 /// The endings of files that are no models: snapshots, and what models name.
-const BESIDE: &[&str] = &["bin", "bmp", "jpg", "md", "mtl", "new", "png", "snap", "tga", "tiff", "webp"];
+const BESIDE: &[&str] =
+    &["bin", "bmp", "jpg", "md", "mtl", "new", "png", "snap", "tga", "tiff", "webp"];
 
 /// Triangles of an item that a snapshot shows.
 const MOST_SHOWN: usize = 8;
@@ -79,7 +80,9 @@ fn numbers(all: &[f64]) -> String {
 fn in_words(value: &Value) -> String {
     match value {
         Value::Number(of) => number(of.as_f64().unwrap()),
-        Value::Array(all) => format!("[{}]", all.iter().map(in_words).collect::<Vec<_>>().join(" ")),
+        Value::Array(all) => {
+            format!("[{}]", all.iter().map(in_words).collect::<Vec<_>>().join(" "))
+        }
         Value::Object(fields) => {
             let field = |(name, value): (&String, &Value)| match (name.as_str(), value) {
                 ("subtexels" | "anisotropy", _) | (_, Value::Null | Value::Bool(false)) => None,
@@ -147,7 +150,8 @@ fn item(of: &Item, origin: &Origin) -> String {
         if of.material.vertex_colours {
             out += &corners("colour", triangle.map(|of| of.colour.to_array()), [1.0; 3]);
         }
-        let (tangents, second) = (mesh.triangles.tangents(number), mesh.triangles.second_uvs(number));
+        let (tangents, second) =
+            (mesh.triangles.tangents(number), mesh.triangles.second_uvs(number));
         // They are computed in single precision.
         let tangents = tangents.map(|of: DVec4| (of * 1e6).round() / 1e6);
         out += &corners("tangent", tangents.map(|of| of.to_array()), [0.0; 4]);
@@ -188,7 +192,8 @@ fn describe(model: &Model) -> String {
 /// Every corner names a position, and all of its numbers are finite.
 fn is_whole(model: &Model) -> bool {
     let is_whole = |item: &Item| {
-        let is_there = |at: u32| item.mesh.positions.get(at as usize).is_some_and(|p| p.is_finite());
+        let is_there =
+            |at: u32| item.mesh.positions.get(at as usize).is_some_and(|p| p.is_finite());
         item.mesh.triangles.corners().all(|of| {
             let is_finite = of.normal.is_finite() && of.uv.is_finite() && of.colour.is_finite();
             is_there(of.position) && is_finite
@@ -200,7 +205,7 @@ fn is_whole(model: &Model) -> bool {
 #[test]
 fn models_are_read_as_their_snapshots_say() {
     let models = models_in(Path::new(FOLDER));
-    assert!(models.len() > 200, "{} models", models.len());
+    assert!(models.len() > 240, "{} models", models.len());
     let alone = models.into_iter().filter(|path| !path.starts_with(tetrahedra()));
     each(alone, |path| {
         let name = path.file_name().unwrap().to_str().unwrap();
@@ -254,7 +259,8 @@ fn each_tetrahedron_is_the_same() {
 fn in_a_line(path: &Path) -> String {
     let name = path.file_name().unwrap().to_str().unwrap();
     let model = load(path).unwrap_or_else(|error| panic!("{error}"));
-    let parts: Vec<_> = model.origins.iter().map(|of| format!("{:?} {:?}", of.part, of.lines)).collect();
+    let parts: Vec<_> =
+        model.origins.iter().map(|of| format!("{:?} {:?}", of.part, of.lines)).collect();
     let mut out = format!("{name}: {:?}, {}\n", model.format, parts.join(", "));
     if !model.not_drawn.is_empty() {
         out += &format!("    not drawn: {}\n", model.not_drawn);
@@ -263,4 +269,76 @@ fn in_a_line(path: &Path) -> String {
         out += &format!("    warning: {said}\n");
     }
     out
+}
+
+/// A torus that gltfpack wrote as it is, compressed, and with positions that another filter rounds.
+#[test]
+fn triangles_that_meshoptimizer_compressed_are_decoded() {
+    let corners = |name: &str| {
+        let model = case(name);
+        let item = &model.items[0];
+        let place = |at: u32| item.mesh.positions[at as usize];
+        let corners = item.mesh.triangles.corners();
+        corners.map(|corner| (place(corner.position), corner.normal, corner.uv)).collect::<Vec<_>>()
+    };
+    let expected = corners("torus.glb");
+    assert_eq!(expected.len(), 3 * 192);
+    // Two steps of the 14 bits of a position, of a torus 6 units wide.
+    for (name, most) in
+        [("torus-meshopt.glb", 0.0), ("torus-meshopt-float.glb", 12.0 / f64::from(1 << 14))]
+    {
+        let decoded = corners(name);
+        assert_eq!(decoded.len(), expected.len());
+        // The order of the triangles may differ, and normals have 8 bits.
+        for (p, n, uv) in decoded {
+            let is_near = |(q, m, vw): &(DVec3, DVec3, DVec2)| {
+                p.distance(*q) <= most && n.dot(*m) > 0.99 && uv == *vw
+            };
+            assert!(expected.iter().any(is_near), "{p} {n} {uv}");
+        }
+    }
+}
+
+/// A node at moments of its animation, by each way of interpolating, computed by hand.
+#[test]
+fn an_animation_brings_nodes_to_where_they_are() {
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let path = Path::new(FOLDER).join("gltf/animations.gltf");
+    let at = |animation: usize, time_s: f64| {
+        let pose = Some(Pose { animation, time_s });
+        rasterproof_models::load(&path, LoadOptions { pose, ..LoadOptions::default() })
+    };
+    // The origin, and one unit along x.
+    for (animation, time, origin, x) in [
+        (0, 0.0, [0.0, 0.0], [1.0, 0.0]),
+        (0, 1.5, [1.0, 0.0], [2.0, 0.0]),
+        (0, 2.0, [2.0, 0.0], [3.0, 0.0]),
+        (0, 3.5, [2.0, 3.0], [3.0, 3.0]),
+        (0, 9.0, [2.0, 4.0], [3.0, 4.0]),
+        (1, 1.9, [0.0, 0.0], [1.0, 0.0]),
+        (1, 2.0, [2.0, 0.0], [3.0, 0.0]),
+        (2, 1.5, [0.0, 0.0], [half.into(), half.into()]),
+        (2, 3.0, [0.0, 0.0], [0.0, 1.0]),
+        // Halfway: 1/2 + 2/8 + 3/2.
+        (3, 1.5, [0.0, 0.0], [2.25, 0.0]),
+    ] {
+        let model = at(animation, time).unwrap();
+        let found = [0, 1].map(|i| model.items[0].mesh.positions[i]);
+        for (found, [x, y]) in found.into_iter().zip([origin, x]) {
+            assert!(found.distance(DVec3::new(x, y, 0.0)) < 1e-6, "{animation} {time}: {found}");
+        }
+        assert_eq!(model.not_drawn, "");
+        assert_eq!((model.animations.len(), &*model.animations[1]), (7, "translation STEP"));
+    }
+    let still = rasterproof_models::load(&path, LoadOptions::default()).unwrap();
+    assert_eq!(still.items[0].mesh.positions[0].to_array(), [7.0, 7.0, -7.0]);
+    for (animation, cause) in [
+        (4, "animations[4]: accessors[6] has 1 numbers where 3 are needed"),
+        (5, "animations[5]: missing field `channels`"),
+        (6, "animations[6]: accessors[7] has a time that is no finite number"),
+        (7, "has the animations 1 to 7, and not 8"),
+    ] {
+        let error = at(animation, 1.0).unwrap_err().to_string();
+        assert!(error.contains(cause), "{error}");
+    }
 }
