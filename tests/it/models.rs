@@ -48,7 +48,6 @@ fn sphere(moved: impl Fn(DVec3) -> DVec3) -> String {
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-/// A file that cannot be opened is named, and so is a picture that is cut off anywhere.
 #[test]
 fn files_that_cannot_be_read_are_named() {
     let folder = Folder::new("models-unread");
@@ -56,6 +55,11 @@ fn files_that_cannot_be_read_are_named() {
     assert!(cause(&folder).contains("directory"), "{}", cause(&folder));
     let missing = folder.join("none.obj");
     assert!(cause(&missing).contains("cannot be read"), "{}", cause(&missing));
+}
+
+#[test]
+fn broken_textures_are_named() {
+    let folder = Folder::new("models-textures");
     let picture = folder.join("a.png");
     RgbImage::from_fn(64, 64, |x, y| Rgb([x as u8, y as u8, 7])).save(&picture).unwrap();
     let bytes = fs::read(&picture).unwrap();
