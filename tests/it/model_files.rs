@@ -1,57 +1,153 @@
-//! Hostile model files: none ends the program with a panic or takes memory without limit, and what is
-//! wrong is named with its file and line.
+//! Files that are computed: mutated, cut off, or of many bytes. None ends the program with a panic or takes memory without limit, and
+//! what is wrong is named with its file and line.
+
+use std::fs;
+use std::path::Path;
 
 use image::GrayImage;
 use rasterproof_core::random::Rng;
 use rasterproof_models::{BadFile, LoadOptions, Model, Normals, Up, load_texture};
 use rasterproof_render::scene::Shading;
 
-use crate::models::{load, warning};
+use crate::model_cases::{FOLDER, places};
+use crate::models::warning;
 use crate::program::Folder;
 
-const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-
-#[test]
-fn a_bad_line_of_a_material_file_is_a_warning_with_its_line() {
-    let folder = Folder::new("model-files-lines");
-    let text = format!("mtllib m.mtl\n{TRIANGLE}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
-    let obj = folder.put("m.obj", text);
-    for bad in ["Kd 1 0", "Kd x 1 1", "Kd", "Kd nan 0 0", "Kd 1e99 0 0", "Kq 1 1 1", "{}"] {
-        let text = format!("newmtl a\n{bad}\nNs x\nd\nillum -1\nnewmtl b\nKd 0 0.5 1\n");
-        folder.put("m.mtl", text);
-        let model = load(&obj, Shading::Phong).unwrap();
-        assert!(warning(&model).contains("m.mtl:2: "), "{bad}: {:?}", model.warnings);
-        let colours: Vec<_> =
-            model.items.iter().map(|item| item.material.colour.to_array()).collect();
-        assert_eq!(colours, [[0.8; 3], [0.0, 0.5, 1.0]], "{bad}");
-    }
-    folder.put("m.mtl", "Kd 1 1 1\nnewmtl \u{1b}[31m\nKd \u{1b}[31m 1 1\n");
-    let warnings = load(&obj, Shading::Phong).unwrap().warnings.join("\n");
-    assert!(warnings.contains("m.mtl:3") && !warnings.contains('\u{1b}'), "{warnings:?}");
+/// The bytes of a file below `tests/data/models`.
+fn bytes_of(name: &str) -> Vec<u8> {
+    fs::read(Path::new(FOLDER).join(name)).unwrap()
 }
 
+/// The model of a file of these bytes.
+fn load(folder: &Folder, name: &str, bytes: impl AsRef<[u8]>) -> Result<Model, BadFile> {
+    let options = LoadOptions { up: Some(Up::Y), ..LoadOptions::default() };
+    rasterproof_models::load(&folder.put(name, bytes), options)
+}
+
+/// A strip of so many positions as a PLY, which its faces follow again and again: triangles but for one polygon of four corners.
+fn long_strip(positions: u32, faces: u32, polygon: usize) -> Vec<u8> {
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {positions}\nproperty float x\nproperty float y\n\
+         property float z\nelement face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    .into_bytes();
+    for number in 0..positions {
+        let position = [number as f32, (number % 2) as f32, (number / 7) as f32];
+        bytes.extend(position.map(f32::to_le_bytes).as_flattened());
+    }
+    for face in 0..faces {
+        let at = face % (positions - 3);
+        let corners = match face as usize == polygon {
+            true => vec![at, at + 2, at + 3, at + 1],
+            false => vec![at, at + 1, at + 2],
+        };
+        bytes.push(corners.len() as u8);
+        bytes.extend(corners.into_iter().flat_map(u32::to_le_bytes));
+    }
+    bytes
+}
+
+/// Files of more bytes than are read at once.
 #[test]
-fn lines_are_read_as_the_format_says() {
-    let folder = Folder::new("model-files-format");
-    let read = |text: &str| load(&folder.put("m.obj", text), Shading::Phong);
-    let error = read("v 0 0 zero\nf 1 1 1\n").err().unwrap();
-    assert_eq!((error.line, &error.path), (Some(1), &folder.join("m.obj")), "{error}");
-    let triangles = |text: &str| {
-        let model = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
-        let count: usize = model.items.iter().map(|item| item.mesh.triangles.len()).sum();
-        (count, model.not_drawn)
-    };
-    assert_eq!(triangles(&format!("{TRIANGLE}f 1 2 3 # c\n")).0, 1);
-    // The weight of a position is that of curves.
-    assert_eq!(triangles(&format!("{TRIANGLE}v 1 1 0 nan\nf 1 2 4\n")), (1, String::new()));
-    let text = "f 1 2 3\nl 1 2 3\nl 1 2\np 1\nf 1 2\nf 1 2/";
-    let (count, not_drawn) = triangles(&format!("{TRIANGLE}{text}"));
-    assert_eq!((count, not_drawn.as_str()), (1, "2 incomplete faces, 2 lines, 1 point"));
-    // Corners of one kind in one object, of another in the next.
-    let mixed =
-        format!("{TRIANGLE}vt 0 0\nvt 1\nvn 0 0 1\no a\nf 1//1 2//1 3//1\no b\nf 1/1 2/2 3/2\n");
-    assert_eq!(triangles(&mixed).0, 2);
-    assert_eq!(triangles(&format!("{TRIANGLE}o\ng\nusemtl\nusemtl\tx\nf 1 2 3\n")).0, 1);
+#[ignore = "takes seconds; .ci/run runs it"]
+fn a_binary_file_is_read_in_pieces() {
+    let folder = Folder::new("model-files-pieces");
+    let (count, faces) = (300_000, 800_000);
+    // With the first face as polygon much is read ahead when it is found.
+    for polygon in [usize::MAX, 0, faces / 2, faces - 2] {
+        let bytes = long_strip(count, faces as u32, polygon);
+        let model = load(&folder, "strip.ply", &bytes).unwrap();
+        let mesh = &model.items[0].mesh;
+        assert_eq!(mesh.positions.len(), count as usize);
+        let wrong = (0..count).zip(mesh.positions.iter()).find(|(number, position)| {
+            let z = -f64::from(number / 7);
+            position.to_array() != [f64::from(*number), f64::from(number % 2), z]
+        });
+        assert_eq!(wrong, None);
+        let triangles = mesh.triangles.positions();
+        assert_eq!(triangles.len(), faces + usize::from(polygon < faces));
+        for (number, triangle) in triangles.iter().enumerate() {
+            let face = model.origins[0].face(number).unwrap() - 1;
+            assert_eq!(face as usize, number - usize::from(number > polygon), "{number}");
+            if face as usize != polygon {
+                let first = face % (count - 3);
+                assert_eq!(*triangle, [first, first + 1, first + 2]);
+            }
+        }
+        // Cut off at the border of a record, inside one, and inside the positions.
+        for less in [13, 1, 5_000_000, bytes.len() - 3_000_005] {
+            let error =
+                load(&folder, "cut.ply", &bytes[..bytes.len() - less]).unwrap_err().to_string();
+            assert!(error.contains(": the file is cut off"), "{less}: {error}");
+        }
+        let more = load(&folder, "more.ply", &[&bytes[..], b"12345"].concat()).unwrap();
+        assert!(warning(&more).contains("5 bytes follow the last element"), "{:?}", more.warnings);
+    }
+}
+
+/// An STL in records with any header: what follows its triangles is left out, and one that is cut off is refused.
+#[test]
+fn the_length_of_an_stl_is_that_of_its_triangles() {
+    let folder = Folder::new("model-files-stl");
+    for header in ["", "-solid", "-from-cad", "-solid-upper", "-colour-in-head"] {
+        let binary = bytes_of(&format!("tetrahedron/stl-binary{header}.stl"));
+        let expected = places(&load(&folder, "whole.stl", &binary).unwrap());
+        for more in [1, 2, 49, 50, 5_000] {
+            for (name, byte) in [("more.stl", b' '), ("more.bin", 0)] {
+                let bytes = [&binary, &vec![byte; more][..]].concat();
+                let model = load(&folder, name, bytes).unwrap();
+                assert_eq!(places(&model), expected, "{name}");
+                let said =
+                    format!("{more} bytes follow the last of its 4 triangles; they are left out");
+                assert!(warning(&model).contains(&said), "{:?}", model.warnings);
+            }
+        }
+        for less in [1, 49, 51, 150, 200] {
+            let bytes = &binary[..binary.len() - less];
+            let error = load(&folder, "less.stl", bytes).unwrap_err().to_string();
+            let there = (200 - less) / 50;
+            let said =
+                format!("is truncated: its header announces 4 triangles, and it has {there}:");
+            assert!(error.contains(&said), "{less}: {error}");
+        }
+    }
+    // Cut off anywhere in a facet.
+    let text = String::from_utf8(bytes_of("tetrahedron/stl-text.obj")).unwrap();
+    let facet = text.rfind("facet normal").unwrap();
+    for end in facet + 12..text.find("endsolid").unwrap() - 1 {
+        let error = load(&folder, "cut.stl", &text[..end]).unwrap_err().to_string();
+        assert!(error.contains("it is truncated, with 3 whole triangles"), "{end}: {error}");
+    }
+}
+
+/// A thousand lines that cannot be read are one too many; of numbers that are not finite there may be any number.
+#[test]
+fn many_bad_lines_end_the_file_or_a_face() {
+    let folder = Folder::new("model-files-bad-lines");
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let many = format!("{}{triangle}", "v x y z\n".repeat(2_000));
+    let error = load(&folder, "many.obj", many).unwrap_err();
+    assert_eq!(error.line, Some(1_025), "{error}");
+    let many = format!("{triangle}{}f 1 2 -1\n", "v nan nan nan\n".repeat(5_000));
+    let model = load(&folder, "nan.obj", many).unwrap();
+    assert_eq!(
+        (places(&model).len(), &*model.not_drawn),
+        (3, "position that is not finite of 1 face")
+    );
+    let is_said = |said: &String| said.contains("nan.obj:5005: 1 of 2 faces are left out");
+    assert!(model.warnings.iter().any(is_said), "{:?}", model.warnings);
+}
+
+/// Bytes of the compressed views, changed.
+#[test]
+fn compressed_triangles_that_are_broken_never_panic() {
+    let folder = Folder::new("model-files-meshopt");
+    let compressed = bytes_of("torus-meshopt.glb");
+    for at in (compressed.len() - 1224..compressed.len()).step_by(7) {
+        let mut broken = compressed.clone();
+        broken[at] ^= 0x55;
+        let _ = load(&folder, "broken.glb", broken);
+    }
 }
 
 /// The limit of a texture counts what it takes in memory, not the bytes of the file; a grey one takes a
@@ -70,16 +166,6 @@ fn a_texture_that_grows_when_decoded_is_refused() {
     GrayImage::from_pixel(16_384, 16_384, image::Luma([51])).save(&path).unwrap();
     let colour = load_texture(&path).unwrap().at(glam::DVec2::splat(0.5));
     assert_eq!(colour.to_array(), [51.0 / 255.0; 3]);
-}
-
-/// Five hundred lines that name one file: its one warning comes once.
-#[test]
-fn a_material_file_is_read_once() {
-    let folder = Folder::new("model-files-once");
-    folder.put("m.mtl", "newmtl a\nKd 1 0\n");
-    let text = format!("{}{TRIANGLE}f 1 2 3\n", "mtllib m.mtl\n".repeat(500));
-    let obj = folder.put("m.obj", text);
-    assert_eq!(load(&obj, Shading::Phong).unwrap().warnings.len(), 1);
 }
 
 /// What lines consist of, in one text.
@@ -170,4 +256,43 @@ fn mutated_models_never_panic() {
 #[ignore = "takes minutes"]
 fn half_a_million_mutated_models_never_panic() {
     fuzz(500_000, "fuzz-long");
+}
+
+/// Every beginning of a file, and files with other bytes somewhere: read or refused, without a panic.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn mutated_files_of_all_formats_never_panic() {
+    let folder = Folder::new("model-files-formats");
+    let files = [
+        "stl-text.obj",
+        "stl-binary.stl",
+        "ply-ascii.txt",
+        "ply-big-endian.txt",
+        "glb-of-another-ending.model",
+    ];
+    let (mut read, mut refused) = (0, 0);
+    let mut look = |name: &str, bytes: &[u8]| {
+        *if is_read(&load(&folder, name, bytes)) { &mut read } else { &mut refused } += 1;
+    };
+    let mut rng = Rng::new("model formats", 0, 0);
+    let mut below = |limit: usize| below(&mut rng, limit);
+    for name in files {
+        let bytes = bytes_of(&format!("tetrahedron/{name}"));
+        for length in (0..bytes.len()).step_by(3) {
+            look(name, &bytes[..length]);
+        }
+        for _ in 0..400 {
+            let mut changed = bytes.clone();
+            for _ in 0..=below(3) {
+                let at = below(changed.len());
+                changed[at] = match below(3) {
+                    0 => below(256) as u8,
+                    1 => b"0123456789-{}[],:\" \n"[below(20)],
+                    _ => changed[below(bytes.len())],
+                };
+            }
+            look(name, &changed);
+        }
+    }
+    assert!(read > 300 && refused > 300, "{read} read, {refused} refused");
 }

@@ -1,5 +1,4 @@
-//! Models and textures from files: what is well formed is drawn, what is broken is named with its
-//! file, line and cause.
+//! Models that the program draws, and files whose names and places are made here. What readers make of a file is in `model_cases`.
 
 use std::fs;
 use std::path::Path;
@@ -9,11 +8,11 @@ use base64::engine::general_purpose::STANDARD;
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
 use rasterproof_core::random::Rng;
-use rasterproof_models::{BadFile, LoadOptions, Model, Normals, load_texture};
-use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_models::{BadFile, LoadOptions, Model, load_texture};
 use rasterproof_render::scene::{Shading, shapes};
 use serde_json::json;
 
+use crate::model_cases::FOLDER;
 use crate::program::Folder;
 
 pub fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
@@ -50,81 +49,12 @@ const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 #[test]
-fn well_formed_models_are_read() {
-    let folder = Folder::new("models-good");
-    let check = |name: &str, text: &str, triangles: usize| {
-        let path = folder.put(name, text);
-        let model = load(&path, Shading::Phong).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let meshes = model.items.iter().map(|item| &item.mesh);
-        assert_eq!(meshes.clone().map(|m| m.triangles.len()).sum::<usize>(), triangles, "{name}");
-        let corners = meshes.flat_map(|mesh| mesh.triangles.corners());
-        for corner in corners {
-            assert!((corner.normal.length() - 1.0).abs() < 1e-12, "{name}: {corner:?}");
-        }
-        model
-    };
-    check("plain.obj", TETRAHEDRON, 4);
-    check("comments.obj", &format!("# a comment\n\ng part\ns off\n{TETRAHEDRON}# the end"), 4);
-    check("windows.obj", &TETRAHEDRON.replace('\n', "\r\n"), 4);
-    check("negative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\n", 1);
-    check("polygon.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n", 3);
-    let mixed = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\nf 2 4 3\nf 2//1 4//1 3//1\n";
-    let model = check("mixed.obj", mixed, 3);
-    assert_eq!(model.items[0].mesh.triangles.at(0)[1].uv.x, 1.0);
-    assert_eq!(model.items[0].mesh.triangles.at(0)[1].normal.z, -1.0, "z is turned");
-    assert_eq!(model.items[0].mesh.triangles.at(1)[1].uv.x, 0.0);
-}
-
-#[test]
-fn materials_and_textures_are_read() {
-    let folder = Folder::new("models-materials");
-    let picture = RgbImage::from_pixel(2, 2, Rgb([255, 0, 0]));
-    for name in ["a.png", "b.jpg", "c.bmp"] {
-        picture.save(folder.join(name)).unwrap();
-    }
-    let mtl = "newmtl one\nKd 0.5 0.25 1\nnewmtl two\nmap_Kd a.png\nnewmtl three\nmap_Kd -s 1 1 1 b.jpg\nnewmtl four\nmap_Kd c.bmp\n";
-    folder.put("m.mtl", mtl);
-    let mut text = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n".to_owned();
-    for name in ["one", "two", "three", "four"] {
-        text += &format!("usemtl {name}\nf 1/1 2/2 3/3\n");
-    }
-    let obj = folder.put("m.obj", text);
-    let model = load(&obj, Shading::Unlit).unwrap();
-    assert_eq!(model.warnings, Vec::<String>::new());
-    assert_eq!(model.items.len(), 4);
-    assert_eq!(model.items[0].material.colour.to_array(), [0.5, 0.25, 1.0]);
-    for item in &model.items[1..] {
-        let colour = item.material.texture.as_ref().unwrap().at(DVec2::splat(0.5));
-        assert!(colour.x > 0.9 && colour.y < 0.1, "{colour}");
-    }
-    fs::remove_file(folder.join("m.mtl")).unwrap();
-    let model = load(&obj, Shading::Unlit).unwrap();
-    assert!(model.warnings[0].contains("m.mtl"), "{:?}", model.warnings);
-}
-
-#[test]
-fn broken_files_are_named_with_line_and_cause() {
-    let folder = Folder::new("models-broken");
-    let check = |name: &str, text: &[u8], line: Option<usize>, cause: &str| {
-        let read = load(&folder.put(name, text), Shading::Phong);
-        let error = read.err().unwrap_or_else(|| panic!("{name} is read"));
-        assert_eq!(error.line, line, "{name}: {error}");
-        assert!(error.cause.contains(cause), "{name}: {error}");
-        assert!(error.to_string().contains(name), "{error}");
-    };
-    check("huge.obj", b"v 0 0 0\nv 1 1e39 0\nv 0 1 0\nf 1 2 3\n", Some(2), "larger than 1e38");
-    check("word.obj", b"v 0 0 zero\nf 1 1 1\n", Some(1), "not a number");
-    check("short.obj", b"v 0 0 0\nv 1 0\nf 1 2 1\n", Some(2), "2 numbers where 3");
-    check("range.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", Some(4), "position 4 is not there");
-    check("zero.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", Some(4), "not there");
-    check("before.obj", b"v 0 0 0\nf -1 -2 -3\n", Some(2), "not there");
-    check("faceless.obj", b"v 0 0 0\nv 1 0 0\n", None, "no faces");
-    check("empty.obj", b"", None, "is empty");
-    check("bytes.obj", &[0xff, 0xfe, 0, 1, 2, 200, 10, 13], None, "no faces");
-    let directory = load(&folder, Shading::Phong).err().unwrap();
-    assert!(directory.cause.contains("directory"), "{directory}");
-    let missing = load(&folder.join("none.obj"), Shading::Phong).err().unwrap();
-    assert!(missing.cause.contains("cannot be read"), "{missing}");
+fn files_that_cannot_be_read_are_named() {
+    let folder = Folder::new("models-unread");
+    let cause = |path: &Path| load(path, Shading::Phong).unwrap_err().cause;
+    assert!(cause(&folder).contains("directory"), "{}", cause(&folder));
+    let missing = folder.join("none.obj");
+    assert!(cause(&missing).contains("cannot be read"), "{}", cause(&missing));
 }
 
 #[test]
@@ -139,11 +69,6 @@ fn broken_textures_are_named() {
         let error = load_texture(&picture).expect_err("a truncated picture is read");
         assert!(error.to_string().contains("a.png"), "{error}");
     }
-    folder.put("m.mtl", "newmtl a\nmap_Kd a.png\n");
-    let text = "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    let model = read(&folder, text, Shading::Phong);
-    assert!(warning(&model).contains("a.png: is not a readable PNG"), "{:?}", model.warnings);
-    assert!(model.items[0].material.texture.is_none());
 }
 
 #[test]
@@ -254,34 +179,6 @@ fn concave_and_ring_shaped_polygons_are_drawn_right() {
             assert!(!errors.contains("warning"), "{errors}");
         }
     }
-    let model = read(&folder, "v 0 0 0\nv 4 4 0\nv 4 0 0\nv 0 3 0\nf 1 2 3 4\n", Shading::Flat);
-    assert!(warning(&model).contains("m.obj:5: the face crosses itself"), "{:?}", model.warnings);
-}
-
-/// Corners of different kinds, within a group and across groups, keep their own texture coordinates and normals.
-#[test]
-fn corners_of_mixed_kinds_keep_what_they_name() {
-    let folder = Folder::new("models-mixed");
-    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\no one\nf 1//1 2//1 3//1\nvt .25 .5\nvn 1 0 0\no two\n\
-        f 1/1/2 2/1/2 3/1/2\ng three\nf 1/1 2/1 3/1\nf -3 -2 -1\n";
-    let model = read(&folder, text, Shading::Phong);
-    let corners: Vec<_> = model
-        .items
-        .iter()
-        .flat_map(|item| item.mesh.triangles.iter())
-        .map(|[corner, ..]| (corner.normal.to_array(), corner.uv.to_array()))
-        .collect();
-    // Those without a normal have that of the face, which is seen from the front; z is turned.
-    let expected = [
-        ([0.0, 1.0, 0.0], [0.0, 0.0]),
-        ([1.0, 0.0, 0.0], [0.25, 0.5]),
-        ([0.0, 0.0, -1.0], [0.25, 0.5]),
-        ([0.0, 0.0, -1.0], [0.0, 0.0]),
-    ];
-    assert_eq!(corners, expected);
-    let origins: Vec<_> =
-        model.origins.iter().map(|origin| (origin.part.as_str(), &origin.lines[..])).collect();
-    assert_eq!(origins, [("one", &[6][..]), ("two", &[10]), ("two", &[12, 13])]);
 }
 
 #[test]
@@ -335,115 +232,32 @@ fn textures_are_found_and_decoded_or_a_warning() {
     assert_eq!(option.not_drawn, "option -blendu of 1 texture, option -mm of 1 texture");
 }
 
+/// A name with a space before or after it is the name of a file with one or without.
 #[test]
-fn material_files_are_found_by_all_their_names() {
-    let folder = Folder::new("models-libraries");
-    folder.put("one.mtl", "newmtl a\nKd 1 0 0\n");
-    folder.put("two parts.mtl", "newmtl\nKd 0 1 0\nnewmtl b c\nKd 0 0 1\n");
-    let faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b c\nf 1 \\\n2 3\nusemtl\nf 1 2 3\nusemtl d\nf 1 2 3\n";
-    for line in [
-        "mtllib one.mtl two parts.mtl",
-        "mtllib two parts.mtl one.mtl",
-        "mtllib ONE.MTL\nmtllib two parts.mtl",
-        "mtllib .\\one.mtl\nmtllib \"two parts.mtl\"",
+fn names_of_pictures_of_a_gltf_are_found() {
+    let folder = Folder::new("models-names");
+    let picture = fs::read(format!("{FOLDER}/gltf/plain.png")).unwrap();
+    for name in [" before.png", "after.png ", "plain.png"] {
+        folder.put(name, &picture);
+    }
+    let text = fs::read_to_string(format!("{FOLDER}/gltf/nulls.gltf")).unwrap();
+    let inside = format!(" data:image/png;base64,{} ", STANDARD.encode(picture));
+    for uri in [
+        "plain.png?v=3",
+        "Plain.PNG#a",
+        "./plain%2Epng",
+        " before.png",
+        "%20before.png",
+        "after.png ",
+        "after.png%20",
+        " plain.png ",
+        "plain.png",
+        &inside,
     ] {
-        let model = read(&folder, &format!("{line}\n{faces}"), Shading::Flat);
-        let colours: Vec<_> = model.items.iter().map(|item| item.material.colour).collect();
-        assert_eq!(colours, [DVec3::X, DVec3::Z, DVec3::Y, DVec3::splat(0.8)], "{line}");
-        assert!(warning(&model).contains("no material file describes 'd'"), "{line}");
-        let first = 7 + line.lines().count() as u32;
-        assert_eq!(model.origins[1].lines, [first], "a face on two lines is at the first");
+        let named = text.replace("file:///nowhere/plain.png", uri);
+        let model = load(&folder.put("m.gltf", named), Shading::Phong).unwrap();
+        assert!(model.items[0].material.texture.is_some(), "{uri:?}: {:?}", model.warnings);
     }
-    // The file beside the model has another name than the model says.
-    folder.put("n.mtl", "newmtl a\nKd 1 0 0\n");
-    let text = "mtllib elsewhere.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
-    let model = load(&folder.put("n.obj", text), Shading::Flat).unwrap();
-    assert_eq!(model.items[0].material.colour.to_array(), [1.0, 0.0, 0.0]);
-    assert!(model.warnings[0].contains("n.mtl is read in its place"), "{:?}", model.warnings);
-}
-
-/// Two squares at a right angle, with an edge between them: a corner of it has the mean of both normals where they
-/// are smooth.
-#[test]
-fn missing_normals_are_flat_or_smooth_as_the_file_says() {
-    let folder = Folder::new("models-normals");
-    let squares = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nS\nf 1 2 3 4\nusemtl x\nf 2 5 6 3\n";
-    let first = |lines: &str, normals: Normals| {
-        let path = folder.put("m.obj", squares.replace("S\n", lines));
-        let options = LoadOptions { shading: Shading::Phong, normals, ..LoadOptions::default() };
-        let model = rasterproof_models::load(&path, options).unwrap();
-        model.items[0].mesh.triangles.at(0)[1].normal
-    };
-    let (flat, half) = (DVec3::NEG_Z, 0.5f64.sqrt());
-    let smooth = DVec3::new(half, 0.0, -half);
-    for lines in ["", "s off\n", "s 0\n", "s\n"] {
-        assert_eq!(first(lines, Normals::File), flat, "{lines:?}");
-    }
-    for lines in ["s 1\n", "s on\n", "s 7\n"] {
-        assert!(first(lines, Normals::File).distance(smooth) < 1e-15, "{lines:?}");
-    }
-    assert!(first("", Normals::Smooth).distance(smooth) < 1e-15);
-    assert_eq!(first("s 1\n", Normals::Flat), flat);
-    // Another group begins between the squares.
-    let text = squares.replace("S\n", "s 1\n").replace("usemtl x", "s 2");
-    let groups = read(&folder, &text, Shading::Phong);
-    assert_eq!(groups.items[0].mesh.triangles.at(0)[1].normal, flat);
-    // A sheet that is listed from both sides: the normals cancel, and each side keeps its own.
-    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\ns 1\nf 1 2 3\nf 3 2 1\n";
-    let sheet = read(&folder, text, Shading::Phong);
-    let normals: Vec<_> = sheet.items[0].mesh.triangles.iter().map(|t| t[0].normal.z).collect();
-    assert_eq!(normals, [-1.0, 1.0]);
-}
-
-#[test]
-fn colours_of_positions_are_drawn() {
-    let folder = Folder::new("models-colours");
-    let red = DVec3::X / 255.0;
-    for (text, colours) in [
-        (
-            "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 1 0 0 1\nv 5 5 5\nf 1 2 3\n",
-            [DVec3::X, DVec3::Y, DVec3::Z],
-        ),
-        // Bytes are recognised by the largest number of the file; a position without a colour is white.
-        (
-            "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 255 51\nf 1 2 3\n",
-            [red, DVec3::ONE, DVec3::new(0.0, 1.0, 0.2)],
-        ),
-    ] {
-        let item = &read(&folder, text, Shading::Unlit).items[0];
-        assert!(item.material.vertex_colours && item.material.colour == DVec3::ONE, "{text}");
-        assert_eq!(item.mesh.triangles.at(0).map(|corner| corner.colour), colours, "{text}");
-    }
-}
-
-/// Holes come from the opacities of a texture, from a grey picture or another one's opacities, and `d 1` changes nothing;
-/// below 1 a surface blends.
-#[test]
-fn surfaces_have_the_holes_of_their_files() {
-    let folder = Folder::new("models-holes");
-    // One texel opaque, the other clear.
-    let two = image::RgbaImage::from_raw(2, 1, vec![9, 9, 9, 255, 9, 9, 9, 0]).unwrap();
-    two.save(folder.join("alpha.png")).unwrap();
-    let grey = image::GrayImage::from_raw(2, 1, vec![127, 128]).unwrap();
-    grey.save(folder.join("grey.png")).unwrap();
-    let mtl = "newmtl a\nmap_Kd alpha.png\nd 1\nnewmtl b\nmap_d grey.png\n\
-        newmtl c\nmap_Kd grey.png\nmap_d -o 0.5 alpha.png\nnewmtl d\nmap_Kd grey.png\nTr 1\n\
-        newmtl e\nd 0.2\nnewmtl f\nTr 0.2\nmap_d grey.png\n";
-    folder.put("m.mtl", mtl);
-    let face = |name: &str| format!("usemtl {name}\nf 1/1 2/1 3/1\n");
-    let faces: String = ["a", "b", "c", "d", "e", "f"].map(face).concat();
-    let text = format!("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.5\n{faces}");
-    let model = read(&folder, &text, Shading::Phong);
-    let of = |item: usize, u: f64| {
-        let opacity = model.items[item].material.opacity.as_ref();
-        opacity.map(|opacity| opacity.of(DVec2::new(u, 0.5)))
-    };
-    assert_eq!([of(0, 0.2), of(0, 0.8)], [Some(255), Some(0)]);
-    assert_eq!([of(1, 0.2), of(1, 0.8)], [Some(0), Some(255)]);
-    assert_eq!([of(2, 0.2), of(2, 0.8), of(3, 0.2)], [Some(255), Some(0), None]);
-    assert_eq!([of(4, 0.2), of(5, 0.2)], [Some(51), Some(102)], "0.8 of 127 is 101.6");
-    assert_eq!(model.not_drawn, "place of its own of 1 opacity map");
-    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
 }
 
 /// Loose lines and points are no part of the picture, so they do not make the model small in it.
@@ -462,13 +276,7 @@ fn what_is_not_drawn_is_said_by_every_command_that_draws() {
     assert!(plain == with, "loose elements move the picture");
     assert!(!silent.contains("not drawn"), "{silent}");
     assert!(said.contains("not drawn: 1 curve, 1 line, 2 points\n"), "{said}");
-    let text = format!("{triangle}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
-    let shiny = Specular { colour: DVec3::ONE, shininess: 20.0 };
-    let model = read(&folder, &text, Shading::Phong);
-    let specular: Vec<_> = model.items.iter().map(|item| item.material.specular).collect();
-    assert_eq!(specular, [shiny, Specular::default()]);
-    let flatter = read(&folder, &text, Shading::Gouraud).not_drawn;
-    assert!(flatter.contains("specular colour, with Gouraud shading, of 1 material"), "{flatter}");
+    folder.put("m.obj", format!("{triangle}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n"));
     for command in ["render m.obj -o o.png", "plan m.obj --rounds 1"] {
         folder.check(format!("{command} --size 32x24"), 0).shows(
             "not drawn: 1 bump map, emission of 1 material, reflection (illum) of 1 material, \
@@ -591,76 +399,41 @@ fn holes_have_the_level_of_their_colours() {
 #[test]
 fn lights_of_a_file_are_those_of_the_picture() {
     let folder = Folder::new("models-lights");
-    let text = include_str!("../data/models/double-sided-front.gltf");
-    let pi = std::f64::consts::PI;
-    let made = |light: serde_json::Value, z: f64, turn: [f64; 4]| {
-        let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
-        document["cameras"] = json!([
-            { "type": "orthographic", "orthographic": { "xmag": 1, "ymag": 1, "znear": 0.5, "zfar": 3 } },
-        ]);
-        let place = [0.5, 0.5, z];
-        let nodes = document["nodes"].as_array_mut().unwrap();
-        nodes.push(json!({ "camera": 0, "translation": [0.5, 0.5, 2] }));
-        nodes.push(json!({
-            "translation": place, "rotation": turn, "extensions": { "KHR_lights_punctual": { "light": 0 } },
-        }));
-        document["scenes"][0]["nodes"] = json!([0, 1, 2]);
-        // Nothing is reflected but what a matt surface reflects.
-        document["materials"][0]["extensions"] =
-            json!({ "KHR_materials_specular": { "specularFactor": 0 } });
-        document["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_materials_specular"]);
-        document["extensions"] = json!({ "KHR_lights_punctual": { "lights": [light] } });
-        folder.put("m.gltf", document.to_string());
+    let drawn = |name: &str| {
+        fs::copy(format!("{FOLDER}/gltf/light-{name}.gltf"), folder.join("m.gltf")).unwrap();
         drawn(&folder, "m.gltf --camera 1")
     };
-    let ahead = [0.0, 0.0, 0.0, 1.0];
-    // Half of a right angle, and a sixth of it, about y.
-    let turned = |degrees: f64| {
-        let half = degrees.to_radians() / 2.0;
-        [0.0, half.sin(), 0.0, half.cos()]
-    };
-    let ambient = 0.25;
-    let cases = [
-        (json!({ "type": "directional", "intensity": pi / 2.0 }), 1.0, turned(60.0), 0.25),
-        (json!({ "type": "directional", "intensity": 100 }), 1.0, turned(180.0), 0.0),
-        (json!({ "type": "point", "intensity": 2.0 * pi }), 2.0, ahead, 0.5),
-        (json!({ "type": "point", "intensity": 2.0 * pi }), -2.0, ahead, 0.0),
+    for (name, arriving) in [
+        ("directional", 0.25),
+        ("directional-from-behind", 0.0),
+        ("point", 0.5),
+        ("point-behind", 0.0),
         // (2 / 4)^4 is a sixteenth.
-        (
-            json!({ "type": "point", "intensity": 2.0 * pi, "range": 4 }),
-            2.0,
-            ahead,
-            0.5 * 15.0 / 16.0,
-        ),
-        (json!({ "type": "point", "intensity": 2.0 * pi, "range": 1.5 }), 2.0, ahead, 0.0),
-        (json!({ "type": "spot", "intensity": 2.0 * pi }), 2.0, ahead, 0.5),
-        (json!({ "type": "spot", "intensity": 2.0 * pi }), 2.0, turned(60.0), 0.0),
-    ];
-    for (light, z, turn, arriving) in cases {
-        let (picture, said) = made(light.clone(), z, turn);
+        ("point-of-range-4", 0.5 * 15.0 / 16.0),
+        ("point-of-range-1.5", 0.0),
+        ("spot", 0.5),
+        ("spot-elsewhere", 0.0),
+    ] {
+        let (picture, said) = drawn(name);
         assert!(said.contains("the light is that of 1 light of the file; ambient"), "{said}");
         assert!(!said.contains("not drawn"), "{said}");
-        let linear: f64 = ambient + arriving;
+        let linear: f64 = 0.25 + arriving;
         let expected = 255.0 * (1.055 * linear.powf(1.0 / 2.4) - 0.055);
         let [r, g, b] = picture.get_pixel(48, 36).0;
         // A pixel lies beside the middle.
-        assert!(
-            (f64::from(r) - expected).abs() < 1.0 && r == g && g == b,
-            "{light}: {r}, {expected}"
-        );
+        let is_right = (f64::from(r) - expected).abs() < 1.0 && r == g && g == b;
+        assert!(is_right, "{name}: {r}, {expected}");
     }
     // Colours have red first, and other surfaces are lit by the view.
-    let red = json!({ "type": "point", "intensity": 3, "color": [1, 0, 0] });
-    let (picture, _) = made(red.clone(), 2.0, ahead);
+    let (picture, _) = drawn("red");
     let [r, g, b] = picture.get_pixel(48, 36).0;
     assert!(r > g && g == b, "{r} {g} {b}");
     let run = folder.check("render m.gltf --size 32x24 --shadows 64 -o o.png", 0);
     run.prints("AGREES").shows("1 light of the file, and nothing keeps it from anything;");
     let run = folder.check("render m.gltf --size 32x24 --shading gouraud -o o.png", 0);
     run.shows("light of the file, without metal and roughness, of 1 primitive");
-    for unknown in [json!({ "type": "area" }), json!({ "type": "point", "color": "red" }), json!(7)]
-    {
-        made(unknown, 2.0, ahead);
+    for name in ["unknown", "bad-colour", "number"] {
+        drawn(name);
         folder.check("render m.gltf --size 32x24 -o o.png", 0).shows("not drawn: 1 light");
     }
 }
@@ -669,20 +442,7 @@ fn lights_of_a_file_are_those_of_the_picture() {
 #[test]
 fn cameras_of_a_file_are_listed_and_looked_through() {
     let folder = Folder::new("models-cameras");
-    let text = include_str!("../data/models/double-sided-front.gltf");
-    let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
-    document["cameras"] = json!([
-        { "type": "orthographic", "orthographic": { "xmag": 9, "ymag": 1, "znear": 0, "zfar": 3 } },
-        { "type": "perspective", "perspective": { "yfov": std::f64::consts::FRAC_PI_2, "znear": 1 } },
-        { "type": "perspective", "perspective": { "yfov": 1, "znear": 1, "zfar": 0.5 } },
-    ]);
-    let nodes = document["nodes"].as_array_mut().unwrap();
-    nodes.push(json!({ "camera": 0, "translation": [0.5, 0.5, 2], "name": "wide" }));
-    nodes.push(json!({ "camera": 1, "translation": [0.5, 0.5, 2] }));
-    nodes.push(json!({ "camera": 1, "translation": [1, 0.5, -2], "rotation": [0, 1, 0, 0], "name": "behind" }));
-    nodes.push(json!({ "camera": 2 }));
-    document["scenes"][0]["nodes"] = json!([0, 1, 2, 3, 4]);
-    folder.put("m.gltf", document.to_string());
+    fs::copy(format!("{FOLDER}/gltf/cameras.gltf"), folder.join("m.gltf")).unwrap();
     let (_, said) = drawn(&folder, "m.gltf");
     let list = "1 'wide', 2, 3 'behind', 4";
     assert!(
@@ -738,28 +498,6 @@ fn a_mirrored_texture_is_drawn_mirrored() {
     assert_eq!(differ.filter(|&(x, y)| !mirrored(x, y)).count(), 0);
     let colours: std::collections::HashSet<_> = picture.pixels().collect();
     assert!(colours.len() > 2, "{colours:?}");
-}
-
-/// Vectors and lines that no face depends on do not keep a model from being drawn.
-#[test]
-fn what_no_face_uses_is_a_warning() {
-    let folder = Folder::new("models-unused");
-    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 x 2\nvt nan\nvn 1\nquad 1 2 3\nf 1 2 3\n";
-    let warnings = read(&folder, text, Shading::Flat).warnings;
-    for line in [4, 5, 6, 7] {
-        let place = format!("m.obj:{line}: ");
-        assert!(warnings.iter().any(|warning| warning.contains(&place)), "{warnings:?}");
-    }
-    let many = format!("{}{text}", "v x y z\n".repeat(2_000));
-    let error = load(&folder.put("many.obj", many), Shading::Flat).unwrap_err();
-    assert_eq!(error.line, Some(1_025), "{error}");
-    let model = read(&folder, &text.replace('\n', "\r"), Shading::Flat);
-    assert_eq!(model.origins[0].lines, [8], "lines that end with a carriage return alone");
-    let wide = format!("\u{feff}{text}");
-    let wide: Vec<u8> = wide.encode_utf16().flat_map(u16::to_le_bytes).collect();
-    let wide = folder.put("wide.obj", wide);
-    let error = load(&wide, Shading::Flat).unwrap_err();
-    assert!(error.cause.contains("save it as UTF-8"), "{error}");
 }
 
 /// A second opinion: `tobj` reads the same triangles of a file of triangles, in doubles here and in single
@@ -875,77 +613,6 @@ fn text_outside_the_folder_is_not_quoted() {
     folder.put("in/below/m.mtl", "newmtl a\nmap_Kd nowhere.png\n");
     let model = load(&path, Shading::Phong).unwrap();
     assert!(warning(&model).contains("nowhere.png: cannot be read"), "{:?}", model.warnings);
-}
-
-/// Each face with something that is not there, or no number, beside a face that is whole.
-#[test]
-fn what_a_face_cannot_use_does_not_end_the_file() {
-    let folder = Folder::new("models-cannot-use");
-    let whole = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt .5 .5\nvn 0 0 1\nf 1 2 3\n";
-    let check = |lines: &str, triangles: usize, line: usize, cause: &str, not_drawn: &str| {
-        let model = read(&folder, &format!("{whole}{lines}"), Shading::Phong);
-        let drawn = model.items.iter().flat_map(|item| item.mesh.triangles.iter());
-        let corners: Vec<_> = drawn.flatten().collect();
-        assert_eq!((corners.len(), &*model.not_drawn), (3 * triangles, not_drawn), "{lines}");
-        let place = format!("m.obj:{line}: ");
-        let is_said = |said: &String| said.contains(&place) && said.contains(cause);
-        assert!(model.warnings.iter().any(is_said), "{lines}: {:?}", model.warnings);
-        for corner in corners {
-            assert!(corner.normal.is_finite() && corner.uv.is_finite(), "{lines}: {corner:?}");
-            assert!(corner.colour.is_finite(), "{lines}: {corner:?}");
-        }
-        model
-    };
-    let without = "the face is drawn without normals of the file";
-    for corners in ["1//2 2//1 3//1", "1//0 2//0 3//0", "1//-2 2//-1 3//-1", "1//99999999999 2 3"] {
-        let model = check(&format!("f {corners}\n"), 2, 7, without, "");
-        assert_eq!(model.items[0].mesh.triangles.at(1)[0].normal, DVec3::NEG_Z, "{corners}");
-    }
-    check("f 1//2 2//1 3//1\n", 2, 7, "normal 2 is not there; the file has 1", "");
-    check("f 1/7 2/1 3/1\n", 2, 7, "texture coordinate 7 is not there; the file has 1", "");
-    check("f 1/0/0 2/0/0 3/0/0\n", 2, 7, "a texture coordinate that the face names is not", "");
-    check("vn x 0 0\nf 1//2 2//2 3//2\n", 2, 7, "'x' is not a number; the faces that use it", "");
-    check("vn nan 0 0\nf 1//2 2//2 3//2\n", 2, 7, "'nan' is not a finite number", "");
-    check("vt inf 0\nf 1/2 2/2 3/2\n", 2, 7, "'inf' is not a finite number; it is taken as 0", "");
-    let position = "position that is not finite of 1 face";
-    let use_it = "is not a finite number; the faces that use it are left out";
-    for word in ["nan", "-NaN", "inf", "-Infinity", "-nan(ind)", "1.#QNAN", "-1.#IND00", "1.#inf"] {
-        let lines = format!("v 0 {word} 0 # comment\nf 1 2 4\nf 3 2 1\n");
-        check(&lines, 2, 7, &format!("'{word}' {use_it}"), position);
-        check(&lines, 2, 8, "1 of 3 faces are left out, since a position", position);
-        check(&format!("v 0 {word} 0\n"), 1, 7, use_it, "");
-        let colour = format!("v 0 0 1 1 {word} 0\nf 1 2 4\nf 3 2 1\n");
-        check(&colour, 2, 7, use_it, "colour that is not finite of 1 face");
-    }
-    // As many as there may be.
-    let many = format!("{}f 1 2 -1\n", "v nan nan nan\n".repeat(5_000));
-    check(&many, 1, 5_007, "1 of 2 faces are left out", position);
-    // Polygons, groups and colours after a face that is left out are those of the file.
-    let mixed = "v nan 0 0\nv 1 1 0 1 0 0\ns 1\nf 1 2 4\nf 1 2 5 3\nf 2//1 5//1 3//1\n";
-    let model = check(mixed, 4, 10, "1 of 4 faces are left out", position);
-    assert_eq!(model.origins[0].lines, [6, 11, 11, 12]);
-    assert_eq!(model.items[0].mesh.triangles.at(3)[1].colour, DVec3::X);
-    // Without a position a face is left out.
-    let missing = "position that is missing of 1 face";
-    check("f 1 2 9\n", 1, 7, "position 9 is not there; the file has 3; the face is left", missing);
-    check("f 1 2 0\n", 1, 7, "a position that the face names is not there; the face is", missing);
-    check("f -4 2 3\n", 1, 7, "a position that the face names is not there; the face is", missing);
-    check(
-        "v 1 x 0\nf 1 2 4\n",
-        1,
-        7,
-        "'x' is not a number; the faces that use it are left",
-        missing,
-    );
-    check("v 1 x 0\nf 1 2 4\n", 1, 8, "the position of the face cannot be read; the face", missing);
-    check("v 1e39 0 0\nf 1 2 4\n", 1, 7, "the coordinate 1e39 is larger than 1e38", missing);
-    let mixed = "v 1 1 0\ns 1\nf 1/9 2 9\nf 1 2 4 3\nf 9//1 1//1 2//1\nf 2//1 4//1 3//1\n";
-    let model = check(mixed, 4, 9, "position 9", "position that is missing of 2 faces");
-    assert_eq!(model.origins[0].lines, [6, 10, 10, 12]);
-    let more = "faces without their positions: 92 more of this kind";
-    let model =
-        check(&"f 1 2 9\n".repeat(100), 1, 14, "9 is", "position that is missing of 100 faces");
-    assert!(model.warnings.iter().any(|said| said.contains(more)), "{:?}", model.warnings);
 }
 
 #[test]
