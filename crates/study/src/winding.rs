@@ -1,7 +1,7 @@
 //! The winding of a triangle before its corners are snapped and after.
 
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::triangle::Corners;
-use rasterproof_render::pipeline::assemble::twice_area;
 
 /// What snapping does to a triangle that has an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub(crate) fn change(given: [[f64; 2]; 3], off_px: f64, snapped: Corners) -> Cha
     let length = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| (ax - bx).abs() + (ay - by).abs();
     let around = length(a, b) + length(b, c) + length(c, a);
     let given = area(given);
-    match twice_area(snapped).signum() as f64 {
+    match twice_area(&snapped).signum() as f64 {
         // Seen from its edge, it has no winding that snapping could change.
         _ if given.abs() <= 2.0 * off_px * around => Change::None,
         0.0 => Change::Flat,
