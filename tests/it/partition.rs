@@ -211,8 +211,9 @@ fn tessellators_are_judged_within_their_time() {
     // One block of each family takes 14 s.
     assert!(took < Duration::from_secs(8), "{took:?}");
     let run = run.prints_all([" of 11,000,000 when the time was up;", "gap: the smallest polygon"]);
+    let words = run.out.split_whitespace();
     for family in Family::ALL {
-        assert!(run.out.contains(&format!(" {} ", family.name())), "{family:?}: {}", run.out);
+        assert!(words.clone().any(|word| word == family.name()), "{family:?}: {}", run.out);
     }
     folder
         .check("judge --seconds 0.5 -- python3 slow.py 9", 2)

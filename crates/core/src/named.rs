@@ -32,7 +32,7 @@ macro_rules! named {
 
             /// Its name.
             #[must_use]
-            pub fn name(self) -> &'static str {
+            pub const fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => $name,)+
                 }

@@ -26,7 +26,7 @@ use rasterproof_verify::comparison::pixels::few;
 use rasterproof_verify::convention::{Convention, Quantum, Rounding, Shape, Ties};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{
-    Explanation, Hypothesis, Mistakes, RULES, chosen_by, of_answers,
+    Explanation, Hypothesis, MistakeId, Mistakes, RULES, chosen_by, of_answers,
 };
 use rasterproof_verify::oracle::Oracle;
 
@@ -294,13 +294,13 @@ fn hypotheses<'a>(
     }
 }
 
-/// What the mistakes do that predict every one of these answers.
+/// The mistakes that predict every one of these answers, of those that have an identifier.
 #[must_use]
-pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<String> {
+pub fn explaining(check: Check, all: &[Answered], truth: &Truth) -> Vec<MistakeId> {
     let explains = |known: &Hypothesis<'_>| (0..all.len()).all(|i| (known.predicts)(i));
     let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
     let all = hypotheses(check, all, &is_wrong, truth).into_iter().filter(explains);
-    all.map(|known| known.says.does).collect()
+    all.filter_map(|known| MistakeId::of(&known.says.does)).collect()
 }
 
 /// That every answer is the one that a mistake predicts, by `predicts` of a question and its answer.
@@ -406,7 +406,7 @@ type Pattern = [(i32, i32); 4];
 fn moved_patterns() -> [(Pattern, &'static str); 4] {
     let moved = |by: fn((i32, i32)) -> (i32, i32)| SAMPLES.map(by);
     [
-        (moved(|_| (8, 8)), "tests all four samples at the centre"),
+        (moved(|_| (8, 8)), MistakeId::SamplesAtCentre.name()),
         (moved(|(x, y)| (16 - x, y)), "tests samples that are mirrored left to right"),
         (moved(|(x, y)| (x, 16 - y)), "tests samples that are mirrored upside down"),
         (moved(|(x, y)| (y, x)), "tests samples with x and y exchanged"),
@@ -416,10 +416,7 @@ fn moved_patterns() -> [(Pattern, &'static str); 4] {
 /// Patterns that are not the right one, and how they are said.
 fn patterns() -> Vec<(Pattern, String)> {
     let plain: [(Pattern, &str); 3] = [
-        (
-            [(4, 4), (12, 4), (4, 12), (12, 12)],
-            "tests the samples two by two, at quarters of the pixel",
-        ),
+        ([(4, 4), (12, 4), (4, 12), (12, 12)], MistakeId::SamplesInSquare.name()),
         (
             SAMPLES.map(|(x, y)| (x - 8, y - 8)),
             "tests the samples around the upper left corner of the pixel",
@@ -876,7 +873,7 @@ const MOST_BITS: i32 = 24;
 const CENTRE: Place = Place::Pixel([0.5, 0.5]);
 const DEPTHS: &[DepthMistake] = &[
     DepthMistake {
-        does: "shows the farthest triangle",
+        does: MistakeId::FarthestShown.name(),
         repair: "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth",
         refuted: "a pixel that shows the nearest one",
         key: |a| -a.depth,
@@ -884,7 +881,7 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
-        does: "shows the triangle that was drawn last, without a test of depth",
+        does: MistakeId::LastShown.name(),
         repair: "compare depths before a pixel is written",
         refuted: "a pixel that shows an earlier one",
         key: |_| 0.0,
@@ -900,7 +897,7 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
-        does: "sorts whole triangles by the mean depth of their corners (painter's algorithm)",
+        does: MistakeId::SortedByMeanDepth.name(),
         repair: "compare depths at every pixel",
         refuted: "two triangles through each other that are both seen",
         key: |a| depths(a.triangle).iter().sum::<f64>() / 3.0,
@@ -940,7 +937,7 @@ const DEPTHS: &[DepthMistake] = &[
         place: CENTRE,
     },
     DepthMistake {
-        does: "compares depths that are not divided by the area of their triangle",
+        does: MistakeId::UndividedDepthsCompared.name(),
         repair: "divide the weighted sum by the area",
         refuted: "a large triangle that is seen before a small one",
         key: |a| a.depth * size(a.triangle),
@@ -1378,13 +1375,13 @@ fn between(from: ClipCorner, to: ClipCorner, t: f64) -> ClipCorner {
 
 const NEAR: &[NearMistake] = &[
     NearMistake {
-        does: "does not clip",
+        does: MistakeId::NotClipped.name(),
         repair: "clip at the near plane before the division",
         refuted: "a corner behind that is cut off",
         clip: |c, _| c.to_vec(),
     },
     NearMistake {
-        does: "drops a triangle with any corner behind the near plane",
+        does: MistakeId::CutTrianglesDropped.name(),
         repair: "keep the part before the plane",
         refuted: "a triangle that is cut",
         clip: |c, near| if c.iter().all(|p| near(*p) >= 0.0) { c.to_vec() } else { Vec::new() },
@@ -1402,7 +1399,7 @@ const NEAR: &[NearMistake] = &[
         clip: |c, _| clip(c, |[_, _, _, w, _]| w, between),
     },
     NearMistake {
-        does: "clips at z = 0, as Direct3D and Vulkan have it",
+        does: MistakeId::ClippedAtZero.name(),
         repair: "clip at z = -w, as OpenGL has it",
         refuted: "a corner between both planes that is kept",
         clip: |c, _| clip(c, |[_, _, z, _, _]| z, between),

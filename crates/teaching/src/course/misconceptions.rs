@@ -16,6 +16,7 @@ use rasterproof_verify::convention::{
     Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
     Rounding, Shape, Ties, Windings,
 };
+use rasterproof_verify::mistakes::MistakeId;
 
 /// What a program was found to believe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,16 +35,16 @@ type Predict = fn(&Question, &Truth) -> Option<Answer>;
 struct Known {
     is: Misconception,
     predict: &'static [Predict],
-    /// What the judge says of whoever does this, of [`stages`].
-    does: &'static [&'static str],
+    /// The mistakes that the judge finds in whoever does this, of [`stages`].
+    does: &'static [MistakeId],
 }
 
 macro_rules! known {
-    ($($name:literal, $says:literal, $ask:literal, [$($predict:expr),* $(,)?] $([$($does:literal),+])?;)*) => {
+    ($($name:literal, $says:literal, $ask:literal, [$($predict:expr),* $(,)?] $([$($does:ident),+])?;)*) => {
         &[$(Known {
             is: Misconception { name: $name, says: $says, ask: $ask },
             predict: &[$($predict),*],
-            does: &[$($($does),+)?],
+            does: &[$($(MistakeId::$does),+)?],
         }),*]
     };
 }
@@ -141,75 +142,75 @@ const KNOWN: &[Known] = known![
 
     "no-perspective", "your attributes are linear in the window: they are not divided by w",
     "An edge runs from w = 1 to w = 3. Is its middle in the window nearer to the first or to the second corner in space?",
-    [] ["interpolates attributes linearly on the screen and ignores w (affine)"];
+    [] [Affine];
 
     "one-division", "you divide the attributes by w and never by the interpolated 1/w",
     "An attribute is 1 at all three corners, which have w = 2. What does your formula give inside?",
-    [] ["interpolates a/w and forgets to divide by the interpolated 1/w"];
+    [] [NotDividedBack];
 
     "times-w", "you multiply by w where you should divide",
     "Which of two corners should count more in the middle of the window: the near one with w = 1 or the far one with w = 3?",
-    [] ["weights the corners by w where 1/w is right"];
+    [] [WeightsByW];
 
     "transposed-matrix", "the matrix that gives your weights is transposed",
     "A matrix takes a point to its three weights. Are the corners its rows or its columns, and what does it make of corner a?",
-    [] ["takes the weights from the transposed matrix"];
+    [] [TransposedMatrix];
 
     "swapped-weights", "for one winding you exchanged two corners and not their values",
     "You exchanged b and c to make the area positive. To which corner does the second weight belong now?",
-    [] ["exchanges the weights of the second and the third corner of counterclockwise triangles"];
+    [] [ExchangedWeights];
 
     "corner-values", "your values are those at the upper left corner of each pixel, not at its centre",
     "A value grows by 1 per pixel from 0 at x = 0. What is it at the centre of column 0?",
-    [] ["computes right values, at the upper left corner of the pixel"];
+    [] [UpperLeftValues];
 
     "depth-not-divided", "your depths are not divided by the area, so that large triangles seem far",
     "A triangle has z = 0.5 at all corners. What does your sum give before the division by its area?",
-    [] ["does not divide depth by the area", "does not divide depth by the signed area", "compares depths that are not divided by the area of their triangle"];
+    [] [DepthNotDivided, DepthNotDividedBySign, UndividedDepthsCompared];
 
     "depth-divided-twice", "you divide z by w again: the z of the request has been divided already",
     "z / w is linear in the window. What is linear about z / w / w?",
-    [] ["divides depth by w once more"];
+    [] [DepthDividedTwice];
 
     "depth-in-perspective", "you interpolate z in perspective, like an attribute",
     "a is linear in space, z / w is linear in the window. Which of the two kinds is the z of the request?",
-    [] ["interpolates depth as an attribute, with the correction for perspective"];
+    [] [DepthInPerspective];
 
     "last-wins", "the triangle that is drawn last is seen, whatever its depth",
     "Draw the near triangle first and the far one after it. Which one should be seen?",
-    [] ["shows the triangle that was drawn last, without a test of depth"];
+    [] [LastShown];
 
     "farthest-wins", "the greatest depth is seen instead of the least",
     "z is 0 at the near plane and 1 at the far one. Which of 0.2 and 0.8 hides the other?",
-    [] ["shows the farthest triangle"];
+    [] [FarthestShown];
 
     "mean-depth", "you order whole triangles by their mean depth",
     "Two triangles go through one another. Which of them is in front?",
-    [] ["sorts whole triangles by the mean depth of their corners (painter's algorithm)"];
+    [] [SortedByMeanDepth];
 
     "unclipped", "you return the triangle as it came: nothing is cut at the near plane",
     "A corner lies behind the eye. What is x / w there, and on which side of the picture does it appear?",
-    [] ["does not clip"];
+    [] [NotClipped];
 
     "dropped", "you drop every triangle that has a corner on the eye's side of the near plane",
     "You stand on a large floor. Where are its corners, and what would be left of it?",
-    [] ["drops a triangle with any corner behind the near plane"];
+    [] [CutTrianglesDropped];
 
     "plane-z-zero", "you cut at z = 0; the near plane is z = -w",
     "The near plane becomes z / w = -1. Which sum of z and w is zero there?",
-    [] ["clips at z = 0, as Direct3D and Vulkan have it"];
+    [] [ClippedAtZero];
 
     "pixel-samples", "your four samples are all at the centre: a pixel has all of them or none",
     "Where is sample 1, if (14, 6) sixteenths are counted from the pixel's upper left corner?",
-    [] ["tests all four samples at the centre"];
+    [] [SamplesAtCentre];
 
     "square-samples", "your samples lie in a square grid",
     "Draw the four places (6, 2), (14, 6), (2, 10), (10, 14) into a pixel. How many columns do they occupy?",
-    [] ["tests the samples two by two, at quarters of the pixel"];
+    [] [SamplesInSquare];
 
     "reversed-bits", "you count the bits of the mask from the other end",
     "Which number has bit 0 set and no other bit?",
-    [] ["tests the right places, and numbers them 3, 2, 1, 0"];
+    [] [SamplesBackwards];
 ];
 
 /// The names of all, for those who list them.
@@ -241,7 +242,7 @@ pub fn find(check: Check, asked: &[Answered], truth: &Truth) -> Option<&'static 
         true => Vec::new(),
         false => stages::explaining(check, asked, truth),
     };
-    let is_done = |known: &&str| does.iter().any(|does| does == known);
+    let is_done = |known: &MistakeId| does.contains(known);
     let is_it =
         |known: &&Known| known.predict.iter().any(explains) || known.does.iter().any(is_done);
     KNOWN.iter().find(is_it).map(|known| &known.is)
@@ -405,15 +406,16 @@ mod tests {
     use super::*;
     use rasterproof_judge::declared::Declared;
 
-    /// Without an answer every mistake explains all of them, so all that the judge may say is listed.
+    /// Without an answer every mistake explains all of them, so all that the judge may find is listed; and each is looked for.
     #[test]
-    fn what_the_judge_says_is_what_it_can_say() {
+    fn mistakes_that_are_looked_for_can_be_found() {
         let truth = Truth::of(&Declared::default());
         let checks = [Check::Values, Check::Samples, Check::Depth, Check::Near];
-        let said: Vec<_> =
+        let found: Vec<_> =
             checks.iter().flat_map(|check| stages::explaining(*check, &[], &truth)).collect();
-        for does in KNOWN.iter().flat_map(|known| known.does) {
-            assert!(said.iter().any(|said| said == does), "{does}");
+        for id in MistakeId::ALL {
+            let is_looked_for = KNOWN.iter().any(|known| known.does.contains(&id));
+            assert!(found.contains(&id) && is_looked_for, "{id:?}");
         }
     }
 }

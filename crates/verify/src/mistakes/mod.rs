@@ -10,6 +10,7 @@
 mod cells;
 mod common;
 mod fills;
+mod id;
 mod lines;
 mod questions;
 mod scans;
@@ -35,6 +36,8 @@ use rasterproof_core::triangle::Corners;
 use triangles::{BY_WINDING, Fill, Reach};
 use weigh::{LEAST_WRONG, fresh, weigh};
 
+#[doc(hidden)]
+pub use id::MistakeId;
 pub use thresholds::Threshold;
 pub use triangles::RULES;
 pub use weigh::{Hypothesis, chosen_by};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Explanation, Hypothesis, Mistakes, chosen_by, of_answers};
+use super::{Explanation, Hypothesis, MistakeId, Mistakes, chosen_by, of_answers};
 use crate::cases::{self, Shape, Triangle};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
@@ -69,7 +69,7 @@ fn twice_px(t: &Triangle) -> f64 {
 const VALUES: &[ValueMistake] = &[
     ValueMistake {
         name: "attributes ignore w",
-        does: "interpolates attributes linearly on the screen and ignores w (affine)",
+        does: MistakeId::Affine.name(),
         repair: "interpolate a/w and 1/w, and divide at every pixel",
         page: "ch05",
         refuted: "a triangle with unequal w whose attributes bend",
@@ -77,7 +77,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "depth as an attribute",
-        does: "interpolates depth as an attribute, with the correction for perspective",
+        does: MistakeId::DepthInPerspective.name(),
         repair: "depth after the division by w is linear on the screen: interpolate it without correction",
         page: "ch06",
         refuted: "a triangle with unequal w whose depth is linear on the screen",
@@ -93,7 +93,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "not divided back",
-        does: "interpolates a/w and forgets to divide by the interpolated 1/w",
+        does: MistakeId::NotDividedBack.name(),
         repair: "divide by the interpolated 1/w at every pixel",
         page: "ch05",
         refuted: "a triangle with w other than 1 and right attributes",
@@ -104,7 +104,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "w in place of 1/w",
-        does: "weights the corners by w where 1/w is right",
+        does: MistakeId::WeightsByW.name(),
         repair: "weight the corners by 1/w",
         page: "ch05",
         refuted: "a triangle with unequal w and right attributes",
@@ -230,7 +230,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "corners keep their places when they are exchanged",
-        does: "exchanges the weights of the second and the third corner of counterclockwise triangles",
+        does: MistakeId::ExchangedWeights.name(),
         repair: "exchange the values with the corners",
         page: "ch05",
         refuted: "a counterclockwise triangle with right values",
@@ -240,7 +240,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "weights of a transposed matrix",
-        does: "takes the weights from the transposed matrix",
+        does: MistakeId::TransposedMatrix.name(),
         repair: "multiply the matrix with the corners as columns by the point",
         page: "ch02",
         refuted: "a pixel near a corner with its values",
@@ -259,7 +259,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "depth not divided by the area",
-        does: "does not divide depth by the area",
+        does: MistakeId::DepthNotDivided.name(),
         repair: "divide the weighted sum by the area",
         page: "ch06",
         refuted: "a triangle of another area than 1 with right depths",
@@ -267,7 +267,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "depth not divided by the area",
-        does: "does not divide depth by the signed area",
+        does: MistakeId::DepthNotDividedBySign.name(),
         repair: "divide the weighted sum by the area",
         page: "ch06",
         refuted: "a triangle of another area than 1 with right depths",
@@ -275,7 +275,7 @@ const VALUES: &[ValueMistake] = &[
     },
     ValueMistake {
         name: "depth divided by w again",
-        does: "divides depth by w once more",
+        does: MistakeId::DepthDividedTwice.name(),
         repair: "depth is z/w already: interpolate it as it is",
         page: "ch06",
         refuted: "a corner with w other than 1 and right depths",
