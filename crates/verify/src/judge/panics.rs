@@ -10,13 +10,44 @@ use std::fmt;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 type PanicHook = Box<dyn Fn(&PanicHookInfo<'_>) + Sync + Send>;
 
 thread_local! {
     static JUDGING: Cell<bool> = const { Cell::new(false) };
-    /// The panics of the judgement for which this thread works.
-    static WATCHED: RefCell<Option<Arc<AtomicU64>>> = const { RefCell::new(None) };
+    /// The judgement for which this thread works.
+    static WATCHED: RefCell<Option<Arc<Watched>>> = const { RefCell::new(None) };
+}
+
+/// What a judgement knows of its engines.
+#[derive(Default)]
+struct Watched {
+    panics: AtomicU64,
+    budget: Mutex<Option<Budget>>,
+}
+
+/// How long the engines of a judgement may still be asked.
+struct Budget {
+    /// When it is over; otherwise the time that is spent in the engines themselves counts. So a judge that is slow
+    /// itself, without optimisation or on a busy machine, leaves nothing out.
+    end: Option<Instant>,
+    left: Duration,
+    /// Whether engines are no longer run when it is over: an error stands for their answer.
+    refuses: bool,
+}
+
+impl Budget {
+    fn is_over(&self) -> bool {
+        self.end.map_or(self.left.is_zero(), |end| Instant::now() >= end)
+    }
+}
+
+impl Watched {
+    /// Works with the budget, if there is one.
+    fn with_budget<T>(&self, work: impl FnOnce(&mut Budget) -> T) -> Option<T> {
+        self.budget.lock().unwrap_or_else(PoisonError::into_inner).as_mut().map(work)
+    }
 }
 
 /// Our hook, as long as a judgement goes on.
@@ -30,7 +61,7 @@ static INSTALLED: Mutex<Installed> = Mutex::new(Installed { judgements: 0, befor
 
 /// A judgement that goes on: of its engines' panics the first one reaches the panic hook of the user.
 #[must_use]
-pub struct Watch(Arc<AtomicU64>);
+pub struct Watch(Arc<Watched>);
 
 impl Watch {
     /// Installs our hook until the last judgement ends.
@@ -44,6 +75,18 @@ impl Watch {
         Self(Arc::default())
     }
 
+    /// From now on the engines may be asked until `end`, or else for so long in their own code. `refuses` says whether they are
+    /// no longer run then.
+    pub(crate) fn limit(&self, end: Option<Instant>, left: Duration, refuses: bool) {
+        let mut budget = self.0.budget.lock().unwrap_or_else(PoisonError::into_inner);
+        *budget = Some(Budget { end, left, refuses });
+    }
+
+    /// Whether the time of [`Watch::limit`] is over.
+    pub(crate) fn is_over(&self) -> bool {
+        self.0.with_budget(|budget| budget.is_over()).unwrap_or(false)
+    }
+
     /// Works for this judgement, on any thread.
     pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
         let _restored = Restore(WATCHED.replace(Some(Arc::clone(&self.0))));
@@ -52,7 +95,7 @@ impl Watch {
 }
 
 /// Puts back for whom a thread worked before, also where the work panics.
-struct Restore(Option<Arc<AtomicU64>>);
+struct Restore(Option<Arc<Watched>>);
 
 impl Drop for Restore {
     fn drop(&mut self) {
@@ -91,8 +134,8 @@ fn install() -> (Arc<PanicHook>, usize) {
 
 /// Whether the panic of an engine on this thread is the first one of its judgement. Counts it.
 fn is_first() -> bool {
-    let first = |watched: &Option<Arc<AtomicU64>>| {
-        watched.as_ref().is_none_or(|panics| panics.fetch_add(1, Ordering::Relaxed) == 0)
+    let first = |watched: &Option<Arc<Watched>>| {
+        watched.as_ref().is_none_or(|watched| watched.panics.fetch_add(1, Ordering::Relaxed) == 0)
     };
     WATCHED.try_with(|watched| watched.try_borrow().map_or(true, |w| first(&w))).unwrap_or(true)
 }
@@ -143,9 +186,19 @@ impl From<EnginePanic> for String {
 /// # Errors
 /// What the engine said when it panicked.
 pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, EnginePanic> {
+    let watched = WATCHED.with_borrow(Clone::clone);
+    let budget = watched.as_ref().and_then(|watched| {
+        watched.with_budget(|budget| (Instant::now(), budget.refuses && budget.is_over()))
+    });
+    if budget.is_some_and(|(_, refuses)| refuses) {
+        return Err(EnginePanic("not run: the time was up".to_owned()));
+    }
     let outer = JUDGING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(run));
     JUDGING.set(outer);
+    if let (Some(watched), Some((start, _)), false) = (watched, budget, outer) {
+        watched.with_budget(|budget| budget.left = budget.left.saturating_sub(start.elapsed()));
+    }
     result.map_err(|payload| {
         let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned());

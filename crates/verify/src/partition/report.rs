@@ -11,7 +11,7 @@ use super::{
     Family, Fault, FaultKind, Faults, Options, Polygon, Refused, Tessellate, Tessellation,
     Triangle, judge_partition,
 };
-use crate::judge::{self, NothingJudged, Watch, ascii, caught};
+use crate::judge::{self, Clock, LeftOut, NothingJudged, Watch, ascii, caught};
 use crate::mistakes::Mistakes;
 use rasterproof_core::parallel;
 
@@ -103,7 +103,7 @@ pub struct Triangulated {
 /// The outcome of a run. Its failures are the smallest polygon of each kind of fault, grave ones first; its cause explains the wrong
 /// polygons, or says what is known of them. Every failing polygon is asked a second time. Where the triangles are others then,
 /// the failures are such polygons, and no cause is looked for.
-pub type Verdict = judge::Verdict<Options, Polygons, Failure, Option<Mistakes>>;
+pub type Verdict = judge::Verdict<Options, Polygons, Failure, Option<Mistakes>, LeftOut>;
 
 impl Verdict {
     /// Nothing, or what a failing test has to print.
@@ -159,7 +159,7 @@ impl Verdict {
         show: &dyn Fn(&Polygon) -> String,
         repeat: &dyn Fn(&str, u64) -> String,
     ) -> fmt::Result {
-        let Self { options, families, failures, cause, .. } = self;
+        let Self { options, families, failures, cause, more } = self;
         let sum = self.sum();
         if failures.iter().any(|failure| failure.evidence.again.is_some()) {
             writeln!(
@@ -173,6 +173,10 @@ impl Verdict {
         }
         writeln!(f, "{} of {} polygons are not covered exactly once", sum.wrong, sum.polygons)?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
+        let left_out = more.to_string();
+        if !left_out.is_empty() {
+            writeln!(f, "  {}", ascii::broken(&left_out, 78, "  "))?;
+        }
         if sum.left_out > 0 {
             writeln!(f, "  not judged, as the tessellator does not accept them: {}", sum.left_out)?;
         }
@@ -261,7 +265,7 @@ pub fn judge_partitions<T: Tessellate + Sync>(
             )
         })
     };
-    judge(&|polygons| polygons.iter().map(answer).collect(), options)
+    judge(&|polygons| polygons.iter().map(answer).collect(), options, &watch)
 }
 
 /// The same of somebody who answers polygons, several at once: nothing is the answer to one that he does not take.
@@ -275,7 +279,14 @@ pub fn judge_partitions_of(
 ) -> Result<Verdict, NothingJudged> {
     let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
     let fault = |answer: Option<Result<_, _>>| answer.map(|answer| answer.map_err(refused));
-    judge(&|polygons| answer(polygons).into_iter().map(fault).collect(), options)
+    // An answer counts as time in the judged code.
+    let watch = Watch::begin();
+    let asked = |polygons: &[Polygon]| {
+        let answers = watch.during(|| caught(|| answer(polygons)));
+        let answers = answers.unwrap_or_else(|_| vec![None; polygons.len()]);
+        answers.into_iter().map(fault).collect()
+    };
+    judge(&asked, options, &watch)
 }
 
 /// What is made of a polygon, if it is taken.
@@ -301,12 +312,18 @@ fn ask(
     polygons.iter().zip(tessellator(polygons)).map(judged).collect()
 }
 
-fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudged> {
+fn judge(tessellator: &Asked, options: &Options, watch: &Watch) -> Result<Verdict, NothingJudged> {
     options.check()?;
     let wanted = wanted(options);
-    let block =
-        |family: usize, numbers: &[u64]| judge_block(tessellator, options, wanted[family], numbers);
-    let parts = judge::in_blocks(wanted.len(), options, &|_| (), &block, Part::merge);
+    let clock = Clock::new(options.time_limit);
+    let block = |family: usize, numbers: &[u64]| {
+        let part = judge_block(tessellator, options, wanted[family], numbers);
+        if part.polygons.wrong > 0 {
+            clock.has_failed();
+        }
+        part
+    };
+    let parts = judge::in_blocks(wanted.len(), options, &clock, &|_| (), &block, Part::merge);
     let sum = |kind: usize| {
         let of_kind = |part: &Part| Some((part.smallest[kind]?, part.polygons.family));
         parts.iter().filter_map(of_kind).min_by_key(|((vertices, _), _)| *vertices)
@@ -319,24 +336,33 @@ fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudge
         changing.extend(part.changing.map(|(_, failure)| failure));
         families.push(part.polygons);
     }
+    let judged: u64 = families.iter().map(|family| family.polygons + family.left_out).sum();
+    let cases = options.count().saturating_mul(wanted.len() as u64) - judged;
+    let mut more = LeftOut { cases, limit: options.time_limit, ..LeftOut::default() };
     if !changing.is_empty() {
         changing.sort_by_key(|failure| failure.evidence.kind);
         changing.dedup_by_key(|failure| failure.evidence.kind);
         let options = options.clone();
-        return Ok(Verdict { options, families, failures: changing, cause: None, more: () });
+        return Ok(Verdict { options, families, failures: changing, cause: None, more });
     }
     if families.iter().all(|family| family.polygons == 0) {
         return Err(NothingJudged::NoneAccepted);
     }
+    clock.limit(watch, true);
     let failures = parallel::map(failing.len(), |number| {
         let (kind, ((_, index), family)) = failing[number];
-        smallest(tessellator, options, kind, family, index)
+        smallest(tessellator, options, kind, family, index, watch)
     });
-    let cause = match failures.is_empty() {
-        true => None,
-        false => cause::cause(&some(tessellator, options), options),
-    };
-    Ok(Verdict { options: options.clone(), families, failures, cause, more: () })
+    let mut cause = None;
+    if !failures.is_empty() {
+        more.shrinking = watch.is_over();
+        clock.limit(watch, false);
+        cause = cause::cause(&some(tessellator, options), options);
+        // What was concluded from some of the answers would be no conclusion.
+        more.cause = watch.is_over();
+        cause = cause.filter(|_| !more.cause);
+    }
+    Ok(Verdict { options: options.clone(), families, failures, cause, more })
 }
 
 fn wanted(options: &Options) -> Vec<Family> {
@@ -444,12 +470,15 @@ fn smallest(
     kind: FaultKind,
     family: Family,
     index: u64,
+    watch: &Watch,
 ) -> Failure {
     let (seed, coordinates) = (options.seed, options.terms.coordinates);
     let one =
         |polygon: &Polygon| ask(tessellator, slice::from_ref(polygon), options).pop().flatten();
     let fails = |polygon: &Polygon| {
-        is_as_generated(polygon, family) && one(polygon).is_some_and(|(_, faults)| faults.has(kind))
+        !watch.is_over()
+            && is_as_generated(polygon, family)
+            && one(polygon).is_some_and(|(_, faults)| faults.has(kind))
     };
     let case = shrink(family.polygon(seed, index, coordinates), coordinates, &fails);
     let (triangles, faults) = one(&case).unwrap_or_default();
