@@ -48,6 +48,22 @@ impl Watched {
     fn with_budget<T>(&self, work: impl FnOnce(&mut Budget) -> T) -> Option<T> {
         self.budget.lock().unwrap_or_else(PoisonError::into_inner).as_mut().map(work)
     }
+
+    /// Runs an engine, whose time counts; nothing where the time is over and it is no longer run.
+    fn spend<T>(&self, run: impl FnOnce() -> T) -> Option<T> {
+        match self.with_budget(|budget| budget.refuses && budget.is_over()) {
+            Some(true) => None,
+            // Without a budget the clock is not read: not every machine has one.
+            None => Some(run()),
+            Some(false) => {
+                let start = Instant::now();
+                let result = run();
+                let spent = start.elapsed();
+                self.with_budget(|budget| budget.left = budget.left.saturating_sub(spent));
+                Some(result)
+            }
+        }
+    }
 }
 
 /// Our hook, as long as a judgement goes on.
@@ -85,6 +101,11 @@ impl Watch {
     /// Whether the time of [`Watch::limit`] is over.
     pub(crate) fn is_over(&self) -> bool {
         self.0.with_budget(|budget| budget.is_over()).unwrap_or(false)
+    }
+
+    /// Asks somebody whose time counts as that of an engine; nothing where he is no longer asked.
+    pub(crate) fn spend<T>(&self, ask: impl FnOnce() -> T) -> Option<T> {
+        self.0.spend(ask)
     }
 
     /// Works for this judgement, on any thread.
@@ -186,19 +207,20 @@ impl From<EnginePanic> for String {
 /// # Errors
 /// What the engine said when it panicked.
 pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, EnginePanic> {
-    let watched = WATCHED.with_borrow(Clone::clone);
-    let budget = watched.as_ref().and_then(|watched| {
-        watched.with_budget(|budget| (Instant::now(), budget.refuses && budget.is_over()))
-    });
-    if budget.is_some_and(|(_, refuses)| refuses) {
-        return Err(EnginePanic("not run: the time was up".to_owned()));
-    }
-    let outer = JUDGING.replace(true);
-    let result = catch_unwind(AssertUnwindSafe(run));
-    JUDGING.set(outer);
-    if let (Some(watched), Some((start, _)), false) = (watched, budget, outer) {
-        watched.with_budget(|budget| budget.left = budget.left.saturating_sub(start.elapsed()));
-    }
+    let run = || {
+        let outer = JUDGING.replace(true);
+        let result = catch_unwind(AssertUnwindSafe(run));
+        JUDGING.set(outer);
+        result
+    };
+    // An engine inside another one spends the time of the outer one.
+    let result = match WATCHED.with_borrow(Clone::clone).filter(|_| !is_judging()) {
+        Some(watched) => {
+            let result = watched.spend(run);
+            result.ok_or_else(|| EnginePanic("not run: the time was up".to_owned()))?
+        }
+        None => run(),
+    };
     result.map_err(|payload| {
         let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned());

@@ -282,8 +282,8 @@ pub fn judge_partitions_of(
     // An answer counts as time in the judged code.
     let watch = Watch::begin();
     let asked = |polygons: &[Polygon]| {
-        let answers = watch.during(|| caught(|| answer(polygons)));
-        let answers = answers.unwrap_or_else(|_| vec![None; polygons.len()]);
+        let answers = watch.spend(|| answer(polygons));
+        let answers = answers.unwrap_or_else(|| vec![None; polygons.len()]);
         answers.into_iter().map(fault).collect()
     };
     judge(&asked, options, &watch)
