@@ -18,7 +18,8 @@
 //! - [`partition`]: judges the triangles that a tessellator makes of polygons
 //! - [`judge`]: what every judge has in common: options, parts of the cases, failing cases, verdicts
 //! - [`assert_rasterizer`]: judges in one line of a test
-//! - [`assert_lines`]: the same for a line drawer
+//! - [`assert_lines`]: the same for a line drawer, which is a closure
+//! - [`assert_line_values`]: a line drawer with depths and attributes
 //! - [`assert_values`]: the same with depths and attributes
 //! - [`assert_same_coverage`]: two rasterizers draw the same pixels, whether or not they are right
 //! - [`assert_partition`]: the same for a tessellator
@@ -62,7 +63,8 @@
 pub use rasterproof_core::{contract, frame, grid, line, raster, triangle};
 #[doc(inline)]
 pub use rasterproof_verify::{
-    assert_lines, assert_partition, assert_rasterizer, assert_same_coverage, assert_values,
+    assert_line_values, assert_lines, assert_partition, assert_rasterizer, assert_same_coverage,
+    assert_values,
 };
 #[doc(inline)]
 pub use rasterproof_verify::{cases, comparison as verify, judge, oracle, partition};

@@ -20,7 +20,7 @@ use rasterproof_registry::comparison::Judged;
 use rasterproof_report::summary::chapter;
 use rasterproof_report::{differential, text};
 use rasterproof_verify::cases;
-use rasterproof_verify::comparison::{FamilyReport, Options, Verdict};
+use rasterproof_verify::comparison::{FamilyReport, LeftOut, Options, Verdict};
 
 /// Cases of each family: enough that every planted fault of `tests/it/mutants.rs` shows.
 const CASES: u64 = 1500;
@@ -44,7 +44,8 @@ fn main() -> ExitCode {
     families.sort_by_key(place);
     let all = families.len() == cases::families().count();
     let options = Options::default().cases(CASES);
-    let verdict = Verdict { options, families, failures: Vec::new(), cause: None, more: () };
+    let verdict =
+        Verdict { options, families, failures: Vec::new(), cause: None, more: LeftOut::default() };
     println!("{}", text::tables(&differential::tables(&verdict), text::WIDTH, false));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {

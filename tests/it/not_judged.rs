@@ -2,7 +2,9 @@
 
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_verify::cases::FamilyName;
-use rasterproof_verify::comparison::{NothingJudged, Options, Shard, judge_coverage, judge_lines};
+use rasterproof_verify::comparison::{
+    NothingJudged, Options, Shard, judge_coverage, judge_line_values,
+};
 
 use crate::program::{check, shared};
 
@@ -53,7 +55,7 @@ fn the_library_returns_an_error() {
     let error: Box<dyn std::error::Error> = Box::new(error);
     assert!(error.to_string().contains("line-ties hold other shapes"), "{error}");
     let none = Options::default().cases(0);
-    let error = judge_lines(&LineEngine::JUDGED[0], &none).unwrap_err();
+    let error = judge_line_values(&LineEngine::JUDGED[0], &none).unwrap_err();
     assert_eq!(error, NothingJudged::NoCases);
     assert!("unifrom".parse::<FamilyName>().is_err() && Shard::new(0, 0).is_err());
 }

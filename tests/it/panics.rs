@@ -12,7 +12,9 @@ use rasterproof_core::contract::{DrawLine, Rasterize};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenLine, Span, Varying};
-use rasterproof_verify::comparison::{Options, judge_coverage, judge_coverage_of, judge_lines};
+use rasterproof_verify::comparison::{
+    Options, judge_coverage, judge_coverage_of, judge_line_values,
+};
 
 use crate::program::Run;
 
@@ -74,7 +76,7 @@ fn always_panics() {
     let message = verdict.check().unwrap_err().to_string();
     let said = format!("it panics in {cases} cases; only the first of these panics was shown");
     assert!(cases > 5_000 && message.contains(&said), "{message}");
-    assert!(judge_lines(&Panicking, &options).unwrap().check().is_err());
+    assert!(judge_line_values(&Panicking, &options).unwrap().check().is_err());
 }
 
 /// Other threads panic while engines are judged, and everybody panics before and after.

@@ -5,7 +5,7 @@ use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_verify::comparison::tolerance;
 use rasterproof_verify::comparison::{
-    Options, judge_coverage, judge_exact, judge_lines, judge_values,
+    Options, judge_coverage, judge_exact, judge_line_values, judge_values,
 };
 use rasterproof_verify::partition::{self, Polygon, Triangle, judge_partitions};
 
@@ -32,7 +32,7 @@ fn messages_about_engines_and_tessellators_are_whole() {
     let options = Options::default().cases(40);
     let verdict = judge_coverage(&TriangleMutant::InclusiveEdges, &options).unwrap();
     is_whole(&verdict.check().unwrap_err().to_string(), parts);
-    let verdict = judge_lines(&LineMutant::DirectedTies, &options).unwrap();
+    let verdict = judge_line_values(&LineMutant::DirectedTies, &options).unwrap();
     is_whole(&verdict.check().unwrap_err().to_string(), parts);
     // Of this one the search recognises no cause, because small triangles are right.
     let verdict = judge_exact(&ExactMutant::PlainF64, &options).unwrap();

@@ -7,6 +7,7 @@ use super::Options;
 use super::adapt_case;
 use super::ask::{Answer, Breach, Misbehaviour, Question, Subject, show};
 use super::check::{Check, Truth, expected_answer};
+use super::declared::Declared;
 use super::difference;
 use super::judged::Judged;
 use super::pictured::{Pictured, pictured};
@@ -81,16 +82,16 @@ pub fn failures(
     let news: Vec<&Failing> = found.failing.iter().filter(|f| !is_known(f)).collect();
     let of = |name: &str| news.iter().find(|f| f.property == name);
     let firsts = rows.into_iter().filter_map(|row| of(row.name));
-    let start = Instant::now();
+    let mut program = Spending { asked: program, spent: Duration::ZERO };
     let mut shown: Vec<Failure> = Vec::new();
     let mut kinds: Vec<Kind> = Vec::new();
     for (done, failing) in firsts.enumerate() {
         // Beyond as many searches as cases are shown, others are for what is still to be seen.
-        let is_over = done >= MOST_SHOWN && start.elapsed() >= options.terms.patience;
+        let is_over = done >= MOST_SHOWN && program.spent >= options.terms.patience;
         if shown.len() == MOST_SHOWN || is_over {
             break;
         }
-        let Some(failure) = failure(program, found, failing, options, truth) else { continue };
+        let Some(failure) = failure(&mut program, found, failing, options, truth) else { continue };
         let kind = Kind::of(&failure, truth.declared.convention.sample);
         match kinds.iter().position(|known| *known == kind) {
             Some(at) => shown[at].evidence.also.push(failing.property),
@@ -103,6 +104,26 @@ pub fn failures(
     let is_same = |f: &Failure| f.evidence.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
     shown.sort_by_key(is_same);
     shown
+}
+
+/// Somebody who is asked, and how long the answers took in all. What the judge itself computes does not count, so that of a program
+/// that answers at once nothing is left out on a busy machine.
+struct Spending<'a> {
+    asked: &'a mut dyn Subject,
+    spent: Duration,
+}
+
+impl Subject for Spending<'_> {
+    fn declared(&self) -> &Declared {
+        self.asked.declared()
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        let start = Instant::now();
+        let answers = self.asked.ask(questions, most_deaths);
+        self.spent += start.elapsed();
+        answers
+    }
 }
 
 /// The first case of each property whose answers change, as it was asked: what was shrunk would answer otherwise again.
@@ -189,7 +210,7 @@ impl Asked {
 }
 
 fn failure(
-    program: &mut dyn Subject,
+    program: &mut Spending<'_>,
     found: &Found,
     failing: &Failing,
     options: &Options,
@@ -204,7 +225,7 @@ fn failure(
     let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
     let first = Asked::of(program, check, &case, truth);
     let was_asked = !first.is_late();
-    let (seed, patience) = (options.seed, options.terms.patience);
+    let (seed, patience) = (options.seed, options.terms.patience.saturating_sub(program.spent));
     let search = Search { check, truth, seed, patience, may_be: &may_be };
     let mut failure = search.smallest(program, failing, case, first);
     if !was_asked {
@@ -221,6 +242,7 @@ pub struct Search<'a> {
     pub truth: &'a Truth,
     /// The seed by which the failing case was generated.
     pub seed: u64,
+    /// How long the program may take to answer meanwhile.
     pub patience: Duration,
     /// Whether a smaller case is one to ask.
     pub may_be: &'a dyn Fn(&Case) -> bool,
@@ -236,9 +258,9 @@ impl Search<'_> {
         first: Asked,
     ) -> Failure {
         let &Self { check, truth, seed, patience, may_be } = self;
-        let program = RefCell::new(program);
-        let ask = |case: &Case| Asked::of(*program.borrow_mut(), check, case, truth);
-        let start = Instant::now();
+        let program = RefCell::new(Spending { asked: program, spent: Duration::ZERO });
+        let ask = |case: &Case| Asked::of(&mut *program.borrow_mut(), check, case, truth);
+        let is_over = || program.borrow().spent >= patience;
         let (was_wrong, was_late, is_slow) =
             (first.judged.is_wrong(), first.is_late(), first.is_slow());
         // The answers to the smallest case so far.
@@ -247,9 +269,8 @@ impl Search<'_> {
             original.clone()
         } else {
             smaller(check, original.clone(), |smaller| {
-                let is_asked = adapt_case::holds(smaller, &truth.declared)
-                    && may_be(smaller)
-                    && start.elapsed() < patience;
+                let is_asked =
+                    adapt_case::holds(smaller, &truth.declared) && may_be(smaller) && !is_over();
                 let smaller = adapt_case::put(smaller.clone(), &truth.declared);
                 if !is_asked || !check.fits(&smaller) {
                     return false;
@@ -262,10 +283,11 @@ impl Search<'_> {
                 is_wrong
             })
         };
+        let was_cut = is_over();
         let is_asked_again = !was_late && !is_slow;
         let again =
             if is_asked_again { Some(ask(&case)).filter(|again| !again.is_late()) } else { None };
-        let shrunk = match (is_slow, again.is_none()) {
+        let shrunk = match (is_slow, was_cut || again.is_none()) {
             (true, _) => "as it is, since it takes long",
             (_, true) if case == original => "not made smaller: the time was up",
             (_, true) => "shrunk until the time was up",
@@ -393,7 +415,6 @@ fn is_on_edge([a, b, c]: Corners, [x, y]: [i32; 2]) -> bool {
 mod tests {
     use super::*;
     use crate::against;
-    use crate::declared::Declared;
     use crate::in_process::Inside;
     use crate::verdict::{Scores as _, Verdict};
     use rasterproof_core::triangle::Span;
@@ -452,12 +473,11 @@ mod tests {
         assert!(first.evidence.exchanges[0].request.starts_with("T 1 "));
     }
 
-    /// Drops the first run of every third answer. There are two or three questions about a case.
+    /// Drops the first run of every fifth answer.
     fn forget(answer: &mut Answer, before: u64) {
-        if let Answer::Coverage(runs) = answer {
-            if before % 5 == 0 && !runs.is_empty() {
-                runs.remove(0);
-            }
+        let Answer::Coverage(runs) = answer else { return };
+        if before.is_multiple_of(5) && !runs.is_empty() {
+            runs.remove(0);
         }
     }
 
@@ -476,6 +496,28 @@ mod tests {
         let same = judged(|answer, _| forget(answer, 0));
         assert!(same.failures.iter().all(|failure| !failure.evidence.changes));
         assert_eq!(same.failures[0].evidence.shrunk, "shrunk");
+    }
+
+    /// Of a program that is slow, all failing cases together are made smaller for a limited time, and it is said.
+    #[test]
+    fn what_is_slow_is_not_made_smaller_for_long() {
+        let mut options = options();
+        options.families.push("rectangle".to_owned());
+        options.terms.patience = Duration::from_millis(100);
+        let slow = altered(|answer, _| {
+            std::thread::sleep(Duration::from_millis(20));
+            forget(answer, 0);
+        });
+        let mut options_of = options.clone();
+        options_of.cases = 4;
+        let verdict = crate::judge(&mut [slow], &options_of, &|_| None, &|_| ());
+        let shrunk: Vec<_> = verdict.failures.iter().map(|f| f.evidence.shrunk).collect();
+        assert!(shrunk.len() > 1, "{shrunk:?}");
+        assert_eq!(shrunk[0], "shrunk until the time was up");
+        assert!(
+            shrunk[1..].iter().all(|s| *s == "not made smaller: the time was up"),
+            "{shrunk:?}"
+        );
     }
 
     #[test]

@@ -162,8 +162,10 @@ mod tests {
             let mut bad = Bad { declared: Declared::default(), asked: Vec::new(), is_alone };
             let given = Options::default().cases(128);
             let report = judge(&mut bad, &given).unwrap();
-            // What failed in the first block and has an answer is asked a second time.
-            assert_eq!(bad.asked, [64, 63, 64]);
+            // What fails and has an answer is asked a second time, before or after the next block begins.
+            let is_block = |asked: &usize| [64, 63].contains(asked);
+            assert_eq!(bad.asked.len(), 3);
+            assert!(bad.asked[0] == 64 && bad.asked.iter().all(is_block), "{:?}", bad.asked);
             assert_eq!(report.sum().wrong, 128 * Family::ALL.len() as u64);
             let said = report.check().unwrap_err().to_string();
             assert!(said.contains(&format!("the last time it {how}")), "{said}");

@@ -32,7 +32,8 @@
 //! |---|---|---|
 //! | which pixels a triangle covers | [`contract::Rasterize`] | [`assert_rasterizer!`] |
 //! | depths and attributes too | [`contract::Interpolate`] | [`assert_values!`] |
-//! | which pixels a line lights, in which order | [`contract::DrawLine`] | [`assert_lines!`] |
+//! | which pixels a line lights, in which order | a closure | [`assert_lines!`] |
+//! | their depths and attributes too | [`contract::DrawLine`] | [`assert_line_values!`] |
 //! | corners that are not snapped to a grid | [`contract::RasterizeExact`] | [`comparison::judge_exact`] |
 //! | the triangles that are made of a polygon | [`partition::Tessellate`], or a function | [`assert_partition!`] |
 //!
@@ -47,9 +48,25 @@
 //! ```
 //!
 //! The macros call functions that return a [`Verdict`](comparison::Verdict) with all counts:
-//! [`judge_coverage`](comparison::judge_coverage), [`judge_values`](comparison::judge_values) and
-//! [`judge_lines`](comparison::judge_lines). Options that leave no case are the error
+//! [`judge_coverage`](comparison::judge_coverage), [`judge_values`](comparison::judge_values),
+//! [`judge_lines`](comparison::judge_lines) and [`judge_line_values`](comparison::judge_line_values). Options that leave no case are the error
 //! [`NothingJudged`](comparison::NothingJudged). A family is a [`FamilyName`](cases::FamilyName), so that a misspelt one does not compile.
+//!
+//! # Lines
+//!
+//! A line drawer is a closure. It is given both ends, the window, and a function that lights one pixel: column and row. Pixels
+//! outside the window are not to be lit, and the order is that from the first end to the second:
+//!
+//! ```no_run
+//! # mod my_crate { pub fn line(_: [i32; 4], _: impl FnMut(i32, i32)) {} }
+//! rasterproof_verify::assert_lines!(|[a, b], window, light| {
+//!     my_crate::line([a.x, a.y, b.x, b.y], |x, y| {
+//!         if window.contains(x, y) {
+//!             light(x, y);
+//!         }
+//!     });
+//! });
+//! ```
 //!
 //! # A worked example
 //!
@@ -212,7 +229,8 @@ macro_rules! assert_rasterizer {
     };
 }
 
-/// Panics unless a line drawer lights the pixels of the oracle, with its values. A second argument has other
+/// Panics unless a line drawer lights the pixels of the oracle in the same order. It is a closure of the ends, the window and a
+/// function that lights a pixel, as [`judge_lines`](comparison::judge_lines) takes. A second argument has other
 /// [`Options`](comparison::Options) than 2,000 cases of each family.
 #[macro_export]
 macro_rules! assert_lines {
@@ -221,6 +239,18 @@ macro_rules! assert_lines {
     };
     ($engine:expr, $options:expr $(,)?) => {
         $crate::comparison::must_agree($crate::comparison::judge_lines(&$engine, &$options))
+    };
+}
+
+/// Panics unless a line drawer lights the pixels of the oracle, with its depths and attributes. A second argument has other
+/// [`Options`](comparison::Options) than 2,000 cases of each family.
+#[macro_export]
+macro_rules! assert_line_values {
+    ($engine:expr $(,)?) => {
+        $crate::assert_line_values!($engine, $crate::comparison::Options::default().cases(2_000))
+    };
+    ($engine:expr, $options:expr $(,)?) => {
+        $crate::comparison::must_agree($crate::comparison::judge_line_values(&$engine, &$options))
     };
 }
 
@@ -291,15 +321,47 @@ mod values_example;
 
 #[cfg(test)]
 mod tests {
-    use crate::comparison::{Options, tolerance};
+    use crate::cases::named::plain_line;
+    use crate::comparison::{Options, judge_lines, tolerance};
+    use rasterproof_core::contract::DrawLine as _;
+    use rasterproof_core::grid::PixelRect;
     use rasterproof_core::line::dda::Dda;
     use rasterproof_core::raster::scanline::Scanline;
+    use rasterproof_core::triangle::PixelPoint;
 
     #[test]
     fn right_engines_pass() {
         assert_rasterizer!(Scanline, Options::default().cases(20));
-        assert_lines!(Dda, Options::default().cases(20));
+        assert_line_values!(Dda, Options::default().cases(20));
+        assert_lines!(|ends, window, light| lit(ends, window, light), Options::default().cases(20));
         assert_values!(Scanline, tolerance::SCANLINE, Options::default().cases(20));
+    }
+
+    /// The pixels of a right line drawer, which has no values.
+    fn lit([a, b]: [PixelPoint; 2], window: PixelRect, light: &mut dyn FnMut(i32, i32)) {
+        Dda.draw(&plain_line(a, b), window, |f| light(f.x_px, f.y_px));
+    }
+
+    /// Pixels and their order are judged; there is nothing else.
+    #[test]
+    fn a_line_drawer_is_a_closure() {
+        let options = Options::default().cases(20);
+        assert!(judge_lines(&lit, &options).unwrap().agrees());
+        let short = |ends: [PixelPoint; 2], window: PixelRect, light: &mut dyn FnMut(i32, i32)| {
+            lit(ends, window, &mut |x, y| {
+                if (x, y) != (ends[1].x, ends[1].y) {
+                    light(x, y);
+                }
+            });
+        };
+        let message = judge_lines(&short, &options).unwrap().check().unwrap_err().to_string();
+        assert!(message.contains("1 missing") && message.contains("probable cause"), "{message}");
+        let backwards =
+            |[a, b]: [PixelPoint; 2], window: PixelRect, light: &mut dyn FnMut(i32, i32)| {
+                lit([b, a], window, light);
+            };
+        let message = judge_lines(&backwards, &options).unwrap().check().unwrap_err().to_string();
+        assert!(message.contains(" out of order"), "{message}");
     }
 
     #[test]

@@ -132,6 +132,28 @@ impl Interpolate for CoverageOnly<'_> {
     }
 }
 
+/// What lights the pixels of a line, as a pointer.
+pub type Light<'a> = dyn Fn([PixelPoint; 2], PixelRect, &mut dyn FnMut(i32, i32)) + Sync + 'a;
+
+/// A line drawer that is judged by its pixels alone. A pointer, as [`CoverageOnly`].
+pub struct PixelsOnly<'a>(pub &'a Light<'a>);
+
+impl DrawLine for PixelsOnly<'_> {
+    /// Its values are those of the first end, which nobody looks at.
+    fn draw<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        let first = &line.ends[0];
+        let (depth, varying) = (first.depth, first.varying);
+        (self.0)(line.ends.each_ref().map(|end| end.pixel), bounds, &mut |x_px, y_px| {
+            emit(Fragment { x_px, y_px, depth, varying });
+        });
+    }
+}
+
 /// Two line drawers as one type, so that they can be compared.
 pub enum OneOf<'a, A, B> {
     First(&'a A),
@@ -401,11 +423,17 @@ pub fn is_sliver(corners: &Corners) -> bool {
 /// Line drawers.
 pub struct LineComparer<'a, D> {
     engines: &'a [(&'a str, D)],
+    has_values: bool,
 }
 
 impl<'a, D: DrawLine + Sync> LineComparer<'a, D> {
     pub fn new(engines: &'a [(&'a str, D)]) -> Self {
-        Self { engines }
+        Self { engines, has_values: true }
+    }
+
+    /// Judges no values.
+    pub fn of_pixels(engines: &'a [(&'a str, D)]) -> Self {
+        Self { engines, has_values: false }
     }
 }
 
@@ -476,7 +504,9 @@ impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
                 match drawn {
                     Ok(drawn) => {
                         sequence(finding, &of(drawn), &pixels, case.window);
-                        line_values(line, drawn, &truth, finding);
+                        if self.has_values {
+                            line_values(line, drawn, &truth, finding);
+                        }
                     }
                     Err(panic) => finding.panic = Some(panic.0.clone()),
                 }

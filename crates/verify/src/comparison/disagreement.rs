@@ -3,7 +3,9 @@
 use std::error::Error;
 use std::fmt;
 
-use super::{Cause, Changed, Comparisons, Convention, Failure, ORACLE, Tally, Verdict, shrink};
+use super::{
+    Cause, Changed, Comparisons, Convention, Failure, LeftOut, ORACLE, Tally, Verdict, shrink,
+};
 use crate::cases::{FamilyName, Shape};
 use crate::judge::ascii;
 use rasterproof_core::frame::Coverage;
@@ -72,6 +74,8 @@ pub struct Disagreement {
     pub cause: Option<Cause>,
     /// The convention that was declared.
     pub declared: Convention,
+    /// What was not done, because the time was up.
+    pub left_out: LeftOut,
 }
 
 impl Error for Disagreement {}
@@ -104,6 +108,7 @@ impl Disagreement {
             smallest: verdict.failures.first().cloned(),
             cause: verdict.cause.clone(),
             declared: verdict.options.terms,
+            left_out: verdict.more,
         }
     }
 }
@@ -129,6 +134,10 @@ impl fmt::Display for Disagreement {
             let panics = self.panics;
             writeln!(f, "it panics in {panics} cases; only the first of these panics was shown")?;
         }
+        let left_out = self.left_out.to_string();
+        if !left_out.is_empty() {
+            writeln!(f, "{}", ascii::broken(&left_out, MOST_COLUMNS, ""))?;
+        }
         if let Some(failure) = &self.smallest {
             let Failure { family, index, what, case, evidence, .. } = failure;
             let kind = if matches!(case.shape, Shape::Lines(_)) { "line" } else { "triangle" };
@@ -143,7 +152,11 @@ impl fmt::Display for Disagreement {
                 many => format!("{many} {kind}s"),
             };
             let [width, height] = [window.width(), window.height()];
-            let shrunk = if changed.is_some() { "as it is" } else { "shrunk" };
+            let shrunk = match changed {
+                Some(_) => "as it is",
+                None if self.left_out.shrinking => "shrunk until the time was up",
+                None => "shrunk",
+            };
             writeln!(f, "\n{family}: {what} (from {family} #{index}, {shrunk})")?;
             writeln!(f, "  {described} in a window of {width} x {height} px")?;
             if let Some(changed) = changed {
@@ -208,9 +221,10 @@ mod tests {
     use crate::cases::FamilyName;
     use crate::comparison::{
         Convention, NothingJudged, Options, Rule, Verdict, compare_coverage, compare_lines,
-        judge_coverage, judge_lines,
+        judge_coverage, judge_line_values,
     };
     use std::sync::atomic::{AtomicU64, Ordering};
+    use std::time::{Duration, Instant};
 
     use rasterproof_core::contract::{DrawLine, Rasterize};
     use rasterproof_core::grid::PixelRect;
@@ -347,7 +361,7 @@ mod tests {
             ],
         );
         let lines = Options::default().cases(40).family(FamilyName::LineTies);
-        let message = answers(&whole(judge_lines(&Once(AtomicU64::new(0)), &lines)));
+        let message = answers(&whole(judge_line_values(&Once(AtomicU64::new(0)), &lines)));
         says_so(&message, &[": first 1 missing, then agrees (from line-ties #"]);
         let second = EverySecond(AtomicU64::new(0));
         let message = answers(&whole(compare_coverage(&Scanline, &second, &options)));
@@ -356,6 +370,44 @@ mod tests {
         let strict = Convention::default().rule(Rule::Strict);
         let message = whole(judge_coverage(&strict, &options));
         assert!(message.contains("shrunk") && message.contains("probable cause"), "{message}");
+    }
+
+    /// Draws nothing on an edge, and takes its time.
+    struct Slow;
+    impl Rasterize for Slow {
+        fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+            std::thread::sleep(Duration::from_millis(50));
+            Convention::default().rule(Rule::Strict).cover(corners, bounds, emit);
+        }
+    }
+
+    /// It had no verdict after four minutes: the limit was one of the cases alone.
+    #[test]
+    fn the_time_limit_covers_what_comes_after_a_failure() {
+        let (start, limit) = (Instant::now(), Duration::from_secs(2));
+        let options = Options::default().cases(5).time_limit(limit);
+        let message = whole(judge_coverage(&Slow, &options)).replace('\n', " ");
+        let elapsed = start.elapsed();
+        // The cases of a mesh that is drawn then take a few seconds.
+        assert!(elapsed < 5 * limit, "{elapsed:?}: {message}");
+        for part in
+            ["Left out, since the time limit of 2 s was up: ", " cases", "the cause", "repeat with"]
+        {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+        assert!(!message.contains("probable cause"), "{message}");
+    }
+
+    /// Without a limit, what comes after the cases is bounded.
+    #[test]
+    fn without_a_limit_the_search_for_a_cause_ends() {
+        let start = Instant::now();
+        let options = Options::default().cases(1).family(FamilyName::Rectangle);
+        let message = whole(judge_coverage(&Slow, &options)).replace('\n', " ");
+        assert!(start.elapsed() < Duration::from_secs(30), "{:?}", start.elapsed());
+        let said = "since the judged code had run for 10 s after the cases: ";
+        assert!(message.contains(said) && message.contains("the cause."), "{message}");
+        assert!(message.contains("wrong pixels, in 1 of 1 cases"), "{message}");
     }
 
     struct Backwards;

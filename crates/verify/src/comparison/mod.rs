@@ -7,7 +7,7 @@
 //! options alone, not on the number of threads.
 //!
 //! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
-//! [`judge_lines`]; corners that are not snapped, [`judge_exact`]. They return [`NothingJudged`] where the
+//! [`judge_lines`], [`judge_line_values`]; corners that are not snapped, [`judge_exact`]. They return [`NothingJudged`] where the
 //! options leave no case, since a verdict on nothing would agree.
 
 mod cause;
@@ -30,19 +30,21 @@ use std::fmt;
 use std::ops::AddAssign;
 
 use crate::cases::{Case, Family, FamilyName, Kind, Shape};
-use crate::judge;
+use crate::judge::{self, Clock};
 use changed::Changing;
 use compare::{
-    CompareCases, Cover, CoverageOnly, EachOther, LineComparer, ORACLE, OneOf, TriangleComparer,
-    UnsnappedComparer,
+    CompareCases, Cover, CoverageOnly, EachOther, LineComparer, ORACLE, OneOf, PixelsOnly,
+    TriangleComparer, UnsnappedComparer,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
+use rasterproof_core::triangle::PixelPoint;
 use tolerance::Tolerance;
 
-pub use crate::judge::{EnginePanic, NoSuchShard, NothingJudged, Shard};
+pub use crate::judge::{EnginePanic, LeftOut, NoSuchShard, NothingJudged, Shard};
 #[doc(hidden)]
 pub use crate::judge::{Watch, caught, is_judging};
 #[doc(hidden)]
@@ -189,7 +191,7 @@ impl fmt::Display for Failure {
 /// The outcome of a run. Its failures are the smallest of each family and pair, smallest first; its cause is looked for where one
 /// engine alone is judged and is wrong. Every failing case is drawn a second time. Of an engine that draws it otherwise then the
 /// failures are such cases, not shrunk, with both answers, and no cause is looked for.
-pub type Verdict = judge::Verdict<Options, FamilyReport, Failure, Option<Cause>>;
+pub type Verdict = judge::Verdict<Options, FamilyReport, Failure, Option<Cause>, LeftOut>;
 
 impl Verdict {
     /// Nothing, or what a failing test has to print.
@@ -286,7 +288,8 @@ impl<R: Interpolate + Sync, D: DrawLine + Sync, E: RasterizeExact + Sync> Engine
         let triangles = TriangleComparer::new(&self.triangles, options.terms);
         let (lines, unsnapped) =
             (LineComparer::new(&self.lines), UnsnappedComparer::new(&self.unsnapped));
-        drive(&[&triangles, &lines, &unsnapped], options, progress, &Watch::begin())
+        let clock = Clock::new(options.time_limit);
+        drive(&[&triangles, &lines, &unsnapped], options, progress, &Watch::begin(), &clock)
     }
 
     /// Why an engine is wrong, found by asking it more; nothing where no engine has this name.
@@ -383,12 +386,40 @@ fn judge_triangles<R: Interpolate + Sync>(
     judge_alone(&TriangleComparer::new(&engines, options.terms), options)
 }
 
+/// Judges the pixels of any line drawer against the oracle, in the order in which it lights them. It is given the ends, the window
+/// and a function that lights column x of row y, and has no depths and no attributes.
+///
+/// # Errors
+/// By these options no case was judged, or they declare a convention, which is one of triangles.
+///
+/// ```
+/// use rasterproof_verify::comparison::{Options, judge_lines};
+/// let first_end_alone = judge_lines(
+///     &|[a, _], window, light| {
+///         if window.contains(a.x, a.y) {
+///             light(a.x, a.y);
+///         }
+///     },
+///     &Options::default().cases(20),
+/// )?;
+/// println!("{}", first_end_alone.check().unwrap_err());
+/// # Ok::<(), rasterproof_verify::comparison::NothingJudged>(())
+/// ```
+#[must_use = "the verdict may be that something is wrong"]
+pub fn judge_lines<F>(draw: &F, options: &Options) -> Result<Verdict, NothingJudged>
+where
+    F: Fn([PixelPoint; 2], PixelRect, &mut dyn FnMut(i32, i32)) + Sync,
+{
+    let engine = PixelsOnly(draw);
+    judge_alone(&LineComparer::of_pixels(&[(CANDIDATE, engine)]), options)
+}
+
 /// Judges pixels and values of any line drawer against the oracle.
 ///
 /// # Errors
 /// By these options no case was judged, or they declare a convention, which is one of triangles.
 #[must_use = "the verdict may be that something is wrong"]
-pub fn judge_lines<D: DrawLine + Sync>(
+pub fn judge_line_values<D: DrawLine + Sync>(
     engine: &D,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
@@ -457,13 +488,17 @@ fn judge_alone(comparer: &dyn CompareCases, options: &Options) -> Result<Verdict
     if comparer.kind() != Kind::Triangles && options.terms != Convention::default() {
         return Err(NothingJudged::NoConventions);
     }
-    let watch = Watch::begin();
-    let mut verdict = drive(&[comparer], options, &|_| (), &watch).of_cases()?;
+    let (watch, clock) = (Watch::begin(), Clock::new(options.time_limit));
+    let mut verdict = drive(&[comparer], options, &|_| (), &watch, &clock).of_cases()?;
     let changes = verdict.failures.iter().any(|failure| failure.evidence.changed.is_some());
     if !verdict.agrees() && !changes {
         let who =
             verdict.failures.first().map_or(CANDIDATE, |f| f.evidence.who_is_wrong()).to_owned();
-        verdict.cause = watch.during(|| comparer.cause(&who));
+        clock.limit(&watch, false);
+        let cause = watch.during(|| comparer.cause(&who));
+        // What was concluded from some of the answers would be no conclusion.
+        verdict.more.cause = watch.is_over();
+        verdict.cause = cause.filter(|_| !verdict.more.cause);
     }
     Ok(verdict)
 }
@@ -510,6 +545,7 @@ fn drive(
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
     watch: &Watch,
+    clock: &Clock,
 ) -> Verdict {
     let mut chosen = Vec::new();
     for (kind, families) in Kind::ALL {
@@ -525,12 +561,24 @@ fn drive(
         }
     }
     let block = |family: usize, numbers: &[u64]| {
-        watch.during(|| judge_block(&chosen[family], numbers, options))
+        let partial = watch.during(|| judge_block(&chosen[family], numbers, options));
+        if !partial.failing.is_empty() {
+            clock.has_failed();
+        }
+        partial
     };
-    let partials = judge::in_blocks(chosen.len(), options, progress, &block, Partial::merge);
+    let partials = judge::in_blocks(chosen.len(), options, clock, progress, &block, Partial::merge);
+    let of_cases = options.count().saturating_mul(chosen.len() as u64);
+    clock.limit(watch, true);
     let failures = shrink_failures(&partials, &chosen, options, watch);
+    let more = LeftOut {
+        cases: of_cases - partials.iter().map(|partial| partial.report.cases).sum::<u64>(),
+        shrinking: !failures.is_empty() && watch.is_over(),
+        cause: false,
+        limit: options.time_limit,
+    };
     let families = partials.into_iter().map(|partial| partial.report).collect();
-    Verdict { options: options.clone(), families, failures, cause: None, more: () }
+    Verdict { options: options.clone(), families, failures, cause: None, more }
 }
 
 fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Partial {
@@ -676,8 +724,11 @@ fn shrink_failures(
         let (place, pair, index) = failing[number];
         let Chosen { family, comparer, pairs } = &chosen[place];
         let original = options.terms.place(family.case(options.seed, index));
-        let fails =
-            |case: &Case| options.terms.holds(case) && comparer.findings(case)[pair].is_wrong();
+        let fails = |case: &Case| {
+            !watch.is_over()
+                && options.terms.holds(case)
+                && comparer.findings(case)[pair].is_wrong()
+        };
         let case = shrink::shrink(original, fails);
         let evidence = Compared {
             pair: pairs[pair].clone(),
@@ -689,12 +740,16 @@ fn shrink_failures(
         let what = comparer.findings(&case)[pair].describe();
         Failure { family: family.name, index, seed: options.seed, what, case, evidence }
     };
-    let shrunk = parallel::map(failing.len(), |number| watch.during(|| shrunk(number)));
+    // The first one is shown in any case.
+    let shrunk = parallel::map(failing.len(), |number| {
+        (number == 0 || !watch.is_over()).then(|| watch.during(|| shrunk(number)))
+    });
     let size = |failure: &Failure| {
         (matches!(failure.case.shape, Shape::Unsnapped { .. }), shrink::size(&failure.case))
     };
     let origins = failing.iter().map(|&(place, pair, _)| (place, pair));
-    let mut shrunk: Vec<_> = origins.zip(shrunk).collect();
+    let shrunk = origins.zip(shrunk).filter_map(|(origin, failure)| Some((origin, failure?)));
+    let mut shrunk: Vec<_> = shrunk.collect();
     shrunk.sort_by_cached_key(|(origin, failure)| (*origin, size(failure)));
     shrunk.dedup_by_key(|(origin, _)| *origin);
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();

@@ -28,7 +28,8 @@ mod tests {
 
     use crate::cases::{self, unsnapped};
     use crate::comparison::{
-        Convention, Rule, Shard, judge_coverage, judge_exact, judge_lines, judge_values, tolerance,
+        Convention, Rule, Shard, judge_coverage, judge_exact, judge_line_values, judge_values,
+        tolerance,
     };
 
     /// What each judge says of right engines by these options.
@@ -36,7 +37,7 @@ mod tests {
         [
             judge_coverage(&Scanline, options).map(|v| v.agrees()),
             judge_values(&Scanline, tolerance::SCANLINE, options).map(|v| v.agrees()),
-            judge_lines(&Dda, options).map(|v| v.agrees()),
+            judge_line_values(&Dda, options).map(|v| v.agrees()),
             judge_exact(&ScanlineExact, options).map(|v| v.agrees()),
         ]
     }

@@ -8,7 +8,9 @@ pub mod ascii;
 mod nothing;
 mod panics;
 
+use std::fmt;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 pub use nothing::{NoSuchShard, NothingJudged};
@@ -83,7 +85,9 @@ pub struct Options<F, T> {
     pub seed: u64,
     /// Cases of each family.
     pub cases: u64,
-    /// Stop starting new cases after this long; the number of cases done is then what varies.
+    /// How long all of it may take: the cases, making failing ones smaller, and looking for the cause. Where something is wrong,
+    /// half of it is for the cases. The number of cases done is then what varies. Without a limit all cases are judged, and what
+    /// comes after them may take [`AFTER_FAILURE`].
     pub time_limit: Option<Duration>,
     /// Families; empty means all.
     pub families: Vec<F>,
@@ -122,7 +126,7 @@ impl<F, T> Options<F, T> {
         Self { seed, ..self }
     }
 
-    /// The same, but new cases are no longer started after this long.
+    /// The same, but all of it, shrinking and looking for the cause too, ends after about this long.
     #[must_use]
     pub fn time_limit(self, limit: Duration) -> Self {
         Self { time_limit: Some(limit), ..self }
@@ -161,6 +165,15 @@ impl<F, T> Options<F, T> {
         self.only.map_or(0..self.cases, |index| index..index.saturating_add(1))
     }
 
+    /// How many cases of each family there are in this part.
+    pub(crate) fn count(&self) -> u64 {
+        let Shard { part, parts } = self.shard;
+        match self.only {
+            Some(index) => u64::from(index % parts == part),
+            None => self.cases.saturating_sub(part).div_ceil(parts),
+        }
+    }
+
     /// Whether there is a case to judge in any family.
     pub(crate) fn check(&self) -> Result<(), NothingJudged> {
         let Shard { part, parts } = self.shard;
@@ -171,6 +184,90 @@ impl<F, T> Options<F, T> {
             None if part >= self.cases => Err(NothingJudged::EmptyShard(self.shard)),
             None => Ok(()),
         }
+    }
+}
+
+/// How long the judged code itself may run after all cases, to make failing ones smaller and to find the cause, where no time limit
+/// is given. Fast code needs far less.
+pub const AFTER_FAILURE: Duration = Duration::from_secs(10);
+
+/// What was left out, because the time was up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LeftOut {
+    /// Cases that were not judged.
+    pub cases: u64,
+    /// Whether failing cases might have become smaller.
+    pub shrinking: bool,
+    /// Whether the search for the cause did not end.
+    pub cause: bool,
+    /// The time limit, if there was one.
+    pub limit: Option<Duration>,
+}
+
+impl fmt::Display for LeftOut {
+    /// A sentence, or nothing where nothing was left out.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        if self.cases > 0 {
+            parts.push(format!("{} cases", self.cases));
+        }
+        if self.shrinking {
+            parts.push("making failing cases smaller".to_owned());
+        }
+        if self.cause {
+            parts.push("the cause".to_owned());
+        }
+        if parts.is_empty() {
+            return Ok(());
+        }
+        let parts = parts.join(", ");
+        match self.limit {
+            Some(limit) => write!(
+                f,
+                "Left out, since the time limit of {} s was up: {parts}.",
+                limit.as_secs_f64()
+            ),
+            None => write!(
+                f,
+                "Left out, since the judged code had run for {} s after the cases: {parts}. \
+                 Options::time_limit allows more.",
+                AFTER_FAILURE.as_secs()
+            ),
+        }
+    }
+}
+
+/// The time of a judgement, from its beginning.
+pub(crate) struct Clock {
+    start: Instant,
+    limit: Option<Duration>,
+    has_failed: AtomicBool,
+}
+
+impl Clock {
+    pub(crate) fn new(limit: Option<Duration>) -> Self {
+        Self { start: Instant::now(), limit, has_failed: AtomicBool::new(false) }
+    }
+
+    /// Something is wrong: from now on half of a limited time is for what comes after the cases.
+    pub(crate) fn has_failed(&self) {
+        self.has_failed.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether no more cases are begun.
+    fn is_expired(&self) -> bool {
+        let share = if self.has_failed.load(Ordering::Relaxed) { 2 } else { 1 };
+        self.limit.is_some_and(|limit| self.start.elapsed() >= limit / share)
+    }
+
+    /// Limits what comes after the cases: shrinking to half of what is left, or to all of it what comes after that.
+    pub(crate) fn limit(&self, watch: &Watch, is_shrinking: bool) {
+        let now = Instant::now();
+        let end = self.limit.map(|limit| self.start + limit);
+        let share = if is_shrinking { 2 } else { 1 };
+        let end = end.map(|end| now + end.saturating_duration_since(now) / share);
+        watch.limit(end, AFTER_FAILURE / 2, !is_shrinking);
     }
 }
 
@@ -231,15 +328,16 @@ const MOST_PER_ROUND: u64 = 1 << 20;
 /// Judges the cases of so many families, by number, within the limits and the shard of `options`; in blocks, on all threads. `block`
 /// judges some numbers of a family, and `merge` makes one of what two blocks found, the lower numbers first. `progress` hears how many
 /// were judged.
+///
+/// Of a limited time, rounds begin small: of a slow engine each family is judged. The first case of all is judged whatever the limit.
 pub(crate) fn in_blocks<P: Send, F: Sync, T: Sync>(
     families: usize,
     options: &Options<F, T>,
+    clock: &Clock,
     progress: &(dyn Fn(u64) + Sync),
     block: &(dyn Fn(usize, &[u64]) -> P + Sync),
     merge: fn(P, P) -> P,
 ) -> Vec<P> {
-    let start = Instant::now();
-    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
     let mut found: Vec<Option<P>> = (0..families).map(|_| None).collect();
     // With a time limit, families advance together, one case at first, and a few blocks at a time in the end.
     let (mut round, most) = match options.time_limit {
@@ -249,9 +347,14 @@ pub(crate) fn in_blocks<P: Send, F: Sync, T: Sync>(
     let all = options.numbers();
     let Shard { part, parts } = options.shard;
     let mut done = all.start;
-    while done < all.end && !(done > all.start && expired()) {
+    let mut is_first = true;
+    'rounds: while done < all.end {
         let end = all.end.min(done.saturating_add(round));
         for (family, slot) in found.iter_mut().enumerate() {
+            if !is_first && clock.is_expired() {
+                break 'rounds;
+            }
+            is_first = false;
             let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
                 let first = done + number as u64 * BLOCK;
                 let numbers = first..end.min(first.saturating_add(BLOCK));

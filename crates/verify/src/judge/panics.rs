@@ -10,13 +10,60 @@ use std::fmt;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 type PanicHook = Box<dyn Fn(&PanicHookInfo<'_>) + Sync + Send>;
 
 thread_local! {
     static JUDGING: Cell<bool> = const { Cell::new(false) };
-    /// The panics of the judgement for which this thread works.
-    static WATCHED: RefCell<Option<Arc<AtomicU64>>> = const { RefCell::new(None) };
+    /// The judgement for which this thread works.
+    static WATCHED: RefCell<Option<Arc<Watched>>> = const { RefCell::new(None) };
+}
+
+/// What a judgement knows of its engines.
+#[derive(Default)]
+struct Watched {
+    panics: AtomicU64,
+    budget: Mutex<Option<Budget>>,
+}
+
+/// How long the engines of a judgement may still be asked.
+struct Budget {
+    /// When it is over; otherwise the time that is spent in the engines themselves counts. So a judge that is slow
+    /// itself, without optimisation or on a busy machine, leaves nothing out.
+    end: Option<Instant>,
+    left: Duration,
+    /// Whether engines are no longer run when it is over: an error stands for their answer.
+    refuses: bool,
+}
+
+impl Budget {
+    fn is_over(&self) -> bool {
+        self.end.map_or(self.left.is_zero(), |end| Instant::now() >= end)
+    }
+}
+
+impl Watched {
+    /// Works with the budget, if there is one.
+    fn with_budget<T>(&self, work: impl FnOnce(&mut Budget) -> T) -> Option<T> {
+        self.budget.lock().unwrap_or_else(PoisonError::into_inner).as_mut().map(work)
+    }
+
+    /// Runs an engine, whose time counts; nothing where the time is over and it is no longer run.
+    fn spend<T>(&self, run: impl FnOnce() -> T) -> Option<T> {
+        match self.with_budget(|budget| budget.refuses && budget.is_over()) {
+            Some(true) => None,
+            // Without a budget the clock is not read: not every machine has one.
+            None => Some(run()),
+            Some(false) => {
+                let start = Instant::now();
+                let result = run();
+                let spent = start.elapsed();
+                self.with_budget(|budget| budget.left = budget.left.saturating_sub(spent));
+                Some(result)
+            }
+        }
+    }
 }
 
 /// Our hook, as long as a judgement goes on.
@@ -30,7 +77,7 @@ static INSTALLED: Mutex<Installed> = Mutex::new(Installed { judgements: 0, befor
 
 /// A judgement that goes on: of its engines' panics the first one reaches the panic hook of the user.
 #[must_use]
-pub struct Watch(Arc<AtomicU64>);
+pub struct Watch(Arc<Watched>);
 
 impl Watch {
     /// Installs our hook until the last judgement ends.
@@ -44,6 +91,23 @@ impl Watch {
         Self(Arc::default())
     }
 
+    /// From now on the engines may be asked until `end`, or else for so long in their own code. `refuses` says whether they are
+    /// no longer run then.
+    pub(crate) fn limit(&self, end: Option<Instant>, left: Duration, refuses: bool) {
+        let mut budget = self.0.budget.lock().unwrap_or_else(PoisonError::into_inner);
+        *budget = Some(Budget { end, left, refuses });
+    }
+
+    /// Whether the time of [`Watch::limit`] is over.
+    pub(crate) fn is_over(&self) -> bool {
+        self.0.with_budget(|budget| budget.is_over()).unwrap_or(false)
+    }
+
+    /// Asks somebody whose time counts as that of an engine; nothing where he is no longer asked.
+    pub(crate) fn spend<T>(&self, ask: impl FnOnce() -> T) -> Option<T> {
+        self.0.spend(ask)
+    }
+
     /// Works for this judgement, on any thread.
     pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
         let _restored = Restore(WATCHED.replace(Some(Arc::clone(&self.0))));
@@ -52,7 +116,7 @@ impl Watch {
 }
 
 /// Puts back for whom a thread worked before, also where the work panics.
-struct Restore(Option<Arc<AtomicU64>>);
+struct Restore(Option<Arc<Watched>>);
 
 impl Drop for Restore {
     fn drop(&mut self) {
@@ -91,8 +155,8 @@ fn install() -> (Arc<PanicHook>, usize) {
 
 /// Whether the panic of an engine on this thread is the first one of its judgement. Counts it.
 fn is_first() -> bool {
-    let first = |watched: &Option<Arc<AtomicU64>>| {
-        watched.as_ref().is_none_or(|panics| panics.fetch_add(1, Ordering::Relaxed) == 0)
+    let first = |watched: &Option<Arc<Watched>>| {
+        watched.as_ref().is_none_or(|watched| watched.panics.fetch_add(1, Ordering::Relaxed) == 0)
     };
     WATCHED.try_with(|watched| watched.try_borrow().map_or(true, |w| first(&w))).unwrap_or(true)
 }
@@ -143,9 +207,20 @@ impl From<EnginePanic> for String {
 /// # Errors
 /// What the engine said when it panicked.
 pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, EnginePanic> {
-    let outer = JUDGING.replace(true);
-    let result = catch_unwind(AssertUnwindSafe(run));
-    JUDGING.set(outer);
+    let run = || {
+        let outer = JUDGING.replace(true);
+        let result = catch_unwind(AssertUnwindSafe(run));
+        JUDGING.set(outer);
+        result
+    };
+    // An engine inside another one spends the time of the outer one.
+    let result = match WATCHED.with_borrow(Clone::clone).filter(|_| !is_judging()) {
+        Some(watched) => {
+            let result = watched.spend(run);
+            result.ok_or_else(|| EnginePanic("not run: the time was up".to_owned()))?
+        }
+        None => run(),
+    };
     result.map_err(|payload| {
         let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned());

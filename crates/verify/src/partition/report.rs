@@ -13,7 +13,7 @@ use super::{
     Family, Fault, FaultKind, Faults, Options, Polygon, Refused, Tessellate, Tessellation,
     Triangle, judge_partition,
 };
-use crate::judge::{self, NothingJudged, Watch, ascii, caught};
+use crate::judge::{self, Clock, LeftOut, NothingJudged, Watch, ascii, caught};
 use crate::mistakes::Mistakes;
 use rasterproof_core::parallel;
 
@@ -139,7 +139,7 @@ pub struct Triangulated {
 /// The outcome of a run. Its failures are the smallest polygon of each kind of fault, grave ones first; its cause explains the wrong
 /// polygons, or says what is known of them. Every failing polygon is asked a second time. Where the triangles are others then,
 /// the failures are such polygons, and no cause is looked for.
-pub type Verdict = judge::Verdict<Options, Polygons, Failure, Option<Mistakes>>;
+pub type Verdict = judge::Verdict<Options, Polygons, Failure, Option<Mistakes>, LeftOut>;
 
 impl Verdict {
     /// Nothing, or what a failing test has to print.
@@ -195,7 +195,7 @@ impl Verdict {
         show: &dyn Fn(&Polygon) -> String,
         repeat: &dyn Fn(&str, u64) -> String,
     ) -> fmt::Result {
-        let Self { options, families, failures, cause, .. } = self;
+        let Self { options, families, failures, cause, more } = self;
         let sum = self.sum();
         if failures.iter().any(|failure| failure.evidence.again.is_some()) {
             writeln!(
@@ -209,6 +209,10 @@ impl Verdict {
         }
         writeln!(f, "{}", sum.describe(&format!(" of {} polygons", sum.polygons)))?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
+        let left_out = more.to_string();
+        if !left_out.is_empty() {
+            writeln!(f, "  {}", ascii::broken(&left_out, 78, "  "))?;
+        }
         if sum.left_out > 0 {
             writeln!(f, "  not judged, as the tessellator does not accept them: {}", sum.left_out)?;
         }
@@ -297,7 +301,7 @@ pub fn judge_partitions<T: Tessellate + Sync>(
             )
         })
     };
-    judge(&|polygons| polygons.iter().map(answer).collect(), options)
+    judge(&|polygons| polygons.iter().map(answer).collect(), options, &watch)
 }
 
 /// The same of somebody who answers polygons, several at once: nothing is the answer to one that he does not take.
@@ -311,7 +315,14 @@ pub fn judge_partitions_of(
 ) -> Result<Verdict, NothingJudged> {
     let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
     let fault = |answer: Option<Result<_, _>>| answer.map(|answer| answer.map_err(refused));
-    judge(&|polygons| answer(polygons).into_iter().map(fault).collect(), options)
+    // An answer counts as time in the judged code.
+    let watch = Watch::begin();
+    let asked = |polygons: &[Polygon]| {
+        let answers = watch.spend(|| answer(polygons));
+        let answers = answers.unwrap_or_else(|| vec![None; polygons.len()]);
+        answers.into_iter().map(fault).collect()
+    };
+    judge(&asked, options, &watch)
 }
 
 /// What is made of a polygon, if it is taken. Fewer answers than polygons are those of whose time is up.
@@ -337,17 +348,18 @@ fn ask(
     polygons.iter().zip(tessellator(polygons)).map(judged).collect()
 }
 
-fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudged> {
+fn judge(tessellator: &Asked, options: &Options, watch: &Watch) -> Result<Verdict, NothingJudged> {
     options.check()?;
     let wanted = wanted(options);
-    let start = Instant::now();
+    let clock = Clock::new(options.time_limit);
     let block = |family: usize, numbers: &[u64]| {
-        // Of a slow tessellator the first block of all families takes long.
-        let is_late = options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
-        let numbers = if is_late { &[] } else { numbers };
-        judge_block(tessellator, options, wanted[family], numbers)
+        let part = judge_block(tessellator, options, wanted[family], numbers);
+        if part.polygons.wrong > 0 {
+            clock.has_failed();
+        }
+        part
     };
-    let parts = judge::in_blocks(wanted.len(), options, &|_| (), &block, Part::merge);
+    let parts = judge::in_blocks(wanted.len(), options, &clock, &|_| (), &block, Part::merge);
     let (mut families, mut changing) = (Vec::new(), Vec::new());
     let mut failing: Vec<(FaultKind, Family, Failing)> = Vec::new();
     for part in parts {
@@ -366,24 +378,33 @@ fn judge(tessellator: &Asked, options: &Options) -> Result<Verdict, NothingJudge
         families.push(part.polygons);
     }
     failing.sort_by_key(|(kind, ..)| *kind);
+    let judged: u64 = families.iter().map(|family| family.polygons + family.left_out).sum();
+    let cases = options.count().saturating_mul(wanted.len() as u64) - judged;
+    let mut more = LeftOut { cases, limit: options.time_limit, ..LeftOut::default() };
     if !changing.is_empty() {
         changing.sort_by_key(|failure| failure.evidence.kind);
         changing.dedup_by_key(|failure| failure.evidence.kind);
         let options = options.clone();
-        return Ok(Verdict { options, families, failures: changing, cause: None, more: () });
+        return Ok(Verdict { options, families, failures: changing, cause: None, more });
     }
     if families.iter().all(|family| family.polygons == 0) {
         return Err(NothingJudged::NoneAccepted);
     }
+    clock.limit(watch, true);
     let failures = parallel::map(failing.len(), |number| {
         let (kind, family, found) = &failing[number];
-        smallest(tessellator, options, *kind, *family, found)
+        smallest(tessellator, options, *kind, *family, found, watch)
     });
-    let cause = match failures.is_empty() {
-        true => None,
-        false => cause::cause(&some(tessellator, options), options),
-    };
-    Ok(Verdict { options: options.clone(), families, failures, cause, more: () })
+    let mut cause = None;
+    if !failures.is_empty() {
+        more.shrinking = watch.is_over();
+        clock.limit(watch, false);
+        cause = cause::cause(&some(tessellator, options), options);
+        // What was concluded from some of the answers would be no conclusion.
+        more.cause = watch.is_over();
+        cause = cause.filter(|_| !more.cause);
+    }
+    Ok(Verdict { options: options.clone(), families, failures, cause, more })
 }
 
 fn wanted(options: &Options) -> Vec<Family> {
@@ -500,6 +521,7 @@ fn smallest(
     kind: FaultKind,
     family: Family,
     found: &Failing,
+    watch: &Watch,
 ) -> Failure {
     let (seed, coordinates) = (options.seed, options.terms.coordinates);
     let index = found.index;
@@ -507,7 +529,8 @@ fn smallest(
     let last = RefCell::new((found.triangles.clone(), found.faults.clone()));
     let fails = |polygon: &Polygon| {
         let asked = || ask(tessellator, slice::from_ref(polygon), options).pop().flatten();
-        let made = is_as_generated(polygon, family).then(asked).flatten();
+        let is_asked = !watch.is_over() && is_as_generated(polygon, family);
+        let made = is_asked.then(asked).flatten();
         let made = made.filter(|(_, faults)| faults.has(kind));
         let fails = made.is_some();
         made.into_iter().for_each(|made| *last.borrow_mut() = made);
