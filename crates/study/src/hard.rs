@@ -84,7 +84,9 @@ impl Kind {
             Self::Crack => {
                 "lost between snapped corners: split a long edge where a corner lies on it"
             }
-            Self::Fold => "hit more often once snapped: merge triangles thinner than 1/256 px",
+            Self::Fold => {
+                "hit more often once snapped: split edges at corners, merge thin triangles"
+            }
             Self::Turned => "thinner than 1/256 px, turned over or flattened: culled, or reversed",
         }
     }
