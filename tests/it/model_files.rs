@@ -80,7 +80,7 @@ fn a_binary_file_is_read_in_pieces() {
                 load(&folder, "cut.ply", &bytes[..bytes.len() - less]).unwrap_err().to_string();
             assert!(error.contains(": the file is cut off"), "{less}: {error}");
         }
-        let more = load(&folder, "more.ply", &[&bytes[..], b"12345"].concat()).unwrap();
+        let more = load(&folder, "more.ply", [&bytes[..], b"12345"].concat()).unwrap();
         assert!(warning(&more).contains("5 bytes follow the last element"), "{:?}", more.warnings);
     }
 }
