@@ -95,7 +95,7 @@ function checkCounts({ name, kind, hits }, mask) {
   if (least !== undefined) throw new TypeError(`${name} returned a mask with ${least}; a pixel is drawn at least 0 times`);
   if (kind === undefined && !hits && most > 1 && mask.every((count) => count === 0 || count === most))
     throw new TypeError(`${name} returned a mask of 0 and ${most}; a number says how often a pixel is drawn: ` +
-      `return mask.map((v) => v > 0 ? 1 : 0), or pass hits: true if each pixel is drawn ${most} times`);
+      `return mask.map((v) => v > 0 ? 1 : 0), or pass hits: true if it counts up to ${MOST_HITS}`);
   if (most > MOST_HITS)
     throw new TypeError(`${name} returned a mask with ${most}; a number says how often a pixel is drawn, at most ${MOST_HITS} times: ` +
       'return mask.map((v) => v > 0 ? 1 : 0) if it is a colour');

@@ -203,10 +203,11 @@ test('misuses are refused in seconds', async (t) => {
   assert.equal(misuses.length, 24);
   for (const [name, message, fn, options] of misuses)
     await t.test(`${message}`, (t) => {
-      const begin = performance.now();
+      // Of the processor: other programs may keep the clock waiting.
+      const begin = process.cpuUsage();
       try { judge(fn, { cases: 100, ...options }); assert.fail('it passes'); } catch (error) {
         assert.deepEqual([error.name, message.test(error.message)], [name, true], error.stack);
-        const seconds = (performance.now() - begin) / 1000;
+        const { user, system } = process.cpuUsage(begin), seconds = (user + system) / 1e6;
         t.diagnostic(`${seconds.toFixed(2)} s  ${name}: ${error.message.split('\n')[0].slice(0, 110)}`);
         assert.ok(seconds < 10, `${seconds} s`);
       }

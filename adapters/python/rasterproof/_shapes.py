@@ -114,7 +114,7 @@ def check_counts(judged: Judged, masks: Array) -> None:
     if is_picture:
         raise ValueError(
             f"{judged.name} returned masks of 0 and {most}; a number says how often a pixel is drawn: "
-            f"return masks > 0, or pass hits=True if each pixel is drawn {most} times"
+            f"return masks > 0, or pass hits=True if they count up to {MOST_HITS}"
         )
     if most > MOST_HITS:
         raise ValueError(

@@ -266,9 +266,10 @@ class Judged(unittest.TestCase):
         self.assertEqual(len(misuses), 24)
         for error, pattern, fn, options in misuses:
             with self.subTest(pattern, **options):
-                begin = time.monotonic()
+                # Of the processor, here and in the judge: other programs may keep the clock waiting.
+                begin = sum(os.times()[:4])
                 said = self.fails(error, pattern, fn, **{"cases": 100, **options})
-                seconds = time.monotonic() - begin
+                seconds = sum(os.times()[:4]) - begin
                 if "RASTERPROOF_TABLE" in os.environ:
                     print(f"{seconds:6.2f} s  {error.__name__}: {said.splitlines()[0][:110]}")
                 self.assertLess(seconds, 10)
