@@ -449,7 +449,7 @@ mod tests {
             ("rnage=4096", "'rnage=4096' is not understood; did you mean 'range=4096'?"),
             ("Winding=CW", "'Winding=CW' is not understood; did you mean 'winding=cw'?"),
             ("y-up", "'y-up' is not understood; did you mean 'yup'?"),
-            ("grid=15", "'grid=15' is not understood; did you mean 'grid=16'?"),
+            ("grid=2566", "'grid=2566' is not understood; did you mean 'grid=256'?"),
             ("window=8", "'window=8' is not understood; expected window=WxH, each from 1 to "),
             ("dance", "'dance' is not understood; expected words such as rule=..., "),
         ] {
