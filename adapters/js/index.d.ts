@@ -5,7 +5,7 @@ export class AssertionError extends Error {}
 export type Window = [width: number, height: number];
 /** How often each pixel is drawn, row by row; of booleans it cannot be seen whether a pixel is drawn twice. */
 export type Mask =
-  | Uint8Array | Uint8ClampedArray | Uint16Array | Uint32Array | Int8Array | Int16Array | Int32Array | boolean[];
+  | Uint8Array | Uint8ClampedArray | Uint16Array | Uint32Array | Int8Array | Int16Array | Int32Array | boolean[] | number[];
 
 export interface Options {
   /** Cases of each family; 100 where it is not given. */
@@ -20,17 +20,19 @@ export interface Options {
   declare?: string;
   /** No case is begun after so many seconds. */
   seconds?: number;
+  /** Whether a mask of 0 and a number above 1 counts how often a pixel is drawn; refused where it is not given. */
+  hits?: boolean;
 }
 
 /** Judges which pixels of triangles are drawn: a mask, or a list of spans, each row, first column, one past the last. */
 export function assertRasterizer(
-  fn: (corners: [x: number, y: number][], window: Window) => Mask | [y: number, x0: number, x1: number][],
+  fn: (corners: [x: number, y: number][], window: Window) => Mask | [y: number, x0: number, x1: number][] | number[][],
   options?: Options,
 ): void;
 
 /** Judges which pixels of lines are drawn: a mask, or a list of pixels in drawing order, those outside left out. */
 export function assertLines(
-  fn: (ends: [x: number, y: number][], window: Window) => Mask | [x: number, y: number][],
+  fn: (ends: [x: number, y: number][], window: Window) => Mask | [x: number, y: number][] | number[][],
   options?: Options,
 ): void;
 
@@ -39,7 +41,7 @@ export function assertLines(
  * of a polygon around the others, and returns null for a polygon that it does not take.
  */
 export function assertPartition(
-  fn: (contours: [x: number, y: number][][]) => [x: number, y: number][][] | null,
+  fn: (contours: [x: number, y: number][][]) => [x: number, y: number][][] | number[][][] | null,
   options?: Options,
 ): void;
 

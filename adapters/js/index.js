@@ -66,7 +66,7 @@ function run(header, answer) {
   memory = instance.exports.memory;
   try {
     instance.exports._start();
-    return { status: 0, said };
+    return { status: 0, said: said.trim() };
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) return { status: 3, said: `${said}${error.stack}` };
     if (!(error instanceof Exit)) throw error;
@@ -74,8 +74,14 @@ function run(header, answer) {
   }
 }
 
-const describe = (value) =>
-  value === null || typeof value !== 'object' ? String(value) : value.constructor?.name ?? 'an object without a name';
+const isIterator = (value) => typeof value?.next === 'function';
+const describe = (value) => {
+  if (value === null || typeof value !== 'object') return String(value);
+  return isIterator(value) ? 'an iterator, as of a generator (write [...f(shape, window)])' : value.constructor?.name ?? 'an object without a name';
+};
+
+/** How often a pixel may be drawn: each time is a run of its own in an answer. */
+const MOST_HITS = 4;
 
 /** What a function returned first, it has to go on returning. */
 function keep(judged, kind) {
@@ -83,16 +89,28 @@ function keep(judged, kind) {
   if (judged.kind !== kind) throw new TypeError(`${judged.name} returned ${kind}; in an earlier call ${judged.kind}`);
 }
 
+/** Refuses what is no count, and a picture in 0 and 255 in the place of counts: a canvas and many libraries have those. */
+function checkCounts({ name, kind, hits }, mask) {
+  const least = mask.find((count) => count < 0), most = mask.reduce((most, count) => Math.max(most, count), 0);
+  if (least !== undefined) throw new TypeError(`${name} returned a mask with ${least}; a pixel is drawn at least 0 times`);
+  if (kind === undefined && !hits && most > 1 && mask.every((count) => count === 0 || count === most))
+    throw new TypeError(`${name} returned a mask of 0 and ${most}; a number says how often a pixel is drawn: ` +
+      `return mask.map((v) => v > 0 ? 1 : 0), or pass hits: true if it counts up to ${MOST_HITS}`);
+  if (most > MOST_HITS)
+    throw new TypeError(`${name} returned a mask with ${most}; a number says how often a pixel is drawn, at most ${MOST_HITS} times: ` +
+      'return mask.map((v) => v > 0 ? 1 : 0) if it is a colour');
+}
+
 /** Checks how often each pixel is drawn. */
 function checkMask(judged, mask, [width, height], expected) {
   const size = width * height, { name } = judged;
-  const isBoolean = Array.isArray(mask) && mask.every((drawn) => typeof drawn === 'boolean');
-  if (!isBoolean && !(ArrayBuffer.isView(mask) && /^(Ui|I)nt/.test(mask.constructor.name)))
+  const all = (is) => Array.isArray(mask) && mask.every(is);
+  const isBoolean = all((drawn) => typeof drawn === 'boolean');
+  if (!isBoolean && !all(Number.isSafeInteger) && !(ArrayBuffer.isView(mask) && /^(Ui|I)nt/.test(mask.constructor.name)))
     throw new TypeError(`${name} returned ${describe(mask)}; expected ${expected}`);
   if (mask.length !== size)
     throw new TypeError(`${name} returned ${mask.length} pixels; expected ${size}: ${width} * ${height}, row by row`);
-  if (/^Int/.test(mask.constructor.name) && mask.some((count) => count < 0))
-    throw new TypeError(`${name} returned a mask with ${mask.find((n) => n < 0)}; a pixel is drawn at least 0 times`);
+  if (!isBoolean) checkCounts(judged, mask);
   keep(judged, isBoolean ? 'booleans' : 'counts');
   return mask;
 }
@@ -184,22 +202,36 @@ function triangles(judged, value) {
  * and writes an answer, and a first request.
  */
 const judges = (call, [request, reply], capability, read, write, probe) => {
-  const ask = (judged, words) => {
-    const [shape, window] = read(words);
-    return write(judged, judged.fn(shape, window), window);
+  const ask = (judged, words, where) => {
+    const [shape, window] = read(words), given = window && [...window];
+    let value;
+    try { value = judged.fn(shape, given); } catch (error) {
+      // A trace shows the last cause of an error.
+      let last = error;
+      while (last?.cause instanceof Error) last = last.cause;
+      if (last instanceof Error && last.cause === undefined)
+        last.cause = new Error(`rasterproof asked: ${JSON.stringify(shape)}${window ? `, window [${window}]` : ''}\n${where()}`);
+      throw error;
+    }
+    if (given?.join() !== window?.join()) throw new TypeError(`${judged.name} changed its argument window to [${given}]; change a copy of it`);
+    return write(judged, value, window);
   };
-  return function assert(fn, options = {}) {
+  return function assert(fn, { hits = false, ...options } = {}) {
     if (typeof fn !== 'function') throw new TypeError(`${call} takes a function; got ${describe(fn)}`);
-    const judged = { fn, name: fn.name || 'function', kind: undefined };
+    if (typeof hits !== 'boolean') throw new RangeError(`hits is ${hits}; expected true or false`);
+    const judged = { fn, name: fn.name || 'function', kind: undefined, hits };
     const header = Object.entries({ cases: 100, ...options }).flatMap(([option, value]) =>
       [value].flat().filter((one) => one !== undefined).map((one) => `${option} ${one}`.replace(/\s+/g, ' ')));
     // What it returns for one case, in a window that is no square, says what can be seen in its answers.
-    ask(judged, probe.split(' '));
+    ask(judged, probe.split(' '), () => 'the first request, which is no generated case');
     const masked = { booleans: ' mask', counts: '' }[judged.kind];
     const words = masked === undefined ? '' : `${masked}${request === 'L' ? ' line-set' : ''}`;
     const hello = `HELLO 2 ${judged.name.replace(/[^!-~]+/g, '-')} ${capability} batch=1024${words}`;
-    const { status, said } = run(`${[`call ${call}(${judged.name}`, ...header, hello].join('\n')}\n`, ([verb, id, ...words]) => {
-      const answer = verb === request ? ask(judged, words) : null;
+    const begin = (...more) => `${[`call ${call}(${judged.name}`, ...header, ...more, hello].join('\n')}\n`;
+    // The judge looks up a case, and judges nothing.
+    const where = (words) => `for ${run(begin(`locate ${request} 1 ${words.join(' ')}`), () => '').said}`;
+    const { status, said } = run(begin(), ([verb, id, ...words]) => {
+      const answer = verb === request ? ask(judged, words, () => where(words)) : null;
       return answer === null ? `E ${id} unsupported` : `${reply} ${id} ${answer}`;
     });
     if (status === 0) return;

@@ -166,15 +166,17 @@ fn said(language: &str, fault: [&str; 5], folder: &Folder) -> Option<String> {
     }
 }
 
-/// The words, without the calls that repeat a case: each language has its own. The program breaks long lines.
+/// The words, without the calls that repeat a case: each language has its own. The program breaks long lines, and the packages
+/// put the cause above the report, for the line that a test runner shows.
 fn words(said: &str) -> Vec<String> {
+    let report = said.find("✗ rasterproof ").map_or(said, |at| &said[at..]);
     let is_call = |line: &&str| {
         !["repeat with: ", "found in: "].iter().any(|call| line.trim().starts_with(call))
     };
     let declares = ["declare=", "declare: ", "--declare "];
     let same =
         |line: &str| declares.iter().fold(line.to_owned(), |line, d| line.replace(d, "declare "));
-    let lines: Vec<_> = said.lines().filter(is_call).map(same).collect();
+    let lines: Vec<_> = report.lines().filter(is_call).map(same).collect();
     lines.join(" ").split_whitespace().map(str::to_owned).collect()
 }
 

@@ -52,6 +52,41 @@ fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
     packages().iter().filter_map(of_package).collect()
 }
 
+/// A registry shows these of a package, and its licence has to be within it.
+#[test]
+fn what_is_published_carries_its_description_and_licence() {
+    for package in packages() {
+        let name = package["name"].as_str().unwrap();
+        if !["rasterproof-core", "rasterproof-verify"].contains(&name) {
+            continue;
+        }
+        for what in ["keywords", "categories"] {
+            let count = package[what].as_array().unwrap().len();
+            assert!((1..=5).contains(&count), "{name} has {count} {what}");
+        }
+        let folder = Path::new(package["manifest_path"].as_str().unwrap()).parent().unwrap();
+        let readme = fs::read_to_string(folder.join(package["readme"].as_str().unwrap())).unwrap();
+        assert!(readme.starts_with(&format!("# {name}\n")), "{readme}");
+        has_licences(folder);
+        // With it, glam brings a crate more than `judge.md` counts: it is asked for where values are written.
+        let glam = package["dependencies"].as_array().unwrap().iter();
+        let glam = glam.filter(|dependency| dependency["name"] == "glam");
+        assert!(glam.flat_map(|d| d["features"].as_array()).flatten().all(|f| f != "serde"));
+    }
+    let python = read("adapters/python/pyproject.toml");
+    for word in ["description", "readme", "license", "license-files", "keywords", "classifiers"] {
+        assert!(python.contains(&format!("\n{word} = ")), "the wheel has no {word}");
+    }
+    has_licences(&root().join("adapters/python"));
+}
+
+fn has_licences(folder: &Path) {
+    for name in ["LICENSE-APACHE", "LICENSE-MIT"] {
+        // A link, which packing follows, or the same text.
+        assert_eq!(fs::read_to_string(folder.join(name)).ok(), Some(read(name)), "{folder:?}");
+    }
+}
+
 #[test]
 fn the_table_of_crates_is_cargos() {
     let dependencies = dependencies();

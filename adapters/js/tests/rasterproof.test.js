@@ -31,7 +31,7 @@ const repeats = (said, fn) => {
 };
 
 test('right triangles', () => {
-  for (const fn of [exact, spans, (...request) => Array.from(exact(...request), Boolean)]) judge(fn);
+  for (const fn of [exact, spans, (...request) => Array.from(exact(...request), Boolean), (...request) => [...exact(...request)]]) judge(fn);
 });
 
 test('strict triangles', () => {
@@ -57,7 +57,7 @@ test('seed and family choose cases', () => {
 });
 
 test('doubles are seen', () => {
-  fails(/pixels: [\d,]+ twice/, (...request) => exact(...request).map((count) => 2 * count), { cases: 5, family: 'uniform' });
+  fails(/pixels: [\d,]+ twice/, (...request) => exact(...request).map((count) => 2 * count), { cases: 5, family: 'uniform', hits: true });
 });
 
 test('values', () => {
@@ -104,7 +104,7 @@ test('what is returned is checked', () => {
   });
   wrong(/returned 8 pixels; expected 48: 8 \* 6, row by row/, () => new Uint8Array(8));
   wrong(/returned Float64Array; expected a Uint8Array/, () => new Float64Array(48));
-  wrong(/returned Array; expected a Uint8Array/, () => Array(48).fill(0));
+  wrong(/returned Array; expected a Uint8Array/, () => Array(48).fill(0.5));
   wrong(/returned undefined; expected/, () => undefined);
   wrong(/returned Promise; expected/, async () => new Uint8Array(48));
   wrong(/a mask with -1; a pixel is drawn at least 0 times/, () => new Int8Array(48).fill(-1));
@@ -121,8 +121,9 @@ test('what is returned is checked', () => {
 
 test('options are checked', () => {
   const wrong = (options, message) => assert.throws(() => judge(exact, options), { name: 'RangeError', message });
-  for (const cases of [0, -1, 1.5, true, NaN]) wrong({ cases }, `no case would be judged: cases is ${cases}; expected at least 1`);
-  wrong({ seed: -7 }, 'seed is -7; expected a whole number from 0 on');
+  const most = 2n ** 64n - 1n;
+  for (const cases of [0, -1, 1.5, true, NaN, 'x']) wrong({ cases }, `cases is ${cases}; expected a whole number from 1 to ${most}`);
+  for (const seed of [-7, 2n ** 70n]) wrong({ seed }, `seed is ${seed}; expected a whole number from 0 to ${most}`);
   wrong({ case_: 1 }, /^no option is case_; expected cases, seed/);
   wrong({ family: 'nosuch' }, /^no family is nosuch; expected .*flat/);
   wrong({ family: 'line-axis' }, /no case was judged/);
@@ -141,6 +142,76 @@ test('an error of the function comes through', () => {
     return exact(...request);
   };
   assert.throws(() => judge(late), /EvalError: mine/);
+});
+
+test('an error of the function carries its case', () => {
+  const bad = new Set();
+  const once = (corners, window) => {
+    const key = JSON.stringify(corners);
+    if (bad.has(key) || (bad.size === 0 && window[0] > 40)) {
+      bad.add(key);
+      throw new EvalError('mine');
+    }
+    return exact(corners, window);
+  };
+  const thrown = (judged) => { try { judged(); } catch (error) { return error; } return assert.fail('it passes'); };
+  const error = thrown(() => judge(once, { family: 'uniform', seed: 3 }));
+  assert.match(error.cause.message, /^rasterproof asked: \[\[.*\]\], window \[\d+,\d+\]\nfor family uniform, case \d+, seed 3\n/);
+  // The printed call throws the same.
+  const call = /repeat with: (.*)/.exec(error.cause.message)[1];
+  assert.throws(() => new Function('assertRasterizer', 'once', call)(assertRasterizer, once), EvalError);
+  const inner = new Error('inner');
+  const wraps = () => { throw new Error('outer', { cause: inner }); };
+  thrown(() => judge(wraps, {}, assertPartition));
+  assert.match(inner.cause.message, /the first request, which is no generated case/);
+});
+
+test('the message begins with the cause', () => {
+  assert.match(fails(/is not right/, strict), /^Triangles: it samples at the pixel's centre/);
+});
+
+test('misuses are refused in seconds', async (t) => {
+  const times = (factor) => (...request) => exact(...request).map((count) => factor * count);
+  let calls = 0;
+  const late = (...request) => times(calls++ ? 255 : 1)(...request);
+  const misuses = [
+    ['TypeError', /a mask of 0 and 255; .*return mask.map.*or pass hits: true/, times(255)],
+    ['TypeError', /a mask of 0 and 2; /, times(2)],
+    ['TypeError', /a mask of 0 and 255; /, (...request) => Array.from(times(255)(...request))],
+    ['TypeError', /a mask of 0 and 255; /, (...request) => new Uint8ClampedArray(times(255)(...request))],
+    ['TypeError', /a mask with 255; .* at most 4 times/, times(255), { hits: true }],
+    ['TypeError', /a mask with 255; .* at most 4 times/, late],
+    ['AssertionError', /twice/, times(4), { hits: true, family: 'uniform' }],
+    ['RangeError', /hits is 1; expected true or false/, exact, { hits: 1 }],
+    ['TypeError', /returned Float64Array; expected a Uint8Array/, (...request) => Float64Array.from(exact(...request))],
+    ['TypeError', /returned an iterator, as of a generator/, function* rows(...request) { yield* spans(...request); }],
+    ['TypeError', /changed its argument window to \[0,0\]/, (corners, window) => { const mask = exact(corners, window); window.fill(0); return mask; }],
+    ['TypeError', /returned Promise; expected/, async (...request) => exact(...request)],
+    ['TypeError', /returned undefined; expected/, () => undefined],
+    ['TypeError', /returned 8 pixels; expected 48/, () => new Uint8Array(8)],
+    ['TypeError', /takes a function; got null/, null],
+    ['EvalError', /mine/, () => { throw new EvalError('mine'); }],
+    ['RangeError', /declare: 'rule=topleft' is not understood; did you mean 'rule=top-left'/, exact, { declare: 'rule=topleft' }],
+    ['RangeError', /declare: 'rul=strict' is not understood; did you mean 'rule=strict'/, exact, { declare: 'rul=strict' }],
+    ['RangeError', /declare: 'range=0' is not understood; expected range=N, a whole/, exact, { declare: 'range=0' }],
+    ['RangeError', /cases is 1.5; expected a whole number from 1/, exact, { cases: 1.5 }],
+    ['RangeError', /seed is 1180591620717411303424; expected a whole number from 0/, exact, { seed: 2n ** 70n }],
+    ['RangeError', /seconds is 0; expected a number above 0/, exact, { seconds: 0 }],
+    ['RangeError', /no family is flatt; expected/, exact, { family: 'flatt' }],
+    ['RangeError', /no option is case_; expected/, exact, { case_: 1 }],
+  ];
+  assert.equal(misuses.length, 24);
+  for (const [name, message, fn, options] of misuses)
+    await t.test(`${message}`, (t) => {
+      // Of the processor: other programs may keep the clock waiting.
+      const begin = process.cpuUsage();
+      try { judge(fn, { cases: 100, ...options }); assert.fail('it passes'); } catch (error) {
+        assert.deepEqual([error.name, message.test(error.message)], [name, true], error.stack);
+        const { user, system } = process.cpuUsage(begin), seconds = (user + system) / 1e6;
+        t.diagnostic(`${seconds.toFixed(2)} s  ${name}: ${error.message.split('\n')[0].slice(0, 110)}`);
+        assert.ok(seconds < 10, `${seconds} s`);
+      }
+    });
 });
 
 test('what is exported, and how CommonJS gets it', () => {

@@ -40,6 +40,7 @@ class Options(TypedDict, total=False):
     case: int  # only the case of this number
     declare: str  # words of the line protocol for what is promised, such as "rule=strict winding=cw range=4096"
     seconds: float  # no case is begun after so many
+    hits: bool  # whether a mask of 0 and a number above 1 counts how often a pixel is drawn; refused where it is not given
 
 
 _COVERAGE = Kind("assert_rasterizer", "T", "C", "coverage", _shapes.drawn((3, 2), _shapes.coverage), "8 6 1 1 6 1 1 6")

@@ -42,28 +42,77 @@ def program() -> str:
 def judge(kind: Kind, fn: Callable[..., Any], options: Mapping[str, Any]) -> None:
     if not callable(fn):
         raise TypeError(f"{kind.call} takes a function; got {type(fn).__name__}")
-    judged = Judged(fn)
+    options = {"cases": 100, **options}
+    hits = options.pop("hits", False)
+    if not isinstance(hits, bool):
+        raise ValueError(f"hits is {hits!r}; expected True or False")
+    judged = Judged(fn, hits)
     header = ["language python", f"call rasterproof.{kind.call}({judged.name}"]
-    for option, value in {"cases": 100, **options}.items():
+    for option, value in options.items():
         values = value if isinstance(value, (list, tuple)) else [value]
         header += [" ".join([option, *str(one).split()]) for one in values if one is not None]
     # What it returns for one case, in a window that is no square, says what can be seen in its answers.
-    kind.ask(judged, [kind.probe.split()])
+    try:
+        kind.ask(judged, [kind.probe.split()])
+    except Exception as error:
+        if judged.raised:
+            note(error, f"rasterproof asked: {described(kind, kind.probe.split())}, the first request, which is no generated case")
+        raise
     words = " mask" * (judged.kind == "masks of bool") + " line-set" * (kind.capability == "line" and "masks" in judged.kind)
     name = re.sub(r"[^!-~]+", "-", judged.name) or "function"
 
     def answers(requests: List[List[str]]) -> str:
-        texts = iter(kind.ask(judged, [words[2:] for words in requests if words[0] == kind.verb]))
+        mine = [words[2:] for words in requests if words[0] == kind.verb]
+        try:
+            texts = iter(kind.ask(judged, mine))
+        except Exception as error:
+            if judged.raised:
+                explain(error, kind, judged, mine, [*header, hello])
+            raise
         replies = ((id, next(texts) if asked == kind.verb else None) for asked, id, *_ in requests)
         return "".join(f"E {id} unsupported\n" if text is None else f"{kind.reply} {id} {text}\n" for id, text in replies)
 
-    status, said = run("\n".join([*header, f"HELLO 2 {name} {kind.capability} batch=1024{words}\n"]), answers)
+    hello = f"HELLO 2 {name} {kind.capability} batch=1024{words}\n"
+    status, said = run("\n".join([*header, hello]), answers)
     if status == 1:
         raise AssertionError(said)
     if status == 2:
         raise ValueError(said)
     if status:
         raise RuntimeError(f"rasterproof gave no verdict (exit status {status}):\n{said}")
+
+
+def note(error: BaseException, text: str) -> None:
+    """Adds lines that a traceback shows below the exception; before Python 3.11 nothing shows them."""
+    if hasattr(error, "add_note"):
+        error.add_note(text)
+
+
+def described(kind: Kind, words: List[str]) -> str:
+    """The corners of a request, as Python writes them."""
+    if kind.verb == "Y":
+        return f"contours {' '.join(words)}"
+    wide = {"T": 2, "L": 2, "I": 6}[kind.verb]
+    numbers = [float(word) for word in words[2:]]
+    corners = [numbers[i : i + wide] for i in range(0, len(numbers), wide)]
+    return f"corners {corners}, window ({words[0]}, {words[1]})"
+
+
+def explain(error: BaseException, kind: Kind, judged: Judged, requests: List[List[str]], header: List[str]) -> None:
+    """Adds to an exception of the function the case for which it is raised."""
+    for words in requests:
+        try:
+            kind.ask(judged, [words])
+        except Exception:
+            if not judged.raised:
+                continue
+            # The judge looks up the case, and judges nothing.
+            request = f"{kind.verb} 1 {' '.join(words)}"
+            status, said = run("\n".join([*header[:-1], f"locate {request}", header[-1]]), lambda _: "")
+            case = said if status == 0 else "a case that was not found"
+            note(error, f"rasterproof asked: {described(kind, words)}\nfor {case}")
+            return
+    note(error, f"rasterproof asked {len(requests)} requests at once; for each alone it raises nothing. Try cases=1")
 
 
 def run(header: str, answers: Callable[[List[List[str]]], str]) -> Tuple[int, str]:

@@ -10,6 +10,8 @@ __tracebackhide__ = True
 Array = Any
 # Pixels that are drawn by one call.
 MOST_PIXELS = 1 << 24
+# How often a pixel may be drawn: each time is a run of its own in an answer.
+MOST_HITS = 4
 # The characters of a byte and of the exponent of a float.
 PAIRS = numpy.array([f"{byte:02x}" for byte in range(256)], "S2").view(numpy.uint16)
 POWERS = numpy.array([f"{max(exponent, 1) - 1023:+05}" for exponent in range(2048)], "S5").view(numpy.uint8).reshape(-1, 5)
@@ -18,8 +20,18 @@ POWERS = numpy.array([f"{max(exponent, 1) - 1023:+05}" for exponent in range(204
 class Judged:
     """A function, and what it returned first: it has to go on returning that."""
 
-    def __init__(self, fn: Callable[..., Any]) -> None:
+    def __init__(self, fn: Callable[..., Any], hits: bool = False) -> None:
         self.fn, self.name, self.kind = fn, str(getattr(fn, "__name__", type(fn).__name__)), ""
+        # Whether numbers above 1 in the first mask are meant as counts.
+        self.hits = hits
+        # Whether the last call raised.
+        self.raised = False
+
+    def __call__(self, *arguments: Any) -> Any:
+        self.raised = True
+        value = self.fn(*arguments)
+        self.raised = False
+        return value
 
     def keep(self, kind: str) -> None:
         self.kind = self.kind or kind
@@ -41,7 +53,7 @@ def drawn(shape: Tuple[int, int], write: Callable[..., List[str]], whole: bool =
                 array = numpy.array([requests[i][2:] for i in part]).astype(numpy.float64).reshape(-1, *shape)
                 # A position of a line names the pixel that contains it.
                 array = numpy.floor(array).astype(numpy.int64) if whole else array
-                for i, reply in zip(part, write(judged, judged.fn(array, window), len(part), window)):
+                for i, reply in zip(part, write(judged, judged(array, window), len(part), window)):
                     replies[i] = reply
         return replies
 
@@ -58,7 +70,7 @@ def polygons(judged: Judged, requests: List[List[str]]) -> List[Optional[str]]:
             end = 1 + 2 * int(rest[0])
             contours.append(numpy.array(rest[1:end]).reshape(-1, 2))
             rest = rest[end:]
-        made.append(triangles(judged, judged.fn(contours)))
+        made.append(triangles(judged, judged(contours)))
     counts = [0 if each is None else len(each) for each in made]
     rows = numpy.concatenate([numpy.empty((0, 3, 2)), *(each for each in made if each is not None)]).reshape(-1, 6)
     texts = joined([*rows.T], numpy.repeat(numpy.arange(len(made)), counts), len(made))
@@ -89,8 +101,26 @@ def masks_of(judged: Judged, value: Any, count: int, window: Tuple[int, int]) ->
         raise ValueError(f"{judged.name} returned masks of shape {masks.shape}; expected {(count, height, width)}: (n, height, width)")
     if masks.dtype != bool and masks.size and masks.min() < 0:
         raise ValueError(f"{judged.name} returned masks with {masks.min()}; a pixel is drawn at least 0 times")
+    if masks.dtype != bool:
+        check_counts(judged, masks)
     judged.keep("masks of bool" if masks.dtype == bool else "masks of integers")
     return masks
+
+
+def check_counts(judged: Judged, masks: Array) -> None:
+    """Refuses a picture, which many libraries draw in 0 and 255, in the place of counts."""
+    most = int(masks.max(initial=0))
+    is_picture = not judged.kind and not judged.hits and most > 1 and bool(((masks == 0) | (masks == most)).all())
+    if is_picture:
+        raise ValueError(
+            f"{judged.name} returned masks of 0 and {most}; a number says how often a pixel is drawn: "
+            f"return masks > 0, or pass hits=True if they count up to {MOST_HITS}"
+        )
+    if most > MOST_HITS:
+        raise ValueError(
+            f"{judged.name} returned masks with {most}; a number says how often a pixel is drawn, at most {MOST_HITS} times: "
+            "return masks > 0 if it is a colour"
+        )
 
 
 def rows_of(judged: Judged, value: Any, count: int, columns: str) -> List[str]:

@@ -125,7 +125,7 @@ class Judged(unittest.TestCase):
         self.assertIn(f"repeat with: rasterproof.assert_rasterizer(draw, family=['flat', 'fan'], cases=2, seed=1, declare='{RANGE}')", said)
 
     def test_doubles_are_seen(self):
-        said = self.fails(AssertionError, r"pixels: [\d,]+ twice", lambda *request: exact(*request).astype(int) * 2, family="uniform")
+        said = self.fails(AssertionError, r"pixels: [\d,]+ twice", lambda *request: exact(*request).astype(int) * 2, family="uniform", hits=True)
         self.assertNotIn(" mask", said)
 
     def test_values(self):
@@ -180,9 +180,10 @@ class Judged(unittest.TestCase):
         self.fails(ValueError, "accepts none of the polygons", lambda contours: None, PARTITION)
 
     def test_options_are_checked(self):
-        for cases in (0, -1, 1.5, True):
-            self.fails(ValueError, f"^no case would be judged: cases is {cases}; expected at least 1", exact, cases=cases)
-        self.fails(ValueError, "^seed is -7; expected a whole number from 0 on", exact, seed=-7)
+        for cases in (0, -1, 1.5, True, "x"):
+            self.fails(ValueError, f"^cases is {cases}; expected a whole number from 1 to 18446744073709551615", exact, cases=cases)
+        for seed in (-7, 2**70):
+            self.fails(ValueError, f"^seed is {seed}; expected a whole number from 0 to 18446744073709551615", exact, seed=seed)
         self.fails(ValueError, "^no option is case_; expected cases, seed", exact, case_=1)
         self.fails(ValueError, "^no family is nosuch; expected .*flat", exact, family="nosuch")
         self.fails(ValueError, "no case was judged", exact, family="line-axis")
@@ -196,6 +197,82 @@ class Judged(unittest.TestCase):
         begin = time.monotonic()
         self.fails(KeyError, "mine", fails_late)
         self.assertLess(time.monotonic() - begin, 5)
+
+    def test_the_message_begins_with_the_cause(self):
+        self.assertTrue(self.fails(AssertionError, "is not right", strict).startswith("Triangles: it samples at the pixel's centre"))
+
+    @unittest.skipUnless(hasattr(BaseException, "add_note"), "notes are shown from Python 3.11 on")
+    def test_an_error_of_the_function_carries_its_case(self):
+        corners_of = {}
+
+        def fails_once(corners, window):
+            for one in corners:
+                if np.ptp(one[:, 0]) > 40 and len(corners) > 1 or one.tobytes() in corners_of:
+                    corners_of.setdefault(one.tobytes(), one.copy())
+                    raise KeyError("mine")
+            return exact(corners, window)
+
+        with self.assertRaises(KeyError) as caught:
+            judge(fails_once, family="uniform", seed=3)
+        note = "\n".join(caught.exception.__notes__)
+        self.assertRegex(note, r"rasterproof asked: corners \[\[.*\]\], window \(\d+, \d+\)\nfor family uniform, case \d+, seed 3\n")
+        # The printed call raises the same.
+        call = re.search(r"repeat with: (.*)", note).group(1)
+        with self.assertRaises(KeyError):
+            eval(call, {"rasterproof": rasterproof, "fails_once": fails_once})
+        with self.assertRaises(ZeroDivisionError) as caught:
+            judge(lambda contours: 1 // (len(contours[0]) < 5) and fan(contours), PARTITION, family="Star")
+        self.assertIn("for family Star, case 0, seed 1", caught.exception.__notes__[0])
+
+    def test_misuses_are_refused_in_seconds(self):
+        """What people got wrong: none passes, and none takes long."""
+        as_type = lambda type, factor=1: (lambda c, w: exact(c, w).astype(type) * type(factor))
+
+        def late(c, w):
+            return exact(c, w).astype(np.uint8) * (255 if len(c) > 1 else 1)
+
+        def rows(c, w):
+            return (row for row in exact(c, w))
+
+        def raises(c, w):
+            raise IndexError("mine")
+
+        misuses = [
+            (ValueError, "masks of 0 and 255; .* return masks > 0, or pass hits=True", as_type(np.uint8, 255), {}),
+            (ValueError, "masks of 0 and 2; ", as_type(np.int64, 2), {}),
+            (ValueError, "masks with 255; .* at most 4 times", as_type(np.uint8, 255), {"hits": True}),
+            (ValueError, "masks with 255; .* at most 4 times", late, {}),
+            (AssertionError, "twice", as_type(np.uint8, 4), {"hits": True, "family": "uniform"}),
+            (ValueError, "hits is 1; expected True or False", exact, {"hits": 1}),
+            (TypeError, "masks of type float64", as_type(np.float64), {}),
+            (ValueError, "expected .*: .n, height, width.", lambda c, w: exact(c, w).transpose(0, 2, 1), {}),
+            (ValueError, r"shape \(6, 8\); expected \(1, 6, 8\)", lambda c, w: exact(c, w)[0], {}),
+            (TypeError, "no numbers: generator", rows, {}),
+            (TypeError, "no numbers: NoneType", lambda c, w: None, {}),
+            (ValueError, "a list of 0; expected 1", lambda c, w: [], {}),
+            (TypeError, "takes a function; got NoneType", None, {}),
+            (IndexError, "mine", raises, {}),
+            (ValueError, "declare: 'rule=topleft' is not understood; did you mean 'rule=top-left'", exact, {"declare": "rule=topleft"}),
+            (ValueError, "declare: 'rul=strict' is not understood; did you mean 'rule=strict'", exact, {"declare": "rul=strict"}),
+            (ValueError, "declare: 'range=0' is not understood; expected range=N, a whole", exact, {"declare": "range=0"}),
+            (ValueError, "cases is 1.5; expected a whole number from 1", exact, {"cases": 1.5}),
+            (ValueError, "cases is True; expected a whole number", exact, {"cases": True}),
+            (ValueError, "cases is x; expected a whole number", exact, {"cases": "x"}),
+            (ValueError, "seed is 1180591620717411303424; expected a whole number from 0 to", exact, {"seed": 2**70}),
+            (ValueError, "seconds is 0; expected a number above 0", exact, {"seconds": 0}),
+            (ValueError, "no family is flatt; expected", exact, {"family": "flatt"}),
+            (ValueError, "no option is case_; expected", exact, {"case_": 1}),
+        ]
+        self.assertEqual(len(misuses), 24)
+        for error, pattern, fn, options in misuses:
+            with self.subTest(pattern, **options):
+                # Of the processor, here and in the judge: other programs may keep the clock waiting.
+                begin = sum(os.times()[:4])
+                said = self.fails(error, pattern, fn, **{"cases": 100, **options})
+                seconds = sum(os.times()[:4]) - begin
+                if "RASTERPROOF_TABLE" in os.environ:
+                    print(f"{seconds:6.2f} s  {error.__name__}: {said.splitlines()[0][:110]}")
+                self.assertLess(seconds, 10)
 
     def test_numbers_are_written_exactly(self):
         some = [0.0, -0.0, 0.1, -1.5, 1e308, 5e-324, 2.0**-1022, -math.pi]
@@ -217,10 +294,14 @@ def test_strict(rasterproof):
 """)
             # The wheel names the plugin; here it is named by hand.
             plugin = [] if importlib.util.find_spec("rasterproof").origin.find("site-packages") > 0 else ["-p", "rasterproof.pytest_plugin"]
-            words = [*plugin, "-p", "no:cacheprovider", "--rasterproof-cases", "7", "--rasterproof-seed", "3", test]
+            Path(folder, "pytest.ini").write_text("[pytest]\nrasterproof_cases = 9\nrasterproof_seed = 3\n")
+            # The command line stands above the ini file.
+            words = [*plugin, "-p", "no:cacheprovider", "--rasterproof-cases", "7", "--junit-xml", "junit.xml", test]
             done = subprocess.run([sys.executable, "-m", "pytest", *words], cwd=folder, capture_output=True, text=True, env=dict(os.environ))
-        self.assertIn("1 failed, 1 passed", done.stdout, done.stdout + done.stderr)
-        self.assertIn("AssertionError", done.stdout)
+            self.assertIn("1 failed, 1 passed", done.stdout, done.stdout + done.stderr)
+            junit = Path(folder, "junit.xml").read_text()
+        self.assertIn("AssertionError: Triangles: it samples at", junit)
+        self.assertRegex(done.stdout, r"FAILED .*::test_strict - AssertionError: Triangles: ")
         self.assertIn("rasterproof.assert_rasterizer(draw, family=", done.stdout)
 
 

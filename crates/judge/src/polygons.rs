@@ -90,6 +90,31 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
     })
 }
 
+/// The family and the number of the first generated polygon that this request, written with the id 1, holds.
+#[must_use]
+pub fn polygon_that_asks(
+    request: &str,
+    given: &Options,
+    declared: &Declared,
+) -> Option<(&'static str, u64)> {
+    let options = options(given, declared);
+    let families = match options.families.as_slice() {
+        [] => Family::ALL.to_vec(),
+        some => some.to_vec(),
+    };
+    let indices = options.only.map_or(0..options.cases, |index| index..index + 1);
+    for family in families {
+        for index in indices.clone() {
+            let polygon = family.polygon(options.seed, index, declared.tessellation.coordinates);
+            let question = Question { width: 1, height: 1, of: Asked::Polygon(polygon) };
+            if question.text(1) == request {
+                return Some((family.name(), index));
+            }
+        }
+    }
+    None
+}
+
 /// The report as a verdict with a property for each family, for what is written for machines.
 pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdict) -> Verdict {
     let row = |family: &partition::Polygons| Row {

@@ -31,6 +31,8 @@ pub const MOST_INCIDENTS: usize = 24;
 /// Failing cases of a property that are asked a second time, by each copy. A program whose answers change seldom has few failing
 /// cases, and of one whose answers change often one of these will do.
 const MOST_ASKED_AGAIN: u64 = 64;
+/// Cases of each family among which one is looked up beside those that are judged.
+const BEFORE: u64 = 256;
 
 /// What came of a property: of a family, or of a check over all families.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
@@ -433,6 +435,37 @@ fn copy(
     found.out_of_time |= asker.is_late;
     found.strays.extend(asker.strays());
     found
+}
+
+/// The family and the number of the first generated case that asks this, written with the id 1; nothing for a case that was
+/// made smaller, or for what is asked before the families.
+#[must_use]
+pub fn case_that_asks(
+    request: &str,
+    options: &Options,
+    declared: &Declared,
+) -> Option<(&'static str, u64)> {
+    let truth = Truth::of(declared);
+    let (asked, all) = (adapt_case::families(&options.families), adapt_case::families(&[]));
+    let indices = options.only.map_or(0..options.cases, |index| index..index + 1);
+    // The windings are found with the first cases of a family that may not be among those that are judged.
+    let indices =
+        indices.map(|index| (index, &asked)).chain((0..BEFORE).map(|index| (index, &all)));
+    let mut questions = Vec::new();
+    // Families take turns, as they do where they are judged, so that an early case is found early.
+    for (index, families) in indices {
+        for family in families {
+            let case = adapt_case::put(family.case(options.seed, index), declared);
+            questions.clear();
+            for check in Check::of_truth(family.name, &case, index, &truth) {
+                check.questions(&case, &truth, &mut questions);
+            }
+            if questions.iter().any(|question| question.text(1) == request) {
+                return Some((family.name, index));
+            }
+        }
+    }
+    None
 }
 
 /// Asks the checks of some cases of a family, and judges the answers: of how many cases all of them.

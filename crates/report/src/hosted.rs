@@ -10,13 +10,16 @@ use std::iter;
 use std::process::ExitCode;
 use std::time::Duration;
 
+use super::html::Report;
 use super::{judge_text, text};
 use rasterproof_judge::ask::{Answer, Breach, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::run::case_that_asks;
 use rasterproof_judge::text::Words;
 use rasterproof_judge::verdict::Scores as _;
 use rasterproof_judge::{Options, family_names, judge, polygons};
+use rasterproof_verify::judge::ascii;
 
 /// The program that started this one. Several share its streams: while one waits for answers, another judges those that it has.
 struct Host(Declared);
@@ -58,6 +61,8 @@ struct Job {
     call: String,
     is_python: bool,
     declare: String,
+    /// A request for which the function threw: nothing is judged, and its case is looked up.
+    locate: String,
 }
 
 impl Job {
@@ -66,7 +71,7 @@ impl Job {
         for line in io::stdin().lines().map_while(Result::ok) {
             let line = line.trim_end();
             if let Some(mut declared) = Declared::parse(line) {
-                job.declare.split_whitespace().for_each(|word| declared.hear(word));
+                declared.declare(&job.declare).map_err(|why| format!("declare: {why}"))?;
                 return Ok((job, declared));
             }
             let (option, value) = line.split_once(' ').unwrap_or((line, ""));
@@ -77,15 +82,14 @@ impl Job {
 
     fn hear(&mut self, option: &str, value: &str) -> Result<(), String> {
         let is_not = |expected: &str| format!("{option} is {value}; expected {expected}");
-        let number = || value.parse().map_err(|_| is_not("a whole number from 0 on"));
+        let number = |least: u64| {
+            let number = value.parse().ok().filter(|number| *number >= least);
+            number.ok_or_else(|| is_not(&format!("a whole number from {least} to {}", u64::MAX)))
+        };
         match option {
-            "cases" => {
-                let none = || format!("no case would be judged: {}", is_not("at least 1"));
-                let cases = value.parse().ok().filter(|cases| *cases > 0);
-                self.options.cases = cases.ok_or_else(none)?;
-            }
-            "seed" => self.options.seed = number()?,
-            "case" => self.options.only = Some(number()?),
+            "cases" => self.options.cases = number(1)?,
+            "seed" => self.options.seed = number(0)?,
+            "case" => self.options.only = Some(number(0)?),
             "seconds" => {
                 let seconds = value.parse().ok().map(Duration::try_from_secs_f64);
                 let seconds = seconds.and_then(Result::ok).filter(|seconds| !seconds.is_zero());
@@ -101,6 +105,7 @@ impl Job {
             "language" => self.is_python = value == "python",
             "call" => self.call = value.to_owned(),
             "declare" => self.declare = value.to_owned(),
+            "locate" => self.locate = value.to_owned(),
             _ => {
                 let known = "cases, seed, case, seconds, family or declare";
                 return Err(format!("no option is {option}; expected {known}"));
@@ -137,11 +142,26 @@ impl Job {
             all.insert(0, ("family", format!("['{names}']")));
         }
         let all = self.line(&all);
+        if !self.locate.is_empty() {
+            let find =
+                if declared.partition { polygons::polygon_that_asks } else { case_that_asks };
+            let found = find(&self.locate, &self.options, &declared);
+            let seed = self.options.seed;
+            let said = found.map(|(family, index)| {
+                format!(
+                    "family {family}, case {index}, seed {seed}\nrepeat with: {}",
+                    one(family, index)
+                )
+            });
+            let of_none = format!(
+                "a request of the judge that is no generated case; seed {seed}\nrepeat with: {all}"
+            );
+            return Ok((true, said.unwrap_or(of_none)));
+        }
         if declared.partition {
             let report = polygons::judge(&mut Host(declared.clone()), &self.options)?;
             let said = judge_text::of_polygons(&declared, &report, &all, &one);
-            let text = text::text(&said, false, false, text::WIDTH);
-            return Ok((report.sum().wrong == 0, text));
+            return Ok((report.sum().wrong == 0, cause_first(&said)));
         }
         let scope = Scope::of(&self.options);
         // A module has one thread.
@@ -153,8 +173,22 @@ impl Job {
             return Err(why);
         }
         let report = judge_text::report(&verdict, &all, &one, false);
-        let text = text::text(&report, false, false, text::WIDTH);
+        let text = cause_first(&report);
         Ok((verdict.agrees(), text.replace("--declare '", &format!("declare{}'", self.is()))))
+    }
+}
+
+/// The report below a line that says what is wrong: test runners show the first line of a message, and often its start alone.
+fn cause_first(report: &Report) -> String {
+    let whole = text::text(report, false, false, text::WIDTH);
+    match &report.outcome {
+        Some(outcome) if !outcome.good => {
+            let why = outcome.answer.split_once(" is not right").map_or("", |(_, why)| why);
+            let why = why.trim_start_matches([':', '.', ' ']);
+            let first = if why.is_empty() { &outcome.sentence } else { why };
+            format!("{}\n{whole}", ascii::lines(first, text::SCREEN, ascii::columns).join("\n"))
+        }
+        _ => whole,
     }
 }
 
