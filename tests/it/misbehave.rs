@@ -57,6 +57,11 @@ fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()>
         out.flush()?;
         line.clear();
         if input.read_line(&mut line)? == 0 {
+            if fault == "leaks" {
+                // As LeakSanitizer says it.
+                eprintln!("==7==ERROR: LeakSanitizer: detected memory leaks");
+                exit(1);
+            }
             return Ok(());
         }
         let mut answer = Vec::new();

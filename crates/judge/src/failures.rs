@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Breach, Misbehaviour, Question, Subject, show};
+use super::ask::{Answer, Question, Subject, show};
 use super::check::{Check, Truth, expected_answer};
 use super::judged::Judged;
 use super::pictured::{Pictured, pictured};
-use super::run::{Failing, Found, MOST_DEATHS, Row};
+use super::run::{Failing, Found, Row};
 use super::shrink::smaller;
 use rasterproof_verify::cases::Case;
 
@@ -61,7 +61,12 @@ pub fn failures(
     let news: Vec<&Failing> = found.failing.iter().filter(|f| !is_known(f)).collect();
     let of = |name: &str| news.iter().find(|f| f.property == name);
     let firsts = rows.into_iter().filter_map(|row| of(row.name)).take(MOST_SHOWN);
-    let shown = firsts.filter_map(|failing| failure(program, found, failing, options, truth));
+    let (start, patience) = (Instant::now(), options.terms.patience);
+    let shown = firsts.filter_map(|failing| {
+        // A program that is slow, or has to be started again, gets this time for all of them together.
+        let left = (2 * patience).saturating_sub(start.elapsed()).min(patience);
+        failure(program, found, failing, left, options, truth)
+    });
     let mut shown: Vec<_> = shown.collect();
     let is_same = |f: &Failure| f.evidence.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
     shown.sort_by_key(is_same);
@@ -79,7 +84,8 @@ impl Asked {
     fn of(program: &mut dyn Subject, check: Check, case: &Case, truth: &Truth) -> Self {
         let mut questions = Vec::new();
         check.questions(case, truth, &mut questions);
-        let answers = program.ask(&questions, MOST_DEATHS);
+        // Of a case that the program dies of, one request is enough.
+        let answers = program.ask(&questions, 1);
         let judged = judge(check, case, &answers, questions.len(), truth);
         Self { questions, answers, judged }
     }
@@ -91,8 +97,7 @@ impl Asked {
 
     /// Whether it takes long to go wrong.
     fn is_slow(&self) -> bool {
-        let is_slow = |m: &Misbehaviour| matches!(m.breach, Breach::Hangs | Breach::Late);
-        self.judged.died.iter().any(|(_, m)| is_slow(m))
+        self.judged.died.iter().any(|(_, what)| what.is_slow())
     }
 }
 
@@ -100,6 +105,7 @@ fn failure(
     program: &mut dyn Subject,
     found: &Found,
     failing: &Failing,
+    patience: Duration,
     options: &Options,
     truth: &Truth,
 ) -> Option<Failure> {
@@ -112,8 +118,7 @@ fn failure(
     let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
     let first = Asked::of(program, check, &case, truth);
     let was_asked = !first.is_late();
-    let (seed, patience) = (options.seed, options.terms.patience);
-    let search = Search { check, truth, seed, patience, may_be: &may_be };
+    let search = Search { check, truth, seed: options.seed, patience, may_be: &may_be };
     let mut failure = search.smallest(program, failing, case, first);
     if !was_asked {
         let described = found.described.get(&failing.name());

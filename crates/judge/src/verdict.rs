@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::adapt_case;
+use super::ask::Complaints;
 use super::declared::Declared;
 use super::failures::Failure;
 use super::recognise::{Said, Why};
@@ -55,8 +56,8 @@ pub struct Particulars {
     pub side: Option<i32>,
     /// Failing cases that the baseline knows.
     pub known: u64,
-    /// The end of what it wrote on standard error.
-    pub complaints: Vec<String>,
+    /// What it wrote on standard error.
+    pub complaints: Complaints,
     pub properties: Vec<Property>,
 }
 

@@ -8,7 +8,7 @@ use super::words::mark;
 use rasterproof_verify::judge::ascii;
 
 /// Columns of a terminal that a first screen has.
-const SCREEN: usize = 80;
+pub(super) const SCREEN: usize = 80;
 
 /// Columns of everything else, where a terminal has so many.
 pub const WIDTH: usize = 100;
