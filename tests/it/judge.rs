@@ -478,8 +478,19 @@ fn judge_prints_a_verdict() {
     let nonsense = of_misbehaving(&["--family", "half-integer"], "scanline", "nonsense");
     let out = check(nonsense, 1).prints("debug: \\u{1b}[31mx = 3\\u{7}").out;
     assert!(out.chars().all(|c| c == '\n' || !c.is_control()));
-    let words = of(&["--declare", "grid=3 dance"], &["scanline"]);
-    check(&words, 0).prints("not understood, left aside: grid=3 dance");
+}
+
+/// A misspelt word of the caller would judge by another convention than is meant; one of the program's own is left aside.
+#[test]
+fn judge_refuses_what_it_does_not_understand() {
+    let words = of(&["--declare", "mask rule=topleft"], &["scanline"]);
+    check(&words, 2)
+        .says("--declare: the word rule=topleft is not understood; is rule=top-left meant?");
+    let program = Box::new(misbehaving("dances", limits(20_000)).unwrap());
+    let verdict = judged(program, &options(8, &["half-integer"]));
+    assert!(verdict.agrees());
+    let report = judge_text::report(&verdict, "-", &|_, _| "-".to_owned(), false);
+    assert!(report.about.ends_with("not understood, left aside: rule=topleft"), "{}", report.about);
 }
 
 /// One run makes both: what people read, and what build servers do.

@@ -72,6 +72,9 @@ fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()>
             ("rude", ["HELLO", ..]) | ("old", ["HELLO", "2", ..]) => {
                 writeln!(out, "E - say something else")?;
             }
+            ("dances", ["HELLO", ..]) => {
+                writeln!(out, "{} rule=topleft", answer.trim_ascii_end().escape_ascii())?;
+            }
             (_, ["HELLO", ..]) => out.write_all(&answer)?,
             // As many runs as fit on a line.
             ("bloats", [_, id, ..]) => {
