@@ -509,7 +509,7 @@ fn judge_writes_junit_beside_the_text() {
     };
     assert_eq!(timeless(&folder.text("mine.xml")), timeless(&run(&["--format", "junit"])));
     let other = ["--junit", "mine.xml", "--baseline", "mine.xml"];
-    folder.check(of(&other, &["scanline"]), 2).says("--baseline and --junit name this file");
+    folder.check(of(&other, &["scanline"]), 2).says("--junit and --baseline name this file");
 }
 
 #[test]

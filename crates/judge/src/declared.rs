@@ -136,7 +136,7 @@ pub fn check_words<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<(), S
     Ok(())
 }
 
-/// The word that is understood and has the most in common with another.
+/// The word that is understood and has the most in common with another, or all values that are known instead of its own.
 fn nearest(word: &str) -> String {
     let mut known: Vec<String> = WORDS.map(str::to_owned).into();
     known.extend(Rule::ALL.map(|(value, _)| format!("rule={value}")));
@@ -145,7 +145,12 @@ fn nearest(word: &str) -> String {
     known.extend(WINDINGS.map(|(value, _)| format!("triangles={value}")));
     known.extend(COORDINATES.map(|(value, _)| format!("coordinates={value}")));
     let distance = |known: &String| strsim::damerau_levenshtein(known, word);
-    known.into_iter().min_by_key(distance).unwrap_or_default()
+    let best = known.iter().min_by_key(|known| distance(known)).cloned().unwrap_or_default();
+    // Of a value that is further off the nearest may mean the opposite, as ccw of clockwise: all are named.
+    let key = format!("{}=", word.split('=').next().unwrap_or_default());
+    let of_key: Vec<String> = known.into_iter().filter(|known| known.starts_with(&key)).collect();
+    let is_near = distance(&best) <= 2 || of_key.is_empty();
+    if is_near { best } else { of_key.join(" or ") }
 }
 
 /// What a word stands for in a list.
@@ -413,7 +418,7 @@ mod tests {
             ("rule=topleft", "rule=top-left"),
             ("rul=strict", "rule=strict"),
             ("grid=3", "grid=16"),
-            ("winding=clockwise", "winding=cw"),
+            ("winding=clockwise", "winding=cw or winding=ccw or winding=both"),
             ("y-up", "yup"),
             ("coordinate=f32", "coordinates=f32"),
         ] {
