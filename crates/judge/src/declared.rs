@@ -90,69 +90,6 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
     ("integer", partition::Coordinates::Integer),
 ];
 
-/// Words and values that [`Declared::take`] knows, for the nearest one to a word that it does not know. Of a number, an example.
-const WORDS: [&str; 24] = [
-    "coverage",
-    "line",
-    "attributes",
-    "samples4",
-    "depth",
-    "clip",
-    "clip-attributes",
-    "partition",
-    "t-junctions",
-    "degenerate",
-    "yup",
-    "mask",
-    "line-set",
-    "near=zero",
-    "near=minus-w",
-    "winding=cw",
-    "winding=ccw",
-    "winding=both",
-    "grid=16",
-    "origin=0.5,0.5",
-    "range=4096",
-    "window=64x64",
-    "batch=64",
-    "tolerance=1e-4",
-];
-
-/// Refuses words that a person declares for a program and that would be left aside; the message names the nearest word.
-///
-/// # Errors
-/// What is not understood, and what may be meant.
-pub fn check_words<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<(), String> {
-    let mut declared = Declared::default();
-    for word in words {
-        declared.hear(word);
-        if let Some(unknown) = declared.unknown.pop() {
-            return Err(format!(
-                "the word {unknown} is not understood; is {} meant? See docs/protocol.md",
-                nearest(word)
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// The word that is understood and has the most in common with another, or all values that are known instead of its own.
-fn nearest(word: &str) -> String {
-    let mut known: Vec<String> = WORDS.map(str::to_owned).into();
-    known.extend(Rule::ALL.map(|(value, _)| format!("rule={value}")));
-    known.extend(Shape::ALL.map(|shape| format!("shape={}", shape.name())));
-    known.extend(FILL_RULES.map(|(value, _)| format!("fill-rule={value}")));
-    known.extend(WINDINGS.map(|(value, _)| format!("triangles={value}")));
-    known.extend(COORDINATES.map(|(value, _)| format!("coordinates={value}")));
-    let distance = |known: &String| strsim::damerau_levenshtein(known, word);
-    let best = known.iter().min_by_key(|known| distance(known)).cloned().unwrap_or_default();
-    // Of a value that is further off the nearest may mean the opposite, as ccw of clockwise: all are named.
-    let key = format!("{}=", word.split('=').next().unwrap_or_default());
-    let of_key: Vec<String> = known.into_iter().filter(|known| known.starts_with(&key)).collect();
-    let is_near = distance(&best) <= 2 || of_key.is_empty();
-    if is_near { best } else { of_key.join(" or ") }
-}
-
 /// What a word stands for in a list.
 fn meant<T: Copy>(list: &[(&str, T)], word: &str) -> Option<T> {
     list.iter().find(|(known, _)| *known == word).map(|(_, value)| *value)
@@ -410,30 +347,6 @@ mod tests {
             other.to_string(),
             "partition fill-rule=even-odd triangles=alike coordinates=f64"
         );
-    }
-
-    #[test]
-    fn words_that_are_typed_are_understood_or_refused() {
-        for (word, meant) in [
-            ("rule=topleft", "rule=top-left"),
-            ("rul=strict", "rule=strict"),
-            ("grid=3", "grid=16"),
-            ("winding=clockwise", "winding=cw or winding=ccw or winding=both"),
-            ("y-up", "yup"),
-            ("coordinate=f32", "coordinates=f32"),
-        ] {
-            let said = check_words(["mask", word]).unwrap_err();
-            assert!(
-                said.starts_with(&format!("the word {word} is not understood; is {meant} meant?")),
-                "{said}"
-            );
-        }
-        let all =
-            "coverage rule=strict grid=16 origin=0,0.25 winding=ccw near=zero range=4096 batch=8";
-        assert_eq!(check_words(all.split(' ')), Ok(()));
-        assert!(WORDS.iter().all(|word| check_words([*word]).is_ok()));
-        // A value may be as long as it likes.
-        assert!(check_words([&*"x".repeat(10_000)]).unwrap_err().len() < 200);
     }
 
     #[test]
