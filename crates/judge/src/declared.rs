@@ -90,6 +90,77 @@ const COORDINATES: [(&str, partition::Coordinates); 3] = [
     ("integer", partition::Coordinates::Integer),
 ];
 
+/// Words without a value.
+const FLAGS: [&str; 13] = [
+    "coverage",
+    "line",
+    "attributes",
+    "samples4",
+    "depth",
+    "clip",
+    "clip-attributes",
+    "partition",
+    "t-junctions",
+    "degenerate",
+    "yup",
+    "mask",
+    "line-set",
+];
+
+/// The values of words that have one of a few.
+fn listed() -> [(&'static str, Vec<&'static str>); 8] {
+    [
+        ("rule", Rule::ALL.iter().map(|(word, _)| *word).collect()),
+        ("winding", vec!["cw", "ccw", "both"]),
+        ("grid", vec!["1", "16", "64", "256"]),
+        ("shape", Shape::ALL.iter().map(|shape| shape.name()).collect()),
+        ("near", vec!["zero", "minus-w"]),
+        ("fill-rule", FILL_RULES.iter().map(|(word, _)| *word).collect()),
+        ("triangles", WINDINGS.iter().map(|(word, _)| *word).collect()),
+        ("coordinates", COORDINATES.iter().map(|(word, _)| *word).collect()),
+    ]
+}
+
+/// The form of words whose values are numbers.
+fn numbered() -> [(&'static str, String); 5] {
+    [
+        ("origin", "origin=X,Y, each a multiple of 1/256 from -2 to 2".to_owned()),
+        ("range", format!("range=N, a whole number from 1 to {}", DOMAIN_PX - 1)),
+        ("window", format!("window=WxH, each from 1 to {MAX_SIDE_PX}")),
+        ("batch", "batch=N, a whole number above 0".to_owned()),
+        ("tolerance", "tolerance=T, a number from 0 to 1".to_owned()),
+    ]
+}
+
+/// What to write in place of a word that cannot be used.
+fn meant_instead(key: &str, value: Option<&str>) -> String {
+    // The key is right, and its value is a number that is not.
+    if let Some((_, form)) = numbered().into_iter().find(|(known, _)| *known == key) {
+        return format!("expected {form}");
+    }
+    let mut words: Vec<String> = FLAGS.map(str::to_owned).to_vec();
+    for (known, values) in listed() {
+        words.extend(values.iter().map(|value| format!("{known}={value}")));
+    }
+    // A number that somebody wrote is kept.
+    let number = |known: &str| value.map(|value| format!("{known}={value}"));
+    words.extend(numbered().iter().filter_map(|(known, _)| number(known)));
+    let said = value.map_or(key.to_owned(), |value| format!("{key}={value}")).to_lowercase();
+    words.retain(|word| Declared::default().declare(word).is_ok());
+    let nearest = words.iter().min_by_key(|word| strsim::levenshtein(&said, word));
+    match nearest.filter(|word| 2 * strsim::levenshtein(&said, word) <= said.len().max(word.len()))
+    {
+        Some(word) => format!("did you mean '{word}'?"),
+        None => {
+            let keys = listed().map(|(known, _)| known).into_iter();
+            let keys =
+                keys.chain(numbered().map(|(known, _)| known)).map(|known| format!("{known}=..."));
+            let all: Vec<_> = keys.chain(FLAGS.map(str::to_owned)).collect();
+            format!("expected words such as {}", all.join(", "))
+        }
+    }
+}
+
 /// What a word stands for in a list.
 fn meant<T: Copy>(list: &[(&str, T)], word: &str) -> Option<T> {
     list.iter().find(|(known, _)| *known == word).map(|(_, value)| *value)
@@ -158,6 +229,23 @@ impl Declared {
         if self.take(key, value).is_none() && self.unknown.len() < MOST_UNKNOWN {
             self.unknown.push(printable(word.as_bytes(), 40));
         }
+    }
+
+    /// Takes the words into account that a caller declares for a program. Unlike a word of HELLO, which may come from a later
+    /// version of the protocol, one that cannot be used is a slip: the error says what was probably meant.
+    ///
+    /// # Errors
+    ///
+    /// Where a word is not known or its value cannot be used.
+    pub fn declare(&mut self, words: &str) -> Result<(), String> {
+        for word in words.split_whitespace() {
+            let (key, value) = word.split_once('=').map_or((word, None), |(k, v)| (k, Some(v)));
+            if self.take(key, value).is_none() {
+                let shown = printable(word.as_bytes(), 40);
+                return Err(format!("'{shown}' is not understood; {}", meant_instead(key, value)));
+            }
+        }
+        Ok(())
     }
 
     fn take(&mut self, key: &str, value: Option<&str>) -> Option<()> {
@@ -347,6 +435,35 @@ mod tests {
             other.to_string(),
             "partition fill-rule=even-odd triangles=alike coordinates=f64"
         );
+    }
+
+    #[test]
+    fn a_misspelt_declaration_is_an_error_with_the_nearest_word() {
+        let error = |words: &str| Declared::default().declare(words).unwrap_err();
+        for (words, said) in [
+            ("rule=topleft", "'rule=topleft' is not understood; did you mean 'rule=top-left'?"),
+            (
+                "range=4096 rul=strict",
+                "'rul=strict' is not understood; did you mean 'rule=strict'?",
+            ),
+            ("rnage=4096", "'rnage=4096' is not understood; did you mean 'range=4096'?"),
+            ("Winding=CW", "'Winding=CW' is not understood; did you mean 'winding=cw'?"),
+            ("y-up", "'y-up' is not understood; did you mean 'yup'?"),
+            ("grid=15", "'grid=15' is not understood; did you mean 'grid=16'?"),
+            ("window=8", "'window=8' is not understood; expected window=WxH, each from 1 to "),
+            ("dance", "'dance' is not understood; expected words such as rule=..., "),
+        ] {
+            assert!(error(words).starts_with(said), "{}", error(words));
+        }
+        // Every word that is offered is one that is taken.
+        for word in FLAGS {
+            assert_eq!(Declared::default().declare(word), Ok(()));
+        }
+        for (key, values) in listed() {
+            for value in values {
+                assert_eq!(Declared::default().declare(&format!("{key}={value}")), Ok(()));
+            }
+        }
     }
 
     #[test]
