@@ -3,9 +3,9 @@
 #     include(rasterproof.cmake)
 #     rasterproof_test(fill mine --cases 100)
 #
-# registers the test `fill`, which judges the target `mine`; what follows are options of `rasterproof judge`. Its output is the
-# message of the judge. Beside that, fill.junit.xml in the build folder has a test case for each property. The program rasterproof
-# is searched for in the path, and where RASTERPROOF names it.
+# registers the test `fill`, which judges the target `mine`, once; what follows are options of `rasterproof judge`. Its output is
+# the message of the judge. Beside that, fill.junit.xml in the build folder has a test case for each property. The program
+# rasterproof is searched for in the path, and where RASTERPROOF names it.
 cmake_minimum_required(VERSION 3.19)
 
 # CTest runs this file as a script.
@@ -19,13 +19,13 @@ if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
   math(EXPR start "${start} + 1")
   list(SUBLIST words ${start} -1 words)
   list(POP_FRONT words program junit)
-  execute_process(COMMAND ${program} judge --format junit ${words} OUTPUT_FILE ${junit} ERROR_VARIABLE wrong RESULT_VARIABLE status)
+  # Where nothing can be judged, no file of an earlier run is left.
+  file(REMOVE ${junit})
+  execute_process(COMMAND ${program} judge --junit ${junit} ${words} RESULT_VARIABLE status)
   if(status EQUAL 1)
-    # The same cases again, for people.
-    execute_process(COMMAND ${program} judge ${words})
-  endif()
-  if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${wrong}rasterproof judge ended with status ${status}; each property is in ${junit}")
+    message(FATAL_ERROR "rasterproof judge ended with status 1; each property is in ${junit}")
+  elseif(NOT status EQUAL 0)
+    message(FATAL_ERROR "rasterproof judge ended with status ${status} and judged nothing")
   endif()
   return()
 endif()

@@ -14,6 +14,12 @@
 #include <string.h>
 #include <unistd.h>
 
+/* -std=c99 and -std=c11 hide this function of POSIX. To define _POSIX_C_SOURCE here would come too late in a program that
+   includes <stdio.h> first. C++ always has it. */
+#ifndef __cplusplus
+FILE *fdopen(int descriptor, const char *mode);
+#endif
+
 /* Draws one pixel; outside the window it does nothing. */
 typedef void (*rasterproof_set_pixel)(int x, int y);
 /* Corners in pixels, y down. */

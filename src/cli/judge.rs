@@ -14,9 +14,10 @@ use super::{InputError, Status, Streams, exit, league, usage};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
+use rasterproof_judge::declared::check_words;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
-use rasterproof_judge::verdict::Scores as _;
+use rasterproof_judge::verdict::{Scores as _, Verdict};
 use rasterproof_judge::{Options, family_names, polygons};
 use rasterproof_program::{Limits, Program, group};
 use rasterproof_report::formats::{self, Format};
@@ -59,6 +60,9 @@ pub struct JudgeArguments {
     /// The same as --format json
     #[arg(long, conflicts_with = "format")]
     json: bool,
+    /// Write JUnit XML into this file, beside what is printed
+    #[arg(long, value_name = "FILE", conflicts_with = "league")]
+    junit: Option<PathBuf>,
     /// The table of all families, too; it is always there where something is wrong
     #[arg(long)]
     table: bool,
@@ -124,6 +128,20 @@ fn again(arguments: &JudgeArguments, typed: &Typed) -> (String, impl Fn(&str, u6
     (repeat_all, repeat_case)
 }
 
+/// Writes the file of `--junit`, if there is one.
+fn save_junit(
+    arguments: &JudgeArguments,
+    verdict: &Verdict,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+    streams: &mut Streams<'_>,
+) {
+    if let Some(path) = &arguments.junit {
+        let text = formats::write(verdict, Format::Junit, repeat_all, repeat);
+        streams.save(&Output::typed(path), text.as_bytes());
+    }
+}
+
 /// Judges a program that declares `partition`: by its polygons alone.
 fn tessellator(
     arguments: &JudgeArguments,
@@ -147,11 +165,12 @@ fn tessellator(
     let report = polygons::judge(program, options)?;
     let (repeat_all, repeat_case) = again(arguments, typed);
     let (format, status) = (arguments.format(), exit::of(report.sum().wrong == 0));
+    let verdict = polygons::verdict(&declared, options, &report);
+    save_junit(arguments, &verdict, &repeat_all, &repeat_case, streams);
     if format == Format::Text {
         let said = judge_text::of_polygons(&declared, &report, &repeat_all, &repeat_case);
         return show(said, Shown::Screen, None, status, streams);
     }
-    let verdict = polygons::verdict(&declared, options, &report);
     let text = formats::write(&verdict, format, &repeat_all, &repeat_case);
     streams.output.write_all(text.as_bytes())?;
     Ok(status)
@@ -164,9 +183,13 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         return league::run(names, &options, limits, &arguments.page.place, streams);
     }
     arguments.page.refuse_idle_folder(typed)?;
+    let declared = arguments.words();
+    check_words(declared.iter().map(String::as_str))
+        .map_err(|why| usage(format!("--declare: {why}")))?;
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
-    files::check(known.into_iter().chain(as_file(&page)))?;
+    let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));
+    files::check(known.into_iter().chain(as_file(&page)).chain(junit))?;
     let baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(path, arguments.seed)?),
         None => None,
@@ -234,6 +257,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     let mut report = make(&verdict, &repeat_all, &repeat_case, arguments.table);
     report.command = typed.clone().set("seed", arguments.seed).line();
     let mut agrees = verdict.agrees();
+    save_junit(arguments, &verdict, &repeat_all, &repeat_case, streams);
     match arguments.format() {
         format @ (Format::Text | Format::Json) => {
             let shown = Shown::Screen.or_json(format == Format::Json);

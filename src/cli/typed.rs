@@ -77,7 +77,7 @@ impl Typed {
 
     /// The same without what only decides where results go and how they are shown.
     pub fn without_output(self) -> Self {
-        self.without(&["report", "out", "force", "output", "json", "table", "format"])
+        self.without(&["report", "out", "force", "output", "json", "table", "format", "junit"])
     }
 
     /// Another command about `word`, with the options that it has in common with this one.

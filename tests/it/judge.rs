@@ -17,11 +17,12 @@ use rasterproof_judge::verdict::{Outcome, Scores as _, Verdict};
 use rasterproof_judge::{Asking, Options, judge};
 use rasterproof_program::{Limits, Program};
 use rasterproof_registry::engines::{self, SPECIMENS};
+use rasterproof_report::{judge_text, text};
 use rasterproof_verify::comparison::{Convention, Rule, Winding};
 use rayon::prelude::*;
 
 use crate::misbehave;
-use crate::program::{PROGRAM, Run, check, shared};
+use crate::program::{Folder, PROGRAM, Run, check, shared};
 
 pub fn options(cases: u64, families: &[&str]) -> Options {
     let families = families.iter().map(|name| (*name).to_owned());
@@ -170,7 +171,7 @@ fn judge_names_misbehaviour() {
         #[cfg(target_os = "linux")]
         if fault == "forks" {
             let pids =
-                verdict.more.complaints.iter().filter_map(|line| line.strip_prefix("child "));
+                verdict.more.complaints.shown.iter().filter_map(|line| line.strip_prefix("child "));
             let pids: Vec<_> = pids.collect();
             assert!(!pids.is_empty(), "{:?}", verdict.more.complaints);
             assert!(pids.iter().all(|pid| is_gone(pid)), "{pids:?} live on");
@@ -206,6 +207,42 @@ fn judge_refuses_who_never_says_hello() {
     check("judge --", 2);
 }
 
+/// Leaks are found when a program ends, after the end of its input.
+#[test]
+fn judge_sees_how_a_program_ends() {
+    for (fault, outcome) in [("leaks", Outcome::Fail), ("", Outcome::Pass)] {
+        let program = Box::new(misbehaving(fault, limits(20_000)).unwrap());
+        let verdict = judged(program, &options(8, &["half-integer"]));
+        assert_eq!(
+            (property(&verdict, "protocol"), verdict.agrees()),
+            (outcome, outcome.is_good())
+        );
+        let report = judge_text::report(&verdict, "-", &|_, _| "-".to_owned(), false);
+        let said = text::text(&report, false, false, text::WIDTH);
+        for line in [
+            "scanline is not right: it fails after the end of its input\n",
+            "\nit fails after the end of its input: with status 1\n",
+            "\n  | ==7==ERROR: LeakSanitizer: detected memory leaks\n",
+        ] {
+            assert_eq!(said.contains(line), fault == "leaks", "{said}");
+        }
+    }
+}
+
+/// The first hang costs the whole limit, to be sure; the others need not, and there are few of them.
+#[test]
+fn judge_waits_for_few_hangs() {
+    let program = Box::new(misbehaving("stalls", limits(800)).unwrap());
+    let families = ["half-integer", "rectangle", "fan", "flat", "needle", "uniform", "tiny"];
+    let verdict = judged(program, &options(64, &families));
+    let mut hangs = verdict.more.found.incidents.iter().map(|incident| incident.what.to_string());
+    assert_eq!(hangs.next().unwrap(), "hangs: no answer within 0.8 s");
+    let others: Vec<String> = hangs.collect();
+    let is_short = |what: &String| what.ends_with(" (the first time: no answer within 0.8 s)");
+    assert!(!others.is_empty() && others.iter().all(is_short), "{others:?}");
+    assert!(others.len() < 16, "{others:?}");
+}
+
 /// What is no fault: version 1, a banner before HELLO, a loud standard error.
 #[test]
 fn judge_bears_with_old_and_loud_programs() {
@@ -214,7 +251,7 @@ fn judge_bears_with_old_and_loud_programs() {
         assert_eq!(program.declared().version, if plant == "old" { 1 } else { 2 });
         let verdict = judged(Box::new(program), &options(64, &["half-integer"]));
         assert!(verdict.agrees(), "{plant}");
-        let said = verdict.more.complaints.join("");
+        let said = verdict.more.complaints.shown.join("");
         assert_eq!(said.contains("\\u{1b}[31mred"), plant == "noisy", "{said}");
         assert!(!said.contains('\u{1b}'));
     }
@@ -441,8 +478,38 @@ fn judge_prints_a_verdict() {
     let nonsense = of_misbehaving(&["--family", "half-integer"], "scanline", "nonsense");
     let out = check(nonsense, 1).prints("debug: \\u{1b}[31mx = 3\\u{7}").out;
     assert!(out.chars().all(|c| c == '\n' || !c.is_control()));
-    let words = of(&["--declare", "grid=3 dance"], &["scanline"]);
-    check(&words, 0).prints("not understood, left aside: grid=3 dance");
+}
+
+/// A misspelt word of the caller would judge by another convention than is meant; one of the program's own is left aside.
+#[test]
+fn judge_refuses_what_it_does_not_understand() {
+    let words = of(&["--declare", "mask rule=topleft"], &["scanline"]);
+    check(&words, 2)
+        .says("--declare: the word rule=topleft is not understood; is rule=top-left meant?");
+    let program = Box::new(misbehaving("dances", limits(20_000)).unwrap());
+    let verdict = judged(program, &options(8, &["half-integer"]));
+    assert!(verdict.agrees());
+    let report = judge_text::report(&verdict, "-", &|_, _| "-".to_owned(), false);
+    assert!(report.about.ends_with("not understood, left aside: rule=topleft"), "{}", report.about);
+}
+
+/// One run makes both: what people read, and what build servers do.
+#[test]
+fn judge_writes_junit_beside_the_text() {
+    let folder = Folder::new("junit");
+    let run = |options: &[&str]| {
+        let of_it = [&["--family", "half-integer"], options].concat();
+        folder.check(of(&of_it, &["exclusive-edges"]), 1).out
+    };
+    assert_eq!(run(&["--junit", "mine.xml"]), run(&[]));
+    // Without the seconds that it took.
+    let timeless = |text: &str| {
+        let digit = |c: char| c.is_ascii_digit() || c == '.';
+        text.split("time=\"").map(|part| part.trim_start_matches(digit)).collect::<String>()
+    };
+    assert_eq!(timeless(&folder.text("mine.xml")), timeless(&run(&["--format", "junit"])));
+    let other = ["--junit", "mine.xml", "--baseline", "mine.xml"];
+    folder.check(of(&other, &["scanline"]), 2).says("--junit and --baseline name this file");
 }
 
 #[test]

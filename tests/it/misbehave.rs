@@ -57,6 +57,11 @@ fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()>
         out.flush()?;
         line.clear();
         if input.read_line(&mut line)? == 0 {
+            if fault == "leaks" {
+                // As LeakSanitizer says it.
+                eprintln!("==7==ERROR: LeakSanitizer: detected memory leaks");
+                exit(1);
+            }
             return Ok(());
         }
         let mut answer = Vec::new();
@@ -66,6 +71,9 @@ fn answer(engine: &str, fault: &str, out: &mut dyn Write) -> std::io::Result<()>
         match (fault, &words[..]) {
             ("rude", ["HELLO", ..]) | ("old", ["HELLO", "2", ..]) => {
                 writeln!(out, "E - say something else")?;
+            }
+            ("dances", ["HELLO", ..]) => {
+                writeln!(out, "{} rule=topleft", answer.trim_ascii_end().escape_ascii())?;
             }
             (_, ["HELLO", ..]) => out.write_all(&answer)?,
             // As many runs as fit on a line.

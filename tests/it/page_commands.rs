@@ -39,7 +39,8 @@ fn every_option_is_on_the_page() {
     let model = "\"a 'model'.obj\" --size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
                  --pitch 10.5 --zoom 2 --fov 50 --up z --normals flat --specular 0.5,30 --opacity 0.5 --layers 4 \
                  --alpha-threshold 0.5 --fog 0,1 --shadows 64 --mip-maps --anisotropy 8 --two-sided";
-    let judge = "--cases 5 --family sliver --timeout 9 --jobs 2 --seed 2 --declare 'rule=top left'";
+    let judge =
+        "--cases 5 --family sliver --timeout 9 --jobs 2 --seed 2 --declare 'rule=top-left mask'";
     let mut tried = BTreeSet::new();
     for (name, options) in [
         ("render", format!("{model} --engine both --effects all")),

@@ -57,7 +57,7 @@ pub const PROGRAM_BLOCK_BYTES: usize = 32 << 20;
 /// What a judged program may say before it answers HELLO.
 pub const PROGRAM_CHATTER_BYTES: usize = 1 << 18;
 
-/// What is kept of a judged program's standard error: its end.
+/// What is kept of a judged program's standard error: its last lines, and as much again of what sanitizers found.
 pub const PROGRAM_COMPLAINT_BYTES: usize = 4096;
 
 /// One request of the line protocol; the rest of a longer line is not kept.

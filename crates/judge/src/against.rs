@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use super::ask::{Answer, Misbehaviour, Question, Subject};
+use super::ask::{Answer, Complaints, Misbehaviour, Question, Subject};
 use super::check::Truth;
 use super::declared::Declared;
 use super::failures;
@@ -13,7 +13,7 @@ use super::recognise::{self, Why};
 use super::run::{self, Sides};
 use super::timed::Timed;
 use super::verdict::{self, Particulars, Verdict};
-use super::{Options, Step, for_families, reach};
+use super::{Options, Step, finish, for_families, reach};
 
 /// Two programs behind one [`Subject`]: each answer is [`Answer::Two`].
 struct Pair<'a> {
@@ -52,23 +52,37 @@ impl Subject for Pair<'_> {
     }
 
     fn strays(&mut self) -> Vec<Misbehaviour> {
-        let names = self.names();
-        let strays = self.sides.iter_mut().zip(&names);
-        strays
-            .flat_map(|(side, name)| side.strays().into_iter().map(|what| said_by(name, what)))
-            .collect()
+        self.of_both(|side| side.strays())
     }
 
-    fn complaints(&self) -> Vec<String> {
-        let said = self.sides.iter().zip(self.names());
-        said.flat_map(|(side, name)| {
-            side.complaints().into_iter().map(move |line| format!("{name}: {line}"))
-        })
-        .collect()
+    fn finish(&mut self) -> Vec<Misbehaviour> {
+        self.of_both(|side| side.finish())
+    }
+
+    fn complaints(&self) -> Complaints {
+        let mut both = Complaints::default();
+        for (side, name) in self.sides.iter().zip(self.names()) {
+            let Complaints { lines, shown } = side.complaints();
+            both.lines += lines;
+            both.shown.extend(shown.into_iter().map(|line| format!("{name}: {line}")));
+        }
+        both
     }
 }
 
 impl Pair<'_> {
+    /// What each of them did, with its name.
+    fn of_both(
+        &mut self,
+        what: impl Fn(&mut dyn Subject) -> Vec<Misbehaviour>,
+    ) -> Vec<Misbehaviour> {
+        let mut all = Vec::new();
+        for (name, side) in self.names().iter().zip(&mut self.sides) {
+            all.extend(what(&mut **side).into_iter().map(|what| said_by(name, what)));
+        }
+        all
+    }
+
     fn names(&self) -> [String; 2] {
         names([self.sides[0].declared(), self.sides[1].declared()])
     }
@@ -134,7 +148,7 @@ pub fn compare(
         (failures::changing(&found, limited, &truth), Vec::new())
     };
     found.strays.extend(pair.strays());
-    pair.end_at(None);
+    let complaints = finish(pairs.iter_mut().map(|pair| pair as &mut dyn Subject), &mut found);
     let [declared, second] = both;
     let more = Particulars {
         declared,
@@ -142,7 +156,7 @@ pub fn compare(
         found,
         reach: truth.declared.reach,
         side: truth.declared.side,
-        complaints: pair.complaints(),
+        complaints,
         ..Particulars::default()
     };
     verdict::verdict(options, more, failures, causes)

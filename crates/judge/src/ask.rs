@@ -159,6 +159,8 @@ rasterproof_core::named! {
         Unasked = "answers for another id",
         /// More output than any answers have.
         Floods = "floods its output",
+        /// It answered everything, and then it ended with another status than 0, or by a signal.
+        FailsAtEnd = "fails after the end of its input",
     }
 }
 
@@ -177,6 +179,11 @@ impl Breach {
 }
 
 impl Misbehaviour {
+    /// Whether it takes long to go wrong.
+    pub fn is_slow(&self) -> bool {
+        matches!(self.breach, Breach::Hangs | Breach::Late)
+    }
+
     /// What to do about a program that cannot be judged at all.
     pub fn remedy(&self) -> &'static str {
         match self.breach {
@@ -218,10 +225,25 @@ pub trait Subject: Send {
         Vec::new()
     }
 
-    /// What it wrote on standard error, printable lines; the last ones.
-    fn complaints(&self) -> Vec<String> {
+    /// Ends its input, when everything was asked, and waits until it has ended: what it did wrong there. Leaks are found
+    /// at the end of a program.
+    fn finish(&mut self) -> Vec<Misbehaviour> {
         Vec::new()
     }
+
+    /// What it wrote on standard error.
+    fn complaints(&self) -> Complaints {
+        Complaints::default()
+    }
+}
+
+/// What a program wrote on standard error.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Complaints {
+    /// All its lines, those that are not shown among them.
+    pub lines: u64,
+    /// What sanitizers found, then the last lines; printable.
+    pub shown: Vec<String>,
 }
 
 /// Runs of pixels of a row with the same samples covered.

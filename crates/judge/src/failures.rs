@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::Options;
 use super::adapt_case;
-use super::ask::{Answer, Breach, Misbehaviour, Question, Subject, show};
+use super::ask::{Answer, Question, Subject, show};
 use super::check::{Check, Truth, expected_answer};
 use super::declared::Declared;
 use super::difference;
@@ -192,7 +192,8 @@ impl Asked {
     fn of(program: &mut dyn Subject, check: Check, case: &Case, truth: &Truth) -> Self {
         let mut questions = Vec::new();
         check.questions(case, truth, &mut questions);
-        let answers = program.ask(&questions, MOST_DEATHS);
+        // Of a case that the program dies of, one request is enough.
+        let answers = program.ask(&questions, 1);
         let judged = judge(check, case, &answers, questions.len(), truth);
         Self { questions, answers, judged }
     }
@@ -204,8 +205,7 @@ impl Asked {
 
     /// Whether it takes long to go wrong.
     fn is_slow(&self) -> bool {
-        let is_slow = |m: &Misbehaviour| matches!(m.breach, Breach::Hangs | Breach::Late);
-        self.judged.died.iter().any(|(_, m)| is_slow(m))
+        self.judged.died.iter().any(|(_, what)| what.is_slow())
     }
 }
 

@@ -43,7 +43,7 @@ pub mod windings;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use ask::{Answer, Question, Subject};
+use ask::{Answer, Complaints, Question, Subject};
 use check::Truth;
 use declared::Declared;
 use rasterproof_verify::judge::Terms;
@@ -167,9 +167,8 @@ pub fn judge(
     let (timed, patience) = (&mut Timed::new(first, end), asked.terms.patience);
     let causes = recognise::mistakes(timed, &checks, &truth, found_before.as_ref(), patience);
     found.strays.extend(first.strays());
-    first.end_at(None);
     let Declared { reach, side, .. } = truth.declared;
-    let complaints = first.complaints();
+    let complaints = finish(askers.iter_mut().map(|asker| &mut **asker as _), &mut found);
     let more = Particulars {
         declared,
         windings,
@@ -181,6 +180,22 @@ pub fn judge(
         ..Particulars::default()
     };
     verdict::verdict(options, more, failures, causes)
+}
+
+/// Ends all copies when nothing more is asked, and adds what they did wrong at their end. What the first of them wrote on
+/// standard error that wrote any; the copies are the same program.
+fn finish<'a>(
+    askers: impl Iterator<Item = &'a mut (dyn Subject + 'a)>,
+    found: &mut run::Found,
+) -> Complaints {
+    let mut complaints = Complaints::default();
+    for asker in askers {
+        asker.end_at(None);
+        found.strays.extend(asker.finish());
+        let said = asker.complaints();
+        complaints = if complaints.lines == 0 { said } else { complaints };
+    }
+    complaints
 }
 
 /// Somebody who is asked before the families, and what came instead of answers.

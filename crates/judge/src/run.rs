@@ -23,6 +23,8 @@ use rasterproof_verify::comparison::Tally;
 pub const MOST_DEATHS: u64 = 3;
 /// The judge stops when the program has had to be started again this often altogether.
 pub const MOST_DEATHS_IN_ALL: u64 = 30;
+/// It stops at fewer hangs and late answers, since each of these is waited for.
+pub const MOST_HANGS_IN_ALL: u64 = 10;
 /// Failing cases that are remembered for a baseline.
 pub const MOST_REMEMBERED: usize = 1 << 20;
 /// Failing cases of a property that are remembered without one, by each copy.
@@ -292,6 +294,8 @@ struct Shared<'a> {
     copies: u64,
     deaths: Vec<AtomicU64>,
     deaths_in_all: AtomicU64,
+    /// Those among them that had to be waited for.
+    hangs: AtomicU64,
     answered: AtomicU64,
 }
 
@@ -303,7 +307,7 @@ impl Shared<'_> {
             0 => 2 * MOST_DEATHS,
             _ => MOST_DEATHS_IN_ALL,
         };
-        deaths >= most
+        deaths >= most || self.hangs.load(Ordering::Relaxed) >= MOST_HANGS_IN_ALL
     }
 
     /// Whether the time of a pass is over.
@@ -351,6 +355,7 @@ pub fn run(
         start,
         copies: askers.len() as u64,
         deaths_in_all: AtomicU64::new(0),
+        hangs: AtomicU64::new(0),
         answered: AtomicU64::new(0),
     };
     let all = Mutex::new(Vec::new());
@@ -511,6 +516,8 @@ fn block(
         let died = judged.died.len() as u64;
         deaths.fetch_add(died, Ordering::Relaxed);
         shared.deaths_in_all.fetch_add(died, Ordering::Relaxed);
+        let slow = judged.died.iter().filter(|(_, what)| what.is_slow()).count();
+        shared.hangs.fetch_add(slow as u64, Ordering::Relaxed);
         shared.answered.fetch_add(judged.answered, Ordering::Relaxed);
         let asked = &questions[*first..next];
         note(found, family, *index, *check, &judged, (asked, shared.options.terms.remember));

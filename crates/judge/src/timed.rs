@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::ask::{Answer, Misbehaviour, Question, Subject};
+use super::ask::{Answer, Complaints, Misbehaviour, Question, Subject};
 use super::declared::Declared;
 
 /// A batch is to take this part of the time that is left.
@@ -68,7 +68,11 @@ impl Subject for Timed<'_> {
         self.asked.strays()
     }
 
-    fn complaints(&self) -> Vec<String> {
+    fn finish(&mut self) -> Vec<Misbehaviour> {
+        self.asked.finish()
+    }
+
+    fn complaints(&self) -> Complaints {
         self.asked.complaints()
     }
 }

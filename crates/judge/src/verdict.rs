@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::Options;
 use super::adapt_case;
+use super::ask::Complaints;
 use super::check::{Check, Counted};
 use super::declared::Declared;
 use super::failures::Failure;
@@ -58,8 +59,8 @@ pub struct Particulars {
     pub side: Option<i32>,
     /// Failing cases that the baseline knows.
     pub known: u64,
-    /// The end of what it wrote on standard error.
-    pub complaints: Vec<String>,
+    /// What it wrote on standard error.
+    pub complaints: Complaints,
     pub properties: Vec<Property>,
 }
 

@@ -2,15 +2,15 @@
 //! output, its standard error kept apart.
 //!
 //! Three threads serve the pipes, so that nothing the program does can block the judge: one writes
-//! requests, one reads answers into a queue of bounded size, one keeps the end of what it says on
+//! requests, one reads answers into a queue of bounded size, one keeps what matters of what it says on
 //! standard error. A program that breaks the protocol is ended with everything it started and
 //! started again. What was in flight is then asked one by one, so that the request that did it is
 //! known.
 
+mod complaints;
 pub mod group;
 pub mod output;
 
-use std::collections::VecDeque;
 use std::ffi::{OsStr, OsString};
 use std::io::{Read, Write};
 use std::process::{Command, ExitStatus, Stdio};
@@ -18,9 +18,10 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use complaints::StandardError;
 use group::Group;
 use rasterproof_host::limits;
-use rasterproof_judge::ask::{Answer, Breach, Misbehaviour, Question, Subject};
+use rasterproof_judge::ask::{Answer, Breach, Complaints, Misbehaviour, Question, Subject};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::text::{Words, printable};
 
@@ -45,6 +46,11 @@ const LOOK: Duration = Duration::from_millis(20);
 /// What comes without such a pause is one flood.
 const SILENCE: Duration = Duration::from_millis(100);
 
+/// Once a program has been found to hang, an answer is awaited for this part of the limit, and for so many times as long as
+/// the slowest answer took, whichever is longer: each further hang would cost the whole limit again.
+const PATIENCE_AFTER_A_HANG: f64 = 1.0 / 20.0;
+const TIMES_THE_SLOWEST: u32 = 20;
+
 /// How long an answer is awaited after the time of the judge is over, if the limit of an answer is not shorter.
 const GRACE: Duration = Duration::from_secs(1);
 
@@ -58,15 +64,21 @@ pub struct Program {
     /// Words of `--declare`, which are heard after those of the program.
     extra: Vec<String>,
     live: Option<Live>,
+    /// The first answer that did not come in time.
+    slow: Option<Misbehaviour>,
+    /// How long the slowest answer was awaited.
+    slowest: Duration,
     next_id: u64,
     /// Bytes of the answers to what was asked last.
     kept: usize,
-    complaints: Arc<Mutex<VecDeque<u8>>>,
+    complaints: Arc<Mutex<StandardError>>,
     strays: Vec<Misbehaviour>,
 }
 
 struct Live {
     group: Group,
+    /// Has an end when its standard error has one.
+    complains: Receiver<()>,
     requests: Sender<Vec<u8>>,
     pieces: Receiver<Vec<u8>>,
     /// What has been read and not yet used, from `used` on.
@@ -76,6 +88,16 @@ struct Live {
     answered: Option<(u64, Question)>,
     /// Bytes of the last answer.
     heard: usize,
+}
+
+/// How long an answer is awaited.
+#[derive(Clone, Copy)]
+struct Waiting {
+    answer: Duration,
+    /// As much time again tells an answer that is late from none at all.
+    is_doubled: bool,
+    /// Nothing is waited for after this: where it ends the waiting, and not the limit of an answer, that is no fault.
+    last: Option<Instant>,
 }
 
 /// Why some questions have no answer.
@@ -110,6 +132,8 @@ impl Program {
             declared: Declared::default(),
             extra: extra.to_vec(),
             live: None,
+            slow: None,
+            slowest: Duration::ZERO,
             next_id: 1,
             kept: 0,
             complaints: Arc::default(),
@@ -121,12 +145,7 @@ impl Program {
 
     /// What a program did instead of answering, with the end of what it wrote on standard error.
     fn with_last_words(&self, mut what: Misbehaviour) -> Misbehaviour {
-        // It has ended, but its last words may still be in the pipe.
-        let end = Instant::now() + 10 * LOOK;
-        while self.complaints().is_empty() && Instant::now() < end {
-            std::thread::sleep(LOOK);
-        }
-        if let Some(last) = self.complaints().pop() {
+        if let Some(last) = self.complaints().shown.pop() {
             what.how = format!("{}; the last line of its standard error: {last}", what.how);
         }
         what
@@ -157,6 +176,32 @@ impl Program {
         Limits { answer: self.limits.answer.min(left), start: self.limits.start.min(left) }
     }
 
+    /// How long an answer is awaited, with so many requests in flight.
+    fn waiting(&self, in_flight: usize) -> Waiting {
+        let most = self.limits.answer;
+        let short = most.mul_f64(PATIENCE_AFTER_A_HANG).max(TIMES_THE_SLOWEST * self.slowest);
+        Waiting {
+            answer: if self.slow.is_some() { short.min(most) } else { most },
+            // What is in flight with others is asked alone afterwards.
+            is_doubled: self.slow.is_none() && in_flight == 1,
+            last: self.last(),
+        }
+    }
+
+    /// Says of a hang after the first one why no longer was waited, and remembers the first one.
+    fn note_slow(&mut self, what: Misbehaviour) -> Misbehaviour {
+        match (&self.slow, what.breach) {
+            (Some(first), Breach::Hangs) => {
+                first.breach.by(format!("{} (the first time: {})", what.how, first.how))
+            }
+            (None, Breach::Hangs | Breach::Late) => {
+                self.slow = Some(what.clone());
+                what
+            }
+            _ => what,
+        }
+    }
+
     /// Asks with at most `batch` requests in flight, until all are answered or something breaks.
     fn exchange(
         &mut self,
@@ -172,14 +217,13 @@ impl Program {
             let is_over = self.is_over();
             started.map_err(|m| if is_over { Broken::Over } else { Broken::Misbehaves(m, 1) })?;
         }
-        let (last, limits_left) = (self.last(), self.limits_left());
-        let is_over = || self.end.is_some_and(|end| Instant::now() >= end);
-        let Some(live) = &mut self.live else { return Ok(()) };
+        let limits_left = self.limits_left();
+        let is_over = |end: Option<Instant>| end.is_some_and(|end| Instant::now() >= end);
         let first_id = self.next_id;
         let (mut sent, mut answered) = (0, 0);
         while answered < questions.len() {
             // Filled up when half is answered, so that requests travel in blocks.
-            if sent < questions.len() && sent - answered <= batch / 2 && !is_over() {
+            if sent < questions.len() && sent - answered <= batch / 2 && !is_over(self.end) {
                 let mut block = Vec::new();
                 let end = questions.len().min(answered + batch);
                 for (question, id) in questions[sent..end].iter().zip(self.next_id..) {
@@ -188,20 +232,23 @@ impl Program {
                 self.next_id += (end - sent) as u64;
                 sent = end;
                 // Where the pipe is closed, reading tells why.
-                let _ = live.requests.send(block);
+                let _ = self.live.as_ref().map(|live| live.requests.send(block));
             }
             if sent == answered {
                 return Err(Broken::Over);
             }
             let id = first_id + answered as u64;
+            let (waiting, start) = (self.waiting(sent - answered), Instant::now());
+            let Some(live) = &mut self.live else { return Ok(()) };
             let answer = live
-                .answer(&questions[answered], id, first_id..self.next_id, self.limits, last)
+                .answer(&questions[answered], id, first_id..self.next_id, waiting)
                 .map_err(|what| match what {
                     Some(what) => {
                         Broken::Misbehaves(live.or_flood(what, limits_left), sent - answered)
                     }
                     None => Broken::Over,
                 })?;
+            self.slowest = self.slowest.max(start.elapsed());
             self.kept += live.heard;
             if self.kept > limits::PROGRAM_BLOCK_BYTES {
                 let said = format!("{} bytes of answers to a block of requests", self.kept);
@@ -230,7 +277,7 @@ impl Subject for Program {
             let Broken::Misbehaves(misbehaviour, in_flight) = broken else { break };
             deaths += 1;
             if in_flight == 1 {
-                answers.push(Answer::Died(misbehaviour));
+                answers.push(Answer::Died(self.note_slow(misbehaviour)));
                 continue;
             }
             // One of these did it: each alone, in a program that has just been started.
@@ -241,7 +288,7 @@ impl Subject for Program {
                 let Err(broken) = self.exchange(one, 1, &mut answers) else { continue };
                 self.live = None;
                 let Broken::Misbehaves(misbehaviour, _) = broken else { break };
-                answers.push(Answer::Died(misbehaviour));
+                answers.push(Answer::Died(self.note_slow(misbehaviour)));
                 found = true;
             }
             if !found {
@@ -259,19 +306,25 @@ impl Subject for Program {
         std::mem::take(&mut self.strays)
     }
 
-    fn complaints(&self) -> Vec<String> {
-        let tail = self.complaints.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let bytes: Vec<u8> = tail.iter().copied().collect();
-        let lines: Vec<_> = bytes.split(|b| *b == b'\n').filter(|l| !l.is_empty()).collect();
-        let last = lines.len().saturating_sub(8);
-        lines[last..].iter().map(|line| printable(line.trim_ascii_end(), 90)).collect()
+    fn finish(&mut self) -> Vec<Misbehaviour> {
+        let Some(mut live) = self.live.take() else { return Vec::new() };
+        // One that goes on after the end of its input is ended, and that is no fault of its answers.
+        let status = live.end(self.limits.answer);
+        let failed = status.filter(|status| !status.success());
+        let how = failed.map(|status| ending(Some(status)).how);
+        how.map(|how| Breach::FailsAtEnd.by(how)).into_iter().collect()
+    }
+
+    fn complaints(&self) -> Complaints {
+        let said = self.complaints.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        said.complaints()
     }
 }
 
 impl Live {
     fn start(
         command: &[OsString],
-        complaints: &Arc<Mutex<VecDeque<u8>>>,
+        complaints: &Arc<Mutex<StandardError>>,
     ) -> Result<Self, Misbehaviour> {
         let Some((name, arguments)) = command.split_first() else {
             return Err(Breach::CannotStart.by("no program is named"));
@@ -304,8 +357,19 @@ impl Live {
                 }
             }
         })?;
-        keep_complaints(stderr, Arc::clone(complaints))?;
-        Ok(Self { group, requests, pieces, pending: Vec::new(), used: 0, answered: None, heard: 0 })
+        let complains = keep_complaints(stderr, Arc::clone(complaints))?;
+        let pending = Vec::new();
+        Ok(Self { group, complains, requests, pieces, pending, used: 0, answered: None, heard: 0 })
+    }
+
+    /// Closes the program's input, which ends a well-behaved one, and ends what is left after `patience`. What it ended
+    /// with, or nothing where it had to be ended. Then all that it said on standard error is heard.
+    fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
+        self.requests = mpsc::channel().0;
+        let status = self.group.end(patience);
+        // A stray that it has started may hold it open.
+        let _ = self.complains.recv_timeout(10 * LOOK);
+        status
     }
 
     /// Says HELLO 2, and HELLO 1 to a program that refuses it; what comes before is skipped.
@@ -354,29 +418,29 @@ impl Live {
         }
     }
 
-    /// The answer of one request; `asked` are the ids of this exchange. Nothing is waited for after `last`: where
-    /// that ends the waiting, and not the limit of the program, the error is nothing.
+    /// The answer of one request; `asked` are the ids of this exchange. Where the end of all waiting is what ends it, the
+    /// error is nothing.
     fn answer(
         &mut self,
         question: &Question,
         id: u64,
         asked: std::ops::Range<u64>,
-        limits: Limits,
-        last: Option<Instant>,
+        waiting: Waiting,
     ) -> Result<Answer, Option<Misbehaviour>> {
         let start = Instant::now();
-        let limit = limits.answer.as_secs_f64();
-        let until = |time: Instant| last.map_or(time, |last| time.min(last));
-        let line = match self.line(until(start + limits.answer)) {
-            Err(NoLine::TimeOut) if start.elapsed() < limits.answer => return Err(None),
-            // As much time again tells an answer that is late from none at all.
-            Err(NoLine::TimeOut) => match self.line(until(start + 2 * limits.answer)) {
-                Ok(_) => {
-                    let took = start.elapsed().as_secs_f64();
-                    Err(Breach::Late.by(format!("after {took:.1} s, allowed are {limit} s")))
+        let limit = waiting.answer.as_secs_f64();
+        let until = |time: Instant| waiting.last.map_or(time, |last| time.min(last));
+        let line = match self.line(until(start + waiting.answer)) {
+            Err(NoLine::TimeOut) if start.elapsed() < waiting.answer => return Err(None),
+            Err(NoLine::TimeOut) if waiting.is_doubled => {
+                match self.line(until(start + 2 * waiting.answer)) {
+                    Ok(_) => {
+                        let took = start.elapsed().as_secs_f64();
+                        Err(Breach::Late.by(format!("after {took:.1} s, allowed are {limit} s")))
+                    }
+                    Err(why) => Err(self.why(why, limit)),
                 }
-                Err(why) => Err(self.why(why, limit)),
-            },
+            }
             other => other.map_err(|why| self.why(why, limit)),
         }?;
         self.heard = line.len();
@@ -479,10 +543,8 @@ impl Live {
 }
 
 impl Drop for Live {
-    /// Closes the program's input, which ends a well-behaved one, then ends what is left.
     fn drop(&mut self) {
-        self.requests = mpsc::channel().0;
-        self.group.end(LOOK);
+        self.end(LOOK);
     }
 }
 
@@ -526,17 +588,19 @@ fn serve(work: impl FnOnce() + Send + 'static) -> Result<(), Misbehaviour> {
     std::thread::Builder::new().spawn(work).map(drop).map_err(refused)
 }
 
+/// Hears what comes on standard error; what is returned has an end when that has.
 fn keep_complaints(
     mut stderr: impl Read + Send + 'static,
-    kept: Arc<Mutex<VecDeque<u8>>>,
-) -> Result<(), Misbehaviour> {
+    kept: Arc<Mutex<StandardError>>,
+) -> Result<Receiver<()>, Misbehaviour> {
+    let (open, complains) = mpsc::channel();
+    kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner).begin();
     serve(move || {
         let mut piece = [0; 4096];
         while let Ok(n @ 1..) = stderr.read(&mut piece) {
-            let mut kept = kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            kept.extend(&piece[..n]);
-            let over = kept.len().saturating_sub(limits::PROGRAM_COMPLAINT_BYTES);
-            kept.drain(..over);
+            kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner).hear(&piece[..n]);
         }
-    })
+        drop(open);
+    })?;
+    Ok(complains)
 }

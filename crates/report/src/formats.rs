@@ -112,8 +112,8 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
             "    {case}><failure type=\"{kind}\" message=\"{about}\">{text}</failure></testcase>"
         );
     }
-    if !verdict.more.complaints.is_empty() {
-        let text = xml(&verdict.more.complaints.join("\n"));
+    if !verdict.more.complaints.shown.is_empty() {
+        let text = xml(&verdict.more.complaints.shown.join("\n"));
         let _ = writeln!(out, "    <system-err>{text}</system-err>");
     }
     out + "  </testsuite>\n</testsuites>\n"

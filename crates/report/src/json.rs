@@ -88,7 +88,7 @@ pub fn judgement(
         "properties": verdict.more.properties, "rows": verdict.families, "failures": failures.collect::<Vec<_>>(),
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.more.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "causes": verdict.cause, "line_reach": verdict.more.reach, "triangle_side": verdict.more.side, "stderr": verdict.more.complaints, "repeat": repeat_all,
+        "causes": verdict.cause, "line_reach": verdict.more.reach, "triangle_side": verdict.more.side, "stderr": verdict.more.complaints.shown, "stderr_lines": verdict.more.complaints.lines, "repeat": repeat_all,
     });
     if let Some(second) = &verdict.more.against {
         all["against"] = json!({

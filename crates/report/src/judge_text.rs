@@ -3,16 +3,20 @@
 use super::html::{Chapter, Excerpt, Outcome, Report};
 use super::json;
 use super::table::{Row, Table};
+use super::text::SCREEN;
 use super::words::{of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
+use rasterproof_judge::ask::{Breach, Complaints};
 use rasterproof_judge::check::{Check, Counted};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::polygons;
 use rasterproof_judge::recognise::Why;
-use rasterproof_judge::run::{Found, MOST_DEATHS, MOST_DEATHS_IN_ALL, Row as FamilyRow, Sides};
+use rasterproof_judge::run::{
+    Found, MOST_DEATHS, MOST_DEATHS_IN_ALL, MOST_HANGS_IN_ALL, Row as FamilyRow, Sides,
+};
 use rasterproof_judge::verdict::{self, Count, Score, Scores as _, Verdict, per_million};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::judge::ascii;
@@ -113,7 +117,7 @@ fn outcome(verdict: &Verdict, names: Option<&[String; 2]>) -> Outcome {
     Outcome { answer, ..Outcome::of(good, closing(verdict)) }
 }
 
-/// The first mistake that is known, or what the convention is, after a colon.
+/// The first mistake that is known, or what the convention is, or how it broke the protocol first, after a colon.
 fn why_in_short(verdict: &Verdict) -> String {
     if verdict.failures.iter().any(|failure| failure.evidence.changes) {
         return ": its answers change from one time to the next".to_owned();
@@ -123,7 +127,11 @@ fn why_in_short(verdict: &Verdict) -> String {
     match (mistake, convention) {
         (Some(mistake), _) => format!(": it {}", mistake.does),
         (None, Some(found)) => format!(". {}", found.sentences.join(" ")),
-        (None, None) => String::new(),
+        (None, None) => {
+            let incidents = verdict.more.found.incidents.iter().map(|incident| &incident.what);
+            let first = incidents.chain(&verdict.more.found.strays).next();
+            first.map(|what| format!(": it {}", what.breach.name())).unwrap_or_default()
+        }
     }
 }
 
@@ -175,14 +183,22 @@ fn speaks(name: &str, declared: &Declared) -> String {
     }
 }
 
-/// The end of what it said on standard error.
+/// What it said on standard error, also if it is right: how much, what sanitizers found, and the last lines.
 fn complaints(verdict: &Verdict) -> Option<Excerpt> {
-    let lines = verdict.more.complaints.iter().map(|line| format!("  | {line}"));
-    (!verdict.more.complaints.is_empty()).then(|| Excerpt {
-        title: "the end of its standard error:".to_owned(),
-        grid: lines.collect::<Vec<_>>().join("\n"),
-        ..Excerpt::default()
-    })
+    let Complaints { lines, shown } = &verdict.more.complaints;
+    let title = match shown.len() as u64 {
+        all if all == *lines => "its standard error:".to_owned(),
+        some => format!("its standard error, {some} of {} lines:", thousands(*lines)),
+    };
+    let mut grid = String::new();
+    for line in shown {
+        let parts = match ascii::columns(line) <= SCREEN - 4 {
+            true => vec![line.clone()],
+            false => ascii::lines(line, SCREEN - 6, ascii::columns),
+        };
+        grid += &format!("  | {}\n", parts.join("\n  |   "));
+    }
+    (!shown.is_empty()).then(|| Excerpt { title, grid, ..Excerpt::default() })
 }
 
 /// A row for how it keeps the protocol, for its winding, for each danger and for each other check.
@@ -324,7 +340,8 @@ fn families(verdict: &Verdict) -> Table {
     }
     if verdict.more.found.gave_up {
         notes.push(format!(
-            "given up for good: {MOST_DEATHS_IN_ALL} times without an answer, or no answer at all"
+            "given up for good: {MOST_DEATHS_IN_ALL} times without an answer, {MOST_HANGS_IN_ALL} answers that were \
+             waited for, or no answer at all"
         ));
     }
     Table::new("", columns, by_share(verdict).into_iter().map(row).collect()).noted(notes)
@@ -371,12 +388,13 @@ fn incidents(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<Exc
             ..Excerpt::default()
         });
     }
-    let flight = "with several requests in flight it";
-    let strays = verdict.more.found.strays.iter();
-    out.extend(strays.map(|stray| Excerpt {
-        title: format!("{flight} {stray}; each alone was answered"),
-        ..Excerpt::default()
-    }));
+    for stray in &verdict.more.found.strays {
+        let title = match stray.breach {
+            Breach::FailsAtEnd => format!("it {stray}"),
+            _ => format!("with several requests in flight it {stray}; each alone was answered"),
+        };
+        out.push(Excerpt { title, ..Excerpt::default() });
+    }
     out
 }
 

@@ -199,7 +199,7 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
 
 /// A note of the last line of a program's standard error, if it wrote any.
 pub fn complaint(program: &dyn Subject) -> Option<String> {
-    program.complaints().pop().map(|last| format!("its standard error ends: {last}"))
+    program.complaints().shown.pop().map(|last| format!("its standard error ends: {last}"))
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::outcome::Requirement;
 use super::requirements;
 use super::specified::Specified;
 use crate::device::find::About;
-use rasterproof_judge::ask::{Answer, Question, Subject};
+use rasterproof_judge::ask::{Answer, Complaints, Question, Subject};
 use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, mistakes, recognise};
@@ -60,7 +60,7 @@ impl Subject for Shared {
         lock(&self.0).ask(questions, most_deaths)
     }
 
-    fn complaints(&self) -> Vec<String> {
+    fn complaints(&self) -> Complaints {
         lock(&self.0).complaints()
     }
 }

@@ -19,7 +19,7 @@ use crate::device::open::Opened;
 use rasterproof_core::geometry::centre_of;
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_judge::ask::runs_of;
-use rasterproof_judge::ask::{Answer, Asked, Breach, Question, Subject};
+use rasterproof_judge::ask::{Answer, Asked, Breach, Complaints, Question, Subject};
 use rasterproof_judge::declared::{Declared, MOST_IN_FLIGHT};
 use rasterproof_verify::comparison::Convention;
 
@@ -279,7 +279,7 @@ impl Subject for Gpu {
         answers.into_iter().map_while(|answer| answer).collect()
     }
 
-    fn complaints(&self) -> Vec<String> {
-        self.complaints.clone()
+    fn complaints(&self) -> Complaints {
+        Complaints { lines: self.complaints.len() as u64, shown: self.complaints.clone() }
     }
 }
