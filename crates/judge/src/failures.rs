@@ -11,7 +11,7 @@ use super::declared::Declared;
 use super::difference;
 use super::judged::Judged;
 use super::pictured::{Pictured, pictured};
-use super::run::{Changing, Failing, Found, MOST_DEATHS, Row};
+use super::run::{Changing, Failing, Found, Row};
 use super::shrink::smaller;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SUBPIXELS;

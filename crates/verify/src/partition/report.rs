@@ -4,7 +4,6 @@ use std::cell::RefCell;
 use std::error::Error;
 use std::fmt;
 use std::slice;
-use std::time::Instant;
 
 use super::cause::{self, Made};
 use super::families::is_as_generated;
