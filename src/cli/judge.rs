@@ -14,7 +14,7 @@ use super::{InputError, Status, Streams, exit, league, usage};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::Subject;
 use rasterproof_judge::baseline::Baseline;
-use rasterproof_judge::declared::check_words;
+use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::cases_of;
 use rasterproof_judge::verdict::{Scores as _, Verdict};
@@ -183,9 +183,10 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
         return league::run(names, &options, limits, &arguments.page.place, streams);
     }
     arguments.page.refuse_idle_folder(typed)?;
-    let declared = arguments.words();
-    check_words(declared.iter().map(String::as_str))
-        .map_err(|why| usage(format!("--declare: {why}")))?;
+    for words in &arguments.declare {
+        let understood = Declared::default().declare(words);
+        understood.map_err(|why| usage(format!("--declare: {why}")))?;
+    }
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
     let junit = arguments.junit.as_deref().map(|path| ("--junit", path, Use::Writes(Over::Any)));

@@ -485,7 +485,7 @@ fn judge_prints_a_verdict() {
 fn judge_refuses_what_it_does_not_understand() {
     let words = of(&["--declare", "mask rule=topleft"], &["scanline"]);
     check(&words, 2)
-        .says("--declare: the word rule=topleft is not understood; is rule=top-left meant?");
+        .says("--declare: 'rule=topleft' is not understood; did you mean 'rule=top-left'?");
     let program = Box::new(misbehaving("dances", limits(20_000)).unwrap());
     let verdict = judged(program, &options(8, &["half-integer"]));
     assert!(verdict.agrees());
