@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex};
 use libtest_mimic::{Arguments, Failed, Trial};
 #[path = "common/next.rs"]
 mod next;
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_report::summary::chapter;
 use rasterproof_report::{differential, text};
 use rasterproof_verify::cases;
@@ -121,7 +121,7 @@ fn judge(
     reports: &Mutex<Vec<FamilyReport>>,
     chapters: &Mutex<BTreeSet<&'static str>>,
 ) -> Result<(), Failed> {
-    let verdict = Judged::all().judge(&options(family), &|_| ());
+    let verdict = EnginesToJudge::all().judge(&options(family), &|_| ());
     let report = verdict.families.first().ok_or("the family was not judged")?.clone();
     reports.lock().map_err(|_| "another trial failed")?.push(report.clone());
     if report.cases != CASES {

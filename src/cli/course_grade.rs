@@ -17,7 +17,7 @@ use super::{Status, Streams, exit, usage};
 use rasterproof_judge::text::printable;
 use rasterproof_program::{group, output};
 use rasterproof_teaching::course::STEPS;
-use rasterproof_teaching::course::grade::{self, Found, Grade, Submission, Terms};
+use rasterproof_teaching::course::grade::{self, FoundSubmission, Grade, Submission, Terms};
 use rasterproof_teaching::course::sandbox::Bounds;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -228,7 +228,7 @@ fn apart(submission: &Submission, arguments: &GradeArguments, mark: &str) -> Res
 /// The judge of one submission: its grade as JSON, for the process that started it.
 fn judge_row(
     row: &OsStr,
-    submissions: Vec<Found>,
+    submissions: Vec<FoundSubmission>,
     arguments: &GradeArguments,
     streams: &mut Streams<'_>,
 ) -> Status {

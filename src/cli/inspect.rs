@@ -6,7 +6,8 @@ use clap::builder::PossibleValuesParser;
 
 use super::files::{self, Output, written};
 use super::inspect_case::{
-    CaseArguments, Found, all_around, face_of_file, find, off_lattice, parse_pixel, recorded, words,
+    CaseArguments, InspectedCase, all_around, face_of_file, find, off_lattice, parse_pixel,
+    recorded, words,
 };
 use super::page::{PageArguments, Shown, as_file, print, show};
 use super::typed::Typed;
@@ -17,7 +18,7 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 use rasterproof_faults::published::bare;
 use rasterproof_faults::published::catalogue::RECORDED_SIDE_PX;
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{SPECIMENS, Specimen};
 use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Excerpt, Outcome, Report};
@@ -122,8 +123,8 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         }
     };
     let (title, mut case, expected, typed) = match found {
-        Found::Case { title, case, expected, typed } => (title, case, expected, typed),
-        Found::Refused { title, corners } => {
+        InspectedCase::Case { title, case, expected, typed } => (title, case, expected, typed),
+        InspectedCase::Refused { title, corners } => {
             let (is_right, report) = refused(title, &corners);
             return print(report, exit::of(is_right), streams);
         }
@@ -251,7 +252,7 @@ fn device(
     Ok(Some(finding(tally.total() == 0, format!("{engine} against oracle: {said}"))))
 }
 
-fn findings(case: &Case, judged: &Judged) -> Vec<Row> {
+fn findings(case: &Case, judged: &EnginesToJudge) -> Vec<Row> {
     let row = |([actual, target], of): ([String; 2], Finding)| {
         let values = match of.values {
             0 => String::new(),

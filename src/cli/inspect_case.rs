@@ -36,7 +36,7 @@ pub(super) struct CaseArguments {
     pub seed: u64,
 }
 
-pub(super) enum Found {
+pub(super) enum InspectedCase {
     /// `typed` are the corners of a case on the lattice as they were typed, if they were.
     Case {
         title: String,
@@ -50,11 +50,11 @@ pub(super) enum Found {
     },
 }
 
-fn plain(title: String, case: Case) -> Found {
-    Found::Case { title, case, expected: None, typed: Vec::new() }
+fn plain(title: String, case: Case) -> InspectedCase {
+    InspectedCase::Case { title, case, expected: None, typed: Vec::new() }
 }
 
-pub(super) fn find(arguments: &CaseArguments) -> Result<Found, InputError> {
+pub(super) fn find(arguments: &CaseArguments) -> Result<InspectedCase, InputError> {
     let words = words(arguments);
     let found = match words.as_slice() {
         _ if arguments.line => lines(&words)?,
@@ -70,18 +70,18 @@ pub(super) fn find(arguments: &CaseArguments) -> Result<Found, InputError> {
 }
 
 /// The same corners, for those who do not snap.
-pub(super) fn off_lattice(found: Found) -> Result<Found, InputError> {
+pub(super) fn off_lattice(found: InspectedCase) -> Result<InspectedCase, InputError> {
     match found {
-        Found::Case { title, case, expected, typed } => match case.shape {
+        InspectedCase::Case { title, case, expected, typed } => match case.shape {
             Shape::Triangles { list, .. } => {
                 let snapped = || list.iter().map(|t| FreeCorners::from(t.corners())).collect();
                 let triangles = if typed.is_empty() { snapped() } else { typed };
                 Ok(plain(title, Case::unsnapped(case.window, triangles)))
             }
             Shape::Lines(_) => Err(usage("lines join whole pixels: leave out --exact")),
-            Shape::Unsnapped { .. } => Ok(Found::Case { title, case, expected, typed }),
+            Shape::Unsnapped { .. } => Ok(InspectedCase::Case { title, case, expected, typed }),
         },
-        found @ Found::Refused { .. } => Ok(found),
+        found @ InspectedCase::Refused { .. } => Ok(found),
     }
 }
 
@@ -100,7 +100,7 @@ pub(super) fn words(arguments: &CaseArguments) -> Vec<String> {
     points.map(str::to_owned).collect()
 }
 
-fn lines(words: &[String]) -> Result<Found, InputError> {
+fn lines(words: &[String]) -> Result<InspectedCase, InputError> {
     let (pairs, rest) = words.as_chunks::<2>();
     if !rest.is_empty() {
         return Err(usage(
@@ -128,7 +128,7 @@ pub(super) fn triangles(
     words: &[String],
     exact: bool,
     screen: Option<PixelRect>,
-) -> Result<Found, InputError> {
+) -> Result<InspectedCase, InputError> {
     let (triples, rest) = words.as_chunks::<3>();
     if !rest.is_empty() {
         return Err(usage(
@@ -155,7 +155,7 @@ pub(super) fn triangles(
     let window = window_of(&list, screen);
     let disjoint = list.len() == 1;
     let case = Case { window, shape: Shape::Triangles { list, disjoint } };
-    Ok(Found::Case { title, case, expected: None, typed })
+    Ok(InspectedCase::Case { title, case, expected: None, typed })
 }
 
 /// The corners on the lattice, with the values that were typed with them, or simple ones.
@@ -186,7 +186,7 @@ fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, Inpu
 }
 
 /// A case of this name, a recorded input, or a case of a family by its number.
-fn called(word: &str, arguments: &CaseArguments) -> Result<Found, InputError> {
+fn called(word: &str, arguments: &CaseArguments) -> Result<InspectedCase, InputError> {
     if let Some((family, number)) = word.split_once('#') {
         let index = number.parse::<u64>().map_err(|_| {
             usage(format!(
@@ -214,14 +214,14 @@ fn called(word: &str, arguments: &CaseArguments) -> Result<Found, InputError> {
     let title = format!("{}: {}", named.name, named.about);
     Ok(match named.input {
         Input::Drawn { case, pixels } => {
-            Found::Case { title, case, expected: Some(pixels), typed: Vec::new() }
+            InspectedCase::Case { title, case, expected: Some(pixels), typed: Vec::new() }
         }
-        Input::Refused(corners) => Found::Refused { title, corners },
+        Input::Refused(corners) => InspectedCase::Refused { title, corners },
     })
 }
 
 /// A recorded input off the lattice, in the part of its screen that it or its specimen touches.
-fn recorded_case(case: &RecordedCase) -> Found {
+fn recorded_case(case: &RecordedCase) -> InspectedCase {
     let title =
         format!("{}: recorded of the book's own code, shown by {}", case.name, case.specimen);
     let corners = case.corners_px();
@@ -240,7 +240,7 @@ fn recorded_case(case: &RecordedCase) -> Found {
     let window = PixelRect { x0, y0, x1, y1 };
     match triangles {
         Ok(triangles) => plain(title, Case::unsnapped(window, triangles)),
-        Err(_) => Found::Refused { title, corners },
+        Err(_) => InspectedCase::Refused { title, corners },
     }
 }
 

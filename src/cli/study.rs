@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use rasterproof_host::text::{printable, printable_path};
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
 use rasterproof_study::cost::{self, Effort, Group};
@@ -16,7 +16,7 @@ use rasterproof_study::report::studied::Studied;
 use rasterproof_study::report::{self as report, costs, engines, json};
 
 use super::files;
-use super::inspect_case::{self, Found};
+use super::inspect_case::{self, InspectedCase};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
@@ -143,7 +143,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         Err(path) => ["cost", "verify", "plan"]
             .map(|name| typed.as_command(name, path, &VIEW_OPTIONS).line()),
     };
-    let found = report::Found {
+    let found = report::StudyFindings {
         hard: &studied.hard,
         needs: &needs,
         costs: &groups,
@@ -191,7 +191,7 @@ pub(super) fn refuse_view(typed: &Typed) -> Result<(), InputError> {
 /// `verify FILE`: the hard cases of a model, and every engine on its triangles against the oracle.
 pub(super) fn verify(
     path: &Path,
-    (view, judged, is_json): (&ViewArguments, &Judged, bool),
+    (view, judged, is_json): (&ViewArguments, &EnginesToJudge, bool),
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
@@ -211,7 +211,7 @@ pub(super) fn face(
     view: &ViewArguments,
     (typed, is_exact): (&Typed, bool),
     streams: &mut Streams<'_>,
-) -> Result<(Vec<String>, Option<Found>), InputError> {
+) -> Result<(Vec<String>, Option<InspectedCase>), InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
     let studied = studied(&maker, maker.scene.clone(), view)?;
@@ -240,7 +240,9 @@ pub(super) fn face(
     }
     let title = format!("{shown}#{}", printable(word));
     let found = match inspect_case::triangles(&corners, is_exact, Some(studied.sampled.size))? {
-        Found::Case { case, expected, typed, .. } => Found::Case { title, case, expected, typed },
+        InspectedCase::Case { case, expected, typed, .. } => {
+            InspectedCase::Case { title, case, expected, typed }
+        }
         found => found,
     };
     Ok((about, Some(found)))

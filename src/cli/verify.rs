@@ -12,7 +12,7 @@ use super::progress::Progress;
 use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, invariant, program, study, usage, write_picture};
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::table::{Row, Table};
@@ -157,7 +157,7 @@ impl VerifyArguments {
     }
 
     /// Who is judged: everybody, a selection, or a planted fault alone.
-    fn judged(&self) -> Judged {
+    fn judged(&self) -> EnginesToJudge {
         let mut all = case_view::judged(self.plant.as_deref());
         if self.engine.is_empty() {
             return all;
@@ -221,7 +221,7 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     super::vulkan::verify(engine, (asked, arguments.cases), shown, streams)
 }
 
-fn judge(judged: &Judged, options: &Options, on_terminal: bool) -> Verdict {
+fn judge(judged: &EnginesToJudge, options: &Options, on_terminal: bool) -> Verdict {
     let kinds = [judged.triangles.len(), judged.lines.len(), judged.unsnapped.len()];
     let families = Kind::ALL.iter().zip(kinds).filter(|(_, engines)| *engines > 0);
     let families = families.flat_map(|((_, families), _)| *families).filter(|f| {
@@ -236,7 +236,7 @@ fn judge(judged: &Judged, options: &Options, on_terminal: bool) -> Verdict {
 struct Run<'a> {
     arguments: &'a VerifyArguments,
     typed: &'a Typed,
-    judged: Judged,
+    judged: EnginesToJudge,
     verdict: Verdict,
 }
 

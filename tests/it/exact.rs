@@ -10,7 +10,7 @@ use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::FreeCorners;
 use rasterproof_faults::planted::exact::ExactMutant;
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::ExactEngine;
 use rasterproof_verify::cases::unsnapped::FAMILIES;
 use rasterproof_verify::cases::{Case, Shape};
@@ -27,7 +27,7 @@ fn drawn(engine: ExactEngine, case: &Case) -> Coverage {
 }
 
 fn judge_case(engine: ExactEngine, case: &Case) -> Finding {
-    Judged::from(engine).judge_case(case).swap_remove(0).1
+    EnginesToJudge::from(engine).judge_case(case).swap_remove(0).1
 }
 
 fn options(seed: u64, cases: u64) -> Options {
@@ -65,7 +65,8 @@ fn pixels_and_most(engine: ExactEngine, whole: &Case) -> (Vec<u64>, u8) {
 #[test]
 fn families_agree_and_reach_both_paths() {
     for seed in [1, 2] {
-        let judged = Judged { unsnapped: ExactEngine::JUDGED.to_vec(), ..Judged::default() };
+        let judged =
+            EnginesToJudge { unsnapped: ExactEngine::JUDGED.to_vec(), ..EnginesToJudge::default() };
         let verdict = judged.judge(&options(seed, 400), &|_| ());
         assert_eq!(verdict.families.len(), FAMILIES.len());
         for f in &verdict.families {
@@ -150,7 +151,7 @@ fn mutants_die() {
     };
     for mutant in ExactMutant::ALL {
         let engine = ExactEngine::Mutant(mutant);
-        let verdict = Judged::from(engine).judge(&options(1, 400), &|_| ());
+        let verdict = EnginesToJudge::from(engine).judge(&options(1, 400), &|_| ());
         let killers: BTreeSet<_> = verdict
             .families
             .iter()

@@ -27,7 +27,7 @@ use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::convention::{
-    Convention, Known, LineConvention, LineQuestion, Quantum, Rounding, Shape, Ties,
+    Convention, Declarations, LineConvention, LineQuestion, Quantum, Rounding, Shape, Ties,
     TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
 use rasterproof_verify::mistakes::{self, Explanation, Mistakes, values};
@@ -1583,7 +1583,7 @@ const STROKES: &[(&str, Stroke)] = &[
 ];
 
 fn of_fill(fill: impl Fn(Corners, PixelRect, &mut Coverage)) -> Option<Mistakes> {
-    of_fill_in(Known::default().window_px, fill)
+    of_fill_in(Declarations::default().window_px, fill)
 }
 
 /// The same of a program with windows of at most this size.
@@ -1599,7 +1599,7 @@ fn of_fill_in(
         };
         questions.iter().map(draw).collect()
     };
-    let known = Known { window_px, ..Known::default() };
+    let known = Declarations { window_px, ..Declarations::default() };
     let found = diagnose(&mut ask, &known, 1);
     mistakes::of_triangles(&mut ask, &known, Some(&found), &[], &|| true)
 }
@@ -1620,7 +1620,7 @@ fn of_stroke(
         questions.iter().map(draw).collect()
     };
     let found = diagnose_lines(&mut ask, 32, true, 1);
-    mistakes::of_lines(&mut ask, &Known::default(), Some(&found), &[], &|| true)
+    mistakes::of_lines(&mut ask, &Declarations::default(), Some(&found), &[], &|| true)
 }
 
 /// What is said of each program, by its number, with the mistake that it has: all must have its name.

@@ -4,7 +4,7 @@ use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_report::text::{self, WIDTH};
 use rasterproof_report::{differential, json};
@@ -21,7 +21,7 @@ fn options() -> Options {
 #[test]
 fn every_planted_rasterizer_fault_is_reported() {
     for mutant in TriangleMutant::ALL {
-        let engines = Judged::from(Engine::Mutant(mutant));
+        let engines = EnginesToJudge::from(Engine::Mutant(mutant));
         // Most faults show in the first cases.
         let few = engines.judge(&options().cases(10), &|_| ());
         let verdict = if few.agrees() { engines.judge(&options(), &|_| ()) } else { few };
@@ -34,7 +34,7 @@ fn every_planted_rasterizer_fault_is_reported() {
 #[test]
 fn every_planted_line_fault_is_reported() {
     for mutant in LineMutant::ALL {
-        let verdict = Judged::from(LineEngine::Mutant(mutant)).judge(&options(), &|_| ());
+        let verdict = EnginesToJudge::from(LineEngine::Mutant(mutant)).judge(&options(), &|_| ());
         assert!(!verdict.agrees(), "{} survives", mutant.name());
         assert!(!verdict.failures.is_empty());
     }
@@ -102,7 +102,7 @@ fn counts_equal_a_recount() {
     const CASES: u64 = 8;
     let options = Options::default().cases(CASES);
     for mutant in TriangleMutant::ALL {
-        let engines = Judged::from(Engine::Mutant(mutant));
+        let engines = EnginesToJudge::from(Engine::Mutant(mutant));
         let verdict = engines.judge(&options, &|_| ());
         let mut sums = [0; 3];
         for case in FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
@@ -125,7 +125,7 @@ fn counts_equal_a_recount() {
         same_everywhere(mutant.name(), &verdict, sums);
     }
     for mutant in LineMutant::ALL {
-        let verdict = Judged::from(LineEngine::Mutant(mutant)).judge(&options, &|_| ());
+        let verdict = EnginesToJudge::from(LineEngine::Mutant(mutant)).judge(&options, &|_| ());
         let mut sums = [0; 3];
         for case in lines::FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
             let Shape::Lines(list) = &case.shape else { unreachable!("lines") };
@@ -148,7 +148,7 @@ fn counts_equal_a_recount() {
 /// those of its coverage.
 #[test]
 fn an_inclusive_engine_misses_nothing() {
-    let engines = Judged::from(Engine::Mutant(TriangleMutant::InclusiveEdges));
+    let engines = EnginesToJudge::from(Engine::Mutant(TriangleMutant::InclusiveEdges));
     let verdict = engines.judge(&options(), &|_| ());
     let sums = verdict.comparisons();
     assert!(sums.oracle.extra > 0 && sums.oracle.twice > 0, "{sums:?}");
@@ -193,8 +193,8 @@ fn stray_fragments_are_counted_apart() {
 /// What is wrong with values is wrong with the plain ones, too, so that the corners alone repeat it.
 #[test]
 fn wrong_values_shrink_to_plain_ones() {
-    let affine = Judged::from(Engine::Mutant(TriangleMutant::AffineAttributes));
-    let clipped = Judged::from(LineEngine::Mutant(LineMutant::WeightsFromClip));
+    let affine = EnginesToJudge::from(Engine::Mutant(TriangleMutant::AffineAttributes));
+    let clipped = EnginesToJudge::from(LineEngine::Mutant(LineMutant::WeightsFromClip));
     for verdict in [affine, clipped].map(|engines| engines.judge(&options(), &|_| ())) {
         assert!(verdict.failures.len() > 3, "{}", verdict.failures.len());
         for failure in &verdict.failures {
@@ -208,7 +208,7 @@ fn wrong_values_shrink_to_plain_ones() {
 /// triangle of at most a pixel.
 #[test]
 fn each_family_has_its_smallest_failure() {
-    let engines = Judged::from(Engine::Mutant(TriangleMutant::InclusiveEdges));
+    let engines = EnginesToJudge::from(Engine::Mutant(TriangleMutant::InclusiveEdges));
     let verdict = engines.judge(&options(), &|_| ());
     let wrong: Vec<_> = verdict.families.iter().filter(|f| !f.pairs[0].agrees()).collect();
     let mut shown: Vec<_> = verdict.failures.iter().map(|f| f.family).collect();

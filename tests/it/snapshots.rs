@@ -23,7 +23,7 @@ use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof_faults::planted::TriangleMutant;
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_render::scene::named::{find, named};
 use rasterproof_report::panels;
@@ -71,7 +71,8 @@ pub fn check_words(name: &str, words: &str) {
 }
 
 fn judged(case: &Case) -> (Vec<(String, Coverage)>, Coverage) {
-    let hits = Judged::all().hits(case).into_iter().map(|(name, hits)| (name, hits.unwrap()));
+    let hits =
+        EnginesToJudge::all().hits(case).into_iter().map(|(name, hits)| (name, hits.unwrap()));
     (hits.collect(), oracle_hits(case))
 }
 
@@ -132,7 +133,7 @@ fn snapshots_of_named_cases() {
 
 #[test]
 fn named_cases_are_as_catalogued() {
-    let judged = Judged::all();
+    let judged = EnginesToJudge::all();
     for named in named() {
         match &named.input {
             Input::Drawn { case, pixels } => {

@@ -772,7 +772,7 @@ fn hits(triangles: &[[[f32; 2]; 3]]) -> Vec<([i64; 2], u32)> {
 fn cracks_and_folds_by_snapping_are_found() {
     let folder = Folder::new("study-snapping");
     let [o, e, r, s] = [[0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]];
-    let q = [4.065_213_2, 2.258_452];
+    let q = [4.065_213, 2.258_452];
     let crack = [[o, r, s], [o, e, q], [e, r, q]];
     let whole = [[o, q, s], [q, r, s], [o, e, q], [e, r, q]];
     let [m, n] = [[2.664_98, 1.479_642_4], [2.608_712_2, 1.449_805_7]];

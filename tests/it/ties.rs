@@ -5,7 +5,7 @@ use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::frame::Frame;
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_registry::engines::{Drawer, Engine};
-use rasterproof_registry::undecided::{self, Drawn};
+use rasterproof_registry::undecided::{self, EngineFrame};
 use rasterproof_render::effects::depth_ties::TiedPieces;
 use rasterproof_render::effects::{Effects, render};
 use rasterproof_render::pipeline::depth::DepthFormat;
@@ -78,7 +78,7 @@ fn compare(
 }
 
 fn judge(scene: &Scene, engines: [Engine; 2], drawn: &Frames) -> Comparison {
-    let frames = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawn[i].1 });
+    let frames = [0, 1].map(|i| EngineFrame { engine: engines[i], target: &drawn[i].1 });
     let ties = undecided::find(scene, frames).unwrap();
     let [(a, a_target), (b, b_target)] = drawn;
     frame_comparison::compare((a, a_target), (b, b_target), Some(&ties))

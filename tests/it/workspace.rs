@@ -399,7 +399,7 @@ fn options<'a>(text: &'a str, option: &'a str) -> impl Iterator<Item = &'a str> 
         .map(move |(at, _)| text[at + option.len()..].split(ends).next().unwrap_or(""))
 }
 
-struct Known {
+struct NamesInPages {
     /// The functions of the crates, of `tests/` and of `benches/`.
     functions: BTreeSet<String>,
     invariants: Vec<&'static str>,
@@ -413,7 +413,7 @@ fn functions(path: &Path) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-impl Known {
+impl NamesInPages {
     fn new() -> Self {
         let beside = ["tests", "benches", "crates/vulkan/tests"].map(str::to_owned);
         let folders = source_folders().into_iter().chain(beside);
@@ -489,7 +489,7 @@ fn unknown_names<'a>(names: &'a str, links: &str) -> impl Iterator<Item = &'a st
 
 #[test]
 fn docs_name_what_exists() {
-    let known = Known::new();
+    let known = NamesInPages::new();
     let name = |page: &Path| page.strip_prefix(root()).unwrap().display().to_string();
     let pages = pages();
     let missing = pages.iter().flat_map(|(page, text)| known.missing(&name(page), text));
@@ -512,7 +512,7 @@ fn lists_its_tests() {
 
 #[test]
 fn missing_names_are_found() {
-    let known = Known::new();
+    let known = NamesInPages::new();
     let page = "`src/nowhere.rs` `crates/core/src/grid.rs` --scene moon --scene cube\n\
         ## The test that proves it\n- `proves_nothing`, `crop`, `snap_by_hand`\n";
     let missing = known.missing("docs/a.md", page);

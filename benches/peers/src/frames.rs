@@ -122,7 +122,7 @@ fn driver(name: &str, cores: usize, arguments: [&str; 3]) -> Command {
 }
 
 /// What was drawn, with everyone's versions and who is missing.
-pub struct Drawn {
+pub struct FrameResults {
     pub rows: Vec<Row>,
     pub versions: Vec<String>,
     pub missing: Vec<Missing>,
@@ -136,7 +136,7 @@ pub fn measure(
     rounds: usize,
     slow: bool,
     pools: &[rayon::ThreadPool],
-) -> std::io::Result<Drawn> {
+) -> std::io::Result<FrameResults> {
     let mesh = Mesh::new(scene);
     let file = folder().join("mesh.bin");
     mesh.write(&file)?;
@@ -216,7 +216,7 @@ pub fn measure(
             other,
         });
     }
-    Ok(Drawn { rows, versions, missing })
+    Ok(FrameResults { rows, versions, missing })
 }
 
 /// Frames of an exact engine, in which effects without influence are left out.

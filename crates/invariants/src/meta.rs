@@ -10,7 +10,7 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::parallel;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{Corners, Span};
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_verify::cases::named::plain_triangle;
 use rasterproof_verify::cases::{self, Case, Family, Shape};
 use rasterproof_verify::comparison::{self, Options, QUOTAS, is_sliver, oracle_coverage};
@@ -119,7 +119,7 @@ pub(super) fn replay(subject: &Implementations, seed: u64, cases: u64) -> Outcom
     let options = Options::default().seed(seed).cases(cases.min(4));
     let verdict = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        Some(pool.ok()?.install(|| Judged::all().judge(&options, &|_| ()).families))
+        Some(pool.ok()?.install(|| EnginesToJudge::all().judge(&options, &|_| ()).families))
     };
     // Where the system refuses threads, there is nothing to compare.
     let (Some(one), Some(three)) = (verdict(1), verdict(3)) else { return Ok(0) };

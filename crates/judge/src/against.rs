@@ -165,7 +165,7 @@ pub fn compare(
 /// Why each of them is wrong where the answers differ.
 fn causes(
     pair: &mut Pair<'_>,
-    found: &run::Found,
+    found: &run::RunFindings,
     options: &Options,
     truth: &Truth,
     end: Option<Instant>,

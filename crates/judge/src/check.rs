@@ -10,7 +10,7 @@ use super::ask::{Answer, Asked, Question};
 use super::declared::{self, Declared};
 use super::depth::Pile;
 use super::expected::{Expect, exact_values, value_bounds};
-use super::judged::Judged;
+use super::judged::CaseJudgement;
 use super::pixels::{length, masks_of, mesh_of, picture_of, pixel_of};
 use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::frame::Coverage;
@@ -95,7 +95,7 @@ rasterproof_core::named! {
     }
 }
 
-impl Judged {
+impl CaseJudgement {
     pub fn describe(&self, check: Check) -> String {
         let mut parts = check.describe(&self.finding.tally, self.right.is_some());
         if self.finding.worst() > 1.0 {
@@ -333,9 +333,10 @@ impl Check {
 
     /// What happened instead of answers, where some of them are missing.
     #[must_use]
-    pub fn judge_deaths(answers: &[Answer]) -> Judged {
+    pub fn judge_deaths(answers: &[Answer]) -> CaseJudgement {
         let backward = answers.iter().find_map(Answer::backward_run);
-        let mut judged = Judged { mark: 0xcbf2_9ce4_8422_2325, backward, ..Judged::default() };
+        let mut judged =
+            CaseJudgement { mark: 0xcbf2_9ce4_8422_2325, backward, ..CaseJudgement::default() };
         for (i, answer) in answers.iter().enumerate() {
             match answer {
                 Answer::Died(misbehaviour) => judged.died.push((i, misbehaviour.clone())),
@@ -351,7 +352,7 @@ impl Check {
 
     /// Judges the answers to the questions of [`Check::questions`].
     #[must_use]
-    pub fn judge(self, case: &Case, answers: &[Answer], truth: &Truth) -> Judged {
+    pub fn judge(self, case: &Case, answers: &[Answer], truth: &Truth) -> CaseJudgement {
         if let Some(of_two) = &truth.of_two {
             return self::of_two(self, case, answers, of_two);
         }
@@ -405,19 +406,19 @@ impl Check {
 }
 
 /// How the answers of two programs differ, and whether each is right.
-fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) -> Judged {
+fn of_two(check: Check, case: &Case, answers: &[Answer], of_two: &[Truth; 2]) -> CaseJudgement {
     let sides = difference::sides(answers);
     let [first, second] = [0, 1].map(|at| check.judge(case, &sides[at], &of_two[at]));
     // What died is the same on both sides.
     let died = first.died.clone();
-    let mut judged = Judged {
+    let mut judged = CaseJudgement {
         shapes: first.shapes,
         pixels: first.pixels,
         answered: first.answered,
         right: died.is_empty().then(|| [!first.is_wrong(), !second.is_wrong()]),
         died,
         mark: first.mark ^ second.mark.rotate_left(1),
-        ..Judged::default()
+        ..CaseJudgement::default()
     };
     let declared = &of_two[0].declared;
     for (at, (first, second)) in sides[0].iter().zip(&sides[1]).enumerate() {
@@ -444,7 +445,7 @@ fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
 }
 
 fn one_triangle(
-    judged: &mut Judged,
+    judged: &mut CaseJudgement,
     triangle: &Triangle,
     answer: &Answer,
     window: PixelRect,
@@ -456,7 +457,7 @@ fn one_triangle(
     if !matches!(answer, Answer::Samples(_)) {
         judged.pixels += length(&picture.must);
     }
-    let compare_both = |runs: &[Span], judged: &mut Judged| {
+    let compare_both = |runs: &[Span], judged: &mut CaseJudgement| {
         let before = judged.finding.tally.total();
         compare(&mut judged.finding.tally, &mut judged.mark, runs, &picture, window);
         let wrong = judged.finding.tally.total() - before;
@@ -483,7 +484,7 @@ fn one_triangle(
 }
 
 /// Counts the pixels in which answers differ from the first one.
-fn alike(judged: &mut Judged, answers: &[Answer], window: PixelRect) {
+fn alike(judged: &mut CaseJudgement, answers: &[Answer], window: PixelRect) {
     let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, window)).collect();
     let Some((first, others)) = drawn.split_first() else { return };
     judged.pixels += first.covered();
@@ -497,7 +498,12 @@ fn alike(judged: &mut Judged, answers: &[Answer], window: PixelRect) {
     }
 }
 
-fn watertight(judged: &mut Judged, list: &[Triangle], answers: &[Answer], window: PixelRect) {
+fn watertight(
+    judged: &mut CaseJudgement,
+    list: &[Triangle],
+    answers: &[Answer],
+    window: PixelRect,
+) {
     judged.shapes = list.len() as u64;
     let Some(sum) = mesh_of(answers, window) else { return };
     judged.pixels += sum.covered();
@@ -508,7 +514,7 @@ fn watertight(judged: &mut Judged, list: &[Triangle], answers: &[Answer], window
 
 /// Compares the values of some fragments, where these belong.
 fn values(
-    judged: &mut Judged,
+    judged: &mut CaseJudgement,
     triangle: &Triangle,
     fragments: &[Fragment<DVec2>],
     expected: &Coverage,
@@ -529,7 +535,7 @@ fn values(
 
 /// Compares masks bit by bit; the samples have fixed places, so the declared one does not matter.
 fn samples(
-    judged: &mut Judged,
+    judged: &mut CaseJudgement,
     corners: &Corners,
     runs: &[(Span, u8)],
     window: PixelRect,
@@ -554,7 +560,13 @@ fn samples(
     }
 }
 
-fn one_line(judged: &mut Judged, line: &Line, answer: &Answer, window: PixelRect, truth: &Truth) {
+fn one_line(
+    judged: &mut CaseJudgement,
+    line: &Line,
+    answer: &Answer,
+    window: PixelRect,
+    truth: &Truth,
+) {
     let Answer::Line(pixels) = answer else { return };
     let ends = line.ends.map(|end| end.pixel);
     let Some(expected) = truth.expect.line(&ends, window) else { return };
@@ -576,7 +588,7 @@ fn one_line(judged: &mut Judged, line: &Line, answer: &Answer, window: PixelRect
 }
 
 /// Counts a shape of which the recognised convention says nothing, and its pixels that are wrong as declared.
-fn leave_out(judged: &mut Judged, wrong: u64) {
+fn leave_out(judged: &mut CaseJudgement, wrong: u64) {
     judged.unscored += 1;
     judged.unscored_wrong += wrong;
 }

@@ -6,7 +6,7 @@
 
 use super::declared::Declared;
 use super::expected::{Expect, exact_values};
-use super::judged::{Judged, push};
+use super::judged::{CaseJudgement, push};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
@@ -83,7 +83,7 @@ impl Pile {
     }
 
     /// Counts the pixels that show nothing, what is not there, or what lies behind.
-    pub fn compare(&self, judged: &mut Judged, runs: &[(Span, u8)]) {
+    pub fn compare(&self, judged: &mut CaseJudgement, runs: &[(Span, u8)]) {
         judged.shapes += self.layers.len() as u64;
         let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
         let (counts, outside) = hits(&all, self.window);
@@ -185,7 +185,7 @@ mod tests {
             let Shape::Triangles { list, .. } = &case.shape else { return true };
             let expect = declared.convention;
             let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { return true };
-            let mut judged = Judged::default();
+            let mut judged = CaseJudgement::default();
             let runs = answer(list, case.window);
             pile.compare(&mut judged, &runs);
             let (_, [drawn, expected]) = pile.pictures(&runs).unwrap();
@@ -238,7 +238,7 @@ mod tests {
                 let Shape::Triangles { list, .. } = &case.shape else { panic!("triangles") };
                 let expect = declared.convention;
                 let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { continue };
-                let mut judged = Judged::default();
+                let mut judged = CaseJudgement::default();
                 pile.compare(&mut judged, &pile.runs());
                 assert!(!judged.is_wrong(), "{words} {index}: {:?}", judged.finding.tally);
             }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::ask::Answer;
 use super::declared::Declared;
 use super::expected::value_bounds;
-use super::judged::Judged;
+use super::judged::CaseJudgement;
 use super::near_plane;
 use super::pixels::{hits_of, painted};
 use rasterproof_core::frame::Coverage;
@@ -29,7 +29,7 @@ pub(super) fn sides(answers: &[Answer]) -> [Vec<Answer>; 2] {
 
 /// Adds how two answers to the same question differ.
 pub(super) fn difference(
-    judged: &mut Judged,
+    judged: &mut CaseJudgement,
     [first, second]: [&Answer; 2],
     triangle: Option<&Triangle>,
     window: PixelRect,
@@ -84,7 +84,7 @@ pub(super) fn difference(
     }
 }
 
-fn pixels(judged: &mut Judged, first: &Coverage, second: &Coverage, is_mask: bool) {
+fn pixels(judged: &mut CaseJudgement, first: &Coverage, second: &Coverage, is_mask: bool) {
     for ((y, a), (_, b)) in first.rows().zip(second.rows()) {
         for (x, (&a, &b)) in a.iter().zip(b).enumerate() {
             let tally = &mut judged.finding.tally;
@@ -102,7 +102,7 @@ fn pixels(judged: &mut Judged, first: &Coverage, second: &Coverage, is_mask: boo
 
 /// Two right values lie within twice the tolerance of each other.
 fn values(
-    judged: &mut Judged,
+    judged: &mut CaseJudgement,
     first: &[Fragment<DVec2>],
     second: &[Fragment<DVec2>],
     triangle: &Triangle,
@@ -120,7 +120,7 @@ fn values(
 }
 
 fn corners(
-    judged: &mut Judged,
+    judged: &mut CaseJudgement,
     first: &[ClipCorner],
     second: &[ClipCorner],
     triangle: Option<&Triangle>,

@@ -9,7 +9,7 @@ use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::comparison::{Convention, Expectation, Rule};
-use rasterproof_verify::convention::{self, Known, Ties};
+use rasterproof_verify::convention::{self, Declarations, Ties};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
@@ -65,7 +65,7 @@ impl Expect for Declared {
         if twice_area(corners) == 0 {
             return None;
         }
-        let known = Known::from(&self.convention);
+        let known = Declarations::from(&self.convention);
         let shape = convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach, square: true };
         let of = |rule: &str| {
             let ties = Ties::named(rule)?;

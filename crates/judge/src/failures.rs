@@ -9,9 +9,9 @@ use super::ask::{Answer, Question, Subject, show};
 use super::check::{Check, Truth, expected_answer};
 use super::declared::Declared;
 use super::difference;
-use super::judged::Judged;
+use super::judged::CaseJudgement;
 use super::pictured::{Pictured, pictured};
-use super::run::{Changing, Failing, Found, Row};
+use super::run::{Changing, Failing, Row, RunFindings};
 use super::shrink::smaller;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::SUBPIXELS;
@@ -65,7 +65,7 @@ const MOST_SHOWN: usize = 6;
 /// most often wrong. Where the pictures show what is wrong, it comes first.
 pub fn failures(
     program: &mut dyn Subject,
-    found: &Found,
+    found: &RunFindings,
     options: &Options,
     truth: &Truth,
 ) -> Vec<Failure> {
@@ -127,7 +127,7 @@ impl Subject for Spending<'_> {
 }
 
 /// The first case of each property whose answers change, as it was asked: what was shrunk would answer otherwise again.
-pub fn changing(found: &Found, options: &Options, truth: &Truth) -> Vec<Failure> {
+pub fn changing(found: &RunFindings, options: &Options, truth: &Truth) -> Vec<Failure> {
     let one = |changing: &Changing| {
         let Changing { failing, check, questions, answers } = changing;
         let family = adapt_case::family(failing.family)?;
@@ -182,13 +182,13 @@ fn expected(check: Check, question: &Question, truth: &Truth) -> String {
 }
 
 /// A case that was asked, with what came of it.
-pub struct Asked {
+pub struct AskedCase {
     pub questions: Vec<Question>,
     pub answers: Vec<Answer>,
-    pub judged: Judged,
+    pub judged: CaseJudgement,
 }
 
-impl Asked {
+impl AskedCase {
     fn of(program: &mut dyn Subject, check: Check, case: &Case, truth: &Truth) -> Self {
         let mut questions = Vec::new();
         check.questions(case, truth, &mut questions);
@@ -211,7 +211,7 @@ impl Asked {
 
 fn failure(
     program: &mut Spending<'_>,
-    found: &Found,
+    found: &RunFindings,
     failing: &Failing,
     options: &Options,
     truth: &Truth,
@@ -223,7 +223,7 @@ fn failure(
         .find(|check| check.name(family.name) == failing.property)?;
     let leaves = adapt_case::leaves_window(&case);
     let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
-    let first = Asked::of(program, check, &case, truth);
+    let first = AskedCase::of(program, check, &case, truth);
     let was_asked = !first.is_late();
     let (seed, patience) = (options.seed, options.terms.patience.saturating_sub(program.spent));
     let search = Search { check, truth, seed, patience, may_be: &may_be };
@@ -255,11 +255,11 @@ impl Search<'_> {
         program: &mut dyn Subject,
         failing: &Failing,
         original: Case,
-        first: Asked,
+        first: AskedCase,
     ) -> Failure {
         let &Self { check, truth, seed, patience, may_be } = self;
         let program = RefCell::new(Spending { asked: program, spent: Duration::ZERO });
-        let ask = |case: &Case| Asked::of(&mut *program.borrow_mut(), check, case, truth);
+        let ask = |case: &Case| AskedCase::of(&mut *program.borrow_mut(), check, case, truth);
         let is_over = || program.borrow().spent >= patience;
         let (was_wrong, was_late, is_slow) =
             (first.judged.is_wrong(), first.is_late(), first.is_slow());
@@ -293,7 +293,7 @@ impl Search<'_> {
             (_, true) => "shrunk until the time was up",
             (_, false) => "shrunk",
         };
-        let Asked { questions, answers, judged } = again.unwrap_or_else(|| kept.into_inner());
+        let AskedCase { questions, answers, judged } = again.unwrap_or_else(|| kept.into_inner());
         // Asked again, it was right: the program does not repeat itself.
         let what = match was_wrong && judged.is_wrong() {
             true => judged.describe(check),
@@ -322,7 +322,13 @@ impl Search<'_> {
 }
 
 /// What is found in the answers to a case; there are fewer where the program died or the time was up.
-pub fn judge(check: Check, case: &Case, answers: &[Answer], of: usize, truth: &Truth) -> Judged {
+pub fn judge(
+    check: Check,
+    case: &Case,
+    answers: &[Answer],
+    of: usize,
+    truth: &Truth,
+) -> CaseJudgement {
     if answers.len() < of {
         Check::judge_deaths(answers)
     } else {
@@ -443,7 +449,7 @@ mod tests {
     }
 
     fn altered(alter: fn(&mut Answer, u64)) -> Box<dyn Subject> {
-        let engine = Inside::new(&engines::find("scanline").unwrap());
+        let engine = Inside::new(engines::find("scanline").unwrap());
         Box::new(Altered { engine, answered: 0, alter })
     }
 

@@ -10,7 +10,7 @@ use rasterproof_verify::comparison::{Finding, Tally};
 
 /// What was found about a case, and how far it was answered.
 #[derive(Clone, Debug, Default)]
-pub struct Judged {
+pub struct CaseJudgement {
     /// Wrong pixels, of a mesh its holes and doubles; and errors of values as fractions of the tolerance.
     pub finding: Finding,
     pub shapes: u64,
@@ -42,7 +42,7 @@ pub struct Judged {
     pub(super) mark: u64,
 }
 
-impl Judged {
+impl CaseJudgement {
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         let has_no_answer = self.refused > 0 || !self.died.is_empty();

@@ -186,7 +186,7 @@ pub fn judge(
 /// standard error that wrote any; the copies are the same program.
 fn finish<'a>(
     askers: impl Iterator<Item = &'a mut (dyn Subject + 'a)>,
-    found: &mut run::Found,
+    found: &mut run::RunFindings,
 ) -> Complaints {
     let mut complaints = Complaints::default();
     for asker in askers {

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::ask::Asked;
 use super::declared::Declared;
-use super::judged::Judged;
+use super::judged::CaseJudgement;
 use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
@@ -64,7 +64,7 @@ pub fn asked(of: &Asked) -> Option<Triangle> {
 
 /// Compares a polygon with the exact one.
 pub(super) fn compare(
-    judged: &mut Judged,
+    judged: &mut CaseJudgement,
     triangle: &Triangle,
     answer: &[ClipCorner],
     declared: &Declared,
@@ -132,7 +132,7 @@ mod tests {
             let Shape::Triangles { list, .. } = FAMILIES[1].case(1, *index).shape else {
                 return true;
             };
-            let mut judged = Judged::default();
+            let mut judged = CaseJudgement::default();
             let declared = Declared { tolerance: 1e-9, ..Declared::default() };
             compare(&mut judged, &list[0], &clip(clip_corners(&list[0])), &declared);
             judged.is_wrong()
@@ -193,7 +193,7 @@ mod tests {
             wrong(shortened),
         ];
         assert!(faults.iter().all(|found| *found > 40), "{faults:?}");
-        let nothing = Judged::default();
+        let nothing = CaseJudgement::default();
         assert!(!nothing.is_wrong());
     }
 }

@@ -5,7 +5,7 @@
 //! outline itself, nothing else is open.
 
 use super::ask::Answer;
-use super::judged::Judged;
+use super::judged::CaseJudgement;
 use super::pixels::picture_of;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
@@ -74,7 +74,7 @@ fn outside(outline: &Frame<bool>) -> Frame<bool> {
 }
 
 /// Counts filled pixels outside of the outline, and pixels that it encloses and that are not filled.
-pub(super) fn compare(judged: &mut Judged, answers: &[Answer], window: PixelRect) {
+pub(super) fn compare(judged: &mut CaseJudgement, answers: &[Answer], window: PixelRect) {
     judged.shapes += 1;
     let Some([filled, mended]) = pictures(answers, window) else { return };
     judged.pixels += mended.covered();

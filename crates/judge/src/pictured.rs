@@ -7,7 +7,7 @@
 use super::ask::{Answer, Asked, Question};
 use super::check::{Check, Truth, expected_answer};
 use super::depth::Pile;
-use super::judged::Judged;
+use super::judged::CaseJudgement;
 use super::pixels::{hits_of, mesh_of, picture_of};
 use super::{difference, mesh, near_plane, outline};
 use rasterproof_core::frame::Coverage;
@@ -61,7 +61,7 @@ pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) ->
 }
 
 /// What is wrong with answers whose picture is right.
-fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &Judged) -> String {
+fn unseen(check: Check, case: &Case, answers: &[Answer], judged: &CaseJudgement) -> String {
     let outside = answers.iter().filter_map(|answer| Some(hits_of(answer, case.window)?.1));
     let outside: u64 = outside.sum();
     let mut parts = Vec::new();

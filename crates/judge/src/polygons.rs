@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::Options;
 use super::ask::{Answer, Asked, Question, Subject};
 use super::declared::Declared;
-use super::run::{Found, MOST_DEATHS, Row};
+use super::run::{MOST_DEATHS, Row, RunFindings};
 use super::timed::Timed;
 use super::verdict::{self, Particulars, Verdict};
 use rasterproof_verify::partition::{self, Family, Polygon, Refused, Triangle};
@@ -127,13 +127,13 @@ pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdi
     };
     let rows = report.families.iter().map(row).collect();
     let sum = report.sum();
-    let found = Found {
+    let found = RunFindings {
         rows,
         answered: sum.polygons,
         cases: sum.polygons + sum.left_out,
         of_cases: of_polygons(report),
         out_of_time: is_out_of_time(report),
-        ..Found::default()
+        ..RunFindings::default()
     };
     let more = Particulars { declared: declared.clone(), found, ..Particulars::default() };
     let mut verdict = verdict::verdict(options, more, Vec::new(), Vec::new());

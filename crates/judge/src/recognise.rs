@@ -27,7 +27,7 @@ use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
 use rasterproof_registry::engines::{self, Entry};
 use rasterproof_verify::comparison::{Convention as Promised, Expectation, Rule};
 use rasterproof_verify::convention::{
-    self, Confidence, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion, Quantum,
+    self, Confidence, Declarations, Diagnosis, FACINGS, LineDiagnosis, LineQuestion, Quantum,
 };
 use rasterproof_verify::mistakes::{self, Mistakes, Program};
 
@@ -109,7 +109,7 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     let compass = triangles.as_ref().and_then(compass);
     let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
     let mut found =
-        Found { declaration: declared.convention, triangles, lines, otherwise: [false; 2] };
+        Recognition { declaration: declared.convention, triangles, lines, otherwise: [false; 2] };
     found.look_at_leaving(&mut bench, &declared, &mut sentences);
     let said = Said { sentences, compass, declare, is_explained };
     let (triangles, lines) = (found.triangles.clone(), found.lines.clone());
@@ -124,7 +124,7 @@ fn clause(about: &str, sentence: &str) -> String {
 }
 
 /// What is found, and what is declared where nothing was looked for.
-struct Found {
+struct Recognition {
     declaration: Promised,
     triangles: Option<Diagnosis>,
     lines: Option<LineDiagnosis>,
@@ -132,7 +132,7 @@ struct Found {
     otherwise: [bool; 2],
 }
 
-impl Found {
+impl Recognition {
     /// Where everything within the window is explained, looks at what leaves it.
     fn look_at_leaving(
         &mut self,
@@ -164,7 +164,7 @@ impl Found {
     }
 }
 
-impl Expect for Found {
+impl Expect for Recognition {
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation> {
         if self.otherwise[0] && leaving::triangle_leaves(corners, self.quantum(), window) {
             return None;
@@ -189,10 +189,10 @@ impl Expect for Found {
     }
 }
 
-fn known(declared: &Declared) -> Known {
-    let known = Known::from(&declared.convention);
+fn known(declared: &Declared) -> Declarations {
+    let known = Declarations::from(&declared.convention);
     let measured = [declared.reach, declared.side.map(|side| side / 2)];
-    Known {
+    Declarations {
         range_px: measured
             .into_iter()
             .flatten()

@@ -14,7 +14,7 @@ use super::adapt_case;
 use super::ask::{Answer, Misbehaviour, Question, Subject};
 use super::check::{Check, Truth};
 use super::declared::Declared;
-use super::judged::Judged;
+use super::judged::CaseJudgement;
 use super::timed::Timed;
 use rasterproof_verify::cases::{Case, Family};
 use rasterproof_verify::comparison::Tally;
@@ -117,7 +117,7 @@ impl Row {
         Self { name, check, ..Self::default() }
     }
 
-    fn count(&mut self, judged: &Judged) {
+    fn count(&mut self, judged: &CaseJudgement) {
         self.cases += 1;
         self.shapes += judged.shapes;
         self.pixels += judged.pixels;
@@ -201,7 +201,7 @@ pub struct Changing {
 }
 
 #[derive(Clone, Debug, Default)]
-pub struct Found {
+pub struct RunFindings {
     pub rows: Vec<Row>,
     pub failing: Vec<Failing>,
     /// The first case of each property whose answers changed.
@@ -225,7 +225,7 @@ pub struct Found {
     pub seconds: f64,
 }
 
-impl Found {
+impl RunFindings {
     fn row(&mut self, name: &'static str, check: Option<Check>) -> &mut Row {
         let at = self.rows.iter().position(|row| row.name == name).unwrap_or_else(|| {
             self.rows.push(Row::new(name, check));
@@ -342,7 +342,7 @@ pub fn run(
     options: &Options,
     truth: &Truth,
     progress: &(dyn Fn(u64) + Sync),
-) -> Found {
+) -> RunFindings {
     let families = adapt_case::families(&options.families);
     let start = Instant::now();
     let end = |share: f64| options.time_limit.map(|limit| start + limit.mul_f64(share));
@@ -378,7 +378,7 @@ pub fn run(
     });
     let mut parts = all.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     parts.sort_by_key(|(part, _)| *part);
-    let mut whole = Found::default();
+    let mut whole = RunFindings::default();
     parts.into_iter().for_each(|(_, found)| whole.merge(found));
     whole.failing.sort_by_key(|f| {
         let family = shared.families.iter().position(|family| family.name == f.family);
@@ -403,8 +403,8 @@ fn copy(
     part: u64,
     shared: &Shared<'_>,
     progress: &(dyn Fn(u64) + Sync),
-) -> Found {
-    let mut found = Found::default();
+) -> RunFindings {
+    let mut found = RunFindings::default();
     let cases = shared.options.numbers();
     let mut asker = Timed::new(asker, None);
     for pass in PASSES {
@@ -481,7 +481,7 @@ fn block(
     pass: bool,
     shared: &Shared<'_>,
     deaths: &AtomicU64,
-    found: &mut Found,
+    found: &mut RunFindings,
 ) -> u64 {
     let truth = shared.truth;
     let mut jobs: Vec<(u64, usize, Check, usize)> = Vec::new();
@@ -552,7 +552,7 @@ fn ask_again(
     questions: &[Question],
     answers: &[Answer],
     again: &[Answer],
-    found: &mut Found,
+    found: &mut RunFindings,
 ) {
     let mut rest = again;
     for (failing, check, range) in wrong {
@@ -571,11 +571,11 @@ fn ask_again(
 }
 
 fn note(
-    found: &mut Found,
+    found: &mut RunFindings,
     family: &'static Family,
     index: u64,
     check: Check,
-    judged: &Judged,
+    judged: &CaseJudgement,
     (asked, remember): (&[Question], bool),
 ) {
     let property = check.name(family.name);

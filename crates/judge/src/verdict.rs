@@ -9,7 +9,7 @@ use super::check::{Check, Counted};
 use super::declared::Declared;
 use super::failures::Failure;
 use super::recognise::{Said, Why};
-use super::run::{Found, Row, Sides};
+use super::run::{Row, RunFindings, Sides};
 use super::windings::Windings;
 use rasterproof_verify::judge;
 
@@ -52,7 +52,7 @@ pub struct Particulars {
     /// What was recognised, if it does not draw as it declares.
     pub recognised: Option<Said>,
     /// Everything else that was found; its rows are those of the verdict.
-    pub found: Found,
+    pub found: RunFindings,
     /// How long its lines may be, in steps, where it walks along them so slowly that longer ones were not asked for.
     pub reach: Option<i32>,
     /// How long sides of its triangles may be, in pixels, where it walks along its rows like that.
@@ -160,11 +160,11 @@ fn properties(of: &Particulars, rows: &[Row]) -> Vec<Property> {
 }
 
 /// Whether every request was answered as the protocol says.
-fn keeps_protocol(found: &Found) -> bool {
+fn keeps_protocol(found: &RunFindings) -> bool {
     found.incidents.is_empty() && found.strays.is_empty() && !found.gave_up
 }
 
-fn manners(found: &Found) -> String {
+fn manners(found: &RunFindings) -> String {
     let whats = found.incidents.iter().map(|i| &i.what).chain(&found.strays);
     let mut words: Vec<&str> = whats.map(|what| what.breach.name()).collect();
     words.sort_unstable();

@@ -25,7 +25,7 @@ impl Engine {
 
 /// The engines of each kind that are judged together.
 #[derive(Clone, Debug, Default)]
-pub struct Judged {
+pub struct EnginesToJudge {
     pub triangles: Vec<Engine>,
     pub lines: Vec<LineEngine>,
     pub unsnapped: Vec<ExactEngine>,
@@ -34,7 +34,7 @@ pub struct Judged {
 /// The hits of all shapes of a case, or why they were not drawn.
 pub type Hits = Result<Coverage, String>;
 
-impl Judged {
+impl EnginesToJudge {
     /// Every engine that a verdict is about.
     pub fn all() -> Self {
         Self {
@@ -125,19 +125,19 @@ impl Judged {
     }
 }
 
-impl From<Engine> for Judged {
+impl From<Engine> for EnginesToJudge {
     fn from(engine: Engine) -> Self {
         Self { triangles: vec![engine], ..Self::default() }
     }
 }
 
-impl From<LineEngine> for Judged {
+impl From<LineEngine> for EnginesToJudge {
     fn from(engine: LineEngine) -> Self {
         Self { lines: vec![engine], ..Self::default() }
     }
 }
 
-impl From<ExactEngine> for Judged {
+impl From<ExactEngine> for EnginesToJudge {
     fn from(engine: ExactEngine) -> Self {
         Self { unsnapped: vec![engine], ..Self::default() }
     }

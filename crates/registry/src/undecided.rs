@@ -63,7 +63,7 @@ impl Ties {
 
 /// A rasterizer, and its frame of the scene with every depth of every sample.
 #[derive(Clone, Copy)]
-pub struct Drawn<'a> {
+pub struct EngineFrame<'a> {
     pub engine: Engine,
     pub target: &'a Target,
 }
@@ -76,7 +76,7 @@ const BAND_SAMPLES: u64 = 1 << 16;
 const MOST_RIVALS: usize = 1 << 19;
 
 /// Finds the ties in two frames of one scene, in targets of the same kind.
-pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
+pub fn find(scene: &Scene, frames: [EngineFrame<'_>; 2]) -> Result<Ties, BadScene> {
     let target = frames[0].target;
     let tied = TiedPieces::new(scene, target)?;
     let (size, bounds) = (tied.size(), target.bounds());
@@ -106,7 +106,7 @@ pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
 /// Excuses samples that differ though both rasterizers keep their bounds, because a texture coordinate is
 /// so large that its bound holds several texels: each frame shows the same piece at its depth, by a texel
 /// within the bound of its own texture coordinates. A wrong coordinate shows another texel.
-fn excuse_far_textures(tied: &TiedPieces<'_>, frames: [Drawn<'_>; 2], ties: &mut Ties) {
+fn excuse_far_textures(tied: &TiedPieces<'_>, frames: [EngineFrame<'_>; 2], ties: &mut Ties) {
     let scale = frames[0].target.antialias().scale() as i32;
     for plane in 0..frames[0].target.planes.len() {
         let colours =
@@ -145,7 +145,7 @@ fn box_of(bounds: PixelRect, is: impl Fn(i32, i32) -> bool) -> Option<PixelRect>
 /// The samples of a plane at which both frames show a piece as they may.
 fn far_textures(
     tied: &TiedPieces<'_>,
-    frames: [Drawn<'_>; 2],
+    frames: [EngineFrame<'_>; 2],
     (piece, plane): (u32, usize),
     rect: PixelRect,
     wanted: &dyn Fn(i32, i32) -> bool,
@@ -157,7 +157,7 @@ fn far_textures(
     };
     let is_multisampled = frames[0].target.antialias() == Antialias::Multisample4;
     let mut shown = [0, 1].map_array(|who| {
-        let Drawn { engine, target } = frames[who];
+        let EngineFrame { engine, target } = frames[who];
         let (tolerance, here) = (engine.tolerance(), &target.planes[plane]);
         let at_depth = |x: i32, y: i32| {
             let depth = exact.at(x, y).0.to_f64();
@@ -228,7 +228,7 @@ struct Candidate {
 
 struct Judge<'a> {
     tied: &'a TiedPieces<'a>,
-    frames: [Drawn<'a>; 2],
+    frames: [EngineFrame<'a>; 2],
 }
 
 impl Judge<'_> {
@@ -295,7 +295,7 @@ impl Judge<'_> {
 
     /// Finds what one of the two rasterizers shows of a piece at its candidates.
     fn shade(&self, who: usize, group: &mut [Candidate]) {
-        let Drawn { engine, target } = self.frames[who];
+        let EngineFrame { engine, target } = self.frames[who];
         let piece = group[0].tied_piece.piece;
         let samples = || group.iter().map(|c| c.tied_piece.sample);
         let empty = PixelRect { x0: i32::MAX, y0: i32::MAX, x1: i32::MIN, y1: i32::MIN };

@@ -15,7 +15,7 @@ use rasterproof_judge::pictured::Pictured;
 use rasterproof_judge::polygons;
 use rasterproof_judge::recognise::Why;
 use rasterproof_judge::run::{
-    Found, MOST_DEATHS, MOST_DEATHS_IN_ALL, MOST_HANGS_IN_ALL, Row as FamilyRow, Sides,
+    MOST_DEATHS, MOST_DEATHS_IN_ALL, MOST_HANGS_IN_ALL, Row as FamilyRow, RunFindings, Sides,
 };
 use rasterproof_judge::verdict::{self, Count, Score, Scores as _, Verdict, per_million};
 use rasterproof_verify::comparison::Tally;
@@ -515,7 +515,7 @@ fn wrong(verdict: &Verdict) -> String {
 fn closing(verdict: &Verdict) -> String {
     let failing: Vec<_> =
         verdict.more.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
-    let Found { cases, of_cases, out_of_time, .. } = verdict.more.found;
+    let RunFindings { cases, of_cases, out_of_time, .. } = verdict.more.found;
     let until = match out_of_time {
         true => format!(", {cases} of {of_cases} cases in full when the time was up"),
         false => String::new(),

@@ -15,7 +15,7 @@ use rasterproof_faults::planted;
 use rasterproof_faults::published::catalogue::{CARDS, Exhibit, TriangleCase};
 use rasterproof_faults::published::{RealTriangle, RealVertex};
 use rasterproof_judge::pictured::Pictured;
-use rasterproof_registry::comparison::{Hits, Judged};
+use rasterproof_registry::comparison::{EnginesToJudge, Hits};
 use rasterproof_registry::engines::SPECIMENS;
 use rasterproof_registry::published_check::{line_case, real_triangles};
 use rasterproof_render::scene::named;
@@ -87,13 +87,13 @@ enum Role {
     Specimen,
 }
 
-type Drawn = (String, Role, Hits);
+type EngineHits = (String, Role, Hits);
 
 /// The failing cases of a run, then for each family the one that came closest to a bound, then
 /// every named case. `repeat` gives the command that repeats a failing case.
 pub fn of_verdict(
     verdict: &Verdict,
-    judged: &Judged,
+    judged: &EnginesToJudge,
     repeat: impl Fn(&str, u64) -> String,
 ) -> Vec<CaseView> {
     let mut views = Vec::new();
@@ -113,7 +113,7 @@ pub fn of_verdict(
 }
 
 /// For each family the case whose values came closest to their bound, the closest family first.
-fn closest(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
+fn closest(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView> {
     let seed = verdict.options.seed;
     let closest = verdict.families.iter().filter_map(|f| {
         let pairs = f.pairs.iter().filter(|p| p.is_by_oracle() && p.values > 0);
@@ -137,21 +137,27 @@ fn closest(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
 }
 
 /// The first case of each family that is not snapped: they have no bounds to come close to.
-fn unsnapped_samples(verdict: &Verdict, judged: &Judged) -> Vec<CaseView> {
+fn unsnapped_samples(verdict: &Verdict, judged: &EnginesToJudge) -> Vec<CaseView> {
     let seed = verdict.options.seed;
     let families = cases::unsnapped::FAMILIES.iter();
     let families = families.filter(|f| verdict.families.iter().any(|r| r.family == f.name));
     families.map(|family| of_family(family, seed, 0, Kind::OffGrid, judged)).collect()
 }
 
-fn of_family(family: &Family, seed: u64, index: u64, kind: Kind, judged: &Judged) -> CaseView {
+fn of_family(
+    family: &Family,
+    seed: u64,
+    index: u64,
+    kind: Kind,
+    judged: &EnginesToJudge,
+) -> CaseView {
     let name = format!("{}#{index}", family.name);
     let command = format!("rasterproof inspect {name} --seed {seed}");
     let view = of_case(name, family.about.to_owned(), kind, &family.case(seed, index), judged);
     CaseView { command, ..view }
 }
 
-fn every_named(judged: &Judged) -> Vec<CaseView> {
+fn every_named(judged: &EnginesToJudge) -> Vec<CaseView> {
     let views = named::named().into_iter().filter_map(|named| {
         let Input::Drawn { case, .. } = named.input else { return None };
         let (name, about) = (named.name.to_owned(), named.about.to_owned());
@@ -163,7 +169,7 @@ fn every_named(judged: &Judged) -> Vec<CaseView> {
 
 /// The case that exposes each specimen that draws triangles or lines.
 pub fn of_specimens() -> Vec<CaseView> {
-    let judged = Judged::all();
+    let judged = EnginesToJudge::all();
     let views = CARDS.iter().filter_map(|card| {
         let (case, shown) = match &card.exhibit {
             Exhibit::Triangles([case, _]) => (snapped(case)?, case.name),
@@ -210,7 +216,7 @@ pub fn of_program(
     programs: &[&str],
     picture: Option<&Pictured>,
 ) -> CaseView {
-    let mut view = of_case(name, about, Kind::Failing, case, &Judged::default());
+    let mut view = of_case(name, about, Kind::Failing, case, &EnginesToJudge::default());
     let Some(Pictured { drawn, other, expected, of, moved }) = picture else { return view };
     let pictures = programs.iter().zip([drawn].into_iter().chain(other));
     let drawn = pictures
@@ -246,7 +252,13 @@ fn unique(views: &mut [CaseView]) {
 }
 
 /// A case, drawn by those that are judged, the other engines, the oracle and the specimens.
-pub fn of_case(name: String, about: String, kind: Kind, case: &Case, judged: &Judged) -> CaseView {
+pub fn of_case(
+    name: String,
+    about: String,
+    kind: Kind,
+    case: &Case,
+    judged: &EnginesToJudge,
+) -> CaseView {
     let truth = oracle_hits(case);
     let oracle = ("oracle".to_owned(), Role::Oracle, Ok(truth.clone()));
     let specimens = SPECIMENS.iter().filter_map(|entry| {
@@ -285,7 +297,7 @@ pub fn of_case(name: String, about: String, kind: Kind, case: &Case, judged: &Ju
     CaseView { name, about, kind, found, command, chapter, pictured, window, shape, layers, start }
 }
 
-fn with_role((name, hits): (String, Hits)) -> Drawn {
+fn with_role((name, hits): (String, Hits)) -> EngineHits {
     let role = if planted::about(&name).is_some() { Role::Planted } else { Role::Engine };
     (name, role, hits)
 }

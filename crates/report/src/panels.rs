@@ -32,15 +32,15 @@ pub const INK: Rgb<u8> = Rgb([30, 30, 30]);
 pub const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
 
-pub type Drawn = (String, Coverage);
+pub type EnginePicture = (String, Coverage);
 
 /// What each engine draws, judged by `target`; then the target, as `oracle`.
 ///
 /// All coverages show the case's window.
-pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> RgbImage {
+pub fn of_case(title: &str, case: &Case, actual: &[EnginePicture], target: &Coverage) -> RgbImage {
     let (window, owners, segments) = (case.window, owners(case, target), outline(case));
     let oracle = [("oracle".to_owned(), target.clone())];
-    let all: Vec<&Drawn> = actual.iter().chain(&oracle).collect();
+    let all: Vec<&EnginePicture> = actual.iter().chain(&oracle).collect();
     let shown = crop(window, &all, target, &scaled(&segments, window, 1));
     let (zoom, columns) = layout(shown, all.len() as u32);
     let outlines = scaled(&segments, shown, zoom);
@@ -142,7 +142,7 @@ fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
 /// large one, the pixels that differ, or those that are hit.
 fn crop(
     window: PixelRect,
-    all: &[&Drawn],
+    all: &[&EnginePicture],
     target: &Coverage,
     outline: &[[PixelPoint; 2]],
 ) -> PixelRect {
@@ -378,7 +378,7 @@ mod tests {
     use rasterproof_verify::cases::named::Input;
 
     /// A named case, two engines of which the second lacks a pixel.
-    fn drawn(name: &str) -> (Case, Vec<Drawn>, Coverage) {
+    fn drawn(name: &str) -> (Case, Vec<EnginePicture>, Coverage) {
         let Input::Drawn { case, .. } = find(name).unwrap().input else {
             panic!("{name} is drawn")
         };
@@ -396,7 +396,7 @@ mod tests {
     fn a_large_window_is_cropped_to_what_differs() {
         let (case, engines, target) = drawn("T4");
         assert!(case.window.width() > MOST_CROPPED_PX, "{:?}", case.window);
-        let shown = |engines: &[Drawn]| {
+        let shown = |engines: &[EnginePicture]| {
             let all: Vec<_> = engines.iter().collect();
             crop(case.window, &all, &target, &scaled(&outline(&case), case.window, 1))
         };

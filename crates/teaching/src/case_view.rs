@@ -6,7 +6,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_core::triangle::PixelPoint;
-use rasterproof_registry::comparison::{Hits, Judged};
+use rasterproof_registry::comparison::{EnginesToJudge, Hits};
 use rasterproof_registry::engines::Entry;
 use rasterproof_report::words::count;
 use rasterproof_report::{drawn, panels};
@@ -18,8 +18,8 @@ use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use crate::explain::point;
 
 /// Everybody who is judged, or a planted fault alone.
-pub fn judged(plant: Option<&str>) -> Judged {
-    plant.map_or_else(Judged::all, Judged::planted)
+pub fn judged(plant: Option<&str>) -> EnginesToJudge {
+    plant.map_or_else(EnginesToJudge::all, EnginesToJudge::planted)
 }
 
 /// The hits in a window; none where the other one has no pixels.
@@ -38,7 +38,7 @@ pub struct Shown {
     target: Coverage,
 }
 
-pub fn draw(case: &Case, judged: &Judged) -> Shown {
+pub fn draw(case: &Case, judged: &EnginesToJudge) -> Shown {
     Shown { engines: judged.hits(case), target: oracle_hits(case) }
 }
 
@@ -106,7 +106,7 @@ impl Shown {
         panels::of_case(title, case, &self.drawn(), &self.target)
     }
 
-    fn drawn(&self) -> Vec<panels::Drawn> {
+    fn drawn(&self) -> Vec<panels::EnginePicture> {
         let drawn = self.engines.iter();
         drawn.filter_map(|(name, hits)| Some((name.clone(), hits.clone().ok()?))).collect()
     }

@@ -238,7 +238,7 @@ fn known_faults_are_no_news() {
                 format!("{driver} | {} | huge | twice-area-px2 >= {px2} | lost", about.version);
             known::of(&known::parse(&text).unwrap(), &about)
         };
-        let judged = |plant: &str, known: &[known::Known]| {
+        let judged = |plant: &str, known: &[known::KnownFault]| {
             let gpu = Gpu::named(&format!("{engine}{plant}")).unwrap();
             let stand = campaign::judge_with(gpu, &options(96, &["huge"]), known, &|_| ());
             class(&stand, "huge")

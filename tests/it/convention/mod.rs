@@ -9,8 +9,8 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_report::phrases::chinese;
 use rasterproof_verify::convention::{
-    Ask, Confidence, Convention, Diagnosis, Known, LineTie, Mirror, Pattern, Quantum, Rounding,
-    Scan, Shape, Ties, TriangleQuestion, Windings, diagnose, diagnose_lines,
+    Ask, Confidence, Convention, Declarations, Diagnosis, LineTie, Mirror, Pattern, Quantum,
+    Rounding, Scan, Shape, Ties, TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
 use rayon::prelude::*;
 
@@ -142,7 +142,7 @@ fn check_named(found: &[Named]) {
 fn conventions_made_up_are_named() {
     let named = |number| {
         let mut made = made_up(number);
-        let found = diagnose(&mut made, &Known::default(), 1);
+        let found = diagnose(&mut made, &Declarations::default(), 1);
         let wrong = differences(&made, &found);
         let is_named = wrong.is_empty() && found.confidence != Confidence::Unexplained;
         (found.confidence, is_named, format!("#{number} {made:?}: {wrong:?} {found:?}"))
@@ -168,7 +168,7 @@ fn conventions_of_samples_and_mirrors_are_named() {
         list.push((made_up(number), mirror));
     }
     let named = |(made, mirror)| {
-        let found = diagnose(&mut Mirrored(made, mirror), &Known::default(), 1);
+        let found = diagnose(&mut Mirrored(made, mirror), &Declarations::default(), 1);
         let mut wrong = differences(&made, &found);
         if found.convention.mirror != mirror {
             wrong.push(format!("{:?} not {mirror:?}", found.convention.mirror));
@@ -187,7 +187,7 @@ fn conventions_of_mirrors_predict() {
         let shape = Shape::Point { x: 128, y: 128 };
         let mut program =
             Mirrored(Synthetic { step: 1, shape, draws: Windings::Both, ..made_up(0) }, mirror);
-        let found = diagnose(&mut program, &Known::default(), 1);
+        let found = diagnose(&mut program, &Declarations::default(), 1);
         let side = if mirror == Mirror::Exchanged { 20 } else { 24 };
         let window = PixelRect::window(side, 20);
         let corners = [(256, 300), (4000, 700), (900, 4700)].map(|(x, y)| SubpixelPoint::new(x, y));
@@ -203,7 +203,7 @@ fn conventions_of_mirrors_predict() {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_another_are_not_confused() {
     for number in 0..12 {
-        let found = diagnose(&mut made_up(number), &Known::default(), 1);
+        let found = diagnose(&mut made_up(number), &Declarations::default(), 1);
         assert!(!differences(&made_up(number + 6), &found).is_empty(), "{number}");
     }
 }
@@ -218,7 +218,7 @@ fn conventions_of_noise_are_unexplained() {
     };
     (0..12u64).into_par_iter().for_each(|number| {
         let made = Synthetic { noise: 20 + 60 * number, ..made_up(number) };
-        let found = diagnose(&mut { made }, &Known::default(), 1);
+        let found = diagnose(&mut { made }, &Declarations::default(), 1);
         assert_eq!(found.confidence, Confidence::Unexplained, "{made:?}: {}", found.sentence());
         assert!(found.sentence().starts_with("Unexplained"));
         assert!(found.expected(&question).is_none());
@@ -257,10 +257,10 @@ fn conventions_of_other_shapes_are_unexplained() {
     let all: [(&str, Hits); 3] =
         [("boxes", boxes), ("discs", discs), ("everything", |_, _, _| true)];
     for (name, hits) in all {
-        let found = diagnose(&mut other(hits), &Known::default(), 1);
+        let found = diagnose(&mut other(hits), &Declarations::default(), 1);
         assert_eq!(found.confidence, Confidence::Unexplained, "{name}: {}", found.sentence());
     }
-    let found = diagnose(&mut other(|_, _, _| false), &Known::default(), 1);
+    let found = diagnose(&mut other(|_, _, _| false), &Declarations::default(), 1);
     assert_eq!(found.convention.draws, Windings::Neither);
     assert_eq!(found.sentence(), "It draws nothing.");
 }
@@ -273,10 +273,10 @@ fn conventions_of_the_silent_are_unknown() {
             Vec::new()
         }
     }
-    let found = diagnose(&mut Silent, &Known::default(), 1);
+    let found = diagnose(&mut Silent, &Declarations::default(), 1);
     assert_eq!((found.confidence, found.asked), (Confidence::Unexplained, found.refused));
     assert_eq!(found.sentence(), "Unexplained: it answered none of 20 questions.");
-    let known = Known { window_px: (8, 8), ..Known::default() };
+    let known = Declarations { window_px: (8, 8), ..Declarations::default() };
     let found = diagnose(&mut Silent, &known, 1);
     assert_eq!(found.sentence(), "Not asked: a window or range of 16 px is needed.");
 }
@@ -287,7 +287,7 @@ fn conventions_by_corner_order_are_said_to_be_so() {
     let shape = Shape::Point { x: 128, y: 128 };
     let made = Synthetic { shape, owner: Owner::FirstEdge, draws: Windings::Both, ..made_up(0) };
     let mut made = Synthetic { step: 1, ..made };
-    let found = diagnose(&mut made, &Known::default(), 1);
+    let found = diagnose(&mut made, &Declarations::default(), 1);
     assert_eq!((found.convention.shape, found.confidence), (shape, Confidence::Certain));
     assert!(!found.compass.is_decided() && found.rotated.drawn > 10, "{found:?}");
     let text = found.sentence();
@@ -316,12 +316,12 @@ fn conventions_of_scans_are_named() {
     for scan in Scan::ALL {
         let shape = Shape::Scan(scan);
         let convention = Convention { shape, ..Convention::default() };
-        let found = diagnose(&mut drawn(convention, 0), &Known::default(), 1);
+        let found = diagnose(&mut drawn(convention, 0), &Declarations::default(), 1);
         let text = found.sentence();
         let named = (found.convention.shape, found.confidence);
         assert_eq!(named, (shape, Confidence::Certain), "{text}");
         assert_chinese(&text);
-        let found = diagnose(&mut drawn(convention, 100), &Known::default(), 1);
+        let found = diagnose(&mut drawn(convention, 100), &Declarations::default(), 1);
         let is_sure = found.confidence == Confidence::Certain;
         assert!(!is_sure, "{scan:?}: {}", found.sentence());
     }
@@ -337,7 +337,7 @@ fn conventions_on_coarse_grids_predict() {
         if matches!(made.shape, Shape::Outline(_) | Shape::Stepped { .. }) {
             continue;
         }
-        let known = Known { grid, window_px: (24, 20), ..Known::default() };
+        let known = Declarations { grid, window_px: (24, 20), ..Declarations::default() };
         let found = diagnose(&mut made, &known, 1);
         let window = PixelRect::window(20, 20);
         let mut wrong = 0;
@@ -362,7 +362,7 @@ const LIBRARIES: &str = "cairo gdal java2d-path mupdf opencv-convex opencv-fillp
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_libraries_are_named() {
     let said = |name: &str| {
-        let found = diagnose(&mut Recording::read(name), &Known::default(), 1);
+        let found = diagnose(&mut Recording::read(name), &Declarations::default(), 1);
         let (c, as_found) = (found.convention, &found.as_found);
         let predicted = [as_found.general.triangles, as_found.ties.triangles]
             .map(|count| format!("{} of {}", count.drawn, count.of));
@@ -396,7 +396,7 @@ fn conventions_record() {
     let order = std::env::var("RECORD").expect("RECORD='NAME CMD ARGS'");
     let (name, command) = order.split_once(' ').expect("a name and a command");
     let mut recorder = Recorder::start(command);
-    let found = diagnose(&mut recorder, &Known::default(), 1);
+    let found = diagnose(&mut recorder, &Declarations::default(), 1);
     println!("{:?}: {:?}\n{}", recorder.words, found.confidence, found.sentence());
     if recorder.words.iter().any(|word| word == "line") {
         let found = diagnose_lines(&mut recorder, 40, false, 1);

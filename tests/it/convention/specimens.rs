@@ -6,7 +6,7 @@ use rasterproof_faults::published::from_lattice;
 use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_verify::cases::{self, Shape};
 use rasterproof_verify::convention::{
-    Confidence, Convention, Known, Shape as Drawn, TriangleQuestion, diagnose,
+    Confidence, Convention, Declarations, Shape as Drawn, TriangleQuestion, diagnose,
 };
 use rasterproof_verify::oracle::Oracle;
 
@@ -26,7 +26,7 @@ fn conventions_of_specimens_are_named() {
         specimen.cover(&from_lattice(question.corners), question.window, &mut hit).ok()?;
         Some(picture)
     });
-    let found = diagnose(&mut program, &Known::default(), 1);
+    let found = diagnose(&mut program, &Declarations::default(), 1);
     let corner = Drawn::Point { x: 0, y: 256 };
     let named = (found.convention.shape, found.confidence);
     assert_eq!(named, (corner, Confidence::Certain), "{}", found.sentence());

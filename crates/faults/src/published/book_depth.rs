@@ -10,7 +10,7 @@
 use glam::DVec2;
 
 use super::book_final::BookFinal;
-use super::{Drawn, Fragments, Published, RealTriangle, Spans};
+use super::{DrawResult, Fragments, Published, RealTriangle, Spans};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Fragment;
@@ -24,12 +24,17 @@ pub enum BookDepth {
 }
 
 impl Published for BookDepth {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         BookFinal { exercise: false }.cover(triangle, bounds, emit)
     }
 
     /// The fragments of the final triangle, the depth being the chapter's.
-    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: Fragments<'_>,
+    ) -> DrawResult {
         // z within [-1, 1] passes the clip and steps as z/w does; w travels as an attribute.
         let scale =
             triangle.iter().fold(1.0, |most: f64, v| most.max(self.depth_of(v.depth, v.w).abs()));

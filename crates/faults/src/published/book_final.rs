@@ -17,8 +17,8 @@ use super::scene::{
     COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
 };
 use super::{
-    BookScreen, ClipVertex, Columns, Drawn, Fragments, Published, RealTriangle, Refused, Spans,
-    int_loop,
+    BookScreen, ClipVertex, Columns, DrawResult, Fragments, Published, RealTriangle, Refused,
+    Spans, int_loop,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
@@ -171,7 +171,7 @@ impl BookFinal {
 }
 
 impl Published for BookFinal {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         let screen = BookScreen { bounds };
         self.rows(triangle, bounds, &mut |ValuedRow { row, .. }| {
             if let Some((first, last)) = int_loop(row.left, row.right)? {
@@ -182,7 +182,12 @@ impl Published for BookFinal {
     }
 
     /// Before the depth test, which drops a fragment farther than what was there.
-    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: Fragments<'_>,
+    ) -> DrawResult {
         let screen = BookScreen { bounds };
         let mut columns = Columns::default();
         self.rows(triangle, bounds, &mut |ValuedRow { row, z, w, varying }| {

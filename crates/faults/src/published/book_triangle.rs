@@ -12,8 +12,8 @@
 use glam::DVec2;
 
 use super::{
-    BookScreen, Columns, Drawn, Fragments, MOST_STEPS, Published, RealTriangle, Refused, Spans,
-    int_loop, to_int,
+    BookScreen, Columns, DrawResult, Fragments, MOST_STEPS, Published, RealTriangle, Refused,
+    Spans, int_loop, to_int,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry;
@@ -161,7 +161,7 @@ impl BookChapter2 {
 }
 
 impl Published for BookChapter2 {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         cover(triangle, bounds, true, emit)
     }
 
@@ -171,11 +171,16 @@ impl Published for BookChapter2 {
 }
 
 impl Published for BookChapter3 {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         cover(triangle, bounds, false, emit)
     }
 
-    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: Fragments<'_>,
+    ) -> DrawResult {
         let screen = BookScreen { bounds };
         let corners = triangle.map_array(|v| Valued {
             at: screen.position(v.position_px),

@@ -14,7 +14,9 @@
 use glam::{DVec2, Vec2};
 
 use super::scene::{Image, Setting, Version, chequered, floor};
-use super::{Drawn, Fragments, Published, RealTriangle, RealVertex, Refused, Spans, bare, to_int};
+use super::{
+    DrawResult, Fragments, Published, RealTriangle, RealVertex, Refused, Spans, bare, to_int,
+};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
@@ -81,7 +83,7 @@ fn weights([a, b, c]: [Vec2; 3], p: Vec2) -> [f32; 3] {
 }
 
 impl Published for Games101Strict {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         self.pixels(corners(triangle, bounds), bounds, &mut |x_px, y_px, _| {
             emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
         })
@@ -89,7 +91,12 @@ impl Published for Games101Strict {
 
     /// The depth as published; the attributes by the same formula, as the homework that follows
     /// does.
-    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: Fragments<'_>,
+    ) -> DrawResult {
         let corners = corners(triangle, bounds);
         self.pixels(corners, bounds, &mut |x_px, y_px, sample| {
             let weights = weights(corners, sample).map_array(f64::from);

@@ -161,7 +161,7 @@ impl Columns {
 /// The function that receives the spans of a triangle, in the published order.
 pub type Spans<'a> = &'a mut dyn FnMut(Span);
 pub type Fragments<'a> = &'a mut dyn FnMut(Fragment<DVec2>);
-pub type Drawn = Result<(), Refused>;
+pub type DrawResult = Result<(), Refused>;
 
 pub trait Published: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` as often as the published loops set them: a pixel that lies in
@@ -169,7 +169,7 @@ pub trait Published: fmt::Debug + Sync {
     ///
     /// # Errors
     /// [`Refused`] where the published code is undefined or does not end.
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn;
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult;
 
     /// Emits a fragment for each pixel that [`Published::cover`] emits, in the published order.
     ///
@@ -180,7 +180,7 @@ pub trait Published: fmt::Debug + Sync {
         _triangle: &RealTriangle,
         _bounds: PixelRect,
         _emit: Fragments<'_>,
-    ) -> Drawn {
+    ) -> DrawResult {
         Err(Refused::NoValues)
     }
 

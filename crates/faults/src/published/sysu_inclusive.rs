@@ -11,7 +11,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Fragments, Published, RealTriangle, Refused, Spans, to_int};
+use super::{DrawResult, Fragments, Published, RealTriangle, Refused, Spans, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
@@ -96,13 +96,18 @@ pub(super) fn lerp(triangle: &RealTriangle, weights: [f32; 3]) -> (f64, DVec2) {
 }
 
 impl Published for SysuInclusive {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         samples(&front(triangle)?, bounds, &mut |s| {
             emit(Span { y_px: s.y_px, x0_px: s.x_px, x1_px: s.x_px + 1 });
         })
     }
 
-    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: Fragments<'_>,
+    ) -> DrawResult {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
             let [ab, bc, ca] = s.edges.map_array(|f| f as f32 * s.inverse);

@@ -7,7 +7,7 @@
 //! triangles, and neighbours drawn twice.
 
 use super::sysu_inclusive::{front, samples};
-use super::{Drawn, Published, RealTriangle, Spans, to_int};
+use super::{DrawResult, Published, RealTriangle, Spans, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
@@ -16,7 +16,7 @@ use rasterproof_core::triangle::Span;
 pub struct SysuTruncated;
 
 impl Published for SysuTruncated {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         let triangle = front(triangle)?;
         // The corners' positions in whole pixels, as f32.
         let position = |i: usize, axis: usize| triangle[i].position_px[axis].trunc() as f32;

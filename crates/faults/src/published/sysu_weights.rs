@@ -8,7 +8,7 @@
 
 use super::scene::{Colour, Image, SIDE, Setting, Version, either, empty};
 use super::sysu_inclusive::{SysuInclusive, front, lerp, samples};
-use super::{Drawn, Fragments, Published, RealTriangle, Spans, bare};
+use super::{DrawResult, Fragments, Published, RealTriangle, Spans, bare};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Fragment;
@@ -17,11 +17,16 @@ use rasterproof_core::triangle::Fragment;
 pub struct SysuWeights;
 
 impl Published for SysuWeights {
-    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult {
         SysuInclusive.cover(triangle, bounds, emit)
     }
 
-    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: Fragments<'_>,
+    ) -> DrawResult {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
             let (depth, varying) = lerp(&triangle, s.edges.map_array(|f| f as f32 * s.inverse));

@@ -221,7 +221,7 @@ fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragme
 
 /// A picture, and every fragment that went into it.
 #[derive(Clone, Debug)]
-pub struct Drawn {
+pub struct Rendering {
     pub width: usize,
     pub pixels: Vec<[u8; 3]>,
     /// The number of its triangle, and the fragment, in drawing order.
@@ -230,7 +230,7 @@ pub struct Drawn {
     pub failed: bool,
 }
 
-impl Drawn {
+impl Rendering {
     /// A picture that was not drawn here.
     pub fn of(width: usize, pixels: Vec<[u8; 3]>) -> Self {
         Self { width, pixels, fragments: Vec::new(), failed: false }
@@ -238,7 +238,7 @@ impl Drawn {
 }
 
 #[must_use]
-pub fn draw(subject: &Rasterizer, scene: &Scene) -> Drawn {
+pub fn draw(subject: &Rasterizer, scene: &Scene) -> Rendering {
     let mut fragments = Vec::new();
     let drawing = caught(|| {
         scene.triangles.iter().enumerate().all(|(i, triangle)| {
@@ -246,7 +246,7 @@ pub fn draw(subject: &Rasterizer, scene: &Scene) -> Drawn {
         })
     });
     let (width, height) = (scene.window.width() as usize, scene.window.height() as usize);
-    let mut drawn = Drawn {
+    let mut drawn = Rendering {
         width,
         pixels: vec![[0; 3]; width * height],
         fragments,

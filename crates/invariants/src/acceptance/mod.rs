@@ -12,7 +12,7 @@ pub mod scenes;
 
 use rasterproof_core::parallel;
 
-use drawing::{Drawn, Rasterizer, draw};
+use drawing::{Rasterizer, Rendering, draw};
 use rules::{RULES, View};
 use scenes::{Scene, scenes};
 use serde::Serialize;
@@ -79,7 +79,7 @@ pub struct Acceptance {
     pub visible: [usize; 2],
 }
 
-struct Judged {
+struct SceneJudgement {
     wrong_pixels: u64,
     pixels: u64,
     /// For each rule whether it accepts, where it looks at such a scene.
@@ -103,7 +103,7 @@ pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Acceptance {
     for (set, of_suites) in [(0, true), (1, false)] {
         let scenes: Vec<usize> =
             (0..list.len()).filter(|&i| list[i].of_suites == of_suites).collect();
-        let of_set: Vec<(&Scene, &[Judged])> =
+        let of_set: Vec<(&Scene, &[SceneJudgement])> =
             scenes.iter().map(|&i| (&list[i], judged[i].0.as_slice())).collect();
         let rows = (0..RULES.len()).map(|rule| {
             let refused = |&&i: &&usize| judged[i].1[rule] == Some(false);
@@ -123,10 +123,10 @@ pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Acceptance {
 }
 
 /// What each subject's picture of a scene came to, and for each rule whether it accepts the right picture.
-fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<Judged>, Vec<Option<bool>>) {
+fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<SceneJudgement>, Vec<Option<bool>>) {
     let right = draw(&Rasterizer::Reference, scene);
     let seen = rules::Seen::new(scene, &right);
-    let accepts = |subject: &Rasterizer, drawn: &Drawn| -> Vec<Option<bool>> {
+    let accepts = |subject: &Rasterizer, drawn: &Rendering| -> Vec<Option<bool>> {
         let view = View { scene, seen: &seen, right: &right, drawn, subject };
         RULES.iter().map(|rule| rule.accepts(&view)).collect()
     };
@@ -134,7 +134,11 @@ fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<Judged>, Vec<Option<boo
     let mut all = Vec::new();
     for subject in subjects {
         if !subject.can_draw(scene) {
-            all.push(Judged { wrong_pixels: 0, pixels: 0, accepts: vec![None; RULES.len()] });
+            all.push(SceneJudgement {
+                wrong_pixels: 0,
+                pixels: 0,
+                accepts: vec![None; RULES.len()],
+            });
             continue;
         }
         let drawn = draw(subject, scene);
@@ -144,20 +148,20 @@ fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<Judged>, Vec<Option<boo
             *accepts = accepts.filter(|_| *usable == Some(true));
         }
         let (wrong_pixels, pixels) = (differing(&right, &drawn), right.pixels.len() as u64);
-        all.push(Judged { wrong_pixels, pixels, accepts });
+        all.push(SceneJudgement { wrong_pixels, pixels, accepts });
     }
     (all, usable)
 }
 
 /// The number of pixels that differ; all of them where there is no picture.
-fn differing(right: &Drawn, drawn: &Drawn) -> u64 {
+fn differing(right: &Rendering, drawn: &Rendering) -> u64 {
     if drawn.failed {
         return right.pixels.len() as u64;
     }
     right.pixels.iter().zip(&drawn.pixels).filter(|(a, b)| a != b).count() as u64
 }
 
-fn row(rule: usize, subjects: &[Rasterizer], scenes: &[(&Scene, &[Judged])]) -> Row {
+fn row(rule: usize, subjects: &[Rasterizer], scenes: &[(&Scene, &[SceneJudgement])]) -> Row {
     let mut row = Row::default();
     for (s, subject) in subjects.iter().enumerate() {
         let (mut refused, mut seen, mut wrong, mut pixels) = (0, 0, 0, 0);

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::drawing::Drawn;
+use super::drawing::Rendering;
 use rasterproof_core::arrays::MapArray as _;
 
 /// Pixels for each degree of the field of view: a 0.7 m wide screen of 3840 pixels seen from 0.7 m.
@@ -246,7 +246,7 @@ fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: 
 }
 
 /// The number of pixels that pixelmatch counts as different at this threshold.
-pub fn pixelmatch(right: &Drawn, drawn: &Drawn, threshold: f64) -> usize {
+pub fn pixelmatch(right: &Rendering, drawn: &Rendering, threshold: f64) -> usize {
     let most = 35_215.0 * threshold * threshold;
     let differs = |place: usize| {
         let [y, i, q] = yiq(right.pixels[place], drawn.pixels[place]);
@@ -267,7 +267,7 @@ fn yiq(a: [u8; 3], b: [u8; 3]) -> [f64; 3] {
 }
 
 /// The pixels around one, and whether it lies on the border.
-fn around(picture: &Drawn, place: usize) -> (Vec<usize>, bool) {
+fn around(picture: &Rendering, place: usize) -> (Vec<usize>, bool) {
     let (width, height) = (picture.width, picture.pixels.len() / picture.width);
     let (x, y) = (place % width, place / width);
     let (x0, x1) = (x.saturating_sub(1), (x + 1).min(width - 1));
@@ -278,7 +278,7 @@ fn around(picture: &Drawn, place: usize) -> (Vec<usize>, bool) {
 }
 
 /// Whether pixelmatch takes a pixel for one of a smoothed edge.
-fn is_smoothed(picture: &Drawn, other: &Drawn, place: usize) -> bool {
+fn is_smoothed(picture: &Rendering, other: &Rendering, place: usize) -> bool {
     let (places, on_border) = around(picture, place);
     let mut equal = usize::from(on_border);
     let (mut darkest, mut brightest) = ((0.0, place), (0.0, place));
@@ -304,7 +304,7 @@ fn is_smoothed(picture: &Drawn, other: &Drawn, place: usize) -> bool {
 }
 
 /// Whether three pixels around one have its colour.
-fn has_siblings(picture: &Drawn, place: usize) -> bool {
+fn has_siblings(picture: &Rendering, place: usize) -> bool {
     let (places, on_border) = around(picture, place);
     let same = |near: &&usize| picture.pixels[**near] == picture.pixels[place];
     usize::from(on_border) + places.iter().filter(same).count() > 2

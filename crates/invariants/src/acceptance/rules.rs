@@ -8,15 +8,15 @@ use rasterproof_verify::comparison::single_precision::perspective_bounds;
 use rasterproof_verify::comparison::tolerance;
 
 use super::deqp::{self, Cover};
-use super::drawing::{Drawn, Rasterizer};
+use super::drawing::{Rasterizer, Rendering};
 use super::perceptual;
 use super::scenes::{Paint, Scene};
 
 pub struct View<'a> {
     pub scene: &'a Scene,
     pub seen: &'a Seen,
-    pub right: &'a Drawn,
-    pub drawn: &'a Drawn,
+    pub right: &'a Rendering,
+    pub drawn: &'a Rendering,
     /// Whose it is, for what a device reports about itself.
     pub subject: &'a Rasterizer,
 }
@@ -29,7 +29,7 @@ pub struct Seen {
 }
 
 impl Seen {
-    pub fn new(scene: &Scene, right: &Drawn) -> Self {
+    pub fn new(scene: &Scene, right: &Rendering) -> Self {
         let covers = (scene.paint == Paint::White)
             .then(|| [8, 4].map(|bits| deqp::covers(&scene.triangles, scene.window, bits)));
         let flip = perceptual::Flip::new(right.width, &right.pixels);
@@ -177,7 +177,7 @@ fn largest(a: [u8; 3], b: [u8; 3]) -> u8 {
     (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0)
 }
 
-fn samples_agree(right: &Drawn, drawn: &Drawn) -> bool {
+fn samples_agree(right: &Rendering, drawn: &Rendering) -> bool {
     let height = right.pixels.len() / right.width;
     let middle = height / 2 * right.width + right.width / 2;
     let places = [0, middle, right.pixels.len() - 1];

@@ -8,7 +8,7 @@ use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_verify::cases::Triangle;
 
 use super::deqp::{self, Cover};
-use super::drawing::{Drawn, Rasterizer, draw};
+use super::drawing::{Rasterizer, Rendering, draw};
 use super::perceptual::{Flip, lab_of_all, pixelmatch, ssim_error};
 use super::rules::{RULES, Seen, View};
 use super::scenes::{Paint, Scene};
@@ -31,7 +31,7 @@ fn scene(paint: Paint, side: u32, triangles: Vec<Triangle>) -> Scene {
     Scene { of_suites: true, ..Scene::new("by hand".to_owned(), paint, window, triangles) }
 }
 
-fn accepts_of(rule: &str, scene: &Scene, right: &Drawn, drawn: &Drawn) -> Option<bool> {
+fn accepts_of(rule: &str, scene: &Scene, right: &Rendering, drawn: &Rendering) -> Option<bool> {
     let seen = Seen::new(scene, right);
     let view = View { scene, seen: &seen, right, drawn, subject: &Rasterizer::Reference };
     RULES.iter().find(|own| own.name == rule).unwrap().accepts(&view)
@@ -39,7 +39,7 @@ fn accepts_of(rule: &str, scene: &Scene, right: &Drawn, drawn: &Drawn) -> Option
 
 /// Whether a rule accepts a picture of one colour after some pixels were changed.
 fn accepts(rule: &str, side: u32, changed: &[(usize, [u8; 3])]) -> bool {
-    let right = Drawn::of(side as usize, vec![BLACK; (side * side) as usize]);
+    let right = Rendering::of(side as usize, vec![BLACK; (side * side) as usize]);
     let mut drawn = right.clone();
     for (place, colour) in changed {
         drawn.pixels[*place] = *colour;
@@ -88,7 +88,7 @@ fn pixelmatch_counts_what_is_seen() {
     // A grey column between black and white is taken for a smoothed edge.
     let edge = |grey: u8| {
         let row = [BLACK, BLACK, BLACK, [grey; 3], WHITE, WHITE, WHITE];
-        Drawn::of(7, row.repeat(7))
+        Rendering::of(7, row.repeat(7))
     };
     assert_eq!(pixelmatch(&edge(0), &edge(255), 0.1), 7);
     let mut smoothed = edge(0);
@@ -191,7 +191,7 @@ fn the_own_rule_counts_hits_and_compares_values() {
     let halves = [[[0, 0], [8, 0], [0, 8]], [[8, 0], [8, 8], [0, 8]]].map(triangle).to_vec();
     let scene = scene(Paint::Values, 8, halves);
     let right = draw(&Rasterizer::Reference, &scene);
-    let accepts = |change: &dyn Fn(&mut Drawn)| {
+    let accepts = |change: &dyn Fn(&mut Rendering)| {
         let mut drawn = right.clone();
         change(&mut drawn);
         accepts_of("rasterproof", &scene, &right, &drawn).unwrap()

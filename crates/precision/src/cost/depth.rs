@@ -76,7 +76,7 @@ impl<T: Real> DepthPlane<T> {
 /// Draws all back layers, then all front ones, a tile beside the other; 2 marks the pixels that a
 /// front one got.
 #[inline]
-fn draw<F: Format>(layers: &[Layers], buffer: &mut [F::Stored], colours: &mut [u8]) {
+fn draw<F: Format>(layers: &[Layers], buffer: &mut [F::Entry], colours: &mut [u8]) {
     const TILE: usize = SIDE_PX * SIDE_PX;
     for (layers, (held, colours)) in
         layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))

@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 
 use super::bounds::{Bound, Place, largest};
-use super::drawn::{AnyValues, Drawn, dress, pixels};
+use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
 use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared, Told};
@@ -35,7 +35,7 @@ fn measures() -> Vec<Measure> {
 }
 
 impl AnyValues<Valued> for Planes {
-    fn each(&self, drawn: &Drawn<Valued>, emit: &mut dyn FnMut(i32, i32, f64)) {
+    fn each(&self, drawn: &CoveredTriangle<Valued>, emit: &mut dyn FnMut(i32, i32, f64)) {
         self.runs(&drawn.triangle, &drawn.spans, &mut |x_px, y_px, values| {
             for (x_px, &value) in (x_px..).zip(values) {
                 emit(x_px, y_px, value.into());
@@ -43,8 +43,8 @@ impl AnyValues<Valued> for Planes {
         });
     }
 
-    fn paint(&self, drawn: &[Drawn<Valued>], target: &mut Frame<f32>) {
-        for Drawn { triangle, spans, .. } in drawn {
+    fn paint(&self, drawn: &[CoveredTriangle<Valued>], target: &mut Frame<f32>) {
+        for CoveredTriangle { triangle, spans, .. } in drawn {
             self.runs(triangle, spans, &mut |x_px, y_px, values| {
                 let run = target.span_mut(y_px, x_px, x_px + values.len() as i32);
                 run.copy_from_slice(values);
@@ -154,7 +154,7 @@ fn variants() -> Vec<Variant> {
 }
 
 /// The triangles of a scene on the lattice, with w and a value at each corner.
-fn valued(scene: &Scene) -> Vec<Drawn<Valued>> {
+fn valued(scene: &Scene) -> Vec<CoveredTriangle<Valued>> {
     dress(scene, |number, corners, inv_w| {
         let w = scene.w[number];
         // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
@@ -172,12 +172,12 @@ struct Sample {
 }
 
 /// About `count` samples of all pixels, evenly spread in drawing order.
-fn samples(drawn: &[Drawn<Valued>], count: usize) -> Vec<Sample> {
+fn samples(drawn: &[CoveredTriangle<Valued>], count: usize) -> Vec<Sample> {
     // Odd, so that a stride does not keep step with rows of even length.
     let stride = (pixels(drawn) / count).max(1) | 1;
     let mut samples = Vec::new();
     let mut before = 0;
-    for (triangle, Drawn { triangle: valued, spans, .. }) in drawn.iter().enumerate() {
+    for (triangle, CoveredTriangle { triangle: valued, spans, .. }) in drawn.iter().enumerate() {
         let columns = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(|x_px| (x_px, s.y_px)));
         let Some(plane) = exact(valued) else { continue };
         let mut number = 0;
@@ -194,12 +194,12 @@ fn samples(drawn: &[Drawn<Valued>], count: usize) -> Vec<Sample> {
 }
 
 /// Takes a triangle, a sample of it, the pixel and the value that a choice has there.
-type See<'a, 'b> = dyn FnMut(&'a Drawn<Valued>, &Sample, [i32; 2], f64) + 'b;
+type See<'a, 'b> = dyn FnMut(&'a CoveredTriangle<Valued>, &Sample, [i32; 2], f64) + 'b;
 
 /// Calls `see` for each sample.
 fn at_samples<'a>(
     choice: &dyn AnyValues<Valued>,
-    drawn: &'a [Drawn<Valued>],
+    drawn: &'a [CoveredTriangle<Valued>],
     samples: &[Sample],
     see: &mut See<'a, '_>,
 ) {
@@ -219,10 +219,14 @@ fn at_samples<'a>(
 }
 
 /// Errors of a choice at the samples: over M, in u M, over the bound.
-fn errors(variant: &Variant, drawn: &[Drawn<Valued>], samples: &[Sample]) -> Vec<Option<f64>> {
+fn errors(
+    variant: &Variant,
+    drawn: &[CoveredTriangle<Valued>],
+    samples: &[Sample],
+) -> Vec<Option<f64>> {
     let (mut worst, mut worst_bound) = (0f64, None::<f64>);
     at_samples(&*variant.body, drawn, samples, &mut |of_this, sample, [x_px, y_px], value| {
-        let Drawn { triangle, spans, .. } = of_this;
+        let CoveredTriangle { triangle, spans, .. } = of_this;
         let m = largest(triangle.value);
         let error = sample.exact.distance(value);
         worst = worst.max(if m > 0.0 { error / m } else { error });

@@ -5,7 +5,7 @@
 
 use std::cell::RefCell;
 
-use super::drawn::{AnyValues, Drawn, dress, pixels};
+use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
@@ -29,7 +29,7 @@ fn measures() -> Vec<Measure> {
 }
 
 /// The triangles of a scene on the lattice that cover anything, with texture coordinates made of their positions.
-fn textured(scene: &Scene) -> Vec<Drawn<Textured>> {
+fn textured(scene: &Scene) -> Vec<CoveredTriangle<Textured>> {
     let mut drawn = dress(scene, |_, corners, inv_w| {
         let made = |i: usize| {
             let SubpixelPoint { x, y } = corners[i];
@@ -81,7 +81,7 @@ struct Sample {
     level: f64,
 }
 
-fn samples(drawn: &[Drawn<Textured>]) -> Vec<Sample> {
+fn samples(drawn: &[CoveredTriangle<Textured>]) -> Vec<Sample> {
     let pixels = drawn.iter().flat_map(|of| of.spans.iter().map(move |span| (of, span)));
     let pixels =
         pixels.flat_map(|(of, span)| (span.x0_px..span.x1_px).map(move |x| (of, x, span.y_px)));
@@ -95,7 +95,11 @@ fn samples(drawn: &[Drawn<Textured>]) -> Vec<Sample> {
 
 type AnyLevel = dyn AnyValues<Textured>;
 
-fn errors(choice: &AnyLevel, drawn: &[Drawn<Textured>], samples: &[Sample]) -> Vec<Option<f64>> {
+fn errors(
+    choice: &AnyLevel,
+    drawn: &[CoveredTriangle<Textured>],
+    samples: &[Sample],
+) -> Vec<Option<f64>> {
     let (mut worst, mut sum, mut number) = (0f64, 0.0, 0);
     let mut left = samples.iter().peekable();
     let mut see = |_, _, level: f64| {
@@ -165,7 +169,7 @@ mod tests {
         };
         assert_eq!(exact(&triangle, 3, 7), Some(2.0));
         let spans = [Span { y_px: 7, x0_px: 1, x1_px: 6 }];
-        let drawn = Drawn { number: 0, triangle, spans: spans.to_vec() };
+        let drawn = CoveredTriangle { number: 0, triangle, spans: spans.to_vec() };
         let check = |choice: &AnyLevel| {
             let mut count = 0;
             choice.each(&drawn, &mut |_, _, level| {

@@ -70,7 +70,7 @@ fn tiles(seed: u64, class: &Class, count: usize) -> Vec<Tile> {
 /// Draws the map and reads it: of each place that lies two texels or more from the border of a half, how many of [`TAPS`]
 /// texels let the light pass.
 #[inline]
-fn draw<F: Format>(tiles: &[Tile], map: &mut [F::Stored], lit: &mut [u8]) {
+fn draw<F: Format>(tiles: &[Tile], map: &mut [F::Texel], lit: &mut [u8]) {
     for (tile, map) in tiles.iter().zip(map.chunks_exact_mut(TILE)) {
         for (y, row) in map.chunks_exact_mut(SIDE).enumerate() {
             for (x, held) in row.iter_mut().enumerate() {

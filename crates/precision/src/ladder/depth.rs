@@ -16,17 +16,17 @@ pub const FAR: f64 = 1000.0;
 
 pub trait Format {
     /// What the buffer holds; smaller passes where [`Format::REVERSED`] is not set.
-    type Stored: Copy + PartialOrd;
+    type Entry: Copy + PartialOrd;
     const REVERSED: bool;
     type Float: Real;
-    fn store(depth: Self::Float) -> Self::Stored;
+    fn store(depth: Self::Float) -> Self::Entry;
 
     /// The depth of a distance from the eye, before it is rounded to the format.
     fn depth(z: f64) -> f64;
 
     #[inline]
     #[must_use]
-    fn hides(a: Self::Stored, b: Self::Stored) -> bool {
+    fn hides(a: Self::Entry, b: Self::Entry) -> bool {
         if Self::REVERSED { a > b } else { a < b }
     }
 }
@@ -44,7 +44,7 @@ pub struct Forward<T>(PhantomData<T>);
 pub struct Reversed<T>(PhantomData<T>);
 
 impl Format for Fixed24 {
-    type Stored = u32;
+    type Entry = u32;
     type Float = f64;
     const REVERSED: bool = false;
     fn depth(z: f64) -> f64 {
@@ -58,7 +58,7 @@ impl Format for Fixed24 {
 }
 
 impl<T: Real> Format for Forward<T> {
-    type Stored = T;
+    type Entry = T;
     type Float = T;
     const REVERSED: bool = false;
     fn depth(z: f64) -> f64 {
@@ -71,7 +71,7 @@ impl<T: Real> Format for Forward<T> {
 }
 
 impl<T: Real> Format for Reversed<T> {
-    type Stored = T;
+    type Entry = T;
     type Float = T;
     const REVERSED: bool = true;
     fn depth(z: f64) -> f64 {
@@ -84,6 +84,6 @@ impl<T: Real> Format for Reversed<T> {
 }
 
 /// What a buffer holds for a distance: the exact mapping, rounded once to the format.
-pub fn stored<F: Format>(z: f64) -> F::Stored {
+pub fn stored<F: Format>(z: f64) -> F::Entry {
     F::store(F::Float::of(F::depth(z)))
 }

@@ -12,10 +12,10 @@ use super::Real;
 
 /// What a texel holds; smaller is nearer to the light.
 pub trait Format {
-    type Stored: Copy + PartialOrd;
+    type Texel: Copy + PartialOrd;
     /// Whether the bias is taken from the depth of a fragment.
     const BIASED: bool = true;
-    fn store(depth: f64) -> Self::Stored;
+    fn store(depth: f64) -> Self::Texel;
 }
 
 /// The range from 0 to 1 in 2^BITS - 1 equal steps.
@@ -36,7 +36,7 @@ where
     T: Copy + PartialOrd + 'static,
     f64: AsPrimitive<T>,
 {
-    type Stored = T;
+    type Texel = T;
     const BIASED: bool = BIASED;
     #[inline]
     fn store(depth: f64) -> T {
@@ -45,7 +45,7 @@ where
 }
 
 impl<T: Real> Format for Floats<T> {
-    type Stored = T;
+    type Texel = T;
     #[inline]
     fn store(depth: f64) -> T {
         T::of(depth)

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Engine;
-use rasterproof_registry::undecided::{self, Drawn};
+use rasterproof_registry::undecided::{self, EngineFrame};
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::depth_ties::ByRounding;
 use rasterproof_render::effects::plan::Plan;
@@ -81,7 +81,7 @@ pub fn compare(
         return Ok(None);
     }
     let drawn = [(Engine::Scanline, a), (Engine::EdgeFunction, b)];
-    let drawn = drawn.map(|(engine, drawing)| Drawn { engine, target: &drawing.target });
+    let drawn = drawn.map(|(engine, drawing)| EngineFrame { engine, target: &drawing.target });
     let is_complete = a.is_complete && b.is_complete;
     let ties = is_complete.then(|| undecided::find(scene, drawn)).transpose()?;
     let (first, second) = ((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::check_value;
-use rasterproof_registry::comparison::Judged;
+use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::json::value;
 use rasterproof_report::table::{Row, Table};
@@ -24,7 +24,7 @@ const CHUNK: usize = 128;
 pub fn report(
     studied: &Studied<'_>,
     subject: &Places<'_>,
-    judged: &Judged,
+    judged: &EnginesToJudge,
     shown: impl Display,
 ) -> (Report, Option<bool>) {
     // The engines see samples as the picture has them, and values up to their limit.
@@ -113,7 +113,7 @@ struct Fault {
 /// Judges an engine on all pieces, some of them together as a case.
 fn judge(
     pieces: &[&Piece],
-    engine: &Judged,
+    engine: &EnginesToJudge,
     case: &(dyn Fn(&[&Piece]) -> Case + Sync),
 ) -> Option<Fault> {
     let wrong = |chunk: &[&Piece]| {

@@ -4,7 +4,7 @@ use rasterproof_precision::cost::{Recorded, prices};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Found, Places};
+use super::{Places, StudyFindings};
 use crate::cost::{Choice, Group};
 use crate::effects::{Need, Needs, State};
 use crate::hard::HardCases;
@@ -64,7 +64,7 @@ pub struct Engine {
     pub face: Option<u32>,
 }
 
-pub fn study(subject: &Places<'_>, found: &Found<'_>, answers: &impl Serialize) -> Value {
+pub fn study(subject: &Places<'_>, found: &StudyFindings<'_>, answers: &impl Serialize) -> Value {
     let (scene, hard) = (subject.scene, found.hard);
     json!({
         "scene": scene.name, "triangles": scene.triangles(), "pieces": found.pieces,

@@ -108,7 +108,11 @@ fn ms(ns: f64) -> String {
 }
 
 /// The three questions of a study, each answered in a sentence or two, and the commands that say more.
-fn answers(subject: &Places<'_>, found: &Found<'_>, commands: [String; 3]) -> Vec<Statement> {
+fn answers(
+    subject: &Places<'_>,
+    found: &StudyFindings<'_>,
+    commands: [String; 3],
+) -> Vec<Statement> {
     let sentences = [accuracy(found.costs), stability(subject, found.hard), effects(found)];
     let questions = ["accuracy", "hard cases", "effects"];
     let all = questions.into_iter().zip(sentences).zip(commands);
@@ -216,7 +220,7 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
 }
 
 /// What the view calls for, and what it costs to pay for everything.
-fn effects(found: &Found<'_>) -> String {
+fn effects(found: &StudyFindings<'_>) -> String {
     let all = &found.needs.needs;
     let called: Vec<_> = all.iter().filter(|need| need.state() == State::CalledFor).collect();
     let mut sentence = format!("{} of {} effects are called for.", called.len(), all.len());
@@ -243,7 +247,7 @@ const FRAMES: &str = "Whole frames";
 const MOST_ROWS: usize = 4;
 
 /// What is seen, what is called for, and the cheapest exact choices: a table for each question.
-fn first_screen(subject: &Places<'_>, found: &Found<'_>) -> Vec<Table> {
+fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     let short = |columns: &str, mut rows: Vec<Row>, note: Option<String>| {
         let left_out = rows.len().saturating_sub(MOST_ROWS);
         rows.truncate(MOST_ROWS);
@@ -458,7 +462,7 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     lines
 }
 
-pub struct Found<'a> {
+pub struct StudyFindings<'a> {
     pub hard: &'a HardCases,
     pub needs: &'a Needs,
     pub costs: &'a [Group],
@@ -469,7 +473,7 @@ pub struct Found<'a> {
 }
 
 /// Plots of a study: error against time, and effects.
-fn figures(found: &Found<'_>) -> Vec<Figure> {
+fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
     let bar = |need: &Need| {
         let (planned, without) = (found.needs.planned, need.otherwise);
         let saved = !need.is_paid_for && without.low > planned.high;
@@ -529,7 +533,7 @@ fn marked(hard: &HardCases, picture: &RgbImage) -> RgbImage {
 /// Everything that was found. `about` says of what, `commands` say more about each question, and `command` repeats it.
 pub fn report(
     subject: &Places<'_>,
-    found: &Found<'_>,
+    found: &StudyFindings<'_>,
     about: String,
     commands: [String; 3],
     command: String,

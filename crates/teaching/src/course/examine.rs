@@ -7,7 +7,7 @@ use super::{Exercise, Step};
 use rasterproof_judge::ask::{Answer, Subject};
 use rasterproof_judge::check::{Check, Truth};
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::failures::{Asked, Failure, Search, judge};
+use rasterproof_judge::failures::{AskedCase, Failure, Search, judge};
 use rasterproof_judge::run::Failing;
 use rasterproof_judge::stages::Answered;
 use rasterproof_judge::{adapt_case, recognise, run};
@@ -53,7 +53,7 @@ struct Wrong<'a> {
     is: Failing,
     case: Case,
     truth: Truth,
-    asked: Asked,
+    asked: AskedCase,
 }
 
 /// Asks all exercises of a step. What the program says of its rule, its grid and its range does not
@@ -166,7 +166,7 @@ fn ask_family<'a>(
         }
         if is_wrong && first.is_none() {
             let (questions, answers) = exchanged();
-            first = Some((index, case, Asked { questions, answers, judged }));
+            first = Some((index, case, AskedCase { questions, answers, judged }));
         }
     }
     first.map(|(index, case, asked)| {

@@ -37,14 +37,14 @@ impl Submission {
 }
 
 /// A submission, or its name and why it has no commands.
-pub type Found = Result<Submission, (String, String)>;
+pub type FoundSubmission = Result<Submission, (String, String)>;
 
 /// The folders of a folder, by name; each with its commands, or why it has none. A template has the words that run a submission,
 /// `{}` being its folder.
 ///
 /// # Errors
 /// Where the folder cannot be read or holds no folder.
-pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, String> {
+pub fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<FoundSubmission>, String> {
     let shown = printable_path(folder);
     let failed = |e: std::io::Error| format!("cannot read {shown}: {e}");
     let mut paths = Vec::new();
@@ -92,11 +92,11 @@ pub struct Grade {
     pub of: usize,
     pub error: Option<String>,
     pub seconds: f64,
-    pub steps: Vec<Judged>,
+    pub steps: Vec<StepResult>,
 }
 
 #[derive(Serialize, Deserialize)]
-pub struct Judged {
+pub struct StepResult {
     pub step: String,
     pub passed: bool,
     /// The verdict on the step as a terminal shows it.
@@ -144,7 +144,7 @@ pub fn grade(submission: &Submission, terms: &Terms) -> Grade {
                 let output = terminal::text(&report, true, false, terminal::WIDTH);
                 let (step, passed) = (step.name.clone(), outcome.passes());
                 grade.points += usize::from(passed);
-                grade.steps.push(Judged { step, passed, output });
+                grade.steps.push(StepResult { step, passed, output });
             }
         }
     }

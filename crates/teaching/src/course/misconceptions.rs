@@ -32,7 +32,7 @@ pub struct Misconception {
 type Predict = fn(&Question, &Truth) -> Option<Answer>;
 
 /// A misconception, and what it leads to: any one of these is to explain every answer.
-struct Known {
+struct KnownMisconception {
     is: Misconception,
     predict: &'static [Predict],
     /// The mistakes that the judge finds in whoever does this, of [`stages`].
@@ -41,7 +41,7 @@ struct Known {
 
 macro_rules! known {
     ($($name:literal, $says:literal, $ask:literal, [$($predict:expr),* $(,)?] $([$($does:ident),+])?;)*) => {
-        &[$(Known {
+        &[$(KnownMisconception {
             is: Misconception { name: $name, says: $says, ask: $ask },
             predict: &[$($predict),*],
             does: &[$($(MistakeId::$does),+)?],
@@ -50,7 +50,7 @@ macro_rules! known {
 }
 
 /// Every misconception that is known, the more particular ones first.
-const KNOWN: &[Known] = known![
+const KNOWN: &[KnownMisconception] = known![
     "twice", "you draw a pixel twice where both ends of a line are the same pixel",
     "Both ends are drawn. How many pixels has a line that begins and ends in the same pixel?",
     [|q, t| point_twice(q, t)];
@@ -243,8 +243,9 @@ pub fn find(check: Check, asked: &[Answered], truth: &Truth) -> Option<&'static 
         false => stages::explaining(check, asked, truth),
     };
     let is_done = |known: &MistakeId| does.contains(known);
-    let is_it =
-        |known: &&Known| known.predict.iter().any(explains) || known.does.iter().any(is_done);
+    let is_it = |known: &&KnownMisconception| {
+        known.predict.iter().any(explains) || known.does.iter().any(is_done)
+    };
     KNOWN.iter().find(is_it).map(|known| &known.is)
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::Convention;
 use crate::convention::{
-    Ask, Confidence, Diagnosis, Known, LineDiagnosis, LineQuestion, TriangleQuestion,
+    Ask, Confidence, Declarations, Diagnosis, LineDiagnosis, LineQuestion, TriangleQuestion,
 };
 use crate::mistakes::{self, Mistakes};
 use rasterproof_core::frame::Coverage;
@@ -32,12 +32,12 @@ impl Cause {
         mut draw: impl FnMut(&TriangleQuestion) -> Option<Coverage>,
     ) -> Self {
         let mut ask = |questions: &[TriangleQuestion]| questions.iter().map(&mut draw).collect();
-        Self::by_asking(&mut ask, &Known::from(declared), declared)
+        Self::by_asking(&mut ask, &Declarations::from(declared), declared)
     }
 
     /// Asks whoever answers, in batches.
     #[doc(hidden)]
-    pub fn by_asking(ask: &mut dyn Ask, known: &Known, declared: &Convention) -> Self {
+    pub fn by_asking(ask: &mut dyn Ask, known: &Declarations, declared: &Convention) -> Self {
         let found = crate::convention::diagnose(ask, known, SEED);
         let cause =
             Self::of(found.confidence, &found.sentence(), Self::declaration(&found, declared));
@@ -48,10 +48,20 @@ impl Cause {
     pub(super) fn of_lines(draw: impl FnMut(&LineQuestion) -> Option<Vec<[i32; 2]>>) -> Self {
         let mut draw = draw;
         let mut ask = |questions: &[LineQuestion]| questions.iter().map(&mut draw).collect();
-        let found: LineDiagnosis =
-            crate::convention::diagnose_lines(&mut ask, Known::default().side_px(), true, SEED);
+        let found: LineDiagnosis = crate::convention::diagnose_lines(
+            &mut ask,
+            Declarations::default().side_px(),
+            true,
+            SEED,
+        );
         let cause = Self::of(found.confidence, &found.sentence(), None);
-        cause.with(mistakes::of_lines(&mut ask, &Known::default(), Some(&found), &[], &|| true))
+        cause.with(mistakes::of_lines(
+            &mut ask,
+            &Declarations::default(),
+            Some(&found),
+            &[],
+            &|| true,
+        ))
     }
 
     /// With what is wrong beyond the convention, or instead of one.

@@ -41,7 +41,7 @@ impl<F: FnMut(&[TriangleQuestion]) -> Vec<Option<Coverage>>> Ask for F {
 
 /// What is known of a program before it is asked: its declarations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Known {
+pub struct Declarations {
     /// Coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
     pub grid: i32,
     /// Coordinates lie in [-range, range] px.
@@ -53,7 +53,7 @@ pub struct Known {
     pub declared: Convention,
 }
 
-impl Default for Known {
+impl Default for Declarations {
     fn default() -> Self {
         Self {
             grid: 256,
@@ -65,7 +65,7 @@ impl Default for Known {
     }
 }
 
-impl Known {
+impl Declarations {
     /// The side of the windows of its questions in pixels: at most 32.
     pub fn side_px(&self) -> i32 {
         let (width, height) = self.window_px;
@@ -75,7 +75,7 @@ impl Known {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn {
+pub(super) struct TriangleAnswer {
     pub(super) corners: Corners,
     pub(super) drawn: Mask,
     /// Pixels hit more than once.
@@ -84,7 +84,7 @@ pub(super) struct Drawn {
 
 pub(super) struct Bench<'a> {
     ask: &'a mut dyn Ask,
-    pub(super) known: &'a Known,
+    pub(super) known: &'a Declarations,
     pub(super) window: PixelRect,
     /// Subpixels between neighbouring coordinates that may be asked.
     pub(super) grain: i32,
@@ -100,7 +100,7 @@ pub(super) const LEAST_SIDE_PX: i32 = 16;
 
 impl<'a> Bench<'a> {
     /// None where what is declared leaves no room for questions.
-    pub(super) fn new(ask: &'a mut dyn Ask, known: &'a Known, seed: u64) -> Option<Self> {
+    pub(super) fn new(ask: &'a mut dyn Ask, known: &'a Declarations, seed: u64) -> Option<Self> {
         let side = known.side_px();
         // A grid that does not divide 1/256 px is asked in whole pixels.
         let grid = known.grid.clamp(1, 256);
@@ -123,11 +123,11 @@ impl<'a> Bench<'a> {
     }
 
     /// The answers, without those that were refused.
-    pub(super) fn draw(&mut self, questions: &[Corners]) -> Vec<Drawn> {
+    pub(super) fn draw(&mut self, questions: &[Corners]) -> Vec<TriangleAnswer> {
         self.draw_all(questions).into_iter().flatten().collect()
     }
 
-    pub(super) fn draw_all(&mut self, questions: &[Corners]) -> Vec<Option<Drawn>> {
+    pub(super) fn draw_all(&mut self, questions: &[Corners]) -> Vec<Option<TriangleAnswer>> {
         if questions.is_empty() {
             return Vec::new();
         }
@@ -141,7 +141,7 @@ impl<'a> Bench<'a> {
             .iter()
             .zip(answers)
             .map(|(&corners, answer)| {
-                answer.filter(|a| a.bounds() == window).map(|coverage| Drawn {
+                answer.filter(|a| a.bounds() == window).map(|coverage| TriangleAnswer {
                     corners,
                     drawn: Mask::of(&coverage, 1).mirrored(self.mirror, window),
                     twice: Mask::of(&coverage, 2).mirrored(self.mirror, window),

@@ -1,6 +1,6 @@
 //! A hypothesis about grid and shape, and what it says of a triangle while its ties are open.
 
-use super::bench::Drawn;
+use super::bench::TriangleAnswer;
 use super::mask::Mask;
 use super::place::{Place, turn};
 use super::quantum::Quantum;
@@ -23,7 +23,7 @@ impl Candidate {
     /// The scan conversions of libraries that explain everything: what is nearly one of them is none of them.
     pub(super) fn scans(
         draws: Windings,
-        answers: &[Drawn],
+        answers: &[TriangleAnswer],
         window: PixelRect,
     ) -> impl Iterator<Item = Self> {
         Scan::ALL
@@ -58,7 +58,7 @@ impl Candidate {
     }
 
     /// Wrong pixels of the answers, ties apart. Stops counting beyond `enough`.
-    pub(super) fn errors(&self, answers: &[Drawn], window: PixelRect, enough: u32) -> u32 {
+    pub(super) fn errors(&self, answers: &[TriangleAnswer], window: PixelRect, enough: u32) -> u32 {
         let mut wrong = 0;
         for answer in answers {
             if let Some([inner, outer]) = self.bounds(&answer.corners, window) {

@@ -1,7 +1,7 @@
 //! Between what a rasterizer declares and what was found: questions that keep to its declaration, and the declaration
 //! that says what was found.
 
-use super::bench::Known;
+use super::bench::Declarations;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::mirror::Mirror;
 use super::rule::{Convention, CornerRule, Ties, Windings};
@@ -9,7 +9,7 @@ use super::shape::Shape;
 use crate::promise::{Convention as Promised, Rule, Winding};
 use rasterproof_core::grid::SUBPIXEL_BITS;
 
-impl From<&Promised> for Known {
+impl From<&Promised> for Declarations {
     /// Corners on the declared grid, anywhere, in any window.
     fn from(declared: &Promised) -> Self {
         let [x, y] = declared.sample;

@@ -1,6 +1,6 @@
 //! What was found: the convention, how much it explains, and how sure that is.
 
-use super::bench::{Bench, Drawn, TriangleQuestion};
+use super::bench::{Bench, TriangleAnswer, TriangleQuestion};
 use super::candidate::Candidate;
 use super::fit::Fit;
 use super::mirror::Mirror;
@@ -8,7 +8,7 @@ use super::rule::{Convention, Ties, Windings};
 use super::search::Seen;
 use super::ties::{Compass, Count};
 use super::upright::mirror_of;
-use super::{Ask, Known};
+use super::{Ask, Declarations};
 use rasterproof_core::frame::Coverage;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    fn of(convention: &Convention, answers: &[Drawn], bench: &Bench<'_>) -> Self {
+    fn of(convention: &Convention, answers: &[TriangleAnswer], bench: &Bench<'_>) -> Self {
         let mut sum = Self::default();
         for answer in answers {
             let Some(mask) = convention.mask(&answer.corners, bench.window) else { continue };
@@ -99,7 +99,7 @@ const FRESH: usize = 150;
 
 /// Questions a rasterizer until its convention is known. Exact, and the same for the same seed and
 /// answers. Asks about 700 triangles.
-pub fn diagnose(ask: &mut dyn Ask, known: &Known, seed: u64) -> Diagnosis {
+pub fn diagnose(ask: &mut dyn Ask, known: &Declarations, seed: u64) -> Diagnosis {
     let mut silent = Diagnosis { convention: known.declared, ..Diagnosis::default() };
     let Some(mut bench) = Bench::new(ask, known, seed) else { return silent };
     let (draws, pictures) = bench.windings();
@@ -127,7 +127,7 @@ impl Bench<'_> {
         &mut self,
         candidate: &Candidate,
         others: &[Candidate],
-        fitted: &[Drawn],
+        fitted: &[TriangleAnswer],
     ) -> Diagnosis {
         let draws = candidate.draws;
         // One set for the rule, one to try it on.

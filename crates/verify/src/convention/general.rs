@@ -2,7 +2,7 @@
 //! a pixel flips, orders of the corners, triangles without area.
 
 use super::Count;
-use super::bench::{Bench, Drawn};
+use super::bench::{Bench, TriangleAnswer};
 use super::rule::Windings;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::{ORDERS, twice_area};
@@ -46,7 +46,7 @@ impl Bench<'_> {
     }
 
     /// As many answers to triangles in general position, of a winding that is drawn.
-    pub(super) fn generals(&mut self, count: usize, draws: Windings) -> Vec<Drawn> {
+    pub(super) fn generals(&mut self, count: usize, draws: Windings) -> Vec<TriangleAnswer> {
         let questions: Vec<_> = (0..count).map(|_| drawable(self.general(), draws)).collect();
         let questions: Vec<_> = questions
             .into_iter()
@@ -56,7 +56,7 @@ impl Bench<'_> {
     }
 
     /// Which windings leave pixels, and what they leave.
-    pub(super) fn windings(&mut self) -> (Windings, Vec<Drawn>) {
+    pub(super) fn windings(&mut self) -> (Windings, Vec<TriangleAnswer>) {
         let (mut drawn, mut all) = ([0, 0], Vec::new());
         let fat: Vec<_> = (0..10)
             .map(|_| {

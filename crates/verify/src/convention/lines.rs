@@ -247,7 +247,7 @@ pub struct LineDiagnosis {
 }
 
 /// A question with its answer, and the answer as a set.
-struct Drawn {
+struct LineAnswer {
     question: LineQuestion,
     pixels: Vec<[i32; 2]>,
     set: Vec<[i32; 2]>,
@@ -261,7 +261,7 @@ fn set(pixels: &[[i32; 2]]) -> Vec<[i32; 2]> {
     set
 }
 
-fn explained(convention: &LineConvention, drawn: &[Drawn]) -> Count {
+fn explained(convention: &LineConvention, drawn: &[LineAnswer]) -> Count {
     let mut count = Count::default();
     for drawn in drawn {
         if let Some(expected) = convention.pixels(&drawn.question) {
@@ -316,7 +316,7 @@ pub fn diagnose_lines(
     let mut rng = Rng::new("line convention", seed, 0);
     let side = side_px.clamp(16, SIDE_PX);
     let mut asked = [0, 0];
-    let mut draw = |list: Vec<LineQuestion>| -> Vec<Option<Drawn>> {
+    let mut draw = |list: Vec<LineQuestion>| -> Vec<Option<LineAnswer>> {
         let mut answers = ask.ask_lines(&list);
         answers.resize_with(list.len(), || None);
         asked[0] += list.len() as u64;
@@ -325,7 +325,7 @@ pub fn diagnose_lines(
         answers
             .map(|(question, pixels)| {
                 let pixels = pixels?;
-                Some(Drawn { question, set: set(&pixels), pixels })
+                Some(LineAnswer { question, set: set(&pixels), pixels })
             })
             .collect()
     };
@@ -359,13 +359,13 @@ pub fn diagnose_lines(
 }
 
 fn conclude(
-    fitted: &[Drawn],
-    fresh: &[Drawn],
+    fitted: &[LineAnswer],
+    fresh: &[LineAnswer],
     ordered: bool,
     mut found: LineDiagnosis,
 ) -> LineDiagnosis {
     // The first of equals is the simplest. Few lines tell most of them apart.
-    let best_on = |drawn: &[Drawn], among: Vec<LineConvention>| {
+    let best_on = |drawn: &[LineAnswer], among: Vec<LineConvention>| {
         let mut scored: Vec<_> =
             among.into_iter().map(|c| (explained(&c, drawn).drawn, c)).collect();
         scored.sort_by_key(|(right, _)| std::cmp::Reverse(*right));

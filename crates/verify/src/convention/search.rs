@@ -3,7 +3,7 @@
 
 use std::collections::HashSet;
 
-use super::bench::Drawn;
+use super::bench::TriangleAnswer;
 use super::candidate::Candidate;
 use super::quantum::Quantum;
 use super::rule::Windings;
@@ -15,7 +15,7 @@ pub(super) type Scored = (u32, Candidate);
 /// The answers that hypotheses are compared with.
 #[derive(Clone, Copy)]
 pub(super) struct Seen<'a> {
-    pub(super) answers: &'a [Drawn],
+    pub(super) answers: &'a [TriangleAnswer],
     pub(super) window: PixelRect,
     pub(super) draws: Windings,
 }

@@ -1,7 +1,7 @@
 //! The compass: who owns a sample that lies exactly on an edge, read off for each direction that the
 //! edge can face, once point and grid are known.
 
-use super::bench::{Bench, Drawn};
+use super::bench::{Bench, TriangleAnswer};
 use super::candidate::Candidate;
 use super::general::drawable;
 use super::place::Place;
@@ -85,7 +85,7 @@ impl Compass {
     }
 
     /// Adds what the answers show of one shape's ties.
-    fn read(&mut self, candidate: &Candidate, answers: &[Drawn], bench: &Bench<'_>) {
+    fn read(&mut self, candidate: &Candidate, answers: &[TriangleAnswer], bench: &Bench<'_>) {
         self.each(candidate, answers, bench, |compass, place, drawn| match place {
             Place::Edge(facing) => compass.edges[facing].add(drawn),
             Place::Corner(_) => compass.corners.add(drawn),
@@ -105,7 +105,7 @@ impl Compass {
     fn each(
         &mut self,
         candidate: &Candidate,
-        answers: &[Drawn],
+        answers: &[TriangleAnswer],
         bench: &Bench<'_>,
         count: impl Fn(&mut Self, Place, bool),
     ) {
@@ -236,7 +236,7 @@ impl Bench<'_> {
     }
 
     /// The compass of a shape by the answers to such questions.
-    pub(super) fn compass(&self, candidate: &Candidate, answers: &[Drawn]) -> Compass {
+    pub(super) fn compass(&self, candidate: &Candidate, answers: &[TriangleAnswer]) -> Compass {
         let mut compass = Compass::default();
         compass.read(candidate, answers, self);
         compass

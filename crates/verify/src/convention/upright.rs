@@ -1,6 +1,6 @@
 //! Whether all pictures come out turned over: asked before anything else.
 
-use super::bench::Drawn;
+use super::bench::TriangleAnswer;
 use super::mirror::Mirror;
 use super::rule::Convention;
 use rasterproof_core::grid::PixelRect;
@@ -10,10 +10,10 @@ const SHARE: u32 = 3;
 
 /// The mirror that explains pictures of large triangles, by the samples at the centres: what a
 /// program does else is small beside a picture that is turned over.
-pub(super) fn mirror_of(answers: &[Drawn], window: PixelRect) -> Mirror {
+pub(super) fn mirror_of(answers: &[TriangleAnswer], window: PixelRect) -> Mirror {
     let own = Convention::default();
     let wrong = |mirror: Mirror| -> u32 {
-        let one = |answer: &Drawn| {
+        let one = |answer: &TriangleAnswer| {
             let drawn = answer.drawn.mirrored(mirror, window);
             let expected = own.mask(&answer.corners, window).unwrap_or_default();
             expected.beyond(&drawn) + drawn.beyond(&expected)

@@ -23,9 +23,9 @@ use std::cell::OnceCell;
 use std::fmt;
 
 use crate::convention::{
-    Ask, AskLine, Confidence, Convention, Count, Diagnosis, Known, LineConvention, LineDiagnosis,
-    LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape, Ties,
-    TriangleQuestion, Windings,
+    Ask, AskLine, Confidence, Convention, Count, Declarations, Diagnosis, LineConvention,
+    LineDiagnosis, LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape,
+    Ties, TriangleQuestion, Windings,
 };
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
@@ -296,7 +296,7 @@ impl Answered<TriangleQuestion> {
 /// more where few of these are wrong, as long as `goes_on` is true.
 pub fn of_triangles(
     ask: &mut dyn Ask,
-    known: &Known,
+    known: &Declarations,
     found: Option<&Diagnosis>,
     programs: &[Program<'_, TriangleQuestion, Coverage>],
     goes_on: &dyn Fn() -> bool,
@@ -452,7 +452,7 @@ fn explain(
 /// The same for a line drawer: it asks for 700 lines of at most 40,000 steps.
 pub fn of_lines(
     ask: &mut dyn AskLine,
-    known: &Known,
+    known: &Declarations,
     found: Option<&LineDiagnosis>,
     programs: &[Program<'_, LineQuestion, Vec<[i32; 2]>>],
     goes_on: &dyn Fn() -> bool,
@@ -860,7 +860,7 @@ fn near(
     answered: &[Answered<TriangleQuestion>],
     is_wrong: &[bool],
     declared: &Convention,
-) -> Vec<scans::Drawn> {
+) -> Vec<scans::DrawnTriangle> {
     let small = |i: &usize| {
         let corners = &answered[*i].question.corners;
         fills::metric(corners, 3) < 64 * 256 && is_faced(declared, corners)
@@ -912,7 +912,7 @@ mod tests {
     /// A mistake whose pixels do not depend on the window draws each of them alone as within the picture.
     #[test]
     fn pixels_alone_are_those_of_the_picture() {
-        let known = Known::default();
+        let known = Declarations::default();
         let questions = questions::triangles(&known, [128, 128], SEED);
         let bases = bases(&known.declared, None);
         let mut compared = 0;

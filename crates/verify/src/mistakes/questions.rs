@@ -1,6 +1,6 @@
 //! What a program is asked when it is wrong: triangles and lines of every kind in which mistakes differ.
 
-use crate::convention::{Known, LineQuestion, TriangleQuestion};
+use crate::convention::{Declarations, LineQuestion, TriangleQuestion};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
@@ -23,7 +23,7 @@ pub(super) struct Room {
 }
 
 impl Room {
-    pub(super) fn new(known: &Known, seed: u64) -> Self {
+    pub(super) fn new(known: &Declarations, seed: u64) -> Self {
         let grid = known.grid.clamp(1, SUBPIXELS);
         let grain = if SUBPIXELS % grid == 0 { SUBPIXELS / grid } else { SUBPIXELS };
         let (width, height) = known.window_px;
@@ -112,7 +112,11 @@ impl Room {
 }
 
 /// The same questions for the same seed and declaration. The kinds take turns, so that a part of them has all.
-pub(super) fn triangles(known: &Known, sample: [i32; 2], seed: u64) -> Vec<TriangleQuestion> {
+pub(super) fn triangles(
+    known: &Declarations,
+    sample: [i32; 2],
+    seed: u64,
+) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, seed);
     (0..TRIANGLES)
         .map(|number| {
@@ -211,7 +215,7 @@ fn bezout(a: i64, b: i64) -> (i64, i64, i64) {
 }
 
 /// The same for lines; ends are pixels.
-pub(super) fn lines(known: &Known, seed: u64) -> Vec<LineQuestion> {
+pub(super) fn lines(known: &Declarations, seed: u64) -> Vec<LineQuestion> {
     let mut room = Room::new(known, seed ^ 1);
     (0..LINES)
         .map(|number| {

@@ -396,7 +396,7 @@ impl Scan {
     }
 
     /// How many pixels of what was drawn it does not predict, up to a number.
-    fn missed(self, drawn: &[Drawn], most: u32) -> u32 {
+    fn missed(self, drawn: &[DrawnTriangle], most: u32) -> u32 {
         let mut missed = 0;
         for (corners, window, seen) in drawn {
             missed += seen.differs(&scan(*corners, *window, self)).count();
@@ -434,7 +434,7 @@ impl Scan {
 }
 
 /// A triangle with what was drawn of it.
-pub(super) type Drawn = ([Place; 3], PixelRect, Mask);
+pub(super) type DrawnTriangle = ([Place; 3], PixelRect, Mask);
 /// The parameters of a frame: slopes, and where edges begin.
 const WITHIN: i64 = DIGITS.0[0] * DIGITS.0[1] * DIGITS.0[2];
 /// Frames that are tried with all ways of rounding, for each of two slopes.
@@ -442,8 +442,8 @@ const FRAMES: usize = 10;
 
 /// The parameters whose frames (rows, heights and ends of rows) come nearest to what was drawn: with exact crossings, and with
 /// the slope and the beginning that are best in the first of these.
-pub(super) fn fitting(rows: &[Drawn]) -> Vec<i64> {
-    let columns: Vec<Drawn> = rows
+pub(super) fn fitting(rows: &[DrawnTriangle]) -> Vec<i64> {
+    let columns: Vec<DrawnTriangle> = rows
         .iter()
         .map(|(corners, window, drawn)| (exchanged(*corners), turned(*window), drawn.turned()))
         .collect();
@@ -458,7 +458,7 @@ pub(super) fn fitting(rows: &[Drawn]) -> Vec<i64> {
 }
 
 /// All that is near the best frames with exact crossings.
-fn around(drawn: &[Drawn], mut all: Vec<i64>) -> Vec<i64> {
+fn around(drawn: &[DrawnTriangle], mut all: Vec<i64>) -> Vec<i64> {
     let mut best = (u32::MAX, 0);
     for p in Scan::within(all[0]).into_iter().filter(|p| *p < COLUMNS) {
         let missed = Scan::of(p).missed(drawn, best.0);
@@ -477,7 +477,7 @@ fn around(drawn: &[Drawn], mut all: Vec<i64>) -> Vec<i64> {
 
 /// The best frames with a slope and where edges begin, the best first, that miss fewer pixels than `most`; and how many the first
 /// misses.
-fn frames(drawn: &[Drawn], slope: i64, most: u32) -> (u32, Vec<i64>) {
+fn frames(drawn: &[DrawnTriangle], slope: i64, most: u32) -> (u32, Vec<i64>) {
     let mut best: Vec<(u32, i64)> = Vec::new();
     for frame in (0..DIGITS.0[3..8].iter().product()).map(|frame: i64| frame * WITHIN + slope) {
         let how = Scan::of(frame);

@@ -7,7 +7,7 @@ use super::fills::{FARTHEST, RATIO, decimal};
 use super::questions::{LONGEST_PX, Room};
 use super::{Explanation, lines, sample_of};
 use crate::convention::{
-    Ask, AskLine, Convention, Count, Known, LineConvention, LineQuestion, Mask, Mirror,
+    Ask, AskLine, Convention, Count, Declarations, LineConvention, LineQuestion, Mask, Mirror,
     TriangleQuestion,
 };
 use rasterproof_core::arrays::MapArray as _;
@@ -137,7 +137,7 @@ struct Seen {
 type Probe<'a> = dyn FnMut(i64, i64) -> Option<Vec<Seen>> + 'a;
 
 /// What a search came to.
-struct Found {
+struct LimitSearch {
     right_to: i64,
     wrong_from: i64,
     /// Shapes below the limit that were asked for and are right.
@@ -150,7 +150,7 @@ struct Found {
 }
 
 /// The last measure of which all are right and the first that is wrong; nothing where there is no such limit.
-fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<Found> {
+fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<LimitSearch> {
     let least = |seen: &[Seen]| seen.iter().filter(|s| s.is_wrong).map(|s| s.measure).min();
     let mut right_to = 2 * low;
     if high < 2 * right_to {
@@ -185,7 +185,7 @@ fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<Found> {
     wrong_from = lower.unwrap_or(wrong_from);
     // What is rare at first has to be frequent in the end.
     let is_limit = is_sharp || (is_many(&wrong[1]) && wrong_from >= 4 * low);
-    is_limit.then_some(Found { right_to, wrong_from, right, wrong, first, is_sharp })
+    is_limit.then_some(LimitSearch { right_to, wrong_from, right, wrong, first, is_sharp })
 }
 
 fn count(seen: &[Seen]) -> Count {
@@ -235,7 +235,7 @@ fn probe<S>(
 /// The limits of a rasterizer that is expected to follow a convention.
 pub(super) fn of_triangles(
     ask: &mut dyn Ask,
-    known: &Known,
+    known: &Declarations,
     expected: &Convention,
     goes_on: &dyn Fn() -> bool,
 ) -> Vec<Threshold> {
@@ -258,7 +258,7 @@ pub(super) fn of_triangles(
         );
     }
     let per_px = 256 / grain;
-    let mut found: Vec<(Axis, Found)> = Vec::new();
+    let mut found: Vec<(Axis, LimitSearch)> = Vec::new();
     for (axis, low, mut high) in axes {
         if matches!(axis, Axis::Column | Axis::Row) {
             // What is far to the right has large coordinates, whose limit is known.
@@ -285,7 +285,7 @@ pub(super) fn of_triangles(
     let both =
         [Axis::Size, Axis::Reach].map_array(|axis| found.iter().position(|(of, _)| *of == axis));
     if let [Some(size), Some(reach)] = both {
-        let tells = |(axis, limit): &(Axis, Found)| {
+        let tells = |(axis, limit): &(Axis, LimitSearch)| {
             (limit.is_sharp, hint(*axis, per_px, limit).is_some(), limit.first.drawn)
         };
         found.remove(if tells(&found[size]) >= tells(&found[reach]) { reach } else { size });
@@ -296,7 +296,7 @@ pub(super) fn of_triangles(
 /// Triangles about as large as some limits of a metric.
 pub(super) fn near(
     limits: impl Iterator<Item = (usize, bool, i64)>,
-    known: &Known,
+    known: &Declarations,
     expected: &Convention,
 ) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, 4);
@@ -320,7 +320,7 @@ const NEAR_A_LIMIT: usize = 24;
 /// The limits of a line drawer.
 pub(super) fn of_lines(
     ask: &mut dyn AskLine,
-    known: &Known,
+    known: &Declarations,
     expected: &LineConvention,
     goes_on: &dyn Fn() -> bool,
 ) -> Vec<Threshold> {
@@ -512,10 +512,10 @@ fn line(room: &mut Room, axis: Axis, measure: i64, longest: i64) -> (i64, LineQu
     (measure, LineQuestion { ends, window })
 }
 
-fn threshold(axis: Axis, shapes: &str, per_px: i64, found: Found) -> Threshold {
+fn threshold(axis: Axis, shapes: &str, per_px: i64, found: LimitSearch) -> Threshold {
     let scale = if axis.is_in_steps() { per_px } else { 1 };
     let hint = hint(axis, per_px, &found);
-    let Found { wrong_from, right, wrong, is_sharp, .. } = found;
+    let LimitSearch { wrong_from, right, wrong, is_sharp, .. } = found;
     let said = decimal(wrong_from, scale);
     let words = match axis {
         Axis::Size if shapes == "lines" => {
@@ -541,7 +541,7 @@ fn threshold(axis: Axis, shapes: &str, per_px: i64, found: Found) -> Threshold {
 }
 
 /// What comes to the end of a word between two measures, in steps of the grid or in whole pixels.
-fn hint(axis: Axis, per_px: i64, found: &Found) -> Option<String> {
+fn hint(axis: Axis, per_px: i64, found: &LimitSearch) -> Option<String> {
     if axis == Axis::Slope || !found.is_sharp {
         return None;
     }
@@ -608,7 +608,7 @@ mod tests {
             };
             questions.iter().map(draw).collect::<Vec<_>>()
         };
-        of_triangles(&mut ask, &Known::default(), &Convention::default(), &|| true)
+        of_triangles(&mut ask, &Declarations::default(), &Convention::default(), &|| true)
     }
 
     fn sides(corners: &Corners) -> [i64; 2] {
@@ -680,9 +680,9 @@ mod tests {
             };
             questions.iter().map(draw).collect::<Vec<_>>()
         };
-        let found = of_lines(&mut ask, &Known::default(), &convention, &|| true);
+        let found = of_lines(&mut ask, &Declarations::default(), &convention, &|| true);
         assert!(found[0].to_string().contains("lines are wrong from 16385 steps on"), "{found:?}");
-        let found = mistakes::of_lines(&mut ask, &Known::default(), None, &[], &|| true);
+        let found = mistakes::of_lines(&mut ask, &Declarations::default(), None, &[], &|| true);
         let found = found.unwrap();
         assert_eq!(found.limits.len(), 1, "{found}");
     }

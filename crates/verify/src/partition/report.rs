@@ -327,11 +327,11 @@ pub fn judge_partitions_of(
 /// What is made of a polygon, if it is taken. Fewer answers than polygons are those of whose time is up.
 type Answer<E> = Option<Result<Vec<Triangle>, E>>;
 type Answered<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Refused>> + Sync + 'a;
-type Asked<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Fault>> + Sync + 'a;
+type FindFaults<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Fault>> + Sync + 'a;
 
 /// The triangles of polygons and what was found about them; nothing where a polygon is not valid or not accepted.
 fn ask(
-    tessellator: &Asked,
+    tessellator: &FindFaults,
     polygons: &[Polygon],
     options: &Options,
 ) -> Vec<Option<(Vec<Triangle>, Faults)>> {
@@ -347,7 +347,11 @@ fn ask(
     polygons.iter().zip(tessellator(polygons)).map(judged).collect()
 }
 
-fn judge(tessellator: &Asked, options: &Options, watch: &Watch) -> Result<Verdict, NothingJudged> {
+fn judge(
+    tessellator: &FindFaults,
+    options: &Options,
+    watch: &Watch,
+) -> Result<Verdict, NothingJudged> {
     options.check()?;
     let wanted = wanted(options);
     let clock = Clock::new(options.time_limit);
@@ -412,7 +416,7 @@ fn wanted(options: &Options) -> Vec<Family> {
 }
 
 /// What becomes of the first polygons of every family, the ones that a cause has to explain.
-fn some(tessellator: &Asked, options: &Options) -> Vec<Made> {
+fn some(tessellator: &FindFaults, options: &Options) -> Vec<Made> {
     let mut made = Vec::new();
     for family in wanted(options) {
         let polygons = polygons(family, 0..OF_A_FAMILY, options);
@@ -460,7 +464,12 @@ impl Part {
     }
 }
 
-fn judge_block(tessellator: &Asked, options: &Options, family: Family, numbers: &[u64]) -> Part {
+fn judge_block(
+    tessellator: &FindFaults,
+    options: &Options,
+    family: Family,
+    numbers: &[u64],
+) -> Part {
     let polygons_of = Polygons::new(family);
     let mut part = Part { polygons: polygons_of, smallest: Default::default(), changing: None };
     let mut failing = Vec::new();
@@ -515,7 +524,7 @@ fn is_same(a: &[Triangle], b: &[Triangle]) -> bool {
 }
 
 fn smallest(
-    tessellator: &Asked,
+    tessellator: &FindFaults,
     options: &Options,
     kind: FaultKind,
     family: Family,

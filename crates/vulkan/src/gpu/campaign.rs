@@ -4,7 +4,7 @@ use rasterproof_verify::specification::{Clause, Standing, VULKAN};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::engine::Gpu;
-use super::known::{self, Known};
+use super::known::{self, KnownFault};
 use super::outcome::Requirement;
 use super::requirements;
 use super::specified::Specified;
@@ -13,7 +13,7 @@ use rasterproof_judge::ask::{Answer, Complaints, Question, Subject};
 use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, mistakes, recognise};
-use rasterproof_judge::run::{Failing, Found, Row, run};
+use rasterproof_judge::run::{Failing, Row, RunFindings, run};
 use rasterproof_judge::verdict::{Outcome, Particulars, Verdict, sentence, verdict};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
@@ -84,7 +84,7 @@ pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> De
 pub fn judge_with(
     gpu: Gpu,
     options: &Options,
-    known: &[Known],
+    known: &[KnownFault],
     progress: &(dyn Fn(u64) + Sync),
 ) -> DeviceReport {
     let about = gpu.about().clone();
@@ -138,21 +138,26 @@ fn case_of(family: &str, index: u64, options: &Options, declared: &Declared) -> 
     Some(adapt_case::put(family.case(options.seed, index), declared))
 }
 
-fn is_known(known: &[Known], failing: &Failing, options: &Options, declared: &Declared) -> bool {
+fn is_known(
+    known: &[KnownFault],
+    failing: &Failing,
+    options: &Options,
+    declared: &Declared,
+) -> bool {
     case_of(failing.family, failing.index, options, declared)
         .is_some_and(|case| known.iter().any(|k| k.covers(failing.property, &case)))
 }
 
 /// Properties of which a known fault says that cases fail, of which some were judged and none did.
 fn stale(
-    known: &[Known],
-    found: &Found,
+    known: &[KnownFault],
+    found: &RunFindings,
     old: &[Failing],
     options: &Options,
     declared: &Declared,
 ) -> Vec<String> {
     let named = known.iter().flat_map(|k| k.certain().map(move |p| (k, p)));
-    let is_stale = |(k, property): &(&Known, &str)| {
+    let is_stale = |(k, property): &(&KnownFault, &str)| {
         let mut judged = found.judged.iter().filter(|(p, ..)| p == property);
         !old.iter().any(|f| f.property == *property)
             && judged.any(|(_, family, index)| {

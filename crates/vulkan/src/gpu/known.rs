@@ -13,7 +13,7 @@ use rasterproof_verify::specification::Standing;
 pub const TEXT: &str = include_str!("known-faults.txt");
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Known {
+pub struct KnownFault {
     /// Part of the driver's name, in small letters.
     driver: String,
     version: String,
@@ -40,7 +40,7 @@ const ENOUGH: u64 = 512;
 ///
 /// # Errors
 /// The line that cannot be read, with what was expected.
-pub fn parse(text: &str) -> Result<Vec<Known>, String> {
+pub fn parse(text: &str) -> Result<Vec<KnownFault>, String> {
     let lines = text.lines().zip(1..).filter(|(line, _)| {
         let line = line.trim();
         !line.is_empty() && !line.starts_with('#')
@@ -60,7 +60,7 @@ pub fn parse(text: &str) -> Result<Vec<Known>, String> {
         let most = condition.strip_prefix("at most ").and_then(|n| n.strip_suffix(" in 1000"));
         let most = most.and_then(|n| n.parse().ok());
         let condition = least.map(Condition::TwiceAreaPx2).or(most.map(Condition::PerMille));
-        Ok(Known {
+        Ok(KnownFault {
             driver: driver.to_lowercase(),
             version: version.to_owned(),
             properties: properties.split(';').map(property).collect(),
@@ -77,13 +77,13 @@ fn property(word: &str) -> (String, bool) {
     (name.to_owned(), name == word)
 }
 
-pub fn of(all: &[Known], about: &About) -> Vec<Known> {
+pub fn of(all: &[KnownFault], about: &About) -> Vec<KnownFault> {
     let is_its =
-        |k: &&Known| about.words().contains(&k.driver) && about.version.contains(&k.version);
+        |k: &&KnownFault| about.words().contains(&k.driver) && about.version.contains(&k.version);
     all.iter().filter(is_its).cloned().collect()
 }
 
-impl Known {
+impl KnownFault {
     /// The properties of which cases fail in every run.
     pub fn certain(&self) -> impl Iterator<Item = &str> {
         self.properties.iter().filter(|(_, certain)| *certain).map(|(name, _)| name.as_str())
@@ -108,7 +108,7 @@ impl Known {
 
 /// What a stage came to whose triangles have these areas, by whether each was right.
 #[must_use]
-pub fn class_of_areas(known: &[Known], property: &str, judged: &[(f64, bool)]) -> Standing {
+pub fn class_of_areas(known: &[KnownFault], property: &str, judged: &[(f64, bool)]) -> Standing {
     let is_known = |px2: f64| known.iter().any(|k| k.covers_area(property, px2));
     let wrong: Vec<f64> = judged.iter().filter(|(_, right)| !right).map(|(px2, _)| *px2).collect();
     match wrong.is_empty() {
@@ -121,7 +121,7 @@ pub fn class_of_areas(known: &[Known], property: &str, judged: &[(f64, bool)]) -
 
 /// What a stage came to in which so many of its cases are wrong.
 #[must_use]
-pub fn class_of_share(known: &[Known], property: &str, wrong: u64, cases: u64) -> Standing {
+pub fn class_of_share(known: &[KnownFault], property: &str, wrong: u64, cases: u64) -> Standing {
     let most = known.iter().filter(|k| k.names(property));
     let most = most.filter_map(|k| match k.condition {
         Condition::PerMille(most) => Some(most),

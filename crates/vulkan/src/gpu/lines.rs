@@ -2,7 +2,7 @@
 
 use super::cells::{draw_of, plain};
 use super::engine::Gpu;
-use super::known::{self, Known};
+use super::known::{self, KnownFault};
 use super::outcome::Outcome;
 use crate::device::Error;
 use crate::device::draw::Pictures;
@@ -105,7 +105,7 @@ pub(super) fn joined(
     gpu: &mut Gpu,
     seed: u64,
     cases: u64,
-    known: &[Known],
+    known: &[KnownFault],
 ) -> Result<Outcome, Error> {
     let mut places = Places::new("vulkan-joined-lines", gpu, seed);
     let mut lines = Vec::new();

@@ -5,7 +5,7 @@ use super::cells::{
     WINDOW, draw_of, floats, hits_of, in_perspective, pixels, plain, twice_area_px2, valued,
 };
 use super::engine::Gpu;
-use super::known::{self, Known};
+use super::known::{self, KnownFault};
 use super::outcome::{Errors, Outcome, Requirement};
 use super::{depth, lines};
 use crate::device::Error;
@@ -49,7 +49,7 @@ const REQUIREMENTS: [(&str, &str, Judge); 12] = [
 ];
 
 /// Runs every stage; what the device does not answer is said in its place.
-pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Vec<Requirement> {
+pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[KnownFault]) -> Vec<Requirement> {
     let finding = |name: &str, rule: &str, outcome: Result<Outcome, Error>| {
         let (class, detail) = outcome.unwrap_or_else(|error| match error {
             Error::Unsupported(what) => (Standing::NotOffered, what),
@@ -75,7 +75,7 @@ const LARGE: &str = "far up and left";
 
 /// Triangles within the viewport that reach from the window far beyond its upper left corner. Nothing is
 /// clipped, so each has the oracle's pixels.
-fn large(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Result<Outcome, Error> {
+fn large(gpu: &mut Gpu, seed: u64, cases: u64, known: &[KnownFault]) -> Result<Outcome, Error> {
     let step = (gpu.step_px() * SUBPIXELS as f32) as i32;
     let per_px = i64::from(SUBPIXELS / step);
     let reach = gpu.viewport_px() as i64 / 2 * per_px;

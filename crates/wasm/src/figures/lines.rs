@@ -1,7 +1,7 @@
 //! Figures about lines.
 
 use super::drawing::{Drawing, Panel};
-use super::{Drawn, Given, Predict};
+use super::{Given, LiveFigure, Predict};
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::PixelPoint;
@@ -19,7 +19,7 @@ pub(super) fn drawn(given: &Given<'_>, from: [i32; 2], to: [i32; 2], window: Pix
 }
 
 /// A line drawn both ways, by a drawer whose ties depend on the direction.
-pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn there_and_back(given: &Given<'_>) -> Result<LiveFigure, String> {
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(10, 6, 34.0, 10.0);
     let published = |from: [i32; 2], to: [i32; 2]| -> Result<Pixels, String> {
@@ -51,7 +51,7 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grip(panel.place(middle(end)), [panel.unit; 2]);
     let count = differ(&there, &back);
     let [x, y] = end;
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Number(count as f64, 0),
         values: vec![
@@ -65,7 +65,7 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// Asks which pixels a line from pixel (0, 0) to the grip draws.
-pub(super) fn line_pixels(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn line_pixels(given: &Given<'_>) -> Result<LiveFigure, String> {
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(9, 6, 36.0, 10.0);
     let line = drawn(given, [0, 0], end, panel.window);
@@ -80,7 +80,7 @@ pub(super) fn line_pixels(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grip(panel.place(middle(end)), [panel.unit; 2]);
     let pixels = panel.pixels().map(|pixel| (pixel, line.contains(&pixel))).collect();
     let [x, y] = end;
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, pixels),
         values: vec![("count", line.len().to_string())],

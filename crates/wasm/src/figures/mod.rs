@@ -91,7 +91,7 @@ enum Predict {
     Number(f64, usize),
 }
 
-struct Drawn {
+struct LiveFigure {
     drawing: Drawing,
     predict: Predict,
     /// The computed numbers that replace the names in braces in the texts.
@@ -100,7 +100,7 @@ struct Drawn {
     link: Option<String>,
 }
 
-type Draw = fn(&Given<'_>) -> Result<Drawn, String>;
+type Draw = fn(&Given<'_>) -> Result<LiveFigure, String>;
 
 const DRAWN_BY: [(&str, Draw); 28] = [
     ("one-sample", coverage::one_sample),
@@ -213,7 +213,7 @@ impl Figure {
         at: &[Point],
         is_answered: bool,
         by: Option<&str>,
-    ) -> Result<(Vec<Point>, Drawn), String> {
+    ) -> Result<(Vec<Point>, LiveFigure), String> {
         let place = |(i, grip): (usize, &Grip)| {
             let given = at.get(i).unwrap_or(&grip.start);
             let along = |axis: usize| {
@@ -242,7 +242,7 @@ impl Figure {
     }
 
     /// What stands for the names in braces in the texts.
-    fn words<'a>(&'a self, at: &[Point], drawn: &Drawn) -> Vec<(&'a str, String)> {
+    fn words<'a>(&'a self, at: &[Point], drawn: &LiveFigure) -> Vec<(&'a str, String)> {
         let positions = self.grips.iter().zip(at).flat_map(|(grip, at)| grip.names.iter().zip(at));
         let positions = positions.map(|(name, value)| (name.as_str(), number(*value, 6)));
         positions.filter(|(name, _)| !name.is_empty()).chain(drawn.values.iter().cloned()).collect()

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::drawing::{Drawing, Panel, Point, WIDTH};
 use super::lines::drawn;
-use super::{Drawn, Given, Predict, answer_value, cover, number, snapped, with_triangles};
+use super::{Given, LiveFigure, Predict, answer_value, cover, number, snapped, with_triangles};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::geometry::twice_area;
@@ -19,7 +19,7 @@ use rasterproof_render::pipeline::transform::{about, frustum};
 const SCREEN: u32 = 20;
 
 /// A triangle seen from the side, what the near plane leaves of it, and that on the screen.
-pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn near_corners(given: &Given<'_>) -> Result<LiveFigure, String> {
     let (w, near) = (given.at[0][0], given.at[1][0]);
     let corners = [[-0.7, -0.8, 2.0], [0.8, 0.1, 2.6], [-0.1, 0.8, w]];
     let answer = answer_value(json!({
@@ -58,7 +58,7 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.grip(*spot, [side / 4.5, 0.0]);
         drawing.text([spot[0] + 12.0, spot[1] + 1.0], "start", letter);
     }
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Number(outline.len() as f64, 0),
         values: vec![
@@ -73,7 +73,7 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// Five equal boards along a road.
-pub(super) fn boards(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn boards(given: &Given<'_>) -> Result<LiveFigure, String> {
     let spacing = given.at[0][0];
     let size = PixelRect::window(48, 48);
     let panel = Panel::new([12.0, 10.0], 7.0, [0, 0, 48, 27]);
@@ -105,7 +105,7 @@ pub(super) fn boards(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.path("grid", &[[left, top], [right, top], [right, bottom], [left, bottom]], true);
     let says = format!("Δz = {}", number(spacing, 2));
     drawing.slider(given, 0, panel.bottom() + 26.0, &says);
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Number(heights[2] as f64, 0),
         values: vec![
@@ -131,7 +131,7 @@ fn placed(window: PixelRect, position: DVec4) -> Result<Point, String> {
 }
 
 /// An edge that may end behind the eye, in a picture of one row.
-pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn divide_first(given: &Given<'_>) -> Result<LiveFigure, String> {
     let end = given.at[0][1];
     let near = 1.0;
     let camera = frustum(-1.0, 1.0, -1.0, 1.0, near, 10.0).map_err(|error| error.to_string())?;
@@ -183,7 +183,7 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.text([12.0, naive.corner[1] - 7.0], "start", "x / z");
     }
     let pixels = (0..13).map(|x| ([x, 0], right.contains(&x))).collect();
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -202,7 +202,7 @@ fn naive_columns(given: &Given<'_>, ends: &[DVec4; 2], window: PixelRect) -> Vec
 }
 
 /// A viewport that multiplies by the size less 1.
-pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn viewport_size(given: &Given<'_>) -> Result<LiveFigure, String> {
     let [u, v] = given.at[0];
     let panel = Panel::middle(5, 5, 44.0, 10.0);
     let square = [[-1.0, -1.0], [u, -1.0], [u, v], [-1.0, v]];
@@ -227,7 +227,7 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
     let missing = |[x, y]: [i32; 2]| is.get(x, y) < should.get(x, y);
     let pixels: Vec<_> = panel.pixels().map(|pixel| (pixel, missing(pixel))).collect();
     let count = pixels.iter().filter(|(_, is_missing)| *is_missing).count();
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, pixels),
         values: vec![("covered", should.covered().to_string()), ("missing", count.to_string())],
@@ -235,7 +235,7 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
     })
 }
 
-pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn to_pixel(given: &Given<'_>) -> Result<LiveFigure, String> {
     let ([x, z], y) = (given.at[0], 1.0);
     let panel = Panel::new([186.0, 16.0], 32.0, [0, 0, 5, 5]);
     let camera = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).map_err(|error| error.to_string())?;
@@ -262,7 +262,7 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grip(above(x, z), [24.0, -24.0]);
     let [left, top] = above(x, z);
     drawing.text([left, top - 12.0], "middle", &format!("{}, {}", number(x, 2), number(z, 2)));
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == pixel)).collect()),
         values: vec![("px", number(point[0], 3)), ("py", number(point[1], 3))],
@@ -271,7 +271,7 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// Two triangles, of which those that run counter-clockwise are left out.
-pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn winding(given: &Given<'_>) -> Result<LiveFigure, String> {
     let c = given.at[0];
     let triangles = [[[2.0, 2.0], [9.0, 3.0], c], [[18.0, 2.0], [11.0, 7.0], [18.0, 8.0]]];
     let panel = Panel::middle(20, 10, 17.0, 10.0);
@@ -297,7 +297,7 @@ pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
     };
     // In square pixels: a subpixel is 1/256 px wide.
     let area = answer["areas"][0]["twiceArea"].as_str().and_then(|text| text.parse::<f64>().ok());
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Choice(right),
         values: vec![("area", number(area.unwrap_or(0.0) / 65536.0, 2))],
@@ -306,7 +306,7 @@ pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// A triangle thinner than a subpixel, which snapping turns round.
-pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn thin_turn(given: &Given<'_>) -> Result<LiveFigure, String> {
     // The heights in subpixels.
     let heights = [0.0, given.at[0][1], 1.1];
     let corners = [0, 1, 2].map(|i| [i as f64, heights[i] / 256.0]);
@@ -331,7 +331,7 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.named_grip(exact[1], [0.0, 100.0], "b");
     let before = heights[2] - 2.0 * heights[1];
     let square = twice_area(&snapped) as f64 / 256.0;
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Choice(match sign {
             1 => 0,
@@ -344,7 +344,7 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// A square that is moved and scaled.
-pub(super) fn order_matters(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn order_matters(given: &Given<'_>) -> Result<LiveFigure, String> {
     let (by, times) = (given.at[0][0], given.at[1][0]);
     let shift = DMat4::from_translation(DVec3::new(by, 0.0, 0.0));
     let scale = DMat4::from_scale(DVec3::splat(times));
@@ -371,7 +371,7 @@ pub(super) fn order_matters(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.slider(given, 0, below + 26.0, &format!("+{}", number(by, 0)));
     drawing.slider(given, 1, below + 64.0, &format!("× {}", number(times, 1)));
     let pixels = panel.pixels().map(|p| (p, hits.get(p[0], p[1]) != Some(0))).collect();
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -384,7 +384,7 @@ pub(super) fn order_matters(given: &Given<'_>) -> Result<Drawn, String> {
     })
 }
 
-pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn turn_about(given: &Given<'_>) -> Result<LiveFigure, String> {
     let ([x, y], degrees) = (given.at[0], given.at[1][0]);
     let centre = DVec3::new(x, y, 0.0);
     let turn = about(centre, turn_z(degrees.to_radians()));
@@ -412,7 +412,7 @@ pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
         (true, false, _) => 2,
         (false, _, false) => 3,
     };
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Choice(right),
         values: Vec::new(),

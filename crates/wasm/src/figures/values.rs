@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::drawing::{Drawing, Panel, Point};
-use super::{Drawn, Given, Predict, number, snapped, with_triangles};
+use super::{Given, LiveFigure, Predict, number, snapped, with_triangles};
 use crate::answer::along;
 use rasterproof_core::contract::Interpolate as _;
 use rasterproof_core::frame::Frame;
@@ -63,7 +63,7 @@ fn grey(value: f64) -> glam::DVec3 {
 }
 
 /// The weights of the corners at a pixel, as areas.
-pub(super) fn weights(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn weights(given: &Given<'_>) -> Result<LiveFigure, String> {
     let p = given.at[0];
     let corners = [[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]];
     let panel = Panel::middle(9, 8, 28.0, 26.0);
@@ -103,7 +103,7 @@ pub(super) fn weights(given: &Given<'_>) -> Result<Drawn, String> {
     let percent = shares.map(|share| number(share * 100.0, 2));
     let [wa, wb, wc] = percent;
     let plane = 100.0 * shares[0] + 20.0 * shares[1] + 60.0 * shares[2];
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Number(shares[0] * 100.0, 0),
         values: vec![
@@ -121,7 +121,7 @@ pub(super) fn weights(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// Colours that wander to another corner, since each weight is given to a wrong one.
-pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn wrong_corner(given: &Given<'_>) -> Result<LiveFigure, String> {
     let corners = [given.at[0], [6.0, 1.0], [10.5, 8.5]];
     let colours = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
     let valued = [0, 1, 2].map(|i| {
@@ -157,7 +157,7 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
         fragments.min_by(|a, b| far(a).total_cmp(&far(b))).map_or(0.0, |f| f.varying.x)
     });
     let red = (0..3).max_by(|&a, &b| redness[a].total_cmp(&redness[b])).unwrap_or(0);
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Choice(red),
         values: vec![("red", ["A", "B", "C"][red].to_owned())],
@@ -166,7 +166,7 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// A floor whose pattern is interpolated without w, beside the right one.
-pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn affine_kink(given: &Given<'_>) -> Result<LiveFigure, String> {
     let far = given.at[0][0];
     let floor = [
         [2.0, 29.0, 1.0, 0.0, 0.0, 0.0],
@@ -202,7 +202,7 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
         }
     }
     drawing.slider(given, 0, left.bottom() + 24.0, &format!("w = {}", number(far, 2)));
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Choice(if far == 1.0 { 2 } else { 0 }),
         values: vec![("differ", differ.to_string())],
@@ -215,7 +215,7 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// The pixels along an edge: its value by the share on the screen, and by the share in space.
-pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn value_midway(given: &Given<'_>) -> Result<LiveFigure, String> {
     let far = given.at[0][0];
     let pairs = along(given.pen, [1.0, far], 12)?;
     let mut drawing = Drawing::new(200.0, given.is_answered);
@@ -231,7 +231,7 @@ pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
         drawing.path("ink", &[[x - 6.0, y + 12.0], [x, y + 3.0], [x + 6.0, y + 12.0]], true);
     }
     drawing.slider(given, 0, 176.0, &format!("w = {}", number(far, 1)));
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Number(middle * 100.0, 0),
         values: vec![("value", number(middle * 100.0, 0))],
@@ -240,7 +240,7 @@ pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// A rod from above, and where its middle appears in the picture.
-pub(super) fn rod_middle(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn rod_middle(given: &Given<'_>) -> Result<LiveFigure, String> {
     let (near, far) = (given.at[0][0], given.at[1][0]);
     let shares = along(given.pen, [near, far], 12)?;
     let off = |pair: &[f64; 2]| (pair[1] - 0.5).abs();
@@ -277,7 +277,7 @@ pub(super) fn rod_middle(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grip(a, [-24.0, 0.0]);
     drawing.grip(b, [24.0, 0.0]);
     let share = far / (near + far);
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, (0..13).map(|x| ([x, 0], x == right as i32)).collect()),
         values: vec![("share", number(share * 100.0, 0))],
@@ -321,7 +321,7 @@ fn depth_link(width: u32, first: [f64; 2], second: [f64; 2]) -> String {
 }
 
 /// A slanted surface and an upright one, pixel by pixel.
-pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn nearer(given: &Given<'_>) -> Result<LiveFigure, String> {
     let b = given.at[0][1];
     // With the near plane at 10 and the far plane at 200: 0 at 10, 1 at 200.
     let depth = |z: f64| 200.0 / 190.0 * (1.0 - 10.0 / z);
@@ -367,7 +367,7 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
     if given.is_answered {
         drawing.grid(&painter);
     }
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Pixels(panel, (0..).zip(&shows_b).map(|(x, &is)| ([x, 0], is)).collect()),
         values: vec![
@@ -379,7 +379,7 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
 }
 
 /// Two surfaces less than a step of the stored depth apart.
-pub(super) fn z_fighting(given: &Given<'_>) -> Result<Drawn, String> {
+pub(super) fn z_fighting(given: &Given<'_>) -> Result<LiveFigure, String> {
     let gap = given.at[0][0];
     let step = 1.0 / f64::from((1u32 << 24) - 1);
     // The depth rises by 0.3 of a step from pixel to pixel.
@@ -395,7 +395,7 @@ pub(super) fn z_fighting(given: &Given<'_>) -> Result<Drawn, String> {
     drawing.grid(&panel);
     drawing.slider(given, 0, panel.bottom() + 30.0, &format!("Δ = {}", number(gap, 2)));
     let seen = shows_near.iter().filter(|&&is_near| is_near).count();
-    Ok(Drawn {
+    Ok(LiveFigure {
         drawing,
         predict: Predict::Number(seen as f64, 0),
         values: vec![("seen", seen.to_string())],

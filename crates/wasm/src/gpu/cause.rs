@@ -11,7 +11,7 @@ use super::{Device, Layout, Topic};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_verify::comparison::{Cause as Found, Convention};
-use rasterproof_verify::convention::{Ask, Known, TriangleQuestion};
+use rasterproof_verify::convention::{Ask, Declarations, TriangleQuestion};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -29,17 +29,17 @@ const LAYOUT: Layout = Layout { side: 1024, cell: 32, margin: REACH, scissor: tr
 const REACH: i32 = 3;
 
 #[derive(Default)]
-struct Asked {
+struct GivenAnswers {
     answered: HashMap<TriangleQuestion, Coverage>,
     /// Questions of the last picture, one for each cell.
     waiting: Vec<TriangleQuestion>,
 }
 
 thread_local! {
-    static ASKED: RefCell<Asked> = RefCell::default();
+    static ASKED: RefCell<GivenAnswers> = RefCell::default();
 }
 
-impl Asked {
+impl GivenAnswers {
     fn take(&mut self, pixels: &str) -> Result<(), String> {
         let side = LAYOUT.side as usize;
         let pixels = pixels.as_bytes();
@@ -61,7 +61,7 @@ impl Asked {
     }
 }
 
-impl Ask for Asked {
+impl Ask for GivenAnswers {
     fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>> {
         if self.is_abandoned() {
             return Vec::new();
@@ -88,15 +88,15 @@ impl Cause {
         ASKED.with_borrow_mut(|asked| {
             match &self.pixels {
                 Some(pixels) => asked.take(pixels)?,
-                None => *asked = Asked::default(),
+                None => *asked = GivenAnswers::default(),
             }
             let declared = Convention::default();
             let finest = SUBPIXELS / self.device.step();
-            let known = Known {
+            let known = Declarations {
                 grid: [256, 64, 16].into_iter().find(|grid| *grid <= finest).unwrap_or(1),
                 range_px: REACH * LAYOUT.cell,
                 window_px: (LAYOUT.cell as u32, LAYOUT.cell as u32),
-                ..Known::from(&declared)
+                ..Declarations::from(&declared)
             };
             let found = Found::by_asking(asked, &known, &declared);
             if asked.waiting.is_empty() {

@@ -179,7 +179,7 @@ impl Cell<'_> {
 }
 
 #[derive(Default)]
-struct Judged {
+struct PictureJudgement {
     ours: Planes,
     theirs: Planes,
     marks: Vec<Mark>,
@@ -188,7 +188,7 @@ struct Judged {
     worst: f64,
 }
 
-fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Judged {
+fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> PictureJudgement {
     let side = cell.layout.cell;
     if check == Topic::Values {
         return values(device, subject, cell);
@@ -211,7 +211,8 @@ fn judged(check: Topic, device: Device, subject: &Drawing, cell: &Cell) -> Judge
         }
     }
     let pixels = (side * side) as u64 * ours.len() as u64;
-    let mut judged = Judged { ours, theirs, marks, pixels, ..Judged::default() };
+    let mut judged =
+        PictureJudgement { ours, theirs, marks, pixels, ..PictureJudgement::default() };
     match check {
         Topic::Lattice => judged.explained = explaining(subject, &judged.theirs[0], side),
         Topic::Coverage | Topic::Reach if judged.word() == Standing::Allowed => {
@@ -268,7 +269,7 @@ fn is_coarse(explained: &[bool]) -> bool {
 }
 
 /// What the specification asks of lines: WebGL the diamond-exit rule, give or take a pixel; WebGPU nothing.
-fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut Judged) {
+fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut PictureJudgement) {
     let hits = &judged.theirs[0];
     let lit = (0..).zip(hits).filter(|(_, hits)| **hits > 0);
     let lit = lit.map(|(at, _)| (at % side, at / side)).collect();
@@ -282,10 +283,11 @@ fn lines(device: Device, subject: &Drawing, side: i32, judged: &mut Judged) {
 }
 
 /// Depth and attributes in perspective against exact ones.
-fn values(device: Device, subject: &Drawing, cell: &Cell) -> Judged {
+fn values(device: Device, subject: &Drawing, cell: &Cell) -> PictureJudgement {
     let side = cell.layout.cell;
     let empty = vec![vec![0; (side * side) as usize]];
-    let mut judged = Judged { ours: empty.clone(), theirs: empty, ..Judged::default() };
+    let mut judged =
+        PictureJudgement { ours: empty.clone(), theirs: empty, ..PictureJudgement::default() };
     let triangles = subject.triangles();
     let Some(triangle) = triangles.first() else { return judged };
     let v = &triangle.vertices;
@@ -352,7 +354,7 @@ fn spread(triangle: &Triangle, (x, y): (i32, i32), step: f64) -> [f64; 3] {
     [0, 1, 2].map(|i| corners.iter().fold(0.0, |most: f64, c| most.max((c[i] - middle[i]).abs())))
 }
 
-impl Judged {
+impl PictureJudgement {
     fn word(&self) -> Standing {
         self.marks.iter().map(|mark| mark.word).max().unwrap_or(Standing::Equal)
     }

@@ -11,7 +11,7 @@ use crate::scene::{Item, Scene};
 
 /// What is known of an item before its triangles are looked at.
 #[derive(Clone, Copy)]
-pub struct Asked<'a> {
+pub struct ItemQuestion<'a> {
     pub scene: &'a Scene,
     pub item: &'a Item,
     /// The attributes that its pieces carry.
@@ -25,11 +25,11 @@ pub struct Condition {
     /// The attributes, as bits, that are interpolated for effects alone that name them here.
     pub needs: u8,
     /// Whether anything of an item can pay for it, even where it is switched on everywhere.
-    pub is_possible: fn(&Asked<'_>) -> bool,
-    pub is_asked_for: fn(&Asked<'_>) -> bool,
+    pub is_possible: fn(&ItemQuestion<'_>) -> bool,
+    pub is_asked_for: fn(&ItemQuestion<'_>) -> bool,
     /// Why an item does not ask for it, and whether every plan says so, or only one for which the user switches the effect on or off
     /// everywhere. Nothing where no plan does.
-    pub missing: fn(&Asked<'_>) -> Option<(&'static str, bool)>,
+    pub missing: fn(&ItemQuestion<'_>) -> Option<(&'static str, bool)>,
     /// Why all pieces pay where the material alone decides.
     pub by_material: &'static str,
     /// When a piece pays that is not looked at before it is drawn.
@@ -40,7 +40,7 @@ pub struct Condition {
 
 impl Condition {
     /// When the pieces of an item pay for it.
-    pub fn mode(&self, asked: &Asked<'_>) -> Mode {
+    pub fn mode(&self, asked: &ItemQuestion<'_>) -> Mode {
         match asked.effects.mode(self.effect) {
             _ if !(self.is_possible)(asked) => Mode::Never,
             Mode::Planned | Mode::Material if !(self.is_asked_for)(asked) => Mode::Never,
@@ -67,7 +67,7 @@ impl Condition {
 
 /// One item, and the plans of its pieces added up.
 pub struct Account<'a> {
-    pub asked: Asked<'a>,
+    pub asked: ItemQuestion<'a>,
     pub index: usize,
     /// Whether its pieces were looked at; else they are counted as triangles.
     pub is_listed: bool,
@@ -94,7 +94,7 @@ impl<'a> Account<'a> {
     ) -> Self {
         let item = &scene.items[index];
         Self {
-            asked: Asked { scene, item, carries, effects },
+            asked: ItemQuestion { scene, item, carries, effects },
             index,
             is_listed,
             pieces: if is_listed { 0 } else { item.mesh.triangles.len() as u64 },

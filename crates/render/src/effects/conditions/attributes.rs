@@ -3,7 +3,7 @@
 //! Left out where the material does not use it: the factor left out is exactly 1, and the others
 //! keep their order.
 
-use super::account::{Account, Asked};
+use super::account::{Account, ItemQuestion};
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::{has_places, is_lit};
 use crate::effects::{Effect, Effects, Mode};
@@ -34,7 +34,7 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
         effects.pays(*effect, called_for || *effect == Effect::Light && has_highlights)
     };
     let bits = ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit);
-    let asked = Asked { scene, item, carries: Attributes(bits), effects };
+    let asked = ItemQuestion { scene, item, carries: Attributes(bits), effects };
     let in_use = super::ALL.iter().filter(|condition| condition.mode(&asked) != Mode::Never);
     let mut needed = in_use.fold(bits, |bits, condition| bits | condition.needs);
     if bits & Attributes::UV != 0 && item.material.has_second_uvs() {

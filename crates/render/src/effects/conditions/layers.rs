@@ -7,7 +7,7 @@
 //! share meet in no sample. What is opaque there is drawn before it, since items that blend come last, and so the
 //! mixture at once is that of the one layer at the end.
 
-use super::account::{Asked, Condition};
+use super::account::{Condition, ItemQuestion};
 use super::blending::is_blended;
 use super::depth::{margin_px, overlaps};
 use crate::effects::plan::{Attributes, Canvas};
@@ -16,7 +16,7 @@ use crate::effects::{Effect, Effects, Mode};
 use crate::scene::Scene;
 use rasterproof_core::grid::PixelRect;
 
-fn is_asked_for(asked: &Asked<'_>) -> bool {
+fn is_asked_for(asked: &ItemQuestion<'_>) -> bool {
     asked.scene.layers.is_some() && is_blended(asked.item)
 }
 
@@ -39,7 +39,7 @@ pub const CONDITION: Condition = Condition {
 
 /// Whether any item may have layers.
 pub fn is_in_use(scene: &Scene, effects: &Effects) -> bool {
-    let asked = |item| Asked { scene, item, carries: Attributes::NONE, effects };
+    let asked = |item| ItemQuestion { scene, item, carries: Attributes::NONE, effects };
     scene.items.iter().any(|item| CONDITION.mode(&asked(item)) != Mode::Never)
 }
 

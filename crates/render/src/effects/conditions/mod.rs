@@ -28,7 +28,7 @@ pub(super) mod wide_words;
 
 use glam::DVec2;
 
-use self::account::{Account, Asked, Condition};
+use self::account::{Account, Condition, ItemQuestion};
 use super::plan::{Attributes, Decision, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w};
 use super::table::fragment_effects;
@@ -82,7 +82,7 @@ macro_rules! conditions {
         pub(super) fn rule(scene: &Scene, item: &Item, effects: &Effects) -> (Attributes, Rule) {
             let carries = attributes::carries(scene, item, effects);
             let (interpolates, where_it_varies) = interpolation::rule(item, carries, effects);
-            let asked = Asked { scene, item, carries, effects };
+            let asked = ItemQuestion { scene, item, carries, effects };
             let rule = Rule {
                 interpolates,
                 where_it_varies,

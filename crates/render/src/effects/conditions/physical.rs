@@ -14,7 +14,7 @@
 //!
 //! [`Physical::is_flat`]: crate::pipeline::physical::Physical::is_flat
 
-use super::account::{Asked, Condition};
+use super::account::{Condition, ItemQuestion};
 use super::interpolation::is_plain_in;
 use super::{Facts, is_looked_at, shadows};
 use crate::effects::Effect;
@@ -25,21 +25,21 @@ use crate::pipeline::punctual::PunctualLight;
 use glam::DVec3;
 use rasterproof_core::arrays::MapArray as _;
 
-fn has_light(asked: &Asked<'_>) -> bool {
+fn has_light(asked: &ItemQuestion<'_>) -> bool {
     let is_facing = light(asked.scene, asked.item).diffuse > 0.0;
     is_lit(asked.scene, asked.item) && (is_facing || !punctual(asked.scene, asked.item).is_empty())
 }
 
-fn surface<'a>(asked: &Asked<'a>) -> Option<&'a Physical> {
+fn surface<'a>(asked: &ItemQuestion<'a>) -> Option<&'a Physical> {
     asked.item.material.physical.as_deref()
 }
 
-fn has_map(asked: &Asked<'_>, map: Map) -> bool {
+fn has_map(asked: &ItemQuestion<'_>, map: Map) -> bool {
     surface(asked).is_some_and(|surface| surface.map(map).is_some())
 }
 
 /// Nothing of a material that is not physical, and of what it has not, unless the user switches that on or off everywhere.
-fn missing(asked: &Asked<'_>, reason: &'static str) -> Option<(&'static str, bool)> {
+fn missing(asked: &ItemQuestion<'_>, reason: &'static str) -> Option<(&'static str, bool)> {
     surface(asked).map(|_| (reason, false))
 }
 
