@@ -16,7 +16,11 @@ fn shown(text: &str) -> Vec<String> {
         if !hidden {
             let shown_as = |name: &str| name.rsplit(" as ").next().unwrap_or("").trim().to_owned();
             found.extend(names.split(',').map(shown_as));
-            found.retain(|name| !name.is_empty());
+            // A type of another crate, `random::Rng`, is part of the module that shows it.
+            let is_type = |name: &str| {
+                name.rsplit("::").next().is_some_and(|last| last.starts_with(char::is_uppercase))
+            };
+            found.retain(|name| !name.is_empty() && !is_type(name));
         }
         // An attribute speaks of what follows the attributes and comments below it.
         let goes_on = line.starts_with("#[") || line.starts_with("//");
@@ -104,7 +108,7 @@ fn surface_reads_attributes() {
     let text = "pub mod a;\n#[doc(hidden)]\npub mod b;\npub mod c;\nmod d;\n#[doc(hidden)]\n\
         #[cfg(test)]\n// why\npub mod e;\npub(crate) mod f;\n#[cfg(test)]\npub mod g;\n\
         pub use rasterproof_x::{\n    h, i,\n};\n#[doc(hidden)]\npub use rasterproof_x::j;\n\
-        pub use rasterproof_x::{k as l};\n";
+        pub use rasterproof_x::{k as l};\npub use rasterproof_x::m::Type;\n";
     assert_eq!(shown(text), ["a", "c", "g", "h", "i", "l"]);
     let page =
         "## Rely\n\n| module | x |\n|---|---|\n| `a`, `a::b` | y |\n\n## Next\n| `c` | z |\n";

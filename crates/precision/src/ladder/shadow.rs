@@ -1,7 +1,7 @@
 //! Choices of shadows: the formats in which a shadow map holds depths, and the bias with which they are compared.
 //!
 //! A fragment reads the 3 x 3 texels around its place and counts those that are not nearer to the light. The bias is that of
-//! [`rasterproof_render::pipeline::shadow`], derived there: what a plane's depth may change by between the fragment and the
+//! `rasterproof_render::pipeline::shadow`, derived there: what a plane's depth may change by between the fragment and the
 //! centre of a texel. Depths are computed in f64, so that the format alone is seen.
 
 use std::marker::PhantomData;
