@@ -80,8 +80,8 @@ const describe = (value) => {
   return isIterator(value) ? 'an iterator, as of a generator (write [...f(shape, window)])' : value.constructor?.name ?? 'an object without a name';
 };
 
-/** How often a pixel may be drawn: each time is a run of its own in an answer. */
-const MOST_HITS = 4;
+/** More hits than a byte holds are not told apart. */
+const MOST_HITS = 255;
 
 /** What a function returned first, it has to go on returning. */
 function keep(judged, kind) {
@@ -95,10 +95,7 @@ function checkCounts({ name, kind, hits }, mask) {
   if (least !== undefined) throw new TypeError(`${name} returned a mask with ${least}; a pixel is drawn at least 0 times`);
   if (kind === undefined && !hits && most > 1 && mask.every((count) => count === 0 || count === most))
     throw new TypeError(`${name} returned a mask of 0 and ${most}; a number says how often a pixel is drawn: ` +
-      `return mask.map((v) => v > 0 ? 1 : 0), or pass hits: true if it counts up to ${MOST_HITS}`);
-  if (most > MOST_HITS)
-    throw new TypeError(`${name} returned a mask with ${most}; a number says how often a pixel is drawn, at most ${MOST_HITS} times: ` +
-      'return mask.map((v) => v > 0 ? 1 : 0) if it is a colour');
+      `return mask.map((v) => v > 0 ? 1 : 0), or pass hits: true if a pixel really is drawn ${most} times`);
 }
 
 /** Checks how often each pixel is drawn. */
@@ -127,30 +124,40 @@ function rows(judged, list, columns) {
 
 const isList = (value) => Array.isArray(value) && !['boolean', 'number'].includes(typeof value[0]);
 
+/** Runs of the same number above 0, which `of` makes of each number of a mask: row, first column, one past the last, the number. */
+function runsOf(mask, width, of) {
+  const runs = [];
+  for (let y = 0, start = 0; start < mask.length; y++, start += width)
+    for (let x = 0, first = 0, now = 0; x <= width; x++) {
+      const next = x < width ? of(Number(mask[start + x])) : -1;
+      if (next === now) continue;
+      if (now > 0) runs.push([y, first, x, now]);
+      [first, now] = [x, next];
+    }
+  return runs;
+}
+
 function coverage(judged, value, window) {
   if (isList(value)) return rows(judged, value, 'y x0 x1');
   const mask = checkMask(judged, value, window, 'a Uint8Array that counts how often each pixel is drawn, booleans, or a list of spans');
-  const [width, height] = window, runs = [];
+  const most = mask.reduce((most, count) => Math.max(most, Number(count)), 0);
+  if (most > 2) {
+    // Runs with their hits have a letter of their own.
+    const counted = runsOf(mask, window[0], (count) => Math.min(count, MOST_HITS));
+    return `H${counted.length} ${counted.flat().join(' ')}`;
+  }
   // A pixel that is drawn twice is in two runs.
-  for (let level = 1, most = 1; level <= most; level++)
-    for (let y = 0, i = 0; y < height; y++)
-      for (let x = 0, first = -1; x <= width; x++) {
-        const count = x < width ? mask[i++] : 0;
-        if (count > most) most = Number(count);
-        if (count >= level && first < 0) first = x;
-        if (!(count >= level) && first >= 0) {
-          runs.push(y, first, x);
-          first = -1;
-        }
-      }
+  const runs = [];
+  for (let level = 1; level <= most; level++)
+    for (const [y, first, end] of runsOf(mask, window[0], (count) => (count >= level ? 1 : 0))) runs.push(y, first, end);
   return `${runs.length / 3} ${runs.join(' ')}`;
 }
 
-/** Calls `draw` for each pixel as often as it is drawn, and returns how many that were. */
+/** Calls `draw` once for each pixel that is drawn, and again for one that is drawn more than once; returns how many calls that were. */
 function drawn(mask, [width], draw) {
   let all = 0;
   for (let i = 0; i < mask.length; i++)
-    for (let n = Number(mask[i]); n > 0; n--, all++) draw(i % width, Math.floor(i / width), i);
+    for (let n = Math.min(Number(mask[i]), 2); n > 0; n--, all++) draw(i % width, Math.floor(i / width), i);
   return all;
 }
 
@@ -220,7 +227,7 @@ const judges = (call, [request, reply], capability, read, write, probe) => {
     if (typeof fn !== 'function') throw new TypeError(`${call} takes a function; got ${describe(fn)}`);
     if (typeof hits !== 'boolean') throw new RangeError(`hits is ${hits}; expected true or false`);
     const judged = { fn, name: fn.name || 'function', kind: undefined, hits };
-    const header = Object.entries({ cases: 100, ...options }).flatMap(([option, value]) =>
+    const header = Object.entries({ cases: 100, ...options, hits: hits || undefined }).flatMap(([option, value]) =>
       [value].flat().filter((one) => one !== undefined).map((one) => `${option} ${one}`.replace(/\s+/g, ' ')));
     // What it returns for one case, in a window that is no square, says what can be seen in its answers.
     ask(judged, probe.split(' '), () => 'the first request, which is no generated case');
@@ -232,7 +239,8 @@ const judges = (call, [request, reply], capability, read, write, probe) => {
     const where = (words) => `for ${run(begin(`locate ${request} 1 ${words.join(' ')}`), () => '').said}`;
     const { status, said } = run(begin(), ([verb, id, ...words]) => {
       const answer = verb === request ? ask(judged, words, () => where(words)) : null;
-      return answer === null ? `E ${id} unsupported` : `${reply} ${id} ${answer}`;
+      if (answer === null) return `E ${id} unsupported`;
+      return answer[0] === 'H' ? `H ${id} ${answer.slice(1)}` : `${reply} ${id} ${answer}`;
     });
     if (status === 0) return;
     const error = status === 1 ? new AssertionError(said) : status === 2 ? new RangeError(said) : new Error(`rasterproof gave no verdict:\n${said}`);

@@ -244,7 +244,12 @@ fn course_passes_a_students_code() {
         ("depth", "l[i] * corners[i][2] for", "corners[i][2] for", "show what lies behind"),
         ("clipping", "a[2] + a[3], b[2] + b[3]", "a[2], b[2]", "corners missing"),
         ("clipping", "    return polygon", "    return polygon[:3]", "corners missing"),
-        ("clipping", "    return polygon", "    return polygon[::-1]", "out of order"),
+        (
+            "clipping",
+            "    return polygon",
+            "    return polygon[::-1]",
+            "running the other way round",
+        ),
         ("clipping", "zip(a, b)]", "zip(a[:3], b[:3])]", "x, y, z, w"),
     ] {
         assert!(right.contains(from), "{from}");

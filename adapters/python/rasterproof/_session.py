@@ -48,6 +48,8 @@ def judge(kind: Kind, fn: Callable[..., Any], options: Mapping[str, Any]) -> Non
         raise ValueError(f"hits is {hits!r}; expected True or False")
     judged = Judged(fn, hits)
     header = ["language python", f"call rasterproof.{kind.call}({judged.name}"]
+    if hits:
+        options["hits"] = True
     for option, value in options.items():
         values = value if isinstance(value, (list, tuple)) else [value]
         header += [" ".join([option, *str(one).split()]) for one in values if one is not None]
@@ -70,7 +72,13 @@ def judge(kind: Kind, fn: Callable[..., Any], options: Mapping[str, Any]) -> Non
                 explain(error, kind, judged, mine, [*header, hello])
             raise
         replies = ((id, next(texts) if asked == kind.verb else None) for asked, id, *_ in requests)
-        return "".join(f"E {id} unsupported\n" if text is None else f"{kind.reply} {id} {text}\n" for id, text in replies)
+        return "".join(reply(id, text) for id, text in replies)
+
+    def reply(id: str, text: Optional[str]) -> str:
+        if text is None:
+            return f"E {id} unsupported\n"
+        # Runs with their hits have a letter of their own.
+        return f"H {id} {text[1:]}\n" if text[0] == "H" else f"{kind.reply} {id} {text}\n"
 
     hello = f"HELLO 2 {name} {kind.capability} batch=1024{words}\n"
     status, said = run("\n".join([*header, hello]), answers)

@@ -10,8 +10,8 @@ __tracebackhide__ = True
 Array = Any
 # Pixels that are drawn by one call.
 MOST_PIXELS = 1 << 24
-# How often a pixel may be drawn: each time is a run of its own in an answer.
-MOST_HITS = 4
+# More hits than a byte holds are not told apart.
+MOST_HITS = 255
 # The characters of a byte and of the exponent of a float.
 PAIRS = numpy.array([f"{byte:02x}" for byte in range(256)], "S2").view(numpy.uint16)
 POWERS = numpy.array([f"{max(exponent, 1) - 1023:+05}" for exponent in range(2048)], "S5").view(numpy.uint8).reshape(-1, 5)
@@ -114,12 +114,7 @@ def check_counts(judged: Judged, masks: Array) -> None:
     if is_picture:
         raise ValueError(
             f"{judged.name} returned masks of 0 and {most}; a number says how often a pixel is drawn: "
-            f"return masks > 0, or pass hits=True if they count up to {MOST_HITS}"
-        )
-    if most > MOST_HITS:
-        raise ValueError(
-            f"{judged.name} returned masks with {most}; a number says how often a pixel is drawn, at most {MOST_HITS} times: "
-            "return masks > 0 if it is a colour"
+            f"return masks > 0, or pass hits=True if a pixel really is drawn {most} times"
         )
 
 
@@ -173,6 +168,15 @@ def joined(columns: Sequence[Array], cases: Array, count: int) -> List[str]:
     return [f"{end - first}{rows[first:end].tobytes().decode()}" for first, end in zip(ends, ends[1:])]
 
 
+def counted_runs(mask: Array) -> str:
+    """Runs of one picture with their hits: row, first column, one past the last, hits."""
+    runs = []
+    for y, row in enumerate(numpy.minimum(mask, MOST_HITS).astype(numpy.int64)):
+        ends = [0, *(numpy.flatnonzero(numpy.diff(row)) + 1).tolist(), len(row)]
+        runs += [(y, first, end, int(row[first])) for first, end in zip(ends, ends[1:]) if row[first]]
+    return " ".join(map(str, [len(runs), *(number for run in runs for number in run)]))
+
+
 def spans(masks: Array) -> List[str]:
     """Runs of row, first column, one past the last; a pixel that is drawn twice is in two of them."""
     parts, cases = [], []
@@ -193,7 +197,13 @@ def spans(masks: Array) -> List[str]:
 def coverage(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -> List[str]:
     if isinstance(value, (list, tuple)):
         return rows_of(judged, value, count, "y x0 x1")
-    return spans(masks_of(judged, value, count, window))
+    masks = masks_of(judged, value, count, window)
+    # A picture with a pixel that is drawn more than twice has runs with their hits, and begins with the letter of such an answer.
+    often = masks.max(axis=(1, 2), initial=0) > 2
+    texts = spans(numpy.where(often[:, None, None], 0, masks) if often.any() else masks)
+    for case in numpy.flatnonzero(often):
+        texts[case] = f"H{counted_runs(masks[case])}"
+    return texts
 
 
 def pixels(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -> List[str]:
@@ -201,7 +211,9 @@ def pixels(judged: Judged, value: Any, count: int, window: Tuple[int, int]) -> L
         return rows_of(judged, value, count, "x y")
     masks = masks_of(judged, value, count, window)
     case, y, x = numpy.nonzero(masks)
-    case, y, x = (numpy.repeat(part, masks[case, y, x].astype(numpy.int64)) for part in (case, y, x))
+    # A pixel of a line is drawn once or it is not; how often more is not told apart.
+    hits = numpy.minimum(masks[case, y, x], 2).astype(numpy.int64)
+    case, y, x = (numpy.repeat(part, hits) for part in (case, y, x))
     return joined([x, y], case, count)
 
 

@@ -240,9 +240,9 @@ class Judged(unittest.TestCase):
         misuses = [
             (ValueError, "masks of 0 and 255; .* return masks > 0, or pass hits=True", as_type(np.uint8, 255), {}),
             (ValueError, "masks of 0 and 2; ", as_type(np.int64, 2), {}),
-            (ValueError, "masks with 255; .* at most 4 times", as_type(np.uint8, 255), {"hits": True}),
-            (ValueError, "masks with 255; .* at most 4 times", late, {}),
-            (AssertionError, "twice", as_type(np.uint8, 4), {"hits": True, "family": "uniform"}),
+            (AssertionError, r"answer: +H 1 \d+  \d+ \d+ \d+ 255", as_type(np.uint8, 255), {"hits": True}),
+            (AssertionError, "255", late, {}),
+            (AssertionError, r"hits=True\)", as_type(np.uint8, 4), {"hits": True, "family": "uniform"}),
             (ValueError, "hits is 1; expected True or False", exact, {"hits": 1}),
             (TypeError, "masks of type float64", as_type(np.float64), {}),
             (ValueError, "expected .*: .n, height, width.", lambda c, w: exact(c, w).transpose(0, 2, 1), {}),

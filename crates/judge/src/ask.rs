@@ -5,6 +5,7 @@
 
 use std::fmt;
 use std::io::Write as _;
+use std::iter;
 use std::time::Instant;
 
 use glam::DVec2;
@@ -327,11 +328,19 @@ impl Question {
         if letter == b'E' {
             return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
         }
-        if letter != self.of.letters()[1] {
+        let has_hits = letter == b'H' && matches!(self.of, Asked::Coverage(_));
+        if letter != self.of.letters()[1] && !has_hits {
             return Err("its letter does not belong to the request");
         }
         let n = words.int().and_then(|n| usize::try_from(n).ok()).ok_or("it has no count")?;
         let answer = match self.of {
+            Asked::Coverage(_) if has_hits => {
+                let mut runs = Vec::new();
+                for (run, hits) in each(n, words, marked)? {
+                    runs.extend(iter::repeat_n(run, usize::from(hits)));
+                }
+                Answer::Coverage(runs)
+            }
             Asked::Coverage(_) => Answer::Coverage(each(n, words, span)?),
             Asked::Values(_) => Answer::Values(each(n, words, fragment)?),
             Asked::Line { .. } => Answer::Line(each(n, words, |w| Some((w.int()?, w.int()?)))?),
@@ -391,7 +400,17 @@ pub fn show(answer: &Answer, id: u64) -> String {
     };
     let run = |s: &Span| format!("{} {} {}", s.y_px, s.x0_px, s.x1_px);
     match answer {
-        Answer::Coverage(runs) => list('C', runs.iter().map(run).collect()),
+        Answer::Coverage(runs) => {
+            let counted: Vec<&[Span]> = runs.chunk_by(|a, b| a == b).collect();
+            // A run that is drawn often is shown once, with its hits.
+            if counted.iter().all(|same| same.len() <= 2) {
+                return list('C', runs.iter().map(run).collect());
+            }
+            list(
+                'H',
+                counted.iter().map(|same| format!("{} {}", run(&same[0]), same.len())).collect(),
+            )
+        }
         Answer::Samples(runs) => {
             list('M', runs.iter().map(|(s, mask)| format!("{} {mask}", run(s))).collect())
         }

@@ -151,12 +151,12 @@ impl Check {
             Self::Near => vec![
                 (missing, "corners missing"),
                 (extra, "corners that are not there"),
-                (order, "polygons that run the other way round"),
+                (order, "running the other way round"),
             ],
             Self::Carried => vec![
                 (missing, "corners missing, or with another attribute"),
                 (extra, "corners with an attribute that no such corner has, or that are not there"),
-                (order, "polygons that run the other way round"),
+                (order, "running the other way round"),
             ],
             Self::Depth => vec![
                 (missing, "missing"),

@@ -138,6 +138,16 @@ fn meant_instead(key: &str, value: Option<&str>) -> String {
     if let Some((_, form)) = numbered().into_iter().find(|(known, _)| *known == key) {
         return format!("expected {form}");
     }
+    let is_near = |a: &str, b: &str| 2 * strsim::levenshtein(a, b) <= a.len().max(b.len());
+    let said = value.map_or(key.to_owned(), |value| format!("{key}={value}")).to_lowercase();
+    // The key is right, and its value is one of a few: one that resembles none of them gets them all.
+    if let (Some(value), Some((_, values))) =
+        (value, listed().into_iter().find(|(known, _)| *known == key))
+    {
+        if !values.iter().any(|known| is_near(&value.to_lowercase(), known)) {
+            return format!("expected one of {key}={}", values.join(&format!(", {key}=")));
+        }
+    }
     let mut words: Vec<String> = FLAGS.map(str::to_owned).to_vec();
     for (known, values) in listed() {
         words.extend(values.iter().map(|value| format!("{known}={value}")));
@@ -145,11 +155,9 @@ fn meant_instead(key: &str, value: Option<&str>) -> String {
     // A number that somebody wrote is kept.
     let number = |known: &str| value.map(|value| format!("{known}={value}"));
     words.extend(numbered().iter().filter_map(|(known, _)| number(known)));
-    let said = value.map_or(key.to_owned(), |value| format!("{key}={value}")).to_lowercase();
     words.retain(|word| Declared::default().declare(word).is_ok());
     let nearest = words.iter().min_by_key(|word| strsim::levenshtein(&said, word));
-    match nearest.filter(|word| 2 * strsim::levenshtein(&said, word) <= said.len().max(word.len()))
-    {
+    match nearest.filter(|word| is_near(&said, word)) {
         Some(word) => format!("did you mean '{word}'?"),
         None => {
             let keys = listed().map(|(known, _)| known).into_iter();
@@ -448,6 +456,10 @@ mod tests {
             ),
             ("rnage=4096", "'rnage=4096' is not understood; did you mean 'range=4096'?"),
             ("Winding=CW", "'Winding=CW' is not understood; did you mean 'winding=cw'?"),
+            (
+                "winding=clockwise",
+                "'winding=clockwise' is not understood; expected one of winding=cw, winding=ccw, winding=both",
+            ),
             ("y-up", "'y-up' is not understood; did you mean 'yup'?"),
             ("grid=2566", "'grid=2566' is not understood; did you mean 'grid=256'?"),
             ("window=8", "'window=8' is not understood; expected window=WxH, each from 1 to "),

@@ -61,6 +61,8 @@ struct Job {
     call: String,
     is_python: bool,
     declare: String,
+    /// The caller says that numbers of masks are hits.
+    hits: bool,
     /// A request for which the function threw: nothing is judged, and its case is looked up.
     locate: String,
 }
@@ -105,9 +107,10 @@ impl Job {
             "language" => self.is_python = value == "python",
             "call" => self.call = value.to_owned(),
             "declare" => self.declare = value.to_owned(),
+            "hits" => self.hits = true,
             "locate" => self.locate = value.to_owned(),
             _ => {
-                let known = "cases, seed, case, seconds, family or declare";
+                let known = "cases, seed, case, seconds, family, declare or hits";
                 return Err(format!("no option is {option}; expected {known}"));
             }
         }
@@ -125,6 +128,9 @@ impl Job {
         all.push(("seed", self.options.seed.to_string()));
         if !self.declare.is_empty() {
             all.push(("declare", format!("'{}'", self.declare)));
+        }
+        if self.hits {
+            all.push(("hits", if self.is_python { "True" } else { "true" }.to_owned()));
         }
         let all: Vec<_> =
             all.iter().map(|(name, value)| format!("{name}{}{value}", self.is())).collect();
