@@ -143,10 +143,9 @@ fn meant_instead(key: &str, value: Option<&str>) -> String {
     // The key is right, and its value is one of a few: one that resembles none of them gets them all.
     if let (Some(value), Some((_, values))) =
         (value, listed().into_iter().find(|(known, _)| *known == key))
+        && !values.iter().any(|known| is_near(&value.to_lowercase(), known))
     {
-        if !values.iter().any(|known| is_near(&value.to_lowercase(), known)) {
-            return format!("expected one of {key}={}", values.join(&format!(", {key}=")));
-        }
+        return format!("expected one of {key}={}", values.join(&format!(", {key}=")));
     }
     let mut words: Vec<String> = FLAGS.map(str::to_owned).to_vec();
     for (known, values) in listed() {
