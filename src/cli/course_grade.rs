@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use rasterproof_host::limits;
 
-use super::progress::Progress as Shown;
+use super::progress::Progress;
 use super::{Status, Streams, exit, usage};
 use rasterproof_judge::text::printable;
 use rasterproof_program::{group, output};
@@ -132,7 +132,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
         streams.output.write_all(grade::row("submission", |at| at + 1, &"points").as_bytes())?;
     }
     let mut grades = Vec::new();
-    let shown = Shown::new(streams.progress, "submissions", Some(submissions.len() as u64));
+    let shown = Progress::new(streams.progress, "submissions", Some(submissions.len() as u64));
     for submission in submissions {
         let grade = match submission {
             Ok(submission) => graded_apart(&submission, arguments),

@@ -212,7 +212,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
 fn explained(
     arguments: &InspectArguments,
     case: &Case,
-    shown: Option<&case_view::Shown>,
+    shown: Option<&case_view::CaseDrawing>,
 ) -> Option<Excerpt> {
     let at = arguments.pixel?;
     let hits = shown.map(|shown| format!("hits of ({}, {}): {}", at.x, at.y, shown.hits(at)));
@@ -221,7 +221,12 @@ fn explained(
 }
 
 /// What everybody draws, as characters.
-fn drawn(title: &str, notes: Option<String>, shown: &case_view::Shown, columns: usize) -> Excerpt {
+fn drawn(
+    title: &str,
+    notes: Option<String>,
+    shown: &case_view::CaseDrawing,
+    columns: usize,
+) -> Excerpt {
     let grid = ascii::side_by_side(&shown.blocks(), columns);
     let (title, notes) = (title.to_owned(), Vec::from_iter(notes));
     Excerpt { title, grid, notes, ..Excerpt::default() }
@@ -236,7 +241,7 @@ fn finding(is_right: bool, what: String) -> Row {
 fn device(
     arguments: &InspectArguments,
     case: &Case,
-    shown: &mut case_view::Shown,
+    shown: &mut case_view::CaseDrawing,
 ) -> Result<Option<Row>, InputError> {
     let Some(engine) = &arguments.engine else { return Ok(None) };
     let Shape::Triangles { list, .. } = &case.shape else {
@@ -331,7 +336,7 @@ fn is_whole(case: &Case) -> bool {
 fn add_specimen(
     arguments: &InspectArguments,
     case: &Case,
-    shown: &mut case_view::Shown,
+    shown: &mut case_view::CaseDrawing,
 ) -> Result<Option<String>, InputError> {
     let recorded = recorded(&arguments.case.what);
     let wanted = arguments.specimen.as_deref().or(recorded.map(|case| case.specimen));

@@ -51,11 +51,11 @@ struct Pending {
     /// The test file that it comes from, or nothing.
     source: String,
     what: String,
-    shown: Shown,
+    shown: FileContent,
 }
 
 #[derive(Clone)]
-enum Shown {
+enum FileContent {
     Picture(Vec<PictureLayer>),
     Text { old: Option<String>, new: String },
     Nothing,
@@ -185,7 +185,7 @@ fn look(new_path: &Path, left_px: &mut u64) -> Option<Pending> {
     let path = new_path.with_extension("");
     let mut source = String::new();
     let found = match look_into(new_path, &path, &mut source, left_px) {
-        Err(error) => Some((format!("cannot be shown: {error}"), Shown::Nothing)),
+        Err(error) => Some((format!("cannot be shown: {error}"), FileContent::Nothing)),
         Ok(found) => found,
     };
     found.map(|(what, shown)| Pending { path, source, what, shown })
@@ -197,7 +197,7 @@ fn look_into(
     path: &Path,
     source: &mut String,
     left_px: &mut u64,
-) -> Result<Option<(String, Shown)>, FileError> {
+) -> Result<Option<(String, FileContent)>, FileError> {
     let text = text_of(&input::read(new_path, DOCUMENT_BYTES)?);
     let (head, new) = parse(&text);
     source.push_str(field(head, "source").unwrap_or(""));
@@ -207,15 +207,19 @@ fn look_into(
         // It names a file beside this one, and no other.
         if ending.contains(['/', '\\']) {
             let what = format!("the ending {shown_ending} of its file is no ending");
-            return Ok(Some((what, Shown::Nothing)));
+            return Ok(Some((what, FileContent::Nothing)));
         }
         let ending = format!(".{ending}");
         let old = read_if_there(path, &ending)?;
         return Ok(Some(match read_if_there(new_path, &ending)? {
             None if old.is_some() => return Ok(None),
-            None => (format!("the new file X.snap.new.{shown_ending} is missing"), Shown::Nothing),
+            None => {
+                (format!("the new file X.snap.new.{shown_ending} is missing"), FileContent::Nothing)
+            }
             Some(bytes) if ending == ".png" => pictures(old.as_deref(), &bytes, left_px),
-            Some(bytes) => (format!("{} bytes that are no picture", bytes.len()), Shown::Nothing),
+            Some(bytes) => {
+                (format!("{} bytes that are no picture", bytes.len()), FileContent::Nothing)
+            }
         }));
     }
     let old = read_if_there(path, "")?.map(|old| parse(&text_of(&old)).1.to_owned());
@@ -224,10 +228,13 @@ fn look_into(
     }
     let longest = old.as_ref().map_or(0, String::len).max(new.len());
     if longest > limits::COMPARED_TEXT_BYTES {
-        return Ok(Some((format!("a text of {longest} bytes, too long to show"), Shown::Nothing)));
+        return Ok(Some((
+            format!("a text of {longest} bytes, too long to show"),
+            FileContent::Nothing,
+        )));
     }
     let what = if old.is_some() { "a changed text" } else { "a new text" };
-    Ok(Some((what.to_owned(), Shown::Text { old, new: new.to_owned() })))
+    Ok(Some((what.to_owned(), FileContent::Text { old, new: new.to_owned() })))
 }
 
 /// A picture of at most [`limits::SHOWN_SIDE_PX`] a side.
@@ -245,10 +252,10 @@ fn decode(bytes: &[u8], left_px: &mut u64) -> Result<RgbImage, String> {
 }
 
 /// What changed, and where.
-fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, Shown) {
+fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, FileContent) {
     let image = match decode(new, left_px) {
         Ok(image) => image,
-        Err(reason) => return (format!("no readable PNG: {reason}"), Shown::Nothing),
+        Err(reason) => return (format!("no readable PNG: {reason}"), FileContent::Nothing),
     };
     let mut layers = vec![PictureLayer::new("new", &image)];
     let what = match old.map(|old| decode(old, left_px)) {
@@ -259,7 +266,7 @@ fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, Shown
             difference(&before, &image)
         }
     };
-    (what, Shown::Picture(layers))
+    (what, FileContent::Picture(layers))
 }
 
 fn difference(old: &RgbImage, new: &RgbImage) -> String {
@@ -321,17 +328,17 @@ fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
     for one in pending {
         let (name, about, command) = (printable_path(&one.path), one.what.clone(), accept(one));
         let row = Row::of(&[&format!("{name}: {about}"), &command, &update(one)]);
-        let search = matches!(one.shown, Shown::Picture(_)).then(|| name.clone());
+        let search = matches!(one.shown, FileContent::Picture(_)).then(|| name.clone());
         rows.push(Row { search, ..row });
         match one.shown.clone() {
-            Shown::Picture(layers) => {
+            FileContent::Picture(layers) => {
                 let chapter = Chapter::default();
                 report.frames.push(PictureView { name, about, command, chapter, layers });
             }
-            Shown::Text { old, new } => {
+            FileContent::Text { old, new } => {
                 report.diffs.push(TextDiff { name, about, command, old, new });
             }
-            Shown::Nothing => {}
+            FileContent::Nothing => {}
         }
     }
     if !rows.is_empty() {

@@ -11,7 +11,7 @@ use rasterproof_faults::published::book_final::{BookFinal, clip};
 use rasterproof_faults::published::book_near_clip::clip_near;
 use rasterproof_faults::published::book_triangle::{BookChapter2, cover_book};
 use rasterproof_faults::published::{
-    ClipVertex, Published, PublishedLine, RealTriangle, Refused, bare,
+    ClipVertex, NoResult, Published, PublishedLine, RealTriangle, bare,
 };
 use rasterproof_judge::text;
 use rasterproof_registry::engines::{Specimen, find};
@@ -282,7 +282,7 @@ fn shows(name: &str, bug: &Value) {
             let triangle = triangle(&positions(&bug["v"], SIDE));
             let window = PixelRect::window(SIDE, SIDE);
             let refused = BookChapter2.cover(&triangle, window, &mut |_| ()).unwrap_err();
-            assert!(matches!(refused, Refused::IntOverflow(x) if x >= 3e9 - 1.0), "{refused}");
+            assert!(matches!(refused, NoResult::IntOverflow(x) if x >= 3e9 - 1.0), "{refused}");
         }
         "depth_poison" => {
             let z = final_values(&bug["xyzw"], false)[&(1, 10)].0;
@@ -342,7 +342,7 @@ fn clip_overflows(bug: &Value) -> usize {
         ClipVertex { position, varying: DVec2::ZERO }
     };
     match clip([0, 1, 2].map(vertex)) {
-        Err(Refused::ArrayOverflow(size)) => size,
+        Err(NoResult::ArrayOverflow(size)) => size,
         other => panic!("{other:?}"),
     }
 }

@@ -15,7 +15,7 @@ use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{about, frustum};
 use rasterproof_verify::comparison::oracle_coverage;
-use rasterproof_verify::convention::{Convention, Shape};
+use rasterproof_verify::convention::{Shape, TriangleConvention};
 
 const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 12, y1: 12 };
 
@@ -147,7 +147,10 @@ pub fn winding() -> Vec<f64> {
 /// published program, y points up, so that the lower left corner of a pixel is its sample.
 pub fn corner_square() -> Vec<f64> {
     let halves = [[[2.5, 2.5], [10.5, 2.5], [10.5, 10.5]], [[2.5, 10.5], [2.5, 2.5], [10.5, 10.5]]];
-    let corner = Convention { shape: Shape::Point { x: 0, y: SUBPIXELS }, ..Convention::default() };
+    let corner = TriangleConvention {
+        shape: Shape::Point { x: 0, y: SUBPIXELS },
+        ..TriangleConvention::default()
+    };
     let window = PixelRect::window(14, 14);
     let mut hits = Coverage::new(window, 0);
     for half in halves {

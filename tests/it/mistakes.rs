@@ -27,7 +27,7 @@ use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::convention::{
-    Convention, Declarations, LineConvention, LineQuestion, Quantum, Rounding, Shape, Ties,
+    Declarations, LineConvention, LineQuestion, Quantum, Rounding, Shape, Ties, TriangleConvention,
     TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
 use rasterproof_verify::mistakes::{self, Explanation, Mistakes, values};
@@ -1707,11 +1707,11 @@ fn mistakes_are_not_named_for_conventions() {
         for (i, rule) in ["top-left", "inclusive", "strict", "bottom-right"].into_iter().enumerate()
         {
             let [x, y] = [[128, 128], [0, 0], [64, 192], [256, 128]][(i + step as usize) % 4];
-            let convention = Convention {
+            let convention = TriangleConvention {
                 quantum: Quantum { step, rounding: Rounding::Down },
                 shape: Shape::Point { x, y },
                 ties: Ties::named(rule).unwrap(),
-                ..Convention::default()
+                ..TriangleConvention::default()
             };
             let fill = |corners: Corners, window: PixelRect, picture: &mut Coverage| {
                 if let Some(drawn) = convention.cover(&corners, window) {
@@ -1724,7 +1724,10 @@ fn mistakes_are_not_named_for_conventions() {
         }
     }
     // In a window of one pixel no convention is certain.
-    let strict = Convention { ties: Ties::named("strict").unwrap(), ..Convention::default() };
+    let strict = TriangleConvention {
+        ties: Ties::named("strict").unwrap(),
+        ..TriangleConvention::default()
+    };
     let found = of_fill_in((1, 1), |corners, window, picture| {
         *picture = strict.cover(&corners, window).unwrap();
     });
@@ -1766,12 +1769,12 @@ fn mistakes_are_not_named_for_thousands_of_conventions() {
             rest /= n;
             digit
         };
-        let convention = Convention {
+        let convention = TriangleConvention {
             ties: Ties::named(rules[one_of(6)]).unwrap(),
             quantum: Quantum { step: 1 << one_of(9), rounding: roundings[one_of(4)] },
             shape: Shape::Point { x: 64 * one_of(5) as i32, y: 64 * one_of(5) as i32 },
             draws: windings[one_of(3)],
-            ..Convention::default()
+            ..TriangleConvention::default()
         };
         let fill = |corners: Corners, window: PixelRect, picture: &mut Coverage| {
             if let Some(drawn) = convention.cover(&corners, window) {

@@ -69,9 +69,9 @@ int main(int, char **words) {
 "#;
 
 /// A planted engine that says of itself what the functions of the other languages do.
-struct Planted(Inside, Declared);
+struct PlantedEngine(Inside, Declared);
 
-impl Subject for Planted {
+impl Subject for PlantedEngine {
     fn declared(&self) -> &Declared {
         &self.1
     }
@@ -96,7 +96,7 @@ fn in_rust(capability: &str, engine: &str) -> String {
     let hello = format!("HELLO 2 mine {capability} batch=1024 {DECLARED}");
     let planted = Inside::new(&find_planted(engine).unwrap());
     let mut askers: Vec<Box<dyn Subject>> =
-        vec![Box::new(Planted(planted, Declared::parse(&hello).unwrap()))];
+        vec![Box::new(PlantedEngine(planted, Declared::parse(&hello).unwrap()))];
     let options = rasterproof_judge::Options::default().cases(20);
     let scope = Scope::of(&options);
     let verdict =

@@ -250,6 +250,58 @@ fn what_every_judge_has_is_defined_once() {
     }
 }
 
+/// Participles that do not end in -ed. What is a noun or a direction as well (Bound, Cut, Left, Read, Round, Set) may name a
+/// thing, and is left out.
+const IRREGULAR: &str = "Begun Bent Broken Built Caught Chosen Done Drawn Driven Fallen Felt Forgotten Found Given \
+    Gone Grown Heard Held Hidden Kept Known Laid Lent Lit Lost Made Meant Met Paid Proven Said \
+    Seen Sent Shown Spent Spoken Stuck Taken Thrown Told Torn Woken Worn Written";
+
+/// Whether a name is a participle and nothing else. Names of several words are not; nor are Need and Seed.
+fn is_participle(name: &str) -> bool {
+    let is_single = name.starts_with(char::is_uppercase)
+        && name.chars().skip(1).all(|c| c.is_ascii_lowercase());
+    let is_regular = name.ends_with("ed") && !name.ends_with("eed");
+    is_single && (is_regular || IRREGULAR.split(' ').any(|word| word == name))
+}
+
+/// The names that a line of code defines as types and traits, or imports them by.
+fn named_types(line: &str) -> Vec<&str> {
+    if line.trim_start().starts_with("//") {
+        return Vec::new();
+    }
+    let words: Vec<&str> = line.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let is_one =
+        |two: &&[&str]| ["struct", "enum", "union", "trait", "type", "as"].contains(&two[0]);
+    words.windows(2).filter(is_one).map(|two| two[1]).collect()
+}
+
+/// A participle says what happened to a thing and not what it is; of two with the same name, nobody knows which is meant.
+#[test]
+fn names_of_types_are_clear() {
+    assert!(["Drawn", "Judged", "Kept"].iter().all(|name| is_participle(name)));
+    assert!(!["DrawnTriangle", "Need", "Bound", "red"].iter().any(|name| is_participle(name)));
+    assert_eq!(named_types("    pub(super) struct Cell<'a> {"), ["Cell"]);
+    assert_eq!(named_types("use crate::{Shape as Cell, Size as Area};"), ["Cell", "Area"]);
+    assert!(named_types("/// A struct Cell").is_empty());
+
+    let folders = source_folders();
+    let folders = folders.iter().map(String::as_str).chain(["tests", "benches"]);
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for file in folders.flat_map(|folder| files(&root().join(folder), ".rs")) {
+        let text = fs::read_to_string(&file).unwrap();
+        for (number, line) in (1..).zip(text.lines()) {
+            for name in named_types(line) {
+                let place = format!("{}:{number}", file.display());
+                places.entry(name.to_owned()).or_default().push(place);
+            }
+        }
+    }
+    assert!(places.len() > 1000, "{} names", places.len());
+    let is_unclear = |name: &str| is_participle(name) || name == "Convention";
+    places.retain(|name, places| is_unclear(name) && places.len() > 1);
+    assert!(places.is_empty(), "say what each of these is, by a noun: {places:#?}");
+}
+
 #[test]
 fn everything_is_compiled_once() {
     let (program, tests) = (features("no-dev"), features("all"));

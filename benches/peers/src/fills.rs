@@ -88,7 +88,7 @@ fn candidates(scene: &Scene) -> Vec<Candidate<'_>> {
         add("raqote", Box::new(Raqote::new(scene, smooth)));
         add("vello_cpu", Box::new(Vello::new(scene, smooth)));
         if smooth {
-            add("4 x 4 samples", Box::new(Sampled::new(scene)));
+            add("4 x 4 samples", Box::new(SampledScanline::new(scene)));
             add("exact area", Box::new(Areas::new(scene)));
             add("zeno", Box::new(Zeno::new(scene)));
             add("ab_glyph_rasterizer", Box::new(AbGlyph::new(scene)));
@@ -350,14 +350,14 @@ impl Local for List {
 }
 
 /// The scanline on a grid four times as fine, its pixels counted.
-struct Sampled {
+struct SampledScanline {
     triangles: Vec<Corners>,
     /// Samples of a row of pixels, and the pixels in which there are any.
     row: Vec<u8>,
     target: Canvas,
 }
 
-impl Sampled {
+impl SampledScanline {
     fn new(scene: &Scene) -> Self {
         let finer = |p: SubpixelPoint| SubpixelPoint::new(4 * p.x, 4 * p.y);
         let triangles = scene.triangles.iter().map(|corners| corners.map(finer)).collect();
@@ -366,7 +366,7 @@ impl Sampled {
 }
 
 /// The row of pixels that is counted.
-struct Counted {
+struct CountedRow {
     y_px: i32,
     /// From the first column that has a sample past the last one.
     touched: [usize; 2],
@@ -375,7 +375,7 @@ struct Counted {
     whole: [usize; 2],
 }
 
-impl Counted {
+impl CountedRow {
     fn new(y_px: i32) -> Self {
         Self { y_px, touched: [SIDE, 0], rows: 0, whole: [0, SIDE] }
     }
@@ -399,20 +399,20 @@ impl Counted {
     }
 }
 
-impl Local for Sampled {
+impl Local for SampledScanline {
     fn fill(&mut self, part: Range<usize>) {
         let Self { triangles, row, target } = self;
         let bounds = PixelRect::window(4 * SIDE_PX, 4 * SIDE_PX);
         for corners in &triangles[part] {
-            let mut counted = Counted::new(0);
+            let mut counted = CountedRow::new(0);
             Scanline.cover(*corners, bounds, |span| {
                 if span.y_px >> 2 != counted.y_px {
                     counted.mix(row, target);
-                    counted = Counted::new(span.y_px >> 2);
+                    counted = CountedRow::new(span.y_px >> 2);
                 }
                 let (x0, x1) = (span.x0_px as usize, span.x1_px as usize);
                 let (first, last) = (x0 >> 2, (x1 - 1) >> 2);
-                let Counted { touched, rows, whole, .. } = &mut counted;
+                let CountedRow { touched, rows, whole, .. } = &mut counted;
                 *touched = [touched[0].min(first), touched[1].max(last + 1)];
                 *rows += 1;
                 *whole = [whole[0].max((x0 + 3) >> 2), whole[1].min(x1 >> 2)];

@@ -61,7 +61,7 @@ pub fn pixel_box(points: &[SubpixelPoint], margin_px: i32) -> PixelRect {
 }
 
 /// Three things in order, by three comparisons of neighbours; those of which neither is after the other stay as they were.
-/// The sort of the standard library is compiled anew for each type and each order, and is a hundred times as long.
+/// The sort of the standard library is compiled anew for each type and each order.
 #[must_use]
 #[inline]
 pub fn sorted<T>(mut three: [T; 3], mut is_after: impl FnMut(&T, &T) -> bool) -> [T; 3] {

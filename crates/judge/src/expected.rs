@@ -69,7 +69,7 @@ impl Expect for Declared {
         let shape = convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach, square: true };
         let of = |rule: &str| {
             let ties = Ties::named(rule)?;
-            let convention = convention::Convention { shape, ties, ..known.declared };
+            let convention = convention::TriangleConvention { shape, ties, ..known.declared };
             convention.cover(corners, window).as_ref().map(runs)
         };
         Some(Expectation { must: of("strict")?, may: of("inclusive") })

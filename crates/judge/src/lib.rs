@@ -130,7 +130,7 @@ pub fn judge(
     let mut truth = Truth::of(&declared);
     // Of a limited time, a third is for the questions before the families and a tenth for those after them.
     let asked = Timed::new(&mut **first, options.time_limit.map(|limit| start + limit / 3));
-    let mut first = Watched { asked, incidents: Vec::new() };
+    let mut first = WatchedSubject { asked, incidents: Vec::new() };
     let windings = windings::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
     truth.declared.reach = reach::reach(&mut first);
@@ -199,12 +199,12 @@ fn finish<'a>(
 }
 
 /// Somebody who is asked before the families, and what came instead of answers.
-struct Watched<'a> {
+struct WatchedSubject<'a> {
     asked: Timed<'a>,
     incidents: Vec<Incident>,
 }
 
-impl Subject for Watched<'_> {
+impl Subject for WatchedSubject<'_> {
     fn declared(&self) -> &Declared {
         self.asked.declared()
     }

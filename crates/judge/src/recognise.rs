@@ -25,7 +25,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
 use rasterproof_registry::engines::{self, Entry};
-use rasterproof_verify::comparison::{Convention as Promised, Expectation, Rule};
+use rasterproof_verify::comparison::{Convention, Expectation, Rule};
 use rasterproof_verify::convention::{
     self, Confidence, Declarations, Diagnosis, FACINGS, LineDiagnosis, LineQuestion, Quantum,
 };
@@ -125,7 +125,7 @@ fn clause(about: &str, sentence: &str) -> String {
 
 /// What is found, and what is declared where nothing was looked for.
 struct Recognition {
-    declaration: Promised,
+    declaration: Convention,
     triangles: Option<Diagnosis>,
     lines: Option<LineDiagnosis>,
     /// Whether triangles, and lines, that leave the window come out otherwise.

@@ -23,7 +23,7 @@ use rasterproof_render::pipeline::multisample::{SAMPLES, masks_at};
 use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::pixels::few;
-use rasterproof_verify::convention::{Convention, Quantum, Rounding, Shape, Ties};
+use rasterproof_verify::convention::{Quantum, Rounding, Shape, Ties, TriangleConvention};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{
     Explanation, Hypothesis, MistakeId, Mistakes, RULES, chosen_by, of_answers,
@@ -775,11 +775,11 @@ fn sample_rule(all: &[Answered], p: usize, alone: Option<usize>) -> Option<Hypot
     );
     Some(by_masks(all, says, move |corners, window, drawn| {
         let ties = if twice_area(corners) > 0 { clockwise } else { other };
-        let usual = Convention::default().ties;
+        let usual = TriangleConvention::default().ties;
         SAMPLES.iter().enumerate().all(|(bit, (x, y))| {
             let shape = Shape::Point { x: 16 * x, y: 16 * y };
             let ties = if alone.is_none_or(|alone| alone == bit) { ties } else { usual };
-            let rule = Convention { shape, ties, ..Convention::default() };
+            let rule = TriangleConvention { shape, ties, ..TriangleConvention::default() };
             let Some(covered) = rule.cover(corners, window) else { return true };
             drawn.rows().all(|(y, row)| {
                 (window.x0..).zip(row).all(|(x, mask)| {

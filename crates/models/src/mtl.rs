@@ -12,7 +12,7 @@ use crate::outside::NOT_QUOTED;
 use crate::{text, textures};
 
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Described {
+pub(crate) struct MtlMaterial {
     /// Its name, for `usemtl`.
     pub name: String,
     /// Whether messages may quote its file.
@@ -20,15 +20,15 @@ pub(crate) struct Described {
     /// Its diffuse colour (`Kd`).
     pub colour: Option<DVec3>,
     /// Its texture (`map_Kd`).
-    pub texture: Option<textures::Described>,
+    pub texture: Option<textures::TextureStatement>,
     /// How opaque it is (`d`, or 1 - `Tr`), in [0, 1].
     pub opacity: Option<f64>,
     /// The picture whose values are opacities, from `map_d`.
-    pub opacity_map: Option<textures::Described>,
+    pub opacity_map: Option<textures::TextureStatement>,
     /// What else it has, which is not drawn: keys of [`crate::contents::Contents::not_drawn`].
     pub not_drawn: BTreeSet<String>,
     ambient: Option<DVec3>,
-    ambient_map: Option<textures::Described>,
+    ambient_map: Option<textures::TextureStatement>,
     /// Its specular colour (`Ks`) and exponent (`Ns`).
     specular: Specular,
     has_specular_map: bool,
@@ -49,7 +49,7 @@ pub(crate) fn read(
     text: &str,
     is_quoted: bool,
     warnings: &mut Warnings,
-) -> Vec<Described> {
+) -> Vec<MtlMaterial> {
     let mut materials = Vec::new();
     // Files of old systems end their lines with a carriage return alone.
     let text = text.replace("\r\n", "\n");
@@ -83,10 +83,10 @@ pub(crate) fn without_comment(line: &str) -> &str {
     line
 }
 
-fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(), String> {
+fn read_line(kind: &str, rest: &str, materials: &mut Vec<MtlMaterial>) -> Result<(), String> {
     let lower = kind.to_ascii_lowercase();
     if lower == "newmtl" {
-        materials.push(Described { name: text::name(rest).to_owned(), ..Described::default() });
+        materials.push(MtlMaterial { name: text::name(rest).to_owned(), ..MtlMaterial::default() });
         return Ok(());
     }
     if WITHOUT_EFFECT.contains(&lower.as_str()) {
@@ -107,7 +107,7 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
     let material = materials.last_mut().ok_or_else(|| format!("'{kind}' before any 'newmtl'"))?;
     // Of what is not drawn a wrong number is no loss.
     let number = rest.split_whitespace().next_back().and_then(|word| word.parse::<f64>().ok());
-    let parsed = || textures::Described::parse(rest);
+    let parsed = || textures::TextureStatement::parse(rest);
     match lower.as_str() {
         "kd" => material.colour = Some(colour(kind, rest)?),
         "ka" => material.ambient = colour(kind, rest).ok(),
@@ -157,7 +157,7 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
     Ok(())
 }
 
-impl Described {
+impl MtlMaterial {
     /// Its highlights, as far as they are drawn: not those that a map makes brighter and darker, nor those of a
     /// model of light that has none.
     pub(crate) fn specular(&self) -> Specular {
@@ -172,7 +172,8 @@ impl Described {
         if self.ambient.is_some_and(differs) {
             self.not_drawn.insert("ambient colour of material".to_owned());
         }
-        let name = |map: &Option<textures::Described>| map.as_ref().map(|map| map.name.clone());
+        let name =
+            |map: &Option<textures::TextureStatement>| map.as_ref().map(|map| map.name.clone());
         if self.ambient_map.is_some() && name(&self.ambient_map) != name(&self.texture) {
             self.not_drawn.insert("ambient map".to_owned());
         }

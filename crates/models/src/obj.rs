@@ -242,7 +242,7 @@ impl Cutter {
 
 fn surface(
     path: &Path,
-    material: &mtl::Described,
+    material: &mtl::MtlMaterial,
     textures: &mut Textures,
     not_drawn: &mut BTreeMap<String, u64>,
     warnings: &mut Warnings,
@@ -297,7 +297,7 @@ fn read_libraries(
     path: &Path,
     libraries: &[String],
     warnings: &mut Warnings,
-) -> (Vec<mtl::Described>, bool) {
+) -> (Vec<mtl::MtlMaterial>, bool) {
     let folder = path.parent().unwrap_or(Path::new(""));
     let (mut materials, mut left_bytes) = (Vec::new(), limits::MATERIAL_BYTES);
     let (mut seen, mut all_read) = (HashSet::new(), true);

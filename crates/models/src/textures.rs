@@ -207,7 +207,7 @@ fn other_case(folder: &Path, name: &str) -> Option<OsString> {
 
 /// What follows `map_Kd`.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Described {
+pub(crate) struct TextureStatement {
     pub name: String,
     /// By which texture coordinates are multiplied.
     pub scale: DVec2,
@@ -244,7 +244,7 @@ fn is_default(option: &str, values: &[&str]) -> bool {
     }
 }
 
-impl Described {
+impl TextureStatement {
     /// Reads options and a name, which may contain spaces; nothing without a name.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let (scale, offset) = (DVec2::ONE, DVec2::ZERO);
@@ -361,7 +361,7 @@ mod tests {
 
     #[test]
     fn options_of_a_texture_are_read() {
-        let parse = |text: &str| Described::parse(text).unwrap();
+        let parse = |text: &str| TextureStatement::parse(text).unwrap();
         let plain = parse("my picture (1).png");
         assert_eq!((plain.name.as_str(), plain.scale), ("my picture (1).png", DVec2::ONE));
         let all = parse("-s 2 3 1 -o 0.5 -clamp on -mm 0 2 -blendu on -t 0 0 0 a b.png");
@@ -374,7 +374,7 @@ mod tests {
         assert_eq!(parse("-dash.png").name, "-dash.png");
         assert_eq!(parse("-s nan 1e300 x.png").scale, DVec2::ONE);
         for empty in ["", "-s 1 1 1", "-clamp", "-mm 1"] {
-            assert_eq!(Described::parse(empty), None, "{empty:?}");
+            assert_eq!(TextureStatement::parse(empty), None, "{empty:?}");
         }
     }
 }

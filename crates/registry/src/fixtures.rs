@@ -137,13 +137,13 @@ pub struct Fixture {
     pub points: Vec<[f64; 2]>,
     pub found_by: String,
     /// Its pixels, for every number of bits below the pixel.
-    pub expected: Vec<Expected>,
+    pub expected: Vec<ExpectedPictures>,
 }
 
 /// What is expected of rasterizers with some numbers of bits below the pixel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Expected {
+pub struct ExpectedPictures {
     pub bits: [u32; 2],
     /// The pictures of the samples of a pixel, in the order of [`Fixtures::samples`].
     pub samples: Vec<Pixels>,
@@ -251,20 +251,23 @@ impl Drawing {
         plain_line(a, b)
     }
 
-    fn expected(&self) -> Vec<Expected> {
+    fn expected(&self) -> Vec<ExpectedPictures> {
         if self.kind == Kind::Line {
             let (mut hit, outline) = (Coverage::new(self.rect(), 0), self.halfway());
             Oracle.steps(&self.line(), self.rect(), &mut |at, _| hit.hit(at.y, at.x, at.x + 1));
             let pixels = Pixels { hit: runs(&hit), either: Vec::new(), outline: runs(&outline) };
-            return vec![Expected { bits: [*BITS.start(), *BITS.end()], samples: vec![pixels] }];
+            return vec![ExpectedPictures {
+                bits: [*BITS.start(), *BITS.end()],
+                samples: vec![pixels],
+            }];
         }
-        let mut found: Vec<Expected> = Vec::new();
+        let mut found: Vec<ExpectedPictures> = Vec::new();
         for bits in BITS {
             let samples: Vec<_> =
                 self.offsets().into_iter().map(|offset| self.pixels(bits, offset)).collect();
             match found.last_mut().filter(|last| last.samples == samples) {
                 Some(last) => last.bits[1] = bits,
-                None => found.push(Expected { bits: [bits, bits], samples }),
+                None => found.push(ExpectedPictures { bits: [bits, bits], samples }),
             }
         }
         found

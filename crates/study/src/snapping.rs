@@ -40,7 +40,7 @@ const AROUND: [[f64; 2]; 8] = [
 ];
 
 /// A sample inside a surface that snapping broke.
-pub(crate) struct Broken<'a> {
+pub(crate) struct BrokenSample<'a> {
     pub sample: [i32; 2],
     /// Whether fewer pieces cover it than before, else more.
     pub is_crack: bool,
@@ -63,7 +63,7 @@ pub(crate) fn broken<'a>(
     scene: &Scene,
     (pieces, lost): (&'a [Piece], &'a [Piece]),
     window: PixelRect,
-) -> Vec<Broken<'a>> {
+) -> Vec<BrokenSample<'a>> {
     let is_culled = |piece: &Piece| scene.items[piece.item as usize].cull != Cull::None;
     // What culling would remove if nothing was snapped is drawn, and not part of the surface as given.
     let is_given = |piece: &Piece| !is_culled(piece) || piece.change() != Change::Over;
@@ -118,7 +118,7 @@ pub(crate) fn broken<'a>(
             return None;
         }
         let pieces = if is_crack { given_here } else { snapped_here };
-        (is_inside && snapped != around[0]).then_some(Broken { sample, is_crack, pieces })
+        (is_inside && snapped != around[0]).then_some(BrokenSample { sample, is_crack, pieces })
     };
     candidates.into_iter().filter_map(broken).collect()
 }

@@ -33,16 +33,16 @@ pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
     cropped
 }
 
-pub struct Shown {
+pub struct CaseDrawing {
     engines: Vec<(String, Hits)>,
     target: Coverage,
 }
 
-pub fn draw(case: &Case, judged: &EnginesToJudge) -> Shown {
-    Shown { engines: judged.hits(case), target: oracle_hits(case) }
+pub fn draw(case: &Case, judged: &EnginesToJudge) -> CaseDrawing {
+    CaseDrawing { engines: judged.hits(case), target: oracle_hits(case) }
 }
 
-impl Shown {
+impl CaseDrawing {
     pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), String> {
         let hits = drawn::by_specimen(entry, case);
         let refused = || format!("{} does not draw what this case holds", entry.name);

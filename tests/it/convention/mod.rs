@@ -9,8 +9,8 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_report::phrases::chinese;
 use rasterproof_verify::convention::{
-    Ask, Confidence, Convention, Declarations, Diagnosis, LineTie, Mirror, Pattern, Quantum,
-    Rounding, Scan, Shape, Ties, TriangleQuestion, Windings, diagnose, diagnose_lines,
+    Ask, Confidence, Declarations, Diagnosis, LineTie, Mirror, Pattern, Quantum, Rounding, Scan,
+    Shape, Ties, TriangleConvention, TriangleQuestion, Windings, diagnose, diagnose_lines,
 };
 use rayon::prelude::*;
 
@@ -126,13 +126,13 @@ fn differences(made: &Synthetic, found: &Diagnosis) -> Vec<String> {
 }
 
 /// How sure a diagnosis was, whether it named the convention, and what it said.
-type Named = (Confidence, bool, String);
+type NamingResult = (Confidence, bool, String);
 
 /// Nineteen of twenty are named, and none wrongly with certainty.
-fn check_named(found: &[Named]) {
+fn check_named(found: &[NamingResult]) {
     let wrong: Vec<_> = found.iter().filter(|(_, is_named, _)| !is_named).collect();
     println!("{} of {} named", found.len() - wrong.len(), found.len());
-    let is_sure = |(confidence, ..): &&&Named| *confidence == Confidence::Certain;
+    let is_sure = |(confidence, ..): &&&NamingResult| *confidence == Confidence::Certain;
     assert_eq!(wrong.iter().filter(is_sure).count(), 0, "{wrong:#?}");
     assert!(wrong.len() * 20 <= found.len(), "{wrong:#?}");
 }
@@ -303,7 +303,7 @@ fn conventions_by_corner_order_are_said_to_be_so() {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_scans_are_named() {
     // Of 1,000 pictures so many have a pixel more.
-    let drawn = |convention: Convention, wrong: u64| {
+    let drawn = |convention: TriangleConvention, wrong: u64| {
         By(move |q: &TriangleQuestion| {
             let mut picture = convention.cover(&q.corners, q.window)?;
             let key = q.corners.iter().fold(7, |h, p| hash(h ^ p.x as u64) ^ p.y as u64);
@@ -315,7 +315,7 @@ fn conventions_of_scans_are_named() {
     };
     for scan in Scan::ALL {
         let shape = Shape::Scan(scan);
-        let convention = Convention { shape, ..Convention::default() };
+        let convention = TriangleConvention { shape, ..TriangleConvention::default() };
         let found = diagnose(&mut drawn(convention, 0), &Declarations::default(), 1);
         let text = found.sentence();
         let named = (found.convention.shape, found.confidence);

@@ -6,7 +6,7 @@ use rasterproof_faults::published::from_lattice;
 use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_verify::cases::{self, Shape};
 use rasterproof_verify::convention::{
-    Confidence, Convention, Declarations, Shape as Drawn, TriangleQuestion, diagnose,
+    self, Confidence, Declarations, TriangleConvention, TriangleQuestion, diagnose,
 };
 use rasterproof_verify::oracle::Oracle;
 
@@ -27,7 +27,7 @@ fn conventions_of_specimens_are_named() {
         Some(picture)
     });
     let found = diagnose(&mut program, &Declarations::default(), 1);
-    let corner = Drawn::Point { x: 0, y: 256 };
+    let corner = convention::Shape::Point { x: 0, y: 256 };
     let named = (found.convention.shape, found.confidence);
     assert_eq!(named, (corner, Confidence::Certain), "{}", found.sentence());
 }
@@ -42,7 +42,7 @@ fn conventions_own_is_the_oracles() {
             let Shape::Triangles { list, .. } = case.shape else { continue };
             for corners in list.iter().map(|triangle| triangle.corners()) {
                 let truth = hits(&Oracle, &[corners], case.window);
-                let drawn = Convention::default().cover(&corners, case.window);
+                let drawn = TriangleConvention::default().cover(&corners, case.window);
                 assert_eq!(drawn.as_ref(), Some(&truth), "{} {corners:?}", family.name);
                 compared += 1;
             }

@@ -5,7 +5,7 @@
 //! drifts, so that (0, 0) to (20, 2) is still in row 0 at column 10; a line of length zero draws nothing; both
 //! ends are truncated without moving the height along.
 
-use super::{BookScreen, MOST_STEPS, PublishedLine, Refused, to_int};
+use super::{BookScreen, MOST_STEPS, NoResult, PublishedLine, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
@@ -18,7 +18,7 @@ impl PublishedLine for BookDda {
         ends_px: [[f64; 2]; 2],
         bounds: PixelRect,
         emit: &mut dyn FnMut(i32, i32),
-    ) -> Result<(), Refused> {
+    ) -> Result<(), NoResult> {
         let screen = BookScreen { bounds };
         let [p, q] = ends_px.map_array(|end| screen.position(end.into()));
         // 0/0 and x/0 are meant to happen: both go to the steep branch.
@@ -45,10 +45,10 @@ fn steps(
     slope: f64,
     limit: i64,
     visit: &mut dyn FnMut(i64, i64),
-) -> Result<(), Refused> {
+) -> Result<(), NoResult> {
     let (first, end) = (to_int(start)?, to_int(end)?);
     if (-first) as f64 > MOST_STEPS {
-        return Err(Refused::TooFar(-first as f64));
+        return Err(NoResult::TooFar(-first as f64));
     }
     let mut minor = minor;
     for major in first..end.min(limit) {

@@ -17,7 +17,7 @@ use super::scene::{
     COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
 };
 use super::{
-    BookScreen, ClipVertex, Columns, DrawResult, Fragments, Published, RealTriangle, Refused,
+    BookScreen, ClipVertex, Columns, DrawResult, Fragments, NoResult, Published, RealTriangle,
     Spans, int_loop,
 };
 use rasterproof_core::arrays::MapArray as _;
@@ -37,8 +37,8 @@ const BORDERS: [fn(DVec4) -> f64; 6] =
 /// Clips a triangle by left, right, bottom, top, near and far, in this order (section 8.3).
 ///
 /// # Errors
-/// [`Refused::ArrayOverflow`] where rounding makes a polygon larger than the published arrays.
-pub fn clip(triangle: [ClipVertex; 3]) -> Result<Vec<ClipVertex>, Refused> {
+/// [`NoResult::ArrayOverflow`] where rounding makes a polygon larger than the published arrays.
+pub fn clip(triangle: [ClipVertex; 3]) -> Result<Vec<ClipVertex>, NoResult> {
     let mut polygon = triangle.to_vec();
     for (border, place) in BORDERS.iter().enumerate() {
         let size = border + 4;
@@ -56,7 +56,7 @@ pub fn clip(triangle: [ClipVertex; 3]) -> Result<Vec<ClipVertex>, Refused> {
             }
         }
         if kept.len() > size {
-            return Err(Refused::ArrayOverflow(size));
+            return Err(NoResult::ArrayOverflow(size));
         }
         polygon = kept;
     }
@@ -93,8 +93,8 @@ impl BookFinal {
         self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        visit: &mut dyn FnMut(ValuedRow) -> Result<(), Refused>,
-    ) -> Result<(), Refused> {
+        visit: &mut dyn FnMut(ValuedRow) -> Result<(), NoResult>,
+    ) -> Result<(), NoResult> {
         let screen = BookScreen { bounds };
         let steps = device_steps(bounds);
         let corners = triangle.map_array(|v| {
@@ -124,8 +124,8 @@ impl BookFinal {
         self,
         corners: [Corner; 3],
         rows: i64,
-        visit: &mut dyn FnMut(ValuedRow) -> Result<(), Refused>,
-    ) -> Result<(), Refused> {
+        visit: &mut dyn FnMut(ValuedRow) -> Result<(), NoResult>,
+    ) -> Result<(), NoResult> {
         // Split the long edge, with perspective for w and the varying and without for z.
         let [low, middle, high] = sorted(corners.map_array(|c| c.at)).map_array(|i| corners[i]);
         let (at, share) = split(low.at, middle.at, high.at);

@@ -12,7 +12,7 @@
 use glam::DVec2;
 
 use super::{
-    BookScreen, Columns, DrawResult, Fragments, MOST_STEPS, Published, RealTriangle, Refused,
+    BookScreen, Columns, DrawResult, Fragments, MOST_STEPS, NoResult, Published, RealTriangle,
     Spans, int_loop, to_int,
 };
 use rasterproof_core::arrays::MapArray as _;
@@ -83,8 +83,8 @@ pub(super) fn walk(
     [low, left, right, high]: [DVec2; 4],
     clamped: bool,
     rows: i64,
-    mut visit: impl FnMut(Row) -> Result<(), Refused>,
-) -> Result<(), Refused> {
+    mut visit: impl FnMut(Row) -> Result<(), NoResult>,
+) -> Result<(), NoResult> {
     let halves = [
         (Side::new(low, left), Side::new(low, right)),
         (Side::new(left, high), Side::new(right, high)),
@@ -92,7 +92,7 @@ pub(super) fn walk(
     for (half, (left, right)) in halves.into_iter().enumerate() {
         let first = to_int(left.start.y)?;
         if (-first) as f64 > MOST_STEPS {
-            return Err(Refused::TooFar(-first as f64));
+            return Err(NoResult::TooFar(-first as f64));
         }
         let (mut left_x, mut right_x) = (left.start.x, right.start.x);
         let mut y = first;
@@ -122,7 +122,7 @@ pub fn cover_book(
     bounds: PixelRect,
     clamped: bool,
     mut emit: impl FnMut(Span),
-) -> Result<(), Refused> {
+) -> Result<(), NoResult> {
     let screen = BookScreen { bounds };
     if twice_area(corners).abs() < AREA_LIMIT {
         return Ok(());
@@ -143,7 +143,7 @@ fn cover(
     bounds: PixelRect,
     clamped: bool,
     emit: impl FnMut(Span),
-) -> Result<(), Refused> {
+) -> Result<(), NoResult> {
     let screen = BookScreen { bounds };
     cover_book(triangle.map_array(|v| screen.position(v.position_px)), bounds, clamped, emit)
 }
@@ -155,7 +155,7 @@ impl BookChapter2 {
         triangle: &RealTriangle,
         bounds: PixelRect,
         emit: impl FnMut(Span),
-    ) -> Result<(), Refused> {
+    ) -> Result<(), NoResult> {
         cover(triangle, bounds, true, emit)
     }
 }
@@ -182,7 +182,7 @@ impl Published for BookChapter3 {
         emit: Fragments<'_>,
     ) -> DrawResult {
         let screen = BookScreen { bounds };
-        let corners = triangle.map_array(|v| Valued {
+        let corners = triangle.map_array(|v| ValuedVertex {
             at: screen.position(v.position_px),
             value: v.varying.extend(v.depth),
         });
@@ -192,12 +192,13 @@ impl Published for BookChapter3 {
         }
         let [low, middle, high] = sorted(positions).map_array(|i| corners[i]);
         let (at, share) = split(low.at, middle.at, high.at);
-        let split = Valued { at, value: (high.value - low.value) * share + low.value };
+        let split = ValuedVertex { at, value: (high.value - low.value) * share + low.value };
         let (left, right) =
             if middle.at.x > split.at.x { (split, middle) } else { (middle, split) };
         let starts = [(low, low), (left, right)];
         let ends = [(left, right), (high, high)];
-        let per_row = |from: Valued, to: Valued| (from.value - to.value) / (from.at.y - to.at.y);
+        let per_row =
+            |from: ValuedVertex, to: ValuedVertex| (from.value - to.value) / (from.at.y - to.at.y);
         // Values at the ends of the row, and the half they belong to.
         let mut columns = Columns::default();
         let mut state = (usize::MAX, low.value, low.value);
@@ -233,7 +234,7 @@ impl Published for BookChapter3 {
 
 /// A corner with the value that travels: depth and two attributes, all treated alike.
 #[derive(Clone, Copy)]
-struct Valued {
+struct ValuedVertex {
     at: DVec2,
     value: glam::DVec3,
 }

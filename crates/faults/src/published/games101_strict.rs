@@ -15,7 +15,7 @@ use glam::{DVec2, Vec2};
 
 use super::scene::{Image, Setting, Version, chequered, floor};
 use super::{
-    DrawResult, Fragments, Published, RealTriangle, RealVertex, Refused, Spans, bare, to_int,
+    DrawResult, Fragments, NoResult, Published, RealTriangle, RealVertex, Spans, bare, to_int,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
@@ -52,10 +52,10 @@ impl Games101Strict {
         corners: [Vec2; 3],
         bounds: PixelRect,
         emit: &mut dyn FnMut(i32, i32, Vec2),
-    ) -> Result<(), Refused> {
+    ) -> Result<(), NoResult> {
         let low = corners.into_iter().fold(corners[0], Vec2::min);
         let high = corners.into_iter().fold(corners[0], Vec2::max);
-        let range = |low: f32, high: f32, size: u32| -> Result<_, Refused> {
+        let range = |low: f32, high: f32, size: u32| -> Result<_, NoResult> {
             let (first, last) = (to_int(low.into())?, to_int(high.into())? + 1);
             Ok(first.max(0)..(last + 1).min(size.into()))
         };

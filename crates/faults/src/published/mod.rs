@@ -9,7 +9,7 @@
 //! what it does to them. It draws a pixel as often as the published loops do. None is ever repaired: the tests require each to be
 //! caught.
 //!
-//! They refuse what would not end or is undefined in the published code, with a reason: [`Refused`].
+//! They refuse what would not end or is undefined in the published code, with a reason: [`NoResult`].
 
 pub mod book_affine;
 pub mod book_dda;
@@ -98,7 +98,7 @@ impl ClipVertex {
 
 /// Why a specimen does not draw: the published code has no defined result, or takes forever.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Refused {
+pub enum NoResult {
     /// A float that an `int` cannot hold is converted to one: undefined, on most machines the
     /// smallest int.
     IntOverflow(f64),
@@ -112,7 +112,7 @@ pub enum Refused {
     NoValues,
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for NoResult {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::IntOverflow(value) => {
@@ -135,7 +135,7 @@ impl fmt::Display for Refused {
     }
 }
 
-impl std::error::Error for Refused {}
+impl std::error::Error for NoResult {}
 
 /// Steps before the window that are walked to know the sums in it: rows for a triangle, columns for
 /// each of its rows, pixels for a line.
@@ -149,10 +149,10 @@ struct Columns(i64);
 
 impl Columns {
     /// Adds the columns from `first` up to the window's left border.
-    fn add(&mut self, first: i64) -> Result<(), Refused> {
+    fn add(&mut self, first: i64) -> Result<(), NoResult> {
         self.0 += (-first).max(0);
         if self.0 > MOST_COLUMNS || (-first) as f64 > MOST_STEPS {
-            return Err(Refused::TooFar(self.0 as f64));
+            return Err(NoResult::TooFar(self.0 as f64));
         }
         Ok(())
     }
@@ -161,27 +161,27 @@ impl Columns {
 /// The function that receives the spans of a triangle, in the published order.
 pub type Spans<'a> = &'a mut dyn FnMut(Span);
 pub type Fragments<'a> = &'a mut dyn FnMut(Fragment<DVec2>);
-pub type DrawResult = Result<(), Refused>;
+pub type DrawResult = Result<(), NoResult>;
 
 pub trait Published: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` as often as the published loops set them: a pixel that lies in
     /// two spans is set twice. Pixels outside are dropped, and cost no more than [`MOST_STEPS`].
     ///
     /// # Errors
-    /// [`Refused`] where the published code is undefined or does not end.
+    /// [`NoResult`] where the published code is undefined or does not end.
     fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> DrawResult;
 
     /// Emits a fragment for each pixel that [`Published::cover`] emits, in the published order.
     ///
     /// # Errors
-    /// As [`Published::cover`], and [`Refused::NoValues`] where nothing is interpolated.
+    /// As [`Published::cover`], and [`NoResult::NoValues`] where nothing is interpolated.
     fn fragments(
         &self,
         _triangle: &RealTriangle,
         _bounds: PixelRect,
         _emit: Fragments<'_>,
     ) -> DrawResult {
-        Err(Refused::NoValues)
+        Err(NoResult::NoValues)
     }
 
     /// Whether [`Published::fragments`] computes anything.
@@ -207,7 +207,7 @@ pub trait PublishedLine: fmt::Debug + Sync {
         ends_px: [[f64; 2]; 2],
         bounds: PixelRect,
         emit: &mut dyn FnMut(i32, i32),
-    ) -> Result<(), Refused>;
+    ) -> Result<(), NoResult>;
 }
 
 /// The book's screen, laid over a window: y points up, the pixel at the lower left is (0, 0), and
@@ -247,20 +247,20 @@ impl BookScreen {
 }
 
 /// `(int)value`: towards zero.
-fn to_int(value: f64) -> Result<i64, Refused> {
+fn to_int(value: f64) -> Result<i64, NoResult> {
     if value > -2_147_483_649.0 && value < 2_147_483_648.0 {
         Ok(value as i64)
     } else {
-        Err(Refused::IntOverflow(value))
+        Err(NoResult::IntOverflow(value))
     }
 }
 
 /// The whole numbers of `for (int i = (int)start; i <= end; i++)`, both ends included.
-fn int_loop(start: f64, end: f64) -> Result<Option<(i64, i64)>, Refused> {
+fn int_loop(start: f64, end: f64) -> Result<Option<(i64, i64)>, NoResult> {
     let first = to_int(start)?;
     match (first as f64).partial_cmp(&end) {
         Some(Ordering::Less | Ordering::Equal) if end >= 2_147_483_647.0 => {
-            Err(Refused::Endless(end))
+            Err(NoResult::Endless(end))
         }
         Some(Ordering::Less | Ordering::Equal) => Ok(Some((first, end.floor() as i64))),
         // Nothing is less than or equal to NaN.

@@ -6,7 +6,7 @@
 //! of drawing: of the 4,225 lines from (0, 0) to (x, y), 0 <= x, y <= 64, 1,428 change when reversed. A point
 //! has the weight 0/0. Pixels outside the window are walked and dropped one by one.
 
-use super::{MOST_STEPS, PublishedLine, Refused, to_int};
+use super::{MOST_STEPS, NoResult, PublishedLine, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
@@ -19,7 +19,7 @@ impl PublishedLine for SysuBresenham {
         ends_px: [[f64; 2]; 2],
         bounds: PixelRect,
         emit: &mut dyn FnMut(i32, i32),
-    ) -> Result<(), Refused> {
+    ) -> Result<(), NoResult> {
         // `ivec2(position + 0.5)` of the pixel's centre: towards zero.
         let [[x0, y0], [x1, y1]] = ends_px;
         let (from, to) = ([to_int(x0)?, to_int(y0)?], [to_int(x1)?, to_int(y1)?]);
@@ -27,7 +27,7 @@ impl PublishedLine for SysuBresenham {
         let (major, length, rise) =
             if dy.abs() <= dx.abs() { (0, dx.abs(), dy.abs()) } else { (1, dy.abs(), dx.abs()) };
         if length as f64 > MOST_STEPS {
-            return Err(Refused::TooFar(length as f64));
+            return Err(NoResult::TooFar(length as f64));
         }
         let step = [dx, dy].map_array(|d| if d < 0 { -1 } else { 1 });
         let (mut at, mut flag) = (from, 2 * rise - length);

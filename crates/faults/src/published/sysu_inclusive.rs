@@ -11,7 +11,7 @@
 
 use glam::DVec2;
 
-use super::{DrawResult, Fragments, Published, RealTriangle, Refused, Spans, to_int};
+use super::{DrawResult, Fragments, NoResult, Published, RealTriangle, Spans, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
@@ -28,7 +28,7 @@ pub(super) struct Sample {
 }
 
 /// The corners in whole pixels: `ivec2(position + 0.5)`, with the pixel's centre as its position.
-fn whole(triangle: &RealTriangle) -> Result<[[i32; 2]; 3], Refused> {
+fn whole(triangle: &RealTriangle) -> Result<[[i32; 2]; 3], NoResult> {
     let mut corners = [[0; 2]; 3];
     for (corner, v) in corners.iter_mut().zip(triangle) {
         let centre = v.position_px - 0.5;
@@ -38,7 +38,7 @@ fn whole(triangle: &RealTriangle) -> Result<[[i32; 2]; 3], Refused> {
     Ok(corners)
 }
 
-pub(super) fn front(triangle: &RealTriangle) -> Result<RealTriangle, Refused> {
+pub(super) fn front(triangle: &RealTriangle) -> Result<RealTriangle, NoResult> {
     let [a, b, c] = whole(triangle)?.map_array(|corner| corner.map_array(i128::from));
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let [a, b, c] = *triangle;
@@ -50,7 +50,7 @@ pub(super) fn samples(
     triangle: &RealTriangle,
     bounds: PixelRect,
     emit: &mut dyn FnMut(Sample),
-) -> Result<(), Refused> {
+) -> Result<(), NoResult> {
     let [a, b, c] = whole(triangle)?;
     let columns =
         a[0].min(b[0]).min(c[0]).max(bounds.x0)..=a[0].max(b[0]).max(c[0]).min(bounds.x1 - 1);

@@ -125,7 +125,7 @@ pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Acceptance {
 /// What each subject's picture of a scene came to, and for each rule whether it accepts the right picture.
 fn judge(scene: &Scene, subjects: &[Rasterizer]) -> (Vec<SceneJudgement>, Vec<Option<bool>>) {
     let right = draw(&Rasterizer::Reference, scene);
-    let seen = rules::Seen::new(scene, &right);
+    let seen = rules::RightPicture::new(scene, &right);
     let accepts = |subject: &Rasterizer, drawn: &Rendering| -> Vec<Option<bool>> {
         let view = View { scene, seen: &seen, right: &right, drawn, subject };
         RULES.iter().map(|rule| rule.accepts(&view)).collect()

@@ -14,21 +14,21 @@ use super::scenes::{Paint, Scene};
 
 pub struct View<'a> {
     pub scene: &'a Scene,
-    pub seen: &'a Seen,
+    pub seen: &'a RightPicture,
     pub right: &'a Rendering,
     pub drawn: &'a Rendering,
     /// Whose it is, for what a device reports about itself.
     pub subject: &'a Rasterizer,
 }
 
-pub struct Seen {
+pub struct RightPicture {
     /// dEQP's three kinds of pixels, for devices with 8 and with 4 bits below the pixel.
     covers: Option<[Vec<Cover>; 2]>,
     flip: perceptual::Flip,
     lab: Vec<[f64; 3]>,
 }
 
-impl Seen {
+impl RightPicture {
     pub fn new(scene: &Scene, right: &Rendering) -> Self {
         let covers = (scene.paint == Paint::White)
             .then(|| [8, 4].map(|bits| deqp::covers(&scene.triangles, scene.window, bits)));

@@ -10,7 +10,7 @@ use rasterproof_verify::cases::Triangle;
 use super::deqp::{self, Cover};
 use super::drawing::{Rasterizer, Rendering, draw};
 use super::perceptual::{Flip, lab_of_all, pixelmatch, ssim_error};
-use super::rules::{RULES, Seen, View};
+use super::rules::{RULES, RightPicture, View};
 use super::scenes::{Paint, Scene};
 
 const BLACK: [u8; 3] = [0; 3];
@@ -32,7 +32,7 @@ fn scene(paint: Paint, side: u32, triangles: Vec<Triangle>) -> Scene {
 }
 
 fn accepts_of(rule: &str, scene: &Scene, right: &Rendering, drawn: &Rendering) -> Option<bool> {
-    let seen = Seen::new(scene, right);
+    let seen = RightPicture::new(scene, right);
     let view = View { scene, seen: &seen, right, drawn, subject: &Rasterizer::Reference };
     RULES.iter().find(|own| own.name == rule).unwrap().accepts(&view)
 }

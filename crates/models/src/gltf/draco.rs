@@ -14,7 +14,7 @@ use rasterproof_core::arrays::MapArray as _;
 pub(super) const EXTENSION: &str = "KHR_draco_mesh_compression";
 
 /// The vertices and triangles of a primitive.
-pub(super) struct Decoded {
+pub(super) struct DecodedPrimitive {
     mesh: Mesh,
     /// The number of each attribute within the compressed bytes.
     numbers: Vec<(String, u32)>,
@@ -30,7 +30,7 @@ pub(super) fn decode(
     data: &Data<'_>,
     primitive: &Primitive,
     left_bytes: &mut u64,
-) -> Result<Option<Decoded>, String> {
+) -> Result<Option<DecodedPrimitive>, String> {
     let Some(value) = &primitive.extensions.draco else { return Ok(None) };
     let view = value.get("bufferView").and_then(Value::as_u64);
     let view = view.and_then(|view| usize::try_from(view).ok());
@@ -55,10 +55,10 @@ pub(super) fn decode(
     let numbers = value.get("attributes").and_then(Value::as_object).into_iter().flatten();
     let numbers = numbers
         .filter_map(|(name, number)| Some((name.clone(), u32::try_from(number.as_u64()?).ok()?)));
-    Ok(Some(Decoded { mesh, numbers: numbers.collect() }))
+    Ok(Some(DecodedPrimitive { mesh, numbers: numbers.collect() }))
 }
 
-impl Decoded {
+impl DecodedPrimitive {
     pub(super) fn indices(&self) -> Vec<u32> {
         let faces = (0..self.mesh.num_faces() as u32).map(|face| self.mesh.face(FaceIndex(face)));
         faces.flatten().map(|point| point.0).collect()

@@ -794,7 +794,7 @@ impl Reader<'_> {
 struct Vertices<'a> {
     data: &'a Data<'a>,
     primitive: &'a Primitive,
-    compressed: Option<draco::Decoded>,
+    compressed: Option<draco::DecodedPrimitive>,
 }
 
 impl Vertices<'_> {

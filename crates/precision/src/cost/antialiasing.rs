@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::ops::Range;
 
 use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell, Told};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
@@ -112,7 +112,7 @@ pub(super) fn measure_on(
             let mut choice = (variant.make)();
             choice.draw(triangles, &mut target.borrow_mut());
             let error = root_mean_square(&target.borrow(), &truth);
-            Prepared::ready(vec![Some(error)], move || {
+            PreparedCell::ready(vec![Some(error)], move || {
                 choice.draw(std::hint::black_box(triangles), &mut target.borrow_mut());
             })
         });

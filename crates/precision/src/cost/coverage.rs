@@ -8,7 +8,7 @@ use std::cell::RefCell;
 
 use super::external::ExternalVariant;
 use super::tiles::Lists;
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, PreparedCell};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
@@ -313,14 +313,14 @@ fn prepare<'a>(
     scene: &'a Scene,
     truth: &Truth,
     target: &'a RefCell<Frame<u32>>,
-) -> Prepared<'a> {
+) -> PreparedCell<'a> {
     match errors(variant, scene, truth) {
-        Err(why) => Prepared::NotRun(why),
+        Err(why) => PreparedCell::NotRun(why),
         Ok((errors, work)) => {
             let pass = Box::new(|| {
                 variant.paint(std::hint::black_box(&scene.triangles), &mut target.borrow_mut());
             });
-            Prepared::Ready { errors, work, pass }
+            PreparedCell::Ready { errors, work, pass }
         }
     }
 }
@@ -330,13 +330,13 @@ fn prepare_external<'a>(
     variant: &mut dyn ExternalVariant,
     scene: &Scene,
     truth: &Truth,
-) -> Prepared<'a> {
+) -> PreparedCell<'a> {
     let mut ready = || {
         let spans = variant.spans(&scene.triangles, scene.bounds)?;
         let pass = variant.pass(&scene.triangles, scene.bounds)?;
-        Ok(Prepared::Ready { errors: score(&spans, scene, truth), work: None, pass })
+        Ok(PreparedCell::Ready { errors: score(&spans, scene, truth), work: None, pass })
     };
-    ready().unwrap_or_else(Prepared::NotRun)
+    ready().unwrap_or_else(PreparedCell::NotRun)
 }
 
 /// Measures one of the two groups, with external variants on it.

@@ -3,7 +3,7 @@
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -123,18 +123,18 @@ fn step<F: Format>(z: f64) -> f64 {
 
 trait AnyFormat {
     /// Draws the layers and counts what is wrong of them; and draws them again to be timed.
-    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> Prepared<'a>;
+    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> PreparedCell<'a>;
 }
 
 impl<F: Format + 'static> AnyFormat for F {
-    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> Prepared<'a> {
+    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> PreparedCell<'a> {
         let pixels = layers.len() * SIDE_PX * SIDE_PX;
         let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
         draw::<F>(layers, &mut buffer, &mut colours);
         let wrong = colours.iter().filter(|&&colour| colour != 2).count();
         let per_million = wrong as f64 * 1e6 / pixels as f64;
         let errors = vec![Some(per_million), Some(gap::<F>(z)), Some(step::<F>(z))];
-        Prepared::ready(errors, move || {
+        PreparedCell::ready(errors, move || {
             draw::<F>(std::hint::black_box(layers), &mut buffer, &mut colours);
             std::hint::black_box(&buffer);
         })

@@ -9,7 +9,7 @@ use super::bounds::{Bound, Place, largest};
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, Prepared, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, PreparedCell, Told};
 use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -297,7 +297,7 @@ pub(super) fn measure_on(
         draft.tell(progress, scenes.len());
         let samples = samples(drawn, count);
         let cells = variants.iter().map(|variant| {
-            Prepared::ready(errors(variant, drawn, &samples), || {
+            PreparedCell::ready(errors(variant, drawn, &samples), || {
                 variant.body.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
             })
         });

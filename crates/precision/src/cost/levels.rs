@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
@@ -142,7 +142,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
         draft.tell(progress, scenes.len());
         let samples = samples(drawn);
         let cells = variants.iter().map(|(_, choice)| {
-            Prepared::ready(errors(&**choice, drawn, &samples), || {
+            PreparedCell::ready(errors(&**choice, drawn, &samples), || {
                 choice.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
             })
         });

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -167,12 +167,12 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
         let pixels: u64 = truth.iter().map(|list| list.len() as u64).sum();
         let cells = variants.iter().map(|Variant { body, .. }| {
             if let Some(why) = lines.iter().find_map(|&ends| body.accepts(ends).err()) {
-                return Prepared::NotRun(why);
+                return PreparedCell::NotRun(why);
             }
             let drawn = lines.iter().map(|&ends| body.pixels(ends, class.bounds));
             let wrong: u64 = drawn.zip(&truth).map(|(ours, t)| differences(ours, t)).sum();
             let per_million = wrong as f64 * 1e6 / pixels.max(1) as f64;
-            Prepared::ready(vec![Some(per_million)], || {
+            PreparedCell::ready(vec![Some(per_million)], || {
                 body.paint(std::hint::black_box(lines), &mut target.borrow_mut());
             })
         });

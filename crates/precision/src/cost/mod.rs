@@ -230,12 +230,12 @@ pub fn measure_on(
 type Told<'a> = (&'a dyn Fn(f64, &str), Afterwards<'a>);
 
 /// A cell before it is timed: a closure that does all of the work once.
-enum Prepared<'a> {
+enum PreparedCell<'a> {
     NotRun(String),
     Ready { errors: Vec<Option<f64>>, work: Option<Work>, pass: Box<dyn FnMut() + 'a> },
 }
 
-impl<'a> Prepared<'a> {
+impl<'a> PreparedCell<'a> {
     fn ready(errors: Vec<Option<f64>>, pass: impl FnMut() + 'a) -> Self {
         Self::Ready { errors, work: None, pass: Box::new(pass) }
     }
@@ -246,7 +246,7 @@ struct Draft<'a> {
     choices: Vec<Choice>,
     columns: Vec<Column>,
     /// By choice, then by column.
-    cells: Vec<Vec<Prepared<'a>>>,
+    cells: Vec<Vec<PreparedCell<'a>>>,
 }
 
 impl<'a> Draft<'a> {
@@ -261,14 +261,14 @@ impl<'a> Draft<'a> {
         progress(0.3 * self.columns.len() as f64 / classes as f64, self.ladder.title());
     }
 
-    fn add(&mut self, column: Column, cells: impl Iterator<Item = Prepared<'a>>) {
+    fn add(&mut self, column: Column, cells: impl Iterator<Item = PreparedCell<'a>>) {
         self.columns.push(column);
         self.cells.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
     }
 
     /// Adds a class of scenes on which no choice is measured, with the reason.
     fn leave_out(&mut self, column: Column, why: &str) {
-        self.add(column, std::iter::repeat_with(|| Prepared::NotRun(why.to_owned())));
+        self.add(column, std::iter::repeat_with(|| PreparedCell::NotRun(why.to_owned())));
     }
 
     /// Adds the usual classes of scenes, on which a group is not measured that has columns of its own.
@@ -293,8 +293,8 @@ impl<'a> Draft<'a> {
             let mut out = Vec::new();
             for (column, cell) in row.into_iter().enumerate() {
                 out.push(match cell {
-                    Prepared::NotRun(why) => Cell::NotRun(why),
-                    Prepared::Ready { errors, work, pass } => {
+                    PreparedCell::NotRun(why) => Cell::NotRun(why),
+                    PreparedCell::Ready { errors, work, pass } => {
                         passes.push(clock::Pass { column, run: pass });
                         places.push((choice, column));
                         Cell::Run(Run { errors, work, time: None })

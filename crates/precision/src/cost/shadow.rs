@@ -4,7 +4,7 @@
 //! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Prepared};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_core::random::Rng;
 
@@ -119,15 +119,15 @@ fn errors(lit: &[u8]) -> Vec<Option<f64>> {
 
 trait AnyFormat {
     /// Draws the tiles and counts what is wrong of them; and draws them again to be timed.
-    fn prepare<'a>(&self, tiles: &'a [Tile]) -> Prepared<'a>;
+    fn prepare<'a>(&self, tiles: &'a [Tile]) -> PreparedCell<'a>;
 }
 
 impl<F: Format + 'static> AnyFormat for F {
-    fn prepare<'a>(&self, tiles: &'a [Tile]) -> Prepared<'a> {
+    fn prepare<'a>(&self, tiles: &'a [Tile]) -> PreparedCell<'a> {
         let places = tiles.len() * TILE;
         let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
         draw::<F>(tiles, &mut map, &mut lit);
-        Prepared::ready(errors(&lit), move || {
+        PreparedCell::ready(errors(&lit), move || {
             draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
             std::hint::black_box(&lit);
         })
@@ -176,7 +176,9 @@ mod tests {
     fn errors_of<F: Format + Default + 'static>(name: &str) -> [f64; 2] {
         let class = CLASSES.iter().find(|class| class.name == name).unwrap();
         let tiles = tiles(3, class, 64);
-        let Prepared::Ready { errors, .. } = F::default().prepare(&tiles) else { unreachable!() };
+        let PreparedCell::Ready { errors, .. } = F::default().prepare(&tiles) else {
+            unreachable!()
+        };
         [errors[0].unwrap(), errors[1].unwrap()]
     }
 

@@ -18,10 +18,10 @@ use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
-use crate::pipeline::physical::{Lights, Map, Parts, Physical, Point, Sampled};
+use crate::pipeline::physical::{Lights, Map, Parts, Physical, Point, TextureRead};
 use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::see_through::{self, Look};
-use crate::pipeline::shade::{Attributes as Packed, Light, PLACED, Surface};
+use crate::pipeline::shade::{Attributes as PackedAttributes, Light, PLACED, Surface};
 use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
 use crate::pipeline::texture::{FourTexels, Texture};
@@ -59,7 +59,7 @@ fn first(colours: &[Colour], wanted: u32) -> Colour {
 /// they have one, or where the first has none.
 fn one_shine<const N: usize>(
     highlight: &Highlight,
-    varyings: &[Packed<N>],
+    varyings: &[PackedAttributes<N>],
     normal: usize,
     wanted: u32,
 ) -> Option<[u8; 3]> {
@@ -209,7 +209,7 @@ impl<'a> Coat<'a> {
 /// How textures of a piece are read at levels of detail or several times; the size in it is that of this one.
 fn how_read<'a>(
     item: &'a Prepared<'_>,
-    read: Sampled<'_>,
+    read: TextureRead<'_>,
     piece: &Piece,
     plan: PiecePlan,
 ) -> HowRead<'a> {
@@ -358,7 +358,7 @@ impl<'a> Kernel<'a> {
     ) {
         let shade = || match self.coat {
             Some(_) => self.shade_all(&[], 0.0),
-            None => brightened(self.shade::<0, 0, true>(&Packed([]), 0.0), self.shine),
+            None => brightened(self.shade::<0, 0, true>(&PackedAttributes([]), 0.0), self.shine),
         };
         let colour = self.fogged.unwrap_or_else(shade);
         let shaded = counters.shaded;
@@ -409,7 +409,7 @@ impl<'a> Kernel<'a> {
             }
         };
         let look = Look {
-            constant: interpolates.is_empty().then_some(Packed([0.0; N])),
+            constant: interpolates.is_empty().then_some(PackedAttributes([0.0; N])),
             is_kept: layers,
             opacity: &|varying, depth| if has_uv { of(&varying.0, depth) } else { of_first },
             colour: &|varying, depth| self.shade_all(&varying.0, depth),
@@ -451,7 +451,8 @@ impl<'a> Kernel<'a> {
         to: To<'_>,
     ) {
         let (plain, other) = (self.plain_stage::<N, MASK>(), self.stage::<N, MASK>());
-        let stage: &FragmentStage<'_, Packed<N>> = if self.is_plain() { &plain } else { &other };
+        let stage: &FragmentStage<'_, PackedAttributes<N>> =
+            if self.is_plain() { &plain } else { &other };
         self.draw_by(engine, piece, to, stage);
     }
 
@@ -463,7 +464,7 @@ impl<'a> Kernel<'a> {
 
     /// The kernel for any attributes of at most `N` components.
     fn draw_any<const N: usize>(&self, engine: &impl Interpolate, piece: &Piece, to: To<'_>) {
-        let stage = each(|varying: &Packed<N>, depth| self.shade_all(&varying.0, depth));
+        let stage = each(|varying: &PackedAttributes<N>, depth| self.shade_all(&varying.0, depth));
         self.draw_by::<N>(engine, piece, to, &stage);
     }
 
@@ -473,7 +474,7 @@ impl<'a> Kernel<'a> {
         engine: &impl Interpolate,
         piece: &Piece,
         (target, bounds, samples, counters): To<'_>,
-        stage: &FragmentStage<'_, Packed<N>>,
+        stage: &FragmentStage<'_, PackedAttributes<N>>,
     ) {
         let packed = pack::<N>(piece, self.plan.interpolates);
         let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
@@ -576,14 +577,14 @@ impl<'a> Kernel<'a> {
     /// copy for all rasterizers.
     fn plain_stage<const N: usize, const MASK: u8>(
         &self,
-    ) -> impl Fn(&[Packed<N>], &[f64], u32, &mut [Colour]) {
+    ) -> impl Fn(&[PackedAttributes<N>], &[f64], u32, &mut [Colour]) {
         each(|varying, depth| self.shade::<N, MASK, true>(varying, depth))
     }
 
     /// The same with all that only some scenes call for.
     fn stage<const N: usize, const MASK: u8>(
         &self,
-    ) -> impl Fn(&[Packed<N>], &[f64], u32, &mut [Colour]) {
+    ) -> impl Fn(&[PackedAttributes<N>], &[f64], u32, &mut [Colour]) {
         let shade = each(|varying, depth| self.shade::<N, MASK, false>(varying, depth));
         move |varyings, depths, wanted, colours| {
             shade(varyings, depths, wanted, colours);
@@ -603,7 +604,7 @@ impl<'a> Kernel<'a> {
     /// Adds the highlights of fragments, whose normals begin at component `normal`.
     fn brighten<const N: usize>(
         &self,
-        varyings: &[Packed<N>],
+        varyings: &[PackedAttributes<N>],
         normal: usize,
         wanted: u32,
         colours: &mut [Colour],
@@ -618,7 +619,7 @@ impl<'a> Kernel<'a> {
             }
             return;
         }
-        for (i, (Packed(values), colour)) in varyings.iter().zip(colours).enumerate() {
+        for (i, (PackedAttributes(values), colour)) in varyings.iter().zip(colours).enumerate() {
             if wanted >> i & 1 == 0 {
                 continue;
             }
@@ -634,7 +635,7 @@ impl<'a> Kernel<'a> {
     #[inline]
     fn shade<const N: usize, const MASK: u8, const PLAIN: bool>(
         &self,
-        varying: &Packed<N>,
+        varying: &PackedAttributes<N>,
         depth: f64,
     ) -> Colour {
         let mut rest = varying.0.iter().copied();

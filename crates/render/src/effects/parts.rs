@@ -27,7 +27,7 @@ use super::primitive::{Piece, Prepared, has_one_w, pixel_box, surfaces, uvs};
 use crate::pipeline::fog::Share;
 use crate::pipeline::footprint::Footprint;
 use crate::pipeline::opacity::Drawn;
-use crate::pipeline::shade::{Attributes as Packed, PLACED, Surface};
+use crate::pipeline::shade::{Attributes as PackedAttributes, PLACED, Surface};
 use crate::pipeline::shadow::{LitPlane, ShadowMap};
 use crate::pipeline::target::Antialias;
 use crate::scene::Item;
@@ -126,9 +126,9 @@ struct Corner {
     place: DVec3,
 }
 
-impl From<&Packed<PLACED>> for Corner {
+impl From<&PackedAttributes<PLACED>> for Corner {
     #[inline]
-    fn from(all: &Packed<PLACED>) -> Self {
+    fn from(all: &PackedAttributes<PLACED>) -> Self {
         let Surface { normal, uv, place, .. } = Surface::from(all);
         Self { normal, uv, place }
     }
@@ -656,7 +656,7 @@ mod tests {
                 position: SubpixelPoint::new(x_px * SUBPIXELS, y_px * SUBPIXELS),
                 depth: 0.5,
                 inv_w: 1.0,
-                varying: Packed([0.0; PLACED]),
+                varying: PackedAttributes([0.0; PLACED]),
             };
             ScreenTriangle { vertices: [vertex(0, 0), vertex(x_px, 0), vertex(0, y_px)] }
         };

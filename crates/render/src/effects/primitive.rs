@@ -10,9 +10,9 @@ use super::plan::{Attributes, ItemPlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, ClipPoint, check_vertex};
 use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
-use crate::pipeline::physical::{Map, Physical, Sampled};
+use crate::pipeline::physical::{Map, Physical, TextureRead};
 use crate::pipeline::punctual::PunctualLight;
-use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
+use crate::pipeline::shade::{ALL, Attributes as PackedAttributes, Light, PLACED, Surface};
 use crate::pipeline::shadow::LightView;
 use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
@@ -23,7 +23,7 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
 /// A triangle in the window with all attributes.
-pub(crate) type Piece = ScreenTriangle<Packed<PLACED>>;
+pub(crate) type Piece = ScreenTriangle<PackedAttributes<PLACED>>;
 
 /// Whether the three 1/w are equal to the bit.
 pub(super) fn has_one_w(piece: &Piece) -> bool {
@@ -183,12 +183,12 @@ impl<'a> Prepared<'a> {
     }
 
     /// A map of the item, where it is physical and has it.
-    pub fn map(&self, map: Map) -> Option<Sampled<'a>> {
+    pub fn map(&self, map: Map) -> Option<TextureRead<'a>> {
         self.physical().and_then(|physical| physical.sampled(map))
     }
 
     /// Its texture, which is read at the first coordinates.
-    pub fn colour(&self) -> Option<Sampled<'a>> {
+    pub fn colour(&self) -> Option<TextureRead<'a>> {
         self.texture.map(|texture| (texture, false))
     }
 
@@ -218,7 +218,7 @@ impl<'a> Prepared<'a> {
         scene: &Scene,
         triangle: usize,
         is_back: bool,
-    ) -> impl Fn(usize) -> Packed<PLACED> + use<'_> {
+    ) -> impl Fn(usize) -> PackedAttributes<PLACED> + use<'_> {
         let (material, mesh) = (&self.item.material, &self.item.mesh);
         let (triangles, positions) = (&mesh.triangles, mesh.triangles.positions()[triangle]);
         let mut colours =
@@ -322,22 +322,25 @@ fn assembler(item: &Item, plan: &ItemPlan, window: PixelRect) -> Assembler {
 
 /// The attributes of a corner that tiles draw.
 #[inline]
-pub(super) fn without_place(Packed(all): &Packed<PLACED>) -> [f64; ALL] {
+pub(super) fn without_place(PackedAttributes(all): &PackedAttributes<PLACED>) -> [f64; ALL] {
     std::array::from_fn(|i| all[i])
 }
 
 /// The piece with position, depth and w at its corners, and no attributes.
-pub(super) fn bare(piece: &Piece) -> ScreenTriangle<Packed<0>> {
+pub(super) fn bare(piece: &Piece) -> ScreenTriangle<PackedAttributes<0>> {
     pack(piece, Attributes::NONE)
 }
 
 /// The piece with some attributes alone, in the first of `N` numbers. No fragment reads the numbers after them.
 #[inline]
-pub(super) fn pack<const N: usize>(piece: &Piece, some: Attributes) -> ScreenTriangle<Packed<N>> {
+pub(super) fn pack<const N: usize>(
+    piece: &Piece,
+    some: Attributes,
+) -> ScreenTriangle<PackedAttributes<N>> {
     let places = some.places();
-    let of = |vertex: &ScreenVertex<Packed<PLACED>>| {
-        let ScreenVertex { position, depth, inv_w, varying: Packed(all) } = vertex;
-        let varying = Packed(std::array::from_fn(|i| all[usize::from(places[i])]));
+    let of = |vertex: &ScreenVertex<PackedAttributes<PLACED>>| {
+        let ScreenVertex { position, depth, inv_w, varying: PackedAttributes(all) } = vertex;
+        let varying = PackedAttributes(std::array::from_fn(|i| all[usize::from(places[i])]));
         ScreenVertex { position: *position, depth: *depth, inv_w: *inv_w, varying }
     };
     let [a, b, c] = &piece.vertices;

@@ -56,7 +56,7 @@ impl Map {
 }
 
 /// A texture, and whether it is read at the second texture coordinates.
-pub type Sampled<'a> = (&'a Texture, bool);
+pub type TextureRead<'a> = (&'a Texture, bool);
 
 fn none_is(second: &[bool]) -> bool {
     !second.contains(&true)
@@ -149,7 +149,7 @@ impl Physical {
     }
 
     #[must_use]
-    pub fn sampled(&self, map: Map) -> Option<Sampled<'_>> {
+    pub fn sampled(&self, map: Map) -> Option<TextureRead<'_>> {
         Some((self.map(map)?, self.second[map as usize]))
     }
 

@@ -21,7 +21,7 @@ use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::Opacity;
-use crate::pipeline::physical::{Map, Physical, Sampled};
+use crate::pipeline::physical::{Map, Physical, TextureRead};
 use crate::pipeline::punctual::PunctualLight;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
@@ -110,7 +110,7 @@ pub struct Material {
 
 impl Material {
     /// The maps of a physical surface that it has, beside its texture.
-    pub fn maps(&self) -> impl Iterator<Item = Sampled<'_>> {
+    pub fn maps(&self) -> impl Iterator<Item = TextureRead<'_>> {
         self.physical.iter().flat_map(|of| Map::ALL.into_iter().filter_map(|map| of.sampled(map)))
     }
 

@@ -13,8 +13,8 @@ use rasterproof_judge::check::{Check, Truth, expected_answer};
 use rasterproof_judge::pixels::picture_of;
 use rasterproof_judge::stages::{self, Answered};
 use rasterproof_verify::convention::{
-    Convention, End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum,
-    Rounding, Shape, Ties, Windings,
+    End, Ends, LineConvention, LineQuestion, LineRounding, LineTie, Mirror, Quantum, Rounding,
+    Shape, Ties, TriangleConvention, Windings,
 };
 use rasterproof_verify::mistakes::MistakeId;
 
@@ -89,7 +89,7 @@ const KNOWN: &[KnownMisconception] = known![
     "transposed", "x and y are exchanged in your picture",
     "Which of the two numbers of a pixel comes first in the answer, and which one indexes a row of your array?",
     [|q, t| exchanged_line(q, t),
-     |q, _| tied(q, |ties| Convention { mirror: Mirror::Exchanged, ties, ..Convention::default() }, 0)];
+     |q, _| tied(q, |ties| TriangleConvention { mirror: Mirror::Exchanged, ties, ..TriangleConvention::default() }, 0)];
 
     "strict", "you draw no sample that lies exactly on an edge",
     "Two triangles share an edge that passes through a pixel's centre. Which of them draws that pixel, if both do as you do?",
@@ -102,8 +102,8 @@ const KNOWN: &[KnownMisconception] = known![
     "y-up", "you use the rule of a y axis that points up: bottom and left edges instead of top and left ones",
     "Row 0 is at the top of the window. Which sign has the y step of an edge that runs up on the screen?",
     [|q, _| rule(q, "bottom-left"),
-     |q, _| tied(q, |ties| Convention { mirror: Mirror::UpsideDown, ties, ..Convention::default() }, 0),
-     |q, _| tied(q, |ties| Convention { mirror: Mirror::UpsideDown, ties, ..Convention::default() }, 1)];
+     |q, _| tied(q, |ties| TriangleConvention { mirror: Mirror::UpsideDown, ties, ..TriangleConvention::default() }, 0),
+     |q, _| tied(q, |ties| TriangleConvention { mirror: Mirror::UpsideDown, ties, ..TriangleConvention::default() }, 1)];
 
     "right-edges", "you keep samples on right edges and drop those on left ones",
     "Take the square from 0.5 to 3.5. Which three columns should it have, and which three has yours?",
@@ -111,12 +111,12 @@ const KNOWN: &[KnownMisconception] = known![
 
     "winding", "you draw triangles of one winding alone",
     "Exchange two corners of a triangle: which sign has the area now, and what does your test do with it?",
-    [|q, _| tied(q, |ties| Convention { draws: Windings::Clockwise, ties, ..Convention::default() }, 0),
-     |q, _| tied(q, |ties| Convention { draws: Windings::Clockwise, ties, ..Convention::default() }, 1),
-     |q, _| tied(q, |ties| Convention { draws: Windings::Clockwise, ties, ..Convention::default() }, 2),
-     |q, _| tied(q, |ties| Convention { draws: Windings::CounterClockwise, ties, ..Convention::default() }, 0),
-     |q, _| tied(q, |ties| Convention { draws: Windings::CounterClockwise, ties, ..Convention::default() }, 1),
-     |q, _| tied(q, |ties| Convention { draws: Windings::CounterClockwise, ties, ..Convention::default() }, 2)];
+    [|q, _| tied(q, |ties| TriangleConvention { draws: Windings::Clockwise, ties, ..TriangleConvention::default() }, 0),
+     |q, _| tied(q, |ties| TriangleConvention { draws: Windings::Clockwise, ties, ..TriangleConvention::default() }, 1),
+     |q, _| tied(q, |ties| TriangleConvention { draws: Windings::Clockwise, ties, ..TriangleConvention::default() }, 2),
+     |q, _| tied(q, |ties| TriangleConvention { draws: Windings::CounterClockwise, ties, ..TriangleConvention::default() }, 0),
+     |q, _| tied(q, |ties| TriangleConvention { draws: Windings::CounterClockwise, ties, ..TriangleConvention::default() }, 1),
+     |q, _| tied(q, |ties| TriangleConvention { draws: Windings::CounterClockwise, ties, ..TriangleConvention::default() }, 2)];
 
     "corner-samples", "your samples are at the corners of pixels, not at their centres",
     "Where is the centre of the pixel in column 3? A triangle covers 3.2 to 3.9: does it cover that centre, and your sample?",
@@ -355,7 +355,7 @@ fn exchanged_line(question: &Question, truth: &Truth) -> Option<Answer> {
 /// Rules for samples on edges that a mistake elsewhere may go with.
 const TIES: [&str; 3] = ["top-left", "inclusive", "strict"];
 
-fn coverage(question: &Question, convention: &Convention) -> Option<Answer> {
+fn coverage(question: &Question, convention: &TriangleConvention) -> Option<Answer> {
     let Asked::Coverage(corners) = &question.of else { return None };
     let window = PixelRect::window(question.width, question.height);
     let drawn = convention.cover(corners, window)?;
@@ -364,10 +364,17 @@ fn coverage(question: &Question, convention: &Convention) -> Option<Answer> {
 }
 
 fn rule(question: &Question, name: &str) -> Option<Answer> {
-    coverage(question, &Convention { ties: Ties::named(name)?, ..Convention::default() })
+    coverage(
+        question,
+        &TriangleConvention { ties: Ties::named(name)?, ..TriangleConvention::default() },
+    )
 }
 
-fn tied(question: &Question, convention: fn(Ties) -> Convention, tie: usize) -> Option<Answer> {
+fn tied(
+    question: &Question,
+    convention: fn(Ties) -> TriangleConvention,
+    tie: usize,
+) -> Option<Answer> {
     coverage(question, &convention(Ties::named(TIES[tie])?))
 }
 
@@ -376,13 +383,17 @@ fn sampled(question: &Question, at: i32, tie: usize) -> Option<Answer> {
     let ties = Ties::named(TIES[tie])?;
     coverage(
         question,
-        &Convention { shape: Shape::Point { x: at, y: at }, ties, ..Convention::default() },
+        &TriangleConvention {
+            shape: Shape::Point { x: at, y: at },
+            ties,
+            ..TriangleConvention::default()
+        },
     )
 }
 
 fn cut(question: &Question, rounding: Rounding, tie: usize) -> Option<Answer> {
     let (quantum, ties) = (Quantum { step: SUBPIXELS, rounding }, Ties::named(TIES[tie])?);
-    coverage(question, &Convention { quantum, ties, ..Convention::default() })
+    coverage(question, &TriangleConvention { quantum, ties, ..TriangleConvention::default() })
 }
 
 /// Every pixel of the bounding box, rounded outwards to whole pixels.

@@ -108,7 +108,7 @@ fn shown<S: AsRef<OsStr>>(words: &[S], most: usize) -> String {
 }
 
 /// The beginning of what a build has written to standard error, and how many bytes it was.
-type Said = Arc<Mutex<(Vec<u8>, u64)>>;
+type BuildMessages = Arc<Mutex<(Vec<u8>, u64)>>;
 
 /// Builds a program, if it is to be built, and ends whatever the build has started.
 ///
@@ -123,7 +123,7 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
     let mut command = Command::new(&line[0]);
     command.args(&line[1..]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let mut group = Group::start(&mut command).map_err(|e| format!("cannot build: {e}"))?;
-    let said = Said::default();
+    let said = BuildMessages::default();
     if let Some(stderr) = group.child().stderr.take() {
         keep(stderr, Arc::clone(&said)).map_err(|e| {
             format!("cannot build: no thread can be started; allow more processes (ulimit -u): {e}")
@@ -166,7 +166,7 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
 }
 
 /// Reads a pipe to its end on a thread of its own, and keeps the beginning.
-fn keep(mut stderr: impl Read + Send + 'static, said: Said) -> std::io::Result<()> {
+fn keep(mut stderr: impl Read + Send + 'static, said: BuildMessages) -> std::io::Result<()> {
     let read = move || {
         let mut piece = vec![0; 1 << 16];
         while let Ok(n @ 1..) = stderr.read(&mut piece) {

@@ -27,7 +27,7 @@ use rasterproof_verify::cases::Triangle;
 use super::Step;
 
 /// A picture as the program draws it and as this project's engines draw it.
-pub struct Shown {
+pub struct ProgramPicture {
     pub title: &'static str,
     pub yours: RgbImage,
     pub right: RgbImage,
@@ -287,7 +287,7 @@ fn shade(surface: &Surface<'_>, weights: DVec2) -> DVec3 {
 }
 
 /// The pictures of a step, by the program and by this project's engines.
-pub fn step(program: &mut dyn Subject, step: &Step) -> Vec<Shown> {
+pub fn step(program: &mut dyn Subject, step: &Step) -> Vec<ProgramPicture> {
     type Draw = fn(&mut Studio<'_>) -> RgbImage;
     let pictures: &[(&'static str, Draw)] = match step.name.as_str() {
         "pixel" => &[("pixels of a circle; some lie outside", |s| s.lines(16, 12, &circle()))],
@@ -360,7 +360,7 @@ pub fn scene(
     title: &'static str,
     scene: &Scene,
     size: (u32, u32),
-) -> Result<Shown, BadScene> {
+) -> Result<ProgramPicture, BadScene> {
     let whole = Whole::new(scene, PixelRect::window(size.0, size.1))?;
     let [r, g, b, _] = scene.background;
     Ok(both(program, title, &mut |studio| studio.scene(&whole, Rgb([r, g, b]))))
@@ -370,21 +370,21 @@ fn both(
     program: &mut dyn Subject,
     title: &'static str,
     draw: &mut dyn FnMut(&mut Studio<'_>) -> RgbImage,
-) -> Shown {
+) -> ProgramPicture {
     let mut studio = Studio { asked: program, unanswered: 0 };
     let yours = draw(&mut studio);
     let unanswered = studio.unanswered;
     let right = draw(&mut Studio { asked: &mut Right::new(), unanswered: 0 });
     let differing =
         yours.pixels().zip(right.pixels()).filter(|(a, b)| differs(**a, **b)).count() as u64;
-    Shown { title, yours, right, differing, unanswered }
+    ProgramPicture { title, yours, right, differing, unanswered }
 }
 
 fn differs(a: Rgb<u8>, b: Rgb<u8>) -> bool {
     a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > VISIBLE)
 }
 
-impl Shown {
+impl ProgramPicture {
     /// Dark where both agree; red where the program drew nothing, orange where it alone drew, violet where colours differ.
     pub fn difference(&self) -> RgbImage {
         let ground = |image: &RgbImage, x, y| *image.get_pixel(x, y) == BACKGROUND;
@@ -412,12 +412,12 @@ impl Shown {
 }
 
 /// Whether no pixel of these pictures differs, and no request is without an answer.
-pub fn agree(pictures: &[(String, Shown)]) -> bool {
+pub fn agree(pictures: &[(String, ProgramPicture)]) -> bool {
     pictures.iter().all(|(_, picture)| picture.differing + picture.unanswered == 0)
 }
 
 /// Pictures, each with what it is of: how many pixels differ, and all three of each to look into.
-pub fn report(title: String, pictures: &[(String, Shown)]) -> Report {
+pub fn report(title: String, pictures: &[(String, ProgramPicture)]) -> Report {
     let mut report = Report { about: title.clone(), title, ..Report::default() };
     let agree = agree(pictures);
     // On the page, the pictures that differ most come first.

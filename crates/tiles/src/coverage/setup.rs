@@ -47,7 +47,7 @@ type Lanes<S> = i32x16<S>;
 
 /// A triangle ready to be stepped in words of a kind.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stepped<W> {
+pub(super) struct SteppedTriangle<W> {
     /// The pixels to look at: those of the window in the box, at least one.
     pub rect: PixelRect,
     /// E' of each edge at the first pixel of `rect`.
@@ -136,7 +136,7 @@ pub(super) struct Batch<S: Simd> {
     pub near: mask32x16<S>,
     /// Whether it may cover a pixel, and is too large to be set up here.
     pub wide: mask32x16<S>,
-    /// As in [`Stepped`], x0, y0, x1 and y1.
+    /// As in [`SteppedTriangle`], x0, y0, x1 and y1.
     pub rect: [Lanes<S>; 4],
     pub start: [Lanes<S>; 3],
     pub right: [Lanes<S>; 3],
@@ -183,10 +183,10 @@ impl Records {
     }
 
     #[inline(always)]
-    pub fn stepped(&self, lane: usize) -> Stepped<i32> {
+    pub fn stepped(&self, lane: usize) -> SteppedTriangle<i32> {
         let three =
             |at: usize| [self.0[at].0[lane], self.0[at + 1].0[lane], self.0[at + 2].0[lane]];
-        Stepped { rect: self.rect(lane), start: three(4), right: three(7), down: three(10) }
+        SteppedTriangle { rect: self.rect(lane), start: three(4), right: three(7), down: three(10) }
     }
 }
 
@@ -237,7 +237,7 @@ fn edge<S: Simd>(
 /// A triangle of any size, set up by itself.
 pub(super) struct Single {
     /// As it is stepped in i64, which always holds E': |E| < 2^65, and S is 2^8.
-    pub steps: Stepped<i64>,
+    pub steps: SteppedTriangle<i64>,
     fits_i32: bool,
 }
 
@@ -249,7 +249,7 @@ impl Single {
         let edges = [(b, c), (c, a), (a, b)];
         let centre = |px: i32| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
         let (px, py) = (centre(rect.x0), centre(rect.y0));
-        let mut steps = Stepped { rect, start: [0; 3], right: [0; 3], down: [0; 3] };
+        let mut steps = SteppedTriangle { rect, start: [0; 3], right: [0; 3], down: [0; 3] };
         for (i, (from, to)) in edges.into_iter().enumerate() {
             let (dx, dy) =
                 (i64::from(to.x) - i64::from(from.x), i64::from(to.y) - i64::from(from.y));
@@ -266,10 +266,11 @@ impl Single {
     }
 
     /// The same in i32, where that is wide enough.
-    pub fn stepped(&self) -> Option<Stepped<i32>> {
-        let Stepped { rect, start, right, down } = self.steps;
+    pub fn stepped(&self) -> Option<SteppedTriangle<i32>> {
+        let SteppedTriangle { rect, start, right, down } = self.steps;
         let word = |values: [i64; 3]| values.map(|value| value as i32);
-        let all = Stepped { rect, start: word(start), right: word(right), down: word(down) };
+        let all =
+            SteppedTriangle { rect, start: word(start), right: word(right), down: word(down) };
         self.fits_i32.then_some(all)
     }
 }

@@ -6,7 +6,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x16};
 
-use super::setup::Stepped;
+use super::setup::SteppedTriangle;
 use super::{Block, Piece, QUARTER_PX, SIDE_PX, Tile};
 use rasterproof_core::grid::PixelRect;
 
@@ -20,7 +20,12 @@ type Edges<S> = [Lanes<S>; 3];
 
 /// Appends the pieces of a triangle, rows of tiles from the first pixel of its box on, each from left to right.
 #[inline(always)]
-pub(super) fn walk<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
+pub(super) fn walk<S: Simd>(
+    simd: S,
+    triangle: &SteppedTriangle<i32>,
+    number: u32,
+    out: &mut Vec<Piece>,
+) {
     let PixelRect { x0, y0, x1, y1 } = triangle.rect;
     if x1 - x0 > SIDE_PX || y1 - y0 > SIDE_PX {
         tiles(simd, triangle, number, out);
@@ -40,7 +45,7 @@ const SECOND: [i32; 16] = [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1];
 
 /// What of a triangle is in one tile, of which it takes half the columns or less: two rows at a time.
 #[inline(always)]
-fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
+fn half<S: Simd>(simd: S, triangle: &SteppedTriangle<i32>, number: u32, out: &mut Vec<Piece>) {
     let PixelRect { x0, y0, x1, y1 } = triangle.rect;
     let (start, right, down) = (triangle.start, triangle.right, triangle.down);
     let count = Lanes::load_array_ref(simd, &HALF_COUNT);
@@ -93,7 +98,7 @@ fn none_negative<S: Simd>([a, b, c]: Edges<S>) -> u32 {
 #[inline(always)]
 fn tile<S: Simd>(
     simd: S,
-    triangle: &Stepped<i32>,
+    triangle: &SteppedTriangle<i32>,
     [a, b, c]: Edges<S>,
     number: u32,
     out: &mut Vec<Piece>,
@@ -122,7 +127,7 @@ fn tile<S: Simd>(
 /// Rows of tiles, sixteen tiles at a time: of each tile the corners where E' of an edge is largest
 /// and smallest say that all of it is outside, or inside.
 #[inline(always)]
-fn tiles<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
+fn tiles<S: Simd>(simd: S, triangle: &SteppedTriangle<i32>, number: u32, out: &mut Vec<Piece>) {
     let rect = triangle.rect;
     let columns = columns(simd, &triangle.right);
     let across = [columns[0] << 4, columns[1] << 4, columns[2] << 4];
@@ -169,7 +174,8 @@ fn tiles<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<P
                     x1: (x_tile + SIDE_PX).min(rect.x1),
                     y1: (y_px + SIDE_PX).min(rect.y1),
                 };
-                let part = Stepped { rect: square, start: first, right, down: triangle.down };
+                let part =
+                    SteppedTriangle { rect: square, start: first, right, down: triangle.down };
                 if x_tile + QUARTER_PX < rect.x1 {
                     tile(simd, &part, columns, number, out);
                 } else {
@@ -190,7 +196,7 @@ fn tiles<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<P
 /// What E' of each edge differs by, from the first pixel of a tile to where it is largest, or
 /// smallest.
 #[inline(always)]
-fn ends(triangle: &Stepped<i32>, choose: fn(i32, i32) -> i32) -> [i32; 3] {
+fn ends(triangle: &SteppedTriangle<i32>, choose: fn(i32, i32) -> i32) -> [i32; 3] {
     let end = |edge: usize| {
         let (right, down) = (triangle.right[edge], triangle.down[edge]);
         (SIDE_PX - 1) * (choose(right, 0) + choose(down, 0))

@@ -3,7 +3,7 @@
 //! The same walk as in `walk`, a tile and a row at a time. E' stays below 2^57, and 16 steps of less
 //! than 2^33 beyond the box change that little.
 
-use super::setup::{Single, Stepped};
+use super::setup::{Single, SteppedTriangle};
 use super::{Block, Piece, SIDE_PX, Tile};
 use rasterproof_core::grid::PixelRect;
 
@@ -11,7 +11,7 @@ const LAST: i64 = SIDE_PX as i64 - 1;
 
 /// Appends the pieces of a triangle, rows of tiles from the top down, each from left to right.
 pub(super) fn walk(single: &Single, number: u32, out: &mut Vec<Piece>) {
-    let Stepped { rect, start, right, down } = single.steps;
+    let SteppedTriangle { rect, start, right, down } = single.steps;
     for y_px in (rect.y0..rect.y1).step_by(SIDE_PX as usize) {
         let first_tile = rect.x0 & !(SIDE_PX - 1);
         for x_px in (first_tile..rect.x1).step_by(SIDE_PX as usize) {

@@ -2,7 +2,7 @@
 
 use super::mask::{Mask, SIDE_PX};
 use super::mirror::Mirror;
-use super::rule::Convention;
+use super::rule::TriangleConvention;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
@@ -50,7 +50,7 @@ pub struct Declarations {
     pub window_px: (u32, u32),
     /// Whether a pixel drawn twice cannot be seen.
     pub mask: bool,
-    pub declared: Convention,
+    pub declared: TriangleConvention,
 }
 
 impl Default for Declarations {
@@ -60,7 +60,7 @@ impl Default for Declarations {
             range_px: 1 << 22,
             window_px: (u32::MAX, u32::MAX),
             mask: false,
-            declared: Convention::default(),
+            declared: TriangleConvention::default(),
         }
     }
 }

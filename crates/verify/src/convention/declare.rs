@@ -4,18 +4,18 @@
 use super::bench::Declarations;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::mirror::Mirror;
-use super::rule::{Convention, CornerRule, Ties, Windings};
+use super::rule::{CornerRule, Ties, TriangleConvention, Windings};
 use super::shape::Shape;
-use crate::promise::{Convention as Promised, Rule, Winding};
+use crate::promise::{Convention, Rule, Winding};
 use rasterproof_core::grid::SUBPIXEL_BITS;
 
-impl From<&Promised> for Declarations {
+impl From<&Convention> for Declarations {
     /// Corners on the declared grid, anywhere, in any window.
-    fn from(declared: &Promised) -> Self {
+    fn from(declared: &Convention) -> Self {
         let [x, y] = declared.sample;
-        let default = Convention::default();
+        let default = TriangleConvention::default();
         let grid = 1 << declared.subpixel_bits;
-        let declared = Convention {
+        let declared = TriangleConvention {
             draws: match declared.seen_winding() {
                 Winding::Both => Windings::Both,
                 Winding::Clockwise => Windings::Clockwise,
@@ -32,7 +32,7 @@ impl From<&Promised> for Declarations {
 impl Diagnosis {
     /// What to declare to be judged by what was found, in place of `declared`; nothing where no declaration says it.
     #[must_use]
-    pub fn declaration(&self, declared: &Promised) -> Option<Promised> {
+    pub fn declaration(&self, declared: &Convention) -> Option<Convention> {
         let Shape::Point { x, y } = self.convention.shape else { return None };
         if self.confidence == Confidence::Unexplained || self.convention.mirror != Mirror::None {
             return None;

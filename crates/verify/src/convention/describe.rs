@@ -6,7 +6,7 @@ use super::lines::{LineConvention, LineDiagnosis, LineRounding, Steps};
 use super::outline::End;
 use super::place::FACINGS;
 use super::quantum::Quantum;
-use super::rule::{Convention, Windings};
+use super::rule::{TriangleConvention, Windings};
 use super::shape::Shape;
 use super::ties::{Compass, Count};
 
@@ -94,7 +94,7 @@ fn shape(shape: Shape) -> String {
 }
 
 /// Who owns what lies on an edge.
-fn ties(convention: &Convention, compass: &Compass) -> String {
+fn ties(convention: &TriangleConvention, compass: &Compass) -> String {
     let seen = compass.seen();
     if matches!(convention.shape, Shape::Stepped { .. } | Shape::Outline(_) | Shape::Scan(_)) {
         return String::new();
@@ -134,13 +134,13 @@ fn ties(convention: &Convention, compass: &Compass) -> String {
     }
 }
 
-fn convention(of: &Convention, compass: &Compass) -> String {
+fn convention(of: &TriangleConvention, compass: &Compass) -> String {
     let (mirror, winding) = (of.mirror.name(), of.draws.name());
     let (quantum, ties) = (quantum(of.quantum), ties(of, compass));
     format!("{mirror}{winding}{quantum}{}{ties}", shape(of.shape))
 }
 
-impl Convention {
+impl TriangleConvention {
     /// What it does, after 'it'.
     #[must_use]
     pub fn words(&self) -> String {

@@ -4,8 +4,8 @@ use super::bench::{Bench, TriangleAnswer, TriangleQuestion};
 use super::candidate::Candidate;
 use super::fit::Fit;
 use super::mirror::Mirror;
-use super::rule::{Convention, Ties, Windings};
-use super::search::Seen;
+use super::rule::{Ties, TriangleConvention, Windings};
+use super::search::Observation;
 use super::ties::{Compass, Count};
 use super::upright::mirror_of;
 use super::{Ask, Declarations};
@@ -35,7 +35,7 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    fn of(convention: &Convention, answers: &[TriangleAnswer], bench: &Bench<'_>) -> Self {
+    fn of(convention: &TriangleConvention, answers: &[TriangleAnswer], bench: &Bench<'_>) -> Self {
         let mut sum = Self::default();
         for answer in answers {
             let Some(mask) = convention.mask(&answer.corners, bench.window) else { continue };
@@ -69,10 +69,10 @@ impl Share {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Diagnosis {
     /// What it does; the nearest hypothesis where that is not known.
-    pub convention: Convention,
+    pub convention: TriangleConvention,
     pub confidence: Confidence,
     /// Others that explain the answers equally well, the simplest first.
-    pub alternatives: Vec<Convention>,
+    pub alternatives: Vec<TriangleConvention>,
     pub compass: Compass,
     /// Triangles without area that leave pixels.
     pub flat: Count,
@@ -111,7 +111,7 @@ pub fn diagnose(ask: &mut dyn Ask, known: &Declarations, seed: u64) -> Diagnosis
     }
     let flips = bench.flips(draws);
     let fitted = bench.generals(FITTED, draws);
-    let seen = Seen { answers: &fitted, window: bench.window, draws };
+    let seen = Observation { answers: &fitted, window: bench.window, draws };
     let scored = Fit { seen, flips, grain: bench.grain }.hypotheses();
     let candidates = bench.separate(&scored, draws);
     let Some(&candidate) = candidates.first() else { return silent };
@@ -138,7 +138,7 @@ impl Bench<'_> {
         let tried = self.draw(&questions);
         let compass = self.compass(candidate, &ties);
         let flat = self.flat();
-        let convention = |candidate: &Candidate, ties: Ties| Convention {
+        let convention = |candidate: &Candidate, ties: Ties| TriangleConvention {
             draws,
             quantum: candidate.quantum,
             shape: candidate.shape,
@@ -148,7 +148,7 @@ impl Bench<'_> {
         };
         let mut found = convention(candidate, compass.ties());
         let fresh = self.generals(FRESH, draws);
-        let share = |convention: &Convention, bench: &Self| Share {
+        let share = |convention: &TriangleConvention, bench: &Self| Share {
             general: Agreement::of(convention, &fresh, bench),
             ties: Agreement::of(convention, &tried, bench),
         };
@@ -166,7 +166,8 @@ impl Bench<'_> {
             }
         }
         // Answers are taken back from their mirror, so what is declared is put into it.
-        let as_declared = share(&Convention { mirror: self.mirror, ..self.known.declared }, self);
+        let as_declared =
+            share(&TriangleConvention { mirror: self.mirror, ..self.known.declared }, self);
         let mut twice = Count::default();
         if !self.known.mask {
             fresh.iter().chain(&tried).for_each(|answer| twice.add(!answer.twice.is_empty()));

@@ -6,7 +6,7 @@ use super::general::Flip;
 use super::outline::LineTie;
 use super::quantum::{Quantum, Rounding};
 use super::samples::Pattern;
-use super::search::{Range, Scored, Search, Seen};
+use super::search::{Observation, Range, Scored, Search};
 use super::shape::Shape;
 use rasterproof_core::arrays::MapArray as _;
 
@@ -14,7 +14,7 @@ use rasterproof_core::arrays::MapArray as _;
 const GRIDS: usize = 6;
 
 pub(super) struct Fit<'a> {
-    pub(super) seen: Seen<'a>,
+    pub(super) seen: Observation<'a>,
     pub(super) flips: [Option<Flip>; 4],
     /// Subpixels between neighbouring coordinates that may be asked.
     pub(super) grain: i32,
@@ -44,7 +44,7 @@ impl<'a> Fit<'a> {
             }
         }
         if found.iter().all(|(errors, _)| *errors > 0) {
-            let Seen { answers, window, draws } = self.seen;
+            let Observation { answers, window, draws } = self.seen;
             found.extend(Candidate::scans(draws, answers, window).map(|scan| (0, scan)));
         }
         found.sort_by_key(|(errors, candidate)| (*errors, candidate.rank()));
@@ -97,7 +97,7 @@ impl<'a> Fit<'a> {
 
     fn outlines(&self) -> Vec<Scored> {
         let quanta = self.quanta().into_iter().filter(|q| q.step.max(self.grain) == 256);
-        let Seen { answers, window, draws } = self.seen;
+        let Observation { answers, window, draws } = self.seen;
         quanta
             .flat_map(|quantum| LineTie::ALL.map(|tie| (quantum, Shape::Outline(tie))))
             .map(|(quantum, shape)| Candidate { draws, quantum, shape })

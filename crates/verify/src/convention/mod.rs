@@ -1,7 +1,7 @@
 //! Recognises the convention of an outside rasterizer or line drawer from its answers alone.
 //!
 //! Most programs differ by convention, not by fault. A hypothesis is a pure function from corners to
-//! pixels ([`Convention`]); hypotheses are tried from the general to the particular: which windings
+//! pixels ([`TriangleConvention`]); hypotheses are tried from the general to the particular: which windings
 //! draw, where in a pixel the sample lies, on which grid the corners, which shape, and then who owns
 //! a sample exactly on an edge. Questions are chosen by what is in doubt: an edge is moved until a
 //! pixel flips, triangles are looked for on which two hypotheses differ, ties are constructed for
@@ -47,7 +47,7 @@ pub use mirror::Mirror;
 pub use outline::{End, LineTie};
 pub use place::FACINGS;
 pub use quantum::{Quantum, Rounding};
-pub use rule::{Convention, CornerRule, Ties, Windings};
+pub use rule::{CornerRule, Ties, TriangleConvention, Windings};
 pub use samples::Pattern;
 pub use scan::Scan;
 pub use shape::Shape;

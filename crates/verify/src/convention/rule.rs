@@ -115,7 +115,7 @@ impl Ties {
 /// What a program does, as far as its pictures show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Convention {
+pub struct TriangleConvention {
     pub draws: Windings,
     pub quantum: Quantum,
     pub shape: Shape,
@@ -127,7 +127,7 @@ pub struct Convention {
     pub flat: bool,
 }
 
-impl Default for Convention {
+impl Default for TriangleConvention {
     /// This project's: both windings, corners on 1/256 px, samples at centres, top-left.
     fn default() -> Self {
         Self {
@@ -141,7 +141,7 @@ impl Default for Convention {
     }
 }
 
-impl Convention {
+impl TriangleConvention {
     /// The pixels of `window` that belong to a triangle, one hit each. None where the convention
     /// says nothing: for a triangle that has lost its area or winding on the grid, where that
     /// matters, and for one too large for its shape.
@@ -151,7 +151,7 @@ impl Convention {
         self.visit(corners, window, &mut draw).then_some(coverage)
     }
 
-    /// As [`Convention::cover`], of a window of at most [`SIDE_PX`] a side.
+    /// As [`TriangleConvention::cover`], of a window of at most [`SIDE_PX`] a side.
     pub(crate) fn mask(&self, corners: &Corners, window: PixelRect) -> Option<Mask> {
         debug_assert!(window.x1 <= SIDE_PX && window.y1 <= SIDE_PX);
         let mut mask = Mask::default();

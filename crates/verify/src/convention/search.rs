@@ -14,7 +14,7 @@ pub(super) type Scored = (u32, Candidate);
 
 /// The answers that hypotheses are compared with.
 #[derive(Clone, Copy)]
-pub(super) struct Seen<'a> {
+pub(super) struct Observation<'a> {
     pub(super) answers: &'a [TriangleAnswer],
     pub(super) window: PixelRect,
     pub(super) draws: Windings,
@@ -64,7 +64,7 @@ impl Range {
 }
 
 pub(super) struct Search<'a> {
-    seen: Seen<'a>,
+    seen: Observation<'a>,
     quantum: Quantum,
     ranges: Vec<Range>,
     make: fn(&[i32]) -> Shape,
@@ -77,7 +77,7 @@ pub(super) struct Search<'a> {
 impl<'a> Search<'a> {
     /// Looks at a coarse lattice of values.
     pub(super) fn new(
-        seen: Seen<'a>,
+        seen: Observation<'a>,
         quantum: Quantum,
         ranges: &[Range],
         make: fn(&[i32]) -> Shape,

@@ -2,7 +2,7 @@
 
 use super::bench::TriangleAnswer;
 use super::mirror::Mirror;
-use super::rule::Convention;
+use super::rule::TriangleConvention;
 use rasterproof_core::grid::PixelRect;
 
 /// Pictures are a mirror's if they have less than one in so many of the wrong pixels they have unmirrored.
@@ -11,7 +11,7 @@ const SHARE: u32 = 3;
 /// The mirror that explains pictures of large triangles, by the samples at the centres: what a
 /// program does else is small beside a picture that is turned over.
 pub(super) fn mirror_of(answers: &[TriangleAnswer], window: PixelRect) -> Mirror {
-    let own = Convention::default();
+    let own = TriangleConvention::default();
     let wrong = |mirror: Mirror| -> u32 {
         let one = |answer: &TriangleAnswer| {
             let drawn = answer.drawn.mirrored(mirror, window);

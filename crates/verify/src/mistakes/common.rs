@@ -1,13 +1,13 @@
 //! What all wrong answers have in common, where no mistake explains them.
 
-use super::Answered;
+use super::AnsweredQuestion;
 use super::fills;
 use crate::convention::{LineQuestion, Mask, TriangleQuestion};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
 
 /// What can be said of a question and its answer.
-pub(super) struct Seen {
+pub(super) struct AnswerTraits {
     is_line: bool,
     missing: u32,
     extra: u32,
@@ -48,15 +48,15 @@ const PLACES: [&str; 6] = [
     "beside the edges (nothing further in or out is wrong)",
 ];
 
-impl Seen {
+impl AnswerTraits {
     fn new<Q>(
         is_line: bool,
         window: PixelRect,
-        answered: &Answered<Q>,
+        answered: &AnsweredQuestion<Q>,
         kinds: Vec<bool>,
         extent: i64,
     ) -> Self {
-        let Answered { drawn, twice, right, .. } = *answered;
+        let AnsweredQuestion { drawn, twice, right, .. } = *answered;
         let mut wrong = drawn.differs(&right);
         wrong.add(&twice);
         let mut places = [true; 6];
@@ -98,7 +98,7 @@ impl Seen {
         }
     }
 
-    pub(super) fn triangle(answered: &Answered<TriangleQuestion>) -> Self {
+    pub(super) fn triangle(answered: &AnsweredQuestion<TriangleQuestion>) -> Self {
         let TriangleQuestion { corners, window } = answered.question;
         let corners = &corners;
         let clockwise = twice_area(corners) > 0;
@@ -111,7 +111,7 @@ impl Seen {
         Self::new(false, window, answered, kinds, extent)
     }
 
-    pub(super) fn line(answered: &Answered<LineQuestion>) -> Self {
+    pub(super) fn line(answered: &AnsweredQuestion<LineQuestion>) -> Self {
         let LineQuestion { ends: [[x0, y0], [x1, y1]], window } = answered.question;
         let leaves = !window.contains(x0, y0) || !window.contains(x1, y1);
         let (dx, dy) = (i64::from(x1) - i64::from(x0), i64::from(y1) - i64::from(y0));
@@ -126,9 +126,9 @@ impl Seen {
 }
 
 /// What the wrong answers have in common and the right ones have not, as sentences.
-pub(super) fn sentences(seen: &[Seen]) -> Vec<String> {
-    let wrong: Vec<&Seen> = seen.iter().filter(|s| s.is_wrong()).collect();
-    let right: Vec<&Seen> = seen.iter().filter(|s| !s.is_wrong()).collect();
+pub(super) fn sentences(seen: &[AnswerTraits]) -> Vec<String> {
+    let wrong: Vec<&AnswerTraits> = seen.iter().filter(|s| s.is_wrong()).collect();
+    let right: Vec<&AnswerTraits> = seen.iter().filter(|s| !s.is_wrong()).collect();
     let Some(first) = wrong.first() else { return Vec::new() };
     let (shapes, names): (_, &[&str]) =
         if first.is_line { ("lines", &LINE_KINDS) } else { ("triangles", &TRIANGLE_KINDS) };
@@ -160,8 +160,9 @@ pub(super) fn sentences(seen: &[Seen]) -> Vec<String> {
         }
     }
     let px = |extent: i64| fills::decimal(extent, 256);
-    let ends =
-        |of: &[&Seen]| (of.iter().map(|s| s.extent).min(), of.iter().map(|s| s.extent).max());
+    let ends = |of: &[&AnswerTraits]| {
+        (of.iter().map(|s| s.extent).min(), of.iter().map(|s| s.extent).max())
+    };
     let (least, most) = ends(&wrong);
     if let (Some(least), Some(most)) = (least, most) {
         let below = right.iter().filter(|s| s.extent < least).count();

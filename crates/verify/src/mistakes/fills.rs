@@ -1,7 +1,7 @@
 //! The wrong fills that the table names, as functions of the corners in subpixels (1/256 px).
 
 use super::values::rounded;
-use crate::convention::{Convention, Mask, Ties, facing};
+use crate::convention::{Mask, Ties, TriangleConvention, facing};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::{self, centre, twice_area};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -32,7 +32,7 @@ fn each_sample(window: PixelRect, sample: [i32; 2], is_in: &dyn Fn(Point) -> boo
 pub(super) fn by_edges(
     corners: &Corners,
     window: PixelRect,
-    base: &Convention,
+    base: &TriangleConvention,
     test: &dyn Fn(usize, i128, bool) -> bool,
 ) -> Mask {
     if twice_area(corners) == 0 {
@@ -45,7 +45,7 @@ pub(super) fn by_edges(
 }
 
 /// Which edges of a triangle own the samples that lie on them; one without area is counterclockwise.
-fn owned(corners: &Corners, base: &Convention) -> [bool; 3] {
+fn owned(corners: &Corners, base: &TriangleConvention) -> [bool; 3] {
     let (points, sign) = (points(corners), if twice_area(corners) > 0 { 1 } else { -1 });
     [0, 1, 2].map_array(|i: usize| {
         let [p, q] = [points[i], points[(i + 1) % 3]];
@@ -61,7 +61,7 @@ fn owned(corners: &Corners, base: &Convention) -> [bool; 3] {
 pub(super) fn by_all_edges(
     corners: &Corners,
     window: PixelRect,
-    base: &Convention,
+    base: &TriangleConvention,
     test: &dyn Fn([i128; 3]) -> bool,
 ) -> Mask {
     let points = points(corners);
@@ -115,7 +115,12 @@ impl Words {
 }
 
 /// Edge functions in such words.
-pub(super) fn wrapping(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+pub(super) fn wrapping(
+    corners: &Corners,
+    window: PixelRect,
+    base: &TriangleConvention,
+    p: i64,
+) -> Mask {
     let Words { fraction, bits, knows_winding, products_alone } = Words::of(p);
     let cut = |v: i64| i128::from((v + (256 >> fraction) / 2).div_euclid(256 >> fraction));
     let points = points(corners).map_array(|p| p.map_array(cut));
@@ -488,7 +493,12 @@ pub(super) fn shortened(v: i32, bits: i64, is_cut: bool) -> i32 {
 /// Blocks that are drawn wholly or not at all: p mod 5 and p / 5 mod 5 are the powers of two of their sides, and p / 25 is the
 /// place that decides: the sample of the first pixel, the middle, the sample of the last pixel, or any sample. With 4 they are
 /// drawn wholly where three of their corner pixels are covered, and else pixel by pixel.
-pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+pub(super) fn blocks(
+    corners: &Corners,
+    window: PixelRect,
+    base: &TriangleConvention,
+    p: i64,
+) -> Mask {
     let [wide, high] = [p % 5, p / 5 % 5].map(|power| 1 << power);
     let sample = super::sample_of(base).map_array(i64::from);
     let mut mask = Mask::default();
@@ -537,7 +547,7 @@ pub(super) fn blocks(corners: &Corners, window: PixelRect, base: &Convention, p:
 pub(super) fn areas(
     corners: &Corners,
     window: PixelRect,
-    base: &Convention,
+    base: &TriangleConvention,
     most: f64,
     p: i64,
 ) -> Mask {
@@ -608,7 +618,12 @@ pub(super) const NEIGHBOURS: [(&[[i32; 2]], &str); 4] = [
 ];
 
 /// Pixels of which any neighbour is covered, or without those of which any is not; see the table.
-pub(super) fn grown(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+pub(super) fn grown(
+    corners: &Corners,
+    window: PixelRect,
+    base: &TriangleConvention,
+    p: i64,
+) -> Mask {
     let mut grown = base.mask(corners, window).unwrap_or_default();
     for [x, y] in NEIGHBOURS[(p / 2) as usize].0 {
         let beside = base.mask(&moved(corners, [-256 * x, -256 * y]), window).unwrap_or_default();
@@ -626,7 +641,12 @@ fn moved(corners: &Corners, [x, y]: [i32; 2]) -> Corners {
 }
 
 /// Every second row or column by a sample of its own; see the table.
-pub(super) fn alternating(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+pub(super) fn alternating(
+    corners: &Corners,
+    window: PixelRect,
+    base: &TriangleConvention,
+    p: i64,
+) -> Mask {
     let [which, way, far] = [p % 4, p / 4 % 4, p / 16];
     let by = [[1, 0], [-1, 0], [0, 1], [0, -1]][way as usize].map_array(|v| v * (128 << far));
     let mut mask = base.mask(corners, window).unwrap_or_default();
@@ -667,7 +687,12 @@ pub(super) fn searched(mask: &mut Mask, window: PixelRect, p: i64) {
 }
 
 /// Rows that begin left of the window begin at its side and keep their length.
-pub(super) fn slid(mask: &mut Mask, corners: &Corners, window: PixelRect, base: &Convention) {
+pub(super) fn slid(
+    mask: &mut Mask,
+    corners: &Corners,
+    window: PixelRect,
+    base: &TriangleConvention,
+) {
     let points = points(corners);
     let left = points.iter().map(|p| p[0].div_euclid(256)).min().unwrap_or(0);
     if left >= i64::from(window.x0) || twice_area(corners) == 0 {
@@ -732,7 +757,12 @@ pub(super) fn twice(mask: &Mask, corners: &Corners, window: PixelRect, p: i64) -
 
 /// Edge functions whose steps are cut toward zero to a multiple of a step, from the first sample of the box on; p mod 4 is
 /// the step, from 4 on the value there is a whole number, too, and from 8 on triangles without area are drawn as others.
-pub(super) fn cut_edges(corners: &Corners, window: PixelRect, base: &Convention, p: i64) -> Mask {
+pub(super) fn cut_edges(
+    corners: &Corners,
+    window: PixelRect,
+    base: &TriangleConvention,
+    p: i64,
+) -> Mask {
     let step = [256, 128, 64, 16][(p % 4) as usize];
     let sign = match twice_area(corners).signum() as i64 {
         0 if p < 8 => return Mask::default(),
@@ -806,7 +836,7 @@ pub(super) const FORMULAS: [&str; 35] = [
 pub(super) fn float(
     corners: &Corners,
     window: PixelRect,
-    base: &Convention,
+    base: &TriangleConvention,
     formula: usize,
     exchanges: bool,
     precision: i64,

@@ -23,9 +23,9 @@ use std::cell::OnceCell;
 use std::fmt;
 
 use crate::convention::{
-    Ask, AskLine, Confidence, Convention, Count, Declarations, Diagnosis, LineConvention,
-    LineDiagnosis, LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape,
-    Ties, TriangleQuestion, Windings,
+    Ask, AskLine, Confidence, Count, Declarations, Diagnosis, LineConvention, LineDiagnosis,
+    LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape, Ties,
+    TriangleConvention, TriangleQuestion, Windings,
 };
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
@@ -234,7 +234,7 @@ const AT_ONCE: usize = 100;
 const SEED: u64 = 1;
 
 /// A question with its answer.
-struct Answered<Q> {
+struct AnsweredQuestion<Q> {
     question: Q,
     drawn: Mask,
     /// Pixels that were hit more than once; none where that cannot be seen.
@@ -243,7 +243,7 @@ struct Answered<Q> {
     right: Mask,
 }
 
-impl<Q> Answered<Q> {
+impl<Q> AnsweredQuestion<Q> {
     /// Nothing is drawn: where all is blank, every mistake that draws nothing explains it.
     fn is_blank(&self) -> bool {
         self.drawn.is_empty()
@@ -263,7 +263,7 @@ impl<Q> Answered<Q> {
     }
 }
 
-impl Answered<TriangleQuestion> {
+impl AnsweredQuestion<TriangleQuestion> {
     /// A pixel that is drawn wrongly and one that is missing within every box around the corners, and whether they are drawn: a
     /// mistake that predicts one of them otherwise does not predict the answer.
     fn telling(&self) -> [Option<([i32; 2], bool)>; 2] {
@@ -301,24 +301,30 @@ pub fn of_triangles(
     programs: &[Program<'_, TriangleQuestion, Coverage>],
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
-    let mut answered: Vec<Answered<TriangleQuestion>> = Vec::new();
+    let mut answered: Vec<AnsweredQuestion<TriangleQuestion>> = Vec::new();
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention).filter(|c| c.draws != Windings::Neither);
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
-    let mut ask_all = |questions: &[TriangleQuestion],
-                       answered: &mut Vec<Answered<TriangleQuestion>>| {
-        for questions in questions.chunks(ask.at_once()).take_while(|_| goes_on()) {
-            for (question, answer) in questions.iter().zip(ask.ask(questions)) {
-                let right = expected.mask(&question.corners, question.window);
-                let Some(right) = right else { continue };
-                // What is not answered is not drawn.
-                let drawn = answer.filter(|a| a.bounds() == question.window);
-                let hits = |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
-                let twice = if known.mask { Mask::default() } else { hits(2) };
-                answered.push(Answered { question: *question, drawn: hits(1), twice, right });
+    let mut ask_all =
+        |questions: &[TriangleQuestion], answered: &mut Vec<AnsweredQuestion<TriangleQuestion>>| {
+            for questions in questions.chunks(ask.at_once()).take_while(|_| goes_on()) {
+                for (question, answer) in questions.iter().zip(ask.ask(questions)) {
+                    let right = expected.mask(&question.corners, question.window);
+                    let Some(right) = right else { continue };
+                    // What is not answered is not drawn.
+                    let drawn = answer.filter(|a| a.bounds() == question.window);
+                    let hits =
+                        |least| drawn.as_ref().map(|d| Mask::of(d, least)).unwrap_or_default();
+                    let twice = if known.mask { Mask::default() } else { hits(2) };
+                    answered.push(AnsweredQuestion {
+                        question: *question,
+                        drawn: hits(1),
+                        twice,
+                        right,
+                    });
+                }
             }
-        }
-    };
+        };
     // Where few answers are wrong, some more are needed.
     for seed in SEED..SEED + MOST_ROUNDS {
         ask_all(&questions::triangles(known, sample_of(expected), seed), &mut answered);
@@ -327,7 +333,7 @@ pub fn of_triangles(
             break;
         }
     }
-    if answered.iter().all(Answered::is_blank) {
+    if answered.iter().all(AnsweredQuestion::is_blank) {
         return None;
     }
     // Width, height and area are told apart near the limits between what is drawn and what is not.
@@ -370,15 +376,15 @@ pub fn of_triangles(
 
 /// The mistake that explains answers about triangles.
 fn explain(
-    answered: &[Answered<TriangleQuestion>],
+    answered: &[AnsweredQuestion<TriangleQuestion>],
     bases: &[Base],
     programs: &[Program<'_, TriangleQuestion, Coverage>],
 ) -> Option<Mistakes> {
-    let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
+    let is_wrong: Vec<bool> = answered.iter().map(AnsweredQuestion::is_wrong).collect();
     if !is_wrong.contains(&true) {
         return None;
     }
-    let telling = &answered.iter().map(Answered::telling).collect::<Vec<_>>();
+    let telling = &answered.iter().map(AnsweredQuestion::telling).collect::<Vec<_>>();
     // What each base draws, once it is needed.
     let whole: Vec<OnceCell<Option<Mask>>> =
         (0..bases.len() * answered.len()).map(|_| OnceCell::new()).collect();
@@ -433,7 +439,7 @@ fn explain(
     hypotheses.extend(programs.iter().map(|program| {
         program.hypothesis(answered, |_, picture| [Mask::of(picture, 1), Mask::of(picture, 2)])
     }));
-    let seen = || answered.iter().map(common::Seen::triangle).collect();
+    let seen = || answered.iter().map(common::AnswerTraits::triangle).collect();
     let is_near = |i: &usize| {
         fills::metric(&answered[*i].question.corners, fills::FARTHEST) <= i64::from(NEAR_PX) * 256
     };
@@ -457,7 +463,7 @@ pub fn of_lines(
     programs: &[Program<'_, LineQuestion, Vec<[i32; 2]>>],
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
-    let mut answered: Vec<Answered<LineQuestion>> = Vec::new();
+    let mut answered: Vec<AnsweredQuestion<LineQuestion>> = Vec::new();
     let default = LineConvention::default();
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
     let found = found.map(|f| &f.convention);
@@ -481,14 +487,14 @@ pub fn of_lines(
                 let right = lines::of_convention(expected, wide(question.ends), question.window);
                 let Some(right) = right else { continue };
                 let [drawn, twice] = drawn(question, &answer.unwrap_or_default());
-                answered.push(Answered { question: *question, drawn, twice, right });
+                answered.push(AnsweredQuestion { question: *question, drawn, twice, right });
             }
         }
     }
-    if answered.iter().all(Answered::is_blank) {
+    if answered.iter().all(AnsweredQuestion::is_blank) {
         return None;
     }
-    let is_wrong: Vec<bool> = answered.iter().map(Answered::is_wrong).collect();
+    let is_wrong: Vec<bool> = answered.iter().map(AnsweredQuestion::is_wrong).collect();
     let mut bases = vec![*expected];
     let ties =
         LineTie::ALL.map(|tie| LineConvention { rounding: LineRounding::Nearest(tie), ..default });
@@ -502,7 +508,7 @@ pub fn of_lines(
         let parameters = match mistake.parameters {
             Parameters::Octants => {
                 let mut chosen = chosen_by(&is_wrong).into_iter().map(|i| {
-                    let Answered { question, drawn, .. } = &answered[i];
+                    let AnsweredQuestion { question, drawn, .. } = &answered[i];
                     (wide(question.ends), question.window, drawn)
                 });
                 vec![lines::octants(&mut chosen)]
@@ -546,7 +552,7 @@ pub fn of_lines(
     hypotheses.extend(
         programs.iter().map(|program| program.hypothesis(&answered, |q, pixels| drawn(q, pixels))),
     );
-    let seen = || answered.iter().map(common::Seen::line).collect();
+    let seen = || answered.iter().map(common::AnswerTraits::line).collect();
     let is_near =
         |i: &usize| answered[*i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
@@ -559,11 +565,11 @@ impl<Q, Picture> Program<'_, Q, Picture> {
     /// once.
     fn hypothesis<'a>(
         &'a self,
-        answered: &'a [Answered<Q>],
+        answered: &'a [AnsweredQuestion<Q>],
         masks: impl Fn(&Q, &Picture) -> [Mask; 2] + 'a,
     ) -> Hypothesis<'a> {
         let predicts = move |i: usize| {
-            let Answered { question, .. } = &answered[i];
+            let AnsweredQuestion { question, .. } = &answered[i];
             (self.draw)(question).is_some_and(|picture| {
                 let [drawn, twice] = masks(question, &picture);
                 answered[i].is(drawn, twice)
@@ -602,7 +608,7 @@ fn conclude(
     is_wrong: &[bool],
     near: &[usize],
     alone: &dyn Fn(&[usize]) -> usize,
-    seen: &dyn Fn() -> Vec<common::Seen>,
+    seen: &dyn Fn() -> Vec<common::AnswerTraits>,
 ) -> Option<Mistakes> {
     let wrong = is_wrong.iter().filter(|wrong| **wrong).count();
     if wrong == 0 {
@@ -662,7 +668,7 @@ fn with_limits(
 }
 
 /// Where a sample lies in its pixel, in subpixels.
-fn sample_of(convention: &Convention) -> [i32; 2] {
+fn sample_of(convention: &TriangleConvention) -> [i32; 2] {
     match convention.shape {
         Shape::Point { x, y } => [x, y],
         _ => [128, 128],
@@ -673,7 +679,7 @@ fn sample_of(convention: &Convention) -> [i32; 2] {
 fn fill(
     draws: Fill,
     p: i64,
-    base: &Convention,
+    base: &TriangleConvention,
     corners: &Corners,
     window: PixelRect,
     whole: &dyn Fn() -> Option<Mask>,
@@ -713,7 +719,7 @@ fn fill(
 fn pixel(
     draws: Fill,
     p: i64,
-    base: &Convention,
+    base: &TriangleConvention,
     corners: &Corners,
     window: PixelRect,
     [x, y]: [i32; 2],
@@ -740,7 +746,7 @@ fn pixel(
 }
 
 /// Whether a convention draws triangles that turn like this one; those without area are drawn where both windings are.
-fn is_faced(convention: &Convention, corners: &Corners) -> bool {
+fn is_faced(convention: &TriangleConvention, corners: &Corners) -> bool {
     match twice_area(corners) {
         0 => convention.draws == Windings::Both,
         area => convention.draws.draws(area > 0),
@@ -757,7 +763,7 @@ const SAMPLES: [([i32; 2], &str); 4] = [
 
 /// A convention that mistakes are combined with.
 struct Base {
-    convention: Convention,
+    convention: TriangleConvention,
     /// Where its samples lie, and its rule: what is said of it. Nothing of the declared one.
     said: Option<[String; 2]>,
     /// Whether it is the first with its place of the sample.
@@ -765,13 +771,14 @@ struct Base {
 }
 
 impl Base {
-    fn mask(&self, a: &Answered<TriangleQuestion>) -> Option<Mask> {
+    fn mask(&self, a: &AnsweredQuestion<TriangleQuestion>) -> Option<Mask> {
         self.convention.mask(&a.question.corners, a.question.window)
     }
 
     /// Whether it explains all answers, of which some are wrong.
-    fn explains(&self, answered: &[Answered<TriangleQuestion>]) -> bool {
-        answered.iter().any(Answered::is_wrong) && answered.iter().all(|a| a.is_as(self.mask(a)))
+    fn explains(&self, answered: &[AnsweredQuestion<TriangleQuestion>]) -> bool {
+        answered.iter().any(AnsweredQuestion::is_wrong)
+            && answered.iter().all(|a| a.is_as(self.mask(a)))
     }
 
     /// Whether a mistake needs it: one with a rule of its own needs each place once, another one may need none.
@@ -798,9 +805,9 @@ impl Base {
 }
 
 /// What is declared, what was found, and the rules with a name for several places of the sample.
-fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
+fn bases(declared: &TriangleConvention, found: Option<&TriangleConvention>) -> Vec<Base> {
     let mut bases = vec![Base { convention: *declared, said: None, is_first: true }];
-    let mut add = |convention: Convention, said: [String; 2]| {
+    let mut add = |convention: TriangleConvention, said: [String; 2]| {
         if bases.iter().all(|base| base.convention != convention) {
             let is_first = bases.iter().all(|base| base.convention.shape != convention.shape);
             bases.push(Base { convention, said: Some(said), is_first });
@@ -811,7 +818,7 @@ fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
             let shape = Shape::Point { x, y };
             let Some(ties) = Ties::named(rule) else { continue };
             let said = [place.to_owned(), format!(" and follows the {rule} rule")];
-            add(Convention { shape, ties, ..*declared }, said);
+            add(TriangleConvention { shape, ties, ..*declared }, said);
         }
     }
     if let Some(found) = found {
@@ -820,7 +827,7 @@ fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
         if quantum.step > 1 && quantum.rounding == Rounding::Near {
             // No question about conventions has a negative coordinate halfway between two points of a grid.
             let quantum = Quantum { rounding: Rounding::HalfAway, ..quantum };
-            let away = Convention { quantum, ..*found };
+            let away = TriangleConvention { quantum, ..*found };
             add(away, [away.words(), String::new()]);
         }
     }
@@ -828,7 +835,7 @@ fn bases(declared: &Convention, found: Option<&Convention>) -> Vec<Base> {
 }
 
 /// Limits of size between what is drawn and what is not.
-fn limits(answered: &[Answered<TriangleQuestion>]) -> Vec<i64> {
+fn limits(answered: &[AnsweredQuestion<TriangleQuestion>]) -> Vec<i64> {
     let mut limits = Vec::new();
     for metric in 0..fills::METRICS.len() {
         let sizes = |lost: bool| {
@@ -857,16 +864,16 @@ const FITTED: usize = 240;
 
 /// Some of the answers that hypotheses are chosen by: those of triangles that are small, so that slopes do not matter much.
 fn near(
-    answered: &[Answered<TriangleQuestion>],
+    answered: &[AnsweredQuestion<TriangleQuestion>],
     is_wrong: &[bool],
-    declared: &Convention,
+    declared: &TriangleConvention,
 ) -> Vec<scans::DrawnTriangle> {
     let small = |i: &usize| {
         let corners = &answered[*i].question.corners;
         fills::metric(corners, 3) < 64 * 256 && is_faced(declared, corners)
     };
     let all = chosen_by(is_wrong).into_iter().filter(small).map(|i| {
-        let Answered { question, drawn, .. } = &answered[i];
+        let AnsweredQuestion { question, drawn, .. } = &answered[i];
         (cells::places(&question.corners), question.window, *drawn)
     });
     all.take(FITTED).collect()
@@ -874,10 +881,12 @@ fn near(
 
 /// Limits in pixels below which no answer is wrong, by the farthest coordinate of both axes or of one: some numbers before the
 /// first wrong one.
-fn clamped(answered: &[Answered<TriangleQuestion>]) -> Vec<i64> {
+fn clamped(answered: &[AnsweredQuestion<TriangleQuestion>]) -> Vec<i64> {
     let mut limits = Vec::new();
     for metric in fills::FARTHEST..fills::METRICS.len() {
-        let of = |a: &Answered<TriangleQuestion>| fills::metric(&a.question.corners, metric) / 256;
+        let of = |a: &AnsweredQuestion<TriangleQuestion>| {
+            fills::metric(&a.question.corners, metric) / 256
+        };
         let wrong = answered.iter().filter(|a| a.is_wrong()).map(of);
         let Some(least) = wrong.min().filter(|least| *least > i64::from(questions::SIDE_PX)) else {
             continue;

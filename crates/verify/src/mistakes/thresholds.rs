@@ -7,8 +7,8 @@ use super::fills::{FARTHEST, RATIO, decimal};
 use super::questions::{LONGEST_PX, Room};
 use super::{Explanation, lines, sample_of};
 use crate::convention::{
-    Ask, AskLine, Convention, Count, Declarations, LineConvention, LineQuestion, Mask, Mirror,
-    TriangleQuestion,
+    Ask, AskLine, Count, Declarations, LineConvention, LineQuestion, Mask, Mirror,
+    TriangleConvention, TriangleQuestion,
 };
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
@@ -128,13 +128,13 @@ impl Axis {
 }
 
 /// A shape that was asked for.
-struct Seen {
+struct ShapeAnswer {
     measure: i64,
     is_wrong: bool,
 }
 
 /// Asks for some shapes whose measures lie between two numbers; none where it may not go on.
-type Probe<'a> = dyn FnMut(i64, i64) -> Option<Vec<Seen>> + 'a;
+type Probe<'a> = dyn FnMut(i64, i64) -> Option<Vec<ShapeAnswer>> + 'a;
 
 /// What a search came to.
 struct LimitSearch {
@@ -151,7 +151,7 @@ struct LimitSearch {
 
 /// The last measure of which all are right and the first that is wrong; nothing where there is no such limit.
 fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<LimitSearch> {
-    let least = |seen: &[Seen]| seen.iter().filter(|s| s.is_wrong).map(|s| s.measure).min();
+    let least = |seen: &[ShapeAnswer]| seen.iter().filter(|s| s.is_wrong).map(|s| s.measure).min();
     let mut right_to = 2 * low;
     if high < 2 * right_to {
         return None;
@@ -188,7 +188,7 @@ fn search(low: i64, high: i64, probe: &mut Probe<'_>) -> Option<LimitSearch> {
     is_limit.then_some(LimitSearch { right_to, wrong_from, right, wrong, first, is_sharp })
 }
 
-fn count(seen: &[Seen]) -> Count {
+fn count(seen: &[ShapeAnswer]) -> Count {
     let wrong = seen.iter().filter(|seen| seen.is_wrong).count();
     Count { drawn: wrong as u64, of: seen.len() as u64 }
 }
@@ -217,7 +217,7 @@ fn probe<S>(
     [from, to]: [i64; 2],
     make: impl Fn(&mut Room, i64) -> (i64, S),
     are_wrong: impl FnOnce(&[S]) -> Option<Vec<Option<bool>>>,
-) -> Option<Vec<Seen>> {
+) -> Option<Vec<ShapeAnswer>> {
     let shapes = (0..AT_ONCE).map(|number| {
         let measure = between(room, from, to, number);
         make(room, measure)
@@ -227,7 +227,7 @@ fn probe<S>(
     let are_wrong = are_wrong(&shapes)?;
     let seen = measures.into_iter().zip(are_wrong);
     Some(
-        seen.filter_map(|(measure, is_wrong)| Some(Seen { measure, is_wrong: is_wrong? }))
+        seen.filter_map(|(measure, is_wrong)| Some(ShapeAnswer { measure, is_wrong: is_wrong? }))
             .collect(),
     )
 }
@@ -236,7 +236,7 @@ fn probe<S>(
 pub(super) fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
-    expected: &Convention,
+    expected: &TriangleConvention,
     goes_on: &dyn Fn() -> bool,
 ) -> Vec<Threshold> {
     let mut room = Room::new(known, 2);
@@ -297,7 +297,7 @@ pub(super) fn of_triangles(
 pub(super) fn near(
     limits: impl Iterator<Item = (usize, bool, i64)>,
     known: &Declarations,
-    expected: &Convention,
+    expected: &TriangleConvention,
 ) -> Vec<TriangleQuestion> {
     let mut room = Room::new(known, 4);
     let mut questions = Vec::new();
@@ -362,7 +362,7 @@ struct Shape {
 
 impl Shape {
     /// Whether it was drawn as expected; nothing where that is open.
-    fn is_drawn(&self, picture: &Coverage, expected: &Convention) -> Option<bool> {
+    fn is_drawn(&self, picture: &Coverage, expected: &TriangleConvention) -> Option<bool> {
         let [x, y] = self.moved_px;
         let back = self
             .question
@@ -608,7 +608,7 @@ mod tests {
             };
             questions.iter().map(draw).collect::<Vec<_>>()
         };
-        of_triangles(&mut ask, &Declarations::default(), &Convention::default(), &|| true)
+        of_triangles(&mut ask, &Declarations::default(), &TriangleConvention::default(), &|| true)
     }
 
     fn sides(corners: &Corners) -> [i64; 2] {

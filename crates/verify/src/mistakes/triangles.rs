@@ -4,7 +4,7 @@ use super::cells;
 use super::fills::{self, Words};
 use super::scans::{self, Scan};
 use super::{Mistake, Parameters, border};
-use crate::convention::{Convention, Mask, Quantum, Rounding, Ties, Windings};
+use crate::convention::{Mask, Quantum, Rounding, Ties, TriangleConvention, Windings};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -20,9 +20,9 @@ pub(super) enum Fill {
     /// The picture is right; these pixels of it are drawn twice.
     Twice(fn(&Mask, &Corners, PixelRect, i64) -> Mask),
     /// The whole picture, from the place of the sample; the rule for ties is its own.
-    Sampled(Reach, fn(&Corners, PixelRect, &Convention, i64) -> Mask),
+    Sampled(Reach, fn(&Corners, PixelRect, &TriangleConvention, i64) -> Mask),
     /// The whole picture, from the place of the sample and the rule for ties.
-    Ruled(Reach, fn(&Corners, PixelRect, &Convention, i64) -> Mask),
+    Ruled(Reach, fn(&Corners, PixelRect, &TriangleConvention, i64) -> Mask),
     /// The whole picture, by a rule of its own.
     Own(fn(&Corners, PixelRect, i64) -> Mask),
 }
@@ -514,7 +514,7 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
             let (metric, below, limit) = size(p);
             let is_small = below && fills::metric(corners, metric) < limit;
             let draws = if is_small { Windings::Both } else { base.draws };
-            Convention { draws, ..*base }.mask(corners, window).unwrap_or_default()
+            TriangleConvention { draws, ..*base }.mask(corners, window).unwrap_or_default()
         }),
     },
     Mistake {
@@ -1355,7 +1355,7 @@ fn clamped_to(p: i64, side_px: i32) -> [i32; 2] {
     [low * SUBPIXELS, high * SUBPIXELS]
 }
 
-impl Convention {
+impl TriangleConvention {
     /// The same with a rule for ties that has a name.
     fn with_rule(&self, rule: &str) -> Self {
         Self { ties: Ties::named(rule).unwrap_or(self.ties), ..*self }

@@ -1052,11 +1052,11 @@ const TRIANGLES: u64 = 100;
 const SEED: u64 = 7;
 
 /// The fragments of a triangle that an engine gives, each within the bounds of depth and both attributes or not.
-pub type Valued = (Vec<Fragment<DVec2>>, [f64; 3], bool);
+pub type BoundedFragments = (Vec<Fragment<DVec2>>, [f64; 3], bool);
 
 /// Why values are wrong; `ask` gives what is compared of a triangle, how far its values may be off, and whether they are wrong.
-pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<Valued>) -> Option<Mistakes> {
-    let mut all: Vec<(Triangle, Valued)> = Vec::new();
+pub fn of_engine(mut ask: impl FnMut(&Triangle) -> Option<BoundedFragments>) -> Option<Mistakes> {
+    let mut all: Vec<(Triangle, BoundedFragments)> = Vec::new();
     for family in cases::families().filter(|family| FAMILIES.contains(&family.name)) {
         for index in 0..TRIANGLES {
             let Shape::Triangles { list, .. } = family.case(SEED, index).shape else { continue };

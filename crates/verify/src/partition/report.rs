@@ -309,7 +309,7 @@ pub fn judge_partitions<T: Tessellate + Sync>(
 /// By these options no polygon was judged.
 #[doc(hidden)]
 pub fn judge_partitions_of(
-    answer: &Answered<'_>,
+    answer: &AskTessellator<'_>,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
     let refused = |Refused(why): Refused| Fault::saying(FaultKind::Refused, why);
@@ -326,7 +326,7 @@ pub fn judge_partitions_of(
 
 /// What is made of a polygon, if it is taken. Fewer answers than polygons are those of whose time is up.
 type Answer<E> = Option<Result<Vec<Triangle>, E>>;
-type Answered<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Refused>> + Sync + 'a;
+type AskTessellator<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Refused>> + Sync + 'a;
 type FindFaults<'a> = dyn Fn(&[Polygon]) -> Vec<Answer<Fault>> + Sync + 'a;
 
 /// The triangles of polygons and what was found about them; nothing where a polygon is not valid or not accepted.

@@ -77,14 +77,14 @@ impl Drop for Pool {
 
 /// Commands that are recorded once and run often by the painter that recorded them; what a benchmark
 /// times.
-pub struct Prepared {
+pub struct RecordedCommands {
     pool: Arc<Pool>,
     commands: vk::CommandBuffer,
     // What every run reads.
     _vertices: Buffer,
 }
 
-impl Drop for Prepared {
+impl Drop for RecordedCommands {
     fn drop(&mut self) {
         // What was recorded is not in use any more when it goes, with the fields.
         self.pool.device.wait_idle();
@@ -183,14 +183,14 @@ impl Painter {
     }
 
     /// Records a list on one page, to be run often; what it draws is not read back.
-    pub fn prepare(&mut self, kind: Kind, draws: &[Draw]) -> Result<Prepared, Error> {
+    pub fn prepare(&mut self, kind: Kind, draws: &[Draw]) -> Result<RecordedCommands, Error> {
         self.check(kind, 1, draws)?;
         let bytes = vertex_bytes(kind, draws);
         let usage = vk::BufferUsageFlags::VERTEX_BUFFER;
         let mut vertices = Buffer::new(&self.device, bytes.len().max(1), usage)?;
         vertices.write(&bytes);
         let commands = self.record(kind, 0..1, draws, &vertices, None)?;
-        Ok(Prepared { pool: Arc::clone(&self.pool), commands, _vertices: vertices })
+        Ok(RecordedCommands { pool: Arc::clone(&self.pool), commands, _vertices: vertices })
     }
 
     /// Submits what this painter prepared, and waits for it.
@@ -200,7 +200,7 @@ impl Painter {
     ///
     /// # Panics
     /// If another painter prepared it.
-    pub fn run_prepared(&mut self, prepared: &Prepared) -> Result<(), Error> {
+    pub fn run_prepared(&mut self, prepared: &RecordedCommands) -> Result<(), Error> {
         assert!(Arc::ptr_eq(&self.pool, &prepared.pool), "each painter runs what it prepared");
         if self.given_up {
             return Err(Error::Lost("drawing after a failure"));

@@ -41,13 +41,13 @@ impl DeviceReport {
 }
 
 /// The device as somebody who is asked, while somebody else still holds it.
-struct Shared(Arc<Mutex<Gpu>>, Declared);
+struct SharedDevice(Arc<Mutex<Gpu>>, Declared);
 
 fn lock(gpu: &Mutex<Gpu>) -> MutexGuard<'_, Gpu> {
     gpu.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Subject for Shared {
+impl Subject for SharedDevice {
     fn declared(&self) -> &Declared {
         &self.1
     }
@@ -91,7 +91,7 @@ pub fn judge_with(
     let plant = gpu.plant_name();
     let declared = gpu.declared().clone();
     let gpu = Arc::new(Mutex::new(gpu));
-    let mut shared = Shared(Arc::clone(&gpu), declared.clone());
+    let mut shared = SharedDevice(Arc::clone(&gpu), declared.clone());
     let mut options = options.clone();
     options.families = families(&options.families);
     options.terms.remember = true;

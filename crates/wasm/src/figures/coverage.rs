@@ -1,7 +1,7 @@
 //! Figures about which pixels belong to a shape.
 
 use super::drawing::{Drawing, Panel, Point};
-use super::{Given, LiveFigure, Predict, cover, number, snapped, with_triangles};
+use super::{FigureInput, LiveFigure, Predict, cover, number, snapped, with_triangles};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::snap;
@@ -11,7 +11,7 @@ use rasterproof_faults::published::{Published as _, bare};
 use rasterproof_registry::engines::Engine;
 
 /// A square against the centres of the pixels.
-pub(super) fn one_sample(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn one_sample(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let ([x, y], low) = (given.at[0], 0.6);
     let square = [[[low, low], [x, low], [x, y]], [[low, low], [x, y], [low, y]]];
     let panel = Panel::middle(5, 5, 44.0, 10.0);
@@ -35,7 +35,7 @@ pub(super) fn one_sample(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// A position between points of the grid, and the point that it is snapped to.
-pub(super) fn snap_to_even(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn snap_to_even(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let [x, y] = given.at[0];
     let sub = |v: f64| snap(v / 256.0).map_err(|refusal| refusal.to_string());
     let right = [sub(x)?, sub(y)?];
@@ -67,7 +67,7 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<LiveFigure, String> {
     })
 }
 
-pub(super) fn edge_sign(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn edge_sign(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let [a, b] = [given.at[0], given.at[1]];
     let panel = Panel::middle(9, 7, 36.0, 10.0);
     let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
@@ -97,7 +97,7 @@ pub(super) fn edge_sign(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// What a strict rule leaves empty along the edge that two triangles share.
-pub(super) fn shared_edge(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn shared_edge(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let corner = given.at[0];
     let square = [[[1.0, 1.0], [5.0, 1.0], corner], [[1.0, 1.0], corner, [1.0, 5.0]]];
     let panel = Panel::middle(6, 6, 36.0, 10.0);
@@ -123,7 +123,7 @@ pub(super) fn shared_edge(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// Which of two triangles has the samples on their common edge.
-pub(super) fn edge_owner(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn edge_owner(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let (p, q) = ([1.5, 3.5], given.at[0]);
     let triangles = [[p, [4.0, 0.5], q], [p, q, [4.0, 6.5]]];
     let corners = snapped(&triangles)?;
@@ -166,7 +166,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// The pixels of one row between two edges.
-pub(super) fn row_span(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn row_span(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let corner = [given.at[0][0], 4.0];
     let triangle = [[0.0, 0.0], [0.0, 4.0], corner];
     let panel = Panel::middle(6, 5, 44.0, 10.0);
@@ -197,7 +197,7 @@ pub(super) fn row_span(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// The row of the middle corner, which a triangle cut in two parts draws twice.
-pub(super) fn middle_row(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn middle_row(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let middle = given.at[0];
     let triangle = [[2.5, 11.5], middle, [2.5, 4.5]];
     let panel = Panel::new([24.0, 10.0], 26.0, [1, 3, 13, 13]);

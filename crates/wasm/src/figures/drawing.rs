@@ -5,7 +5,7 @@ use std::fmt::{Arguments, Write as _};
 use glam::DVec3;
 use serde_json::Value;
 
-use super::{Given, fill};
+use super::{FigureInput, fill};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::target::to_colour;
@@ -242,7 +242,7 @@ impl Drawing {
     }
 
     /// A grip on a scale of its own below the picture, for a value that has no place in it.
-    pub fn slider(&mut self, given: &Given<'_>, grip: usize, top: f64, says: &str) {
+    pub fn slider(&mut self, given: &FigureInput<'_>, grip: usize, top: f64, says: &str) {
         let ([low, _], [high, _]) = (given.grips[grip].low, given.grips[grip].high);
         let (left, right) = (110.0, WIDTH - 20.0);
         let scale = (right - left) / (high - low);

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::drawing::{Drawing, Panel};
-use super::{Given, LiveFigure, Predict, number};
+use super::{FigureInput, LiveFigure, Predict, number};
 use rasterproof_core::angle::sin_cos;
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
@@ -17,7 +17,7 @@ fn direction(degrees: f64) -> DVec3 {
 }
 
 /// Half of a cylinder, its normals, and how bright its pixels are.
-pub(super) fn brightest(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn brightest(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let angle = given.at[0][0];
     let light = Light { towards: direction(angle), ambient: 0.2, diffuse: 0.8 };
     let panel = Panel::middle(13, 1, 26.0, 150.0);
@@ -52,7 +52,7 @@ pub(super) fn brightest(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// A normal between two others, as it is and brought back to length 1.
-pub(super) fn short_normal(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn short_normal(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let angle = given.at[0][0];
     let [a, b] = [direction(-angle / 2.0), direction(angle / 2.0)];
     let light = Light { towards: DVec3::Y, ambient: 0.0, diffuse: 1.0 };
@@ -92,7 +92,7 @@ pub(super) fn short_normal(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// A place between two texels, looked up in both ways.
-pub(super) fn texel(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn texel(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let u = given.at[0][0];
     let texels = [10, 20, 30, 40].map(|value| [value; 3]);
     let texture = || {

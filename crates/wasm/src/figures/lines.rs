@@ -1,7 +1,7 @@
 //! Figures about lines.
 
 use super::drawing::{Drawing, Panel};
-use super::{Given, LiveFigure, Predict};
+use super::{FigureInput, LiveFigure, Predict};
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::PixelPoint;
@@ -11,7 +11,12 @@ use rasterproof_verify::cases::named::plain_line;
 
 type Pixels = Vec<[i32; 2]>;
 
-pub(super) fn drawn(given: &Given<'_>, from: [i32; 2], to: [i32; 2], window: PixelRect) -> Pixels {
+pub(super) fn drawn(
+    given: &FigureInput<'_>,
+    from: [i32; 2],
+    to: [i32; 2],
+    window: PixelRect,
+) -> Pixels {
     let line = plain_line(PixelPoint::new(from[0], from[1]), PixelPoint::new(to[0], to[1]));
     let mut pixels = Vec::new();
     given.pen.draw(&line, window, |f| pixels.push([f.x_px, f.y_px]));
@@ -19,7 +24,7 @@ pub(super) fn drawn(given: &Given<'_>, from: [i32; 2], to: [i32; 2], window: Pix
 }
 
 /// A line drawn both ways, by a drawer whose ties depend on the direction.
-pub(super) fn there_and_back(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn there_and_back(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(10, 6, 34.0, 10.0);
     let published = |from: [i32; 2], to: [i32; 2]| -> Result<Pixels, String> {
@@ -65,7 +70,7 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// Asks which pixels a line from pixel (0, 0) to the grip draws.
-pub(super) fn line_pixels(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn line_pixels(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(9, 6, 36.0, 10.0);
     let line = drawn(given, [0, 0], end, panel.window);

@@ -74,7 +74,7 @@ pub static ALL: LazyLock<Vec<Figure>> = LazyLock::new(|| {
 });
 
 /// The positions of the grips, whether the reader has predicted, and the engines that draw the pixels.
-struct Given<'a> {
+struct FigureInput<'a> {
     grips: &'a [Grip],
     at: &'a [Point],
     is_answered: bool,
@@ -100,7 +100,7 @@ struct LiveFigure {
     link: Option<String>,
 }
 
-type Draw = fn(&Given<'_>) -> Result<LiveFigure, String>;
+type Draw = fn(&FigureInput<'_>) -> Result<LiveFigure, String>;
 
 const DRAWN_BY: [(&str, Draw); 28] = [
     ("one-sample", coverage::one_sample),
@@ -234,7 +234,7 @@ impl Figure {
             let entry = entry.ok_or_else(|| format!("nobody is called {name}"))?;
             (fill, pen) = (entry.engine.unwrap_or(fill), entry.line_engine.unwrap_or(pen));
         }
-        let given = Given { grips: &self.grips, at: &at, is_answered, fill, pen };
+        let given = FigureInput { grips: &self.grips, at: &at, is_answered, fill, pen };
         let draw = DRAWN_BY.iter().find(|(name, _)| *name == self.name);
         let (_, draw) = draw.ok_or_else(|| format!("nobody draws {}", self.name))?;
         let drawn = draw(&given)?;

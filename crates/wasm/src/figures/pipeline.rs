@@ -5,7 +5,9 @@ use serde_json::json;
 
 use super::drawing::{Drawing, Panel, Point, WIDTH};
 use super::lines::drawn;
-use super::{Given, LiveFigure, Predict, answer_value, cover, number, snapped, with_triangles};
+use super::{
+    FigureInput, LiveFigure, Predict, answer_value, cover, number, snapped, with_triangles,
+};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::geometry::twice_area;
@@ -19,7 +21,7 @@ use rasterproof_render::pipeline::transform::{about, frustum};
 const SCREEN: u32 = 20;
 
 /// A triangle seen from the side, what the near plane leaves of it, and that on the screen.
-pub(super) fn near_corners(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn near_corners(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let (w, near) = (given.at[0][0], given.at[1][0]);
     let corners = [[-0.7, -0.8, 2.0], [0.8, 0.1, 2.6], [-0.1, 0.8, w]];
     let answer = answer_value(json!({
@@ -73,7 +75,7 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// Five equal boards along a road.
-pub(super) fn boards(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn boards(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let spacing = given.at[0][0];
     let size = PixelRect::window(48, 48);
     let panel = Panel::new([12.0, 10.0], 7.0, [0, 0, 48, 27]);
@@ -131,7 +133,7 @@ fn placed(window: PixelRect, position: DVec4) -> Result<Point, String> {
 }
 
 /// An edge that may end behind the eye, in a picture of one row.
-pub(super) fn divide_first(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn divide_first(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let end = given.at[0][1];
     let near = 1.0;
     let camera = frustum(-1.0, 1.0, -1.0, 1.0, near, 10.0).map_err(|error| error.to_string())?;
@@ -195,14 +197,14 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// The columns between two divided ends, whatever their w.
-fn naive_columns(given: &Given<'_>, ends: &[DVec4; 2], window: PixelRect) -> Vec<i32> {
+fn naive_columns(given: &FigureInput<'_>, ends: &[DVec4; 2], window: PixelRect) -> Vec<i32> {
     let columns = ends.map(|p| ((p.x / p.w + 1.0) / 2.0 * f64::from(window.width())).floor());
     let [from, to] = columns.map(|x| x.clamp(-100.0, 100.0) as i32);
     drawn(given, [from, 0], [to, 0], window).iter().map(|p| p[0]).collect()
 }
 
 /// A viewport that multiplies by the size less 1.
-pub(super) fn viewport_size(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn viewport_size(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let [u, v] = given.at[0];
     let panel = Panel::middle(5, 5, 44.0, 10.0);
     let square = [[-1.0, -1.0], [u, -1.0], [u, v], [-1.0, v]];
@@ -235,7 +237,7 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<LiveFigure, String> {
     })
 }
 
-pub(super) fn to_pixel(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn to_pixel(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let ([x, z], y) = (given.at[0], 1.0);
     let panel = Panel::new([186.0, 16.0], 32.0, [0, 0, 5, 5]);
     let camera = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).map_err(|error| error.to_string())?;
@@ -271,7 +273,7 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// Two triangles, of which those that run counter-clockwise are left out.
-pub(super) fn winding(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn winding(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let c = given.at[0];
     let triangles = [[[2.0, 2.0], [9.0, 3.0], c], [[18.0, 2.0], [11.0, 7.0], [18.0, 8.0]]];
     let panel = Panel::middle(20, 10, 17.0, 10.0);
@@ -306,7 +308,7 @@ pub(super) fn winding(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// A triangle thinner than a subpixel, which snapping turns round.
-pub(super) fn thin_turn(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn thin_turn(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     // The heights in subpixels.
     let heights = [0.0, given.at[0][1], 1.1];
     let corners = [0, 1, 2].map(|i| [i as f64, heights[i] / 256.0]);
@@ -344,7 +346,7 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// A square that is moved and scaled.
-pub(super) fn order_matters(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn order_matters(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let (by, times) = (given.at[0][0], given.at[1][0]);
     let shift = DMat4::from_translation(DVec3::new(by, 0.0, 0.0));
     let scale = DMat4::from_scale(DVec3::splat(times));
@@ -384,7 +386,7 @@ pub(super) fn order_matters(given: &Given<'_>) -> Result<LiveFigure, String> {
     })
 }
 
-pub(super) fn turn_about(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn turn_about(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let ([x, y], degrees) = (given.at[0], given.at[1][0]);
     let centre = DVec3::new(x, y, 0.0);
     let turn = about(centre, turn_z(degrees.to_radians()));

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::drawing::{Drawing, Panel, Point};
-use super::{Given, LiveFigure, Predict, number, snapped, with_triangles};
+use super::{FigureInput, LiveFigure, Predict, number, snapped, with_triangles};
 use crate::answer::along;
 use rasterproof_core::contract::Interpolate as _;
 use rasterproof_core::frame::Frame;
@@ -63,7 +63,7 @@ fn grey(value: f64) -> glam::DVec3 {
 }
 
 /// The weights of the corners at a pixel, as areas.
-pub(super) fn weights(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn weights(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let p = given.at[0];
     let corners = [[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]];
     let panel = Panel::middle(9, 8, 28.0, 26.0);
@@ -121,7 +121,7 @@ pub(super) fn weights(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// Colours that wander to another corner, since each weight is given to a wrong one.
-pub(super) fn wrong_corner(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn wrong_corner(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let corners = [given.at[0], [6.0, 1.0], [10.5, 8.5]];
     let colours = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
     let valued = [0, 1, 2].map(|i| {
@@ -166,7 +166,7 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// A floor whose pattern is interpolated without w, beside the right one.
-pub(super) fn affine_kink(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn affine_kink(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let far = given.at[0][0];
     let floor = [
         [2.0, 29.0, 1.0, 0.0, 0.0, 0.0],
@@ -215,7 +215,7 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// The pixels along an edge: its value by the share on the screen, and by the share in space.
-pub(super) fn value_midway(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn value_midway(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let far = given.at[0][0];
     let pairs = along(given.pen, [1.0, far], 12)?;
     let mut drawing = Drawing::new(200.0, given.is_answered);
@@ -240,7 +240,7 @@ pub(super) fn value_midway(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// A rod from above, and where its middle appears in the picture.
-pub(super) fn rod_middle(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn rod_middle(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let (near, far) = (given.at[0][0], given.at[1][0]);
     let shares = along(given.pen, [near, far], 12)?;
     let off = |pair: &[f64; 2]| (pair[1] - 0.5).abs();
@@ -321,7 +321,7 @@ fn depth_link(width: u32, first: [f64; 2], second: [f64; 2]) -> String {
 }
 
 /// A slanted surface and an upright one, pixel by pixel.
-pub(super) fn nearer(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn nearer(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let b = given.at[0][1];
     // With the near plane at 10 and the far plane at 200: 0 at 10, 1 at 200.
     let depth = |z: f64| 200.0 / 190.0 * (1.0 - 10.0 / z);
@@ -379,7 +379,7 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<LiveFigure, String> {
 }
 
 /// Two surfaces less than a step of the stored depth apart.
-pub(super) fn z_fighting(given: &Given<'_>) -> Result<LiveFigure, String> {
+pub(super) fn z_fighting(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let gap = given.at[0][0];
     let step = 1.0 / f64::from((1u32 << 24) - 1);
     // The depth rises by 0.3 of a step from pixel to pixel.

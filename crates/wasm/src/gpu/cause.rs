@@ -10,7 +10,7 @@ use super::subjects::triangle;
 use super::{Device, Layout, Topic};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::SUBPIXELS;
-use rasterproof_verify::comparison::{Cause as Found, Convention};
+use rasterproof_verify::comparison::{self, Convention};
 use rasterproof_verify::convention::{Ask, Declarations, TriangleQuestion};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -98,7 +98,7 @@ impl Cause {
                 window_px: (LAYOUT.cell as u32, LAYOUT.cell as u32),
                 ..Declarations::from(&declared)
             };
-            let found = Found::by_asking(asked, &known, &declared);
+            let found = comparison::Cause::by_asking(asked, &known, &declared);
             if asked.waiting.is_empty() {
                 return Ok(json!({ "cause": found.headline(), "asked": asked.answered.len() }));
             }

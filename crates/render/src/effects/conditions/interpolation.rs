@@ -12,7 +12,7 @@ use crate::effects::plan::{Attributes, Decision, Rule};
 use crate::effects::primitive::{Piece, Prepared, uvs};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::opacity::Drawn;
-use crate::pipeline::physical::Sampled;
+use crate::pipeline::physical::TextureRead;
 use crate::scene::{Item, Shading};
 
 /// The attributes of an item that may be interpolated, and whether only where they vary.
@@ -62,7 +62,7 @@ pub fn may_be_plain(rule: &Rule, opacity: Drawn) -> bool {
 /// Whether all texels of a texture have one colour that the fragments of a piece may read: those between the texture coordinates
 /// of its corners and beside them, as far as a filter reads, and [`around`] them at each level.
 pub fn is_plain(
-    (texture, is_second): Sampled<'_>,
+    (texture, is_second): TextureRead<'_>,
     rule: &Rule,
     item: &Prepared<'_>,
     piece: &Piece,
@@ -76,7 +76,7 @@ pub fn is_plain(
 }
 
 /// The same, however the texture is read by the rule.
-pub fn is_plain_in(read: Sampled<'_>, rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> bool {
+pub fn is_plain_in(read: TextureRead<'_>, rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> bool {
     is_plain(read, rule, item, piece, any_reads(rule))
 }
 

@@ -8,7 +8,7 @@ use crate::effects::plan::{Attributes, Rule};
 use crate::effects::primitive::{Piece, Prepared, has_one_w, uvs};
 use crate::effects::{Effect, Mode};
 use crate::pipeline::footprint::Footprint;
-use crate::pipeline::physical::Sampled;
+use crate::pipeline::physical::TextureRead;
 use crate::pipeline::texture::Texture;
 use glam::DVec2;
 use rasterproof_core::arrays::MapArray as _;
@@ -38,7 +38,7 @@ pub const CONDITION: Condition = Condition {
 /// The footprint of a piece in a texture, and what it is made of. Where w is the same at all corners it is as if divided by,
 /// whether it is or not, so that the level keeps its bits.
 pub fn footprint(
-    (texture, is_second): Sampled<'_>,
+    (texture, is_second): TextureRead<'_>,
     piece: &Piece,
     perspective: bool,
 ) -> (Footprint, [f64; 3], [DVec2; 3]) {
@@ -90,7 +90,7 @@ pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece, samples: i64)
 }
 
 /// About how many texels lie between the texture coordinates of the corners of a piece.
-fn texels((texture, is_second): Sampled<'_>, piece: &Piece) -> f64 {
+fn texels((texture, is_second): TextureRead<'_>, piece: &Piece) -> f64 {
     let [a, b, c] = uvs(piece, is_second);
     let (width, height) = texture.size();
     (b - a).perp_dot(c - a).abs() / 2.0 * f64::from(width) * f64::from(height)
@@ -102,7 +102,7 @@ pub const MOST_TEXELS: f64 = (1 << 16) as f64;
 /// How many texels beside the texture coordinates of a fragment a texture is read at most, and up to which level: with `levels` up to
 /// that of the longest derivative, and with `taps` up to half of it away, which is as far as a tap is moved. Nothing where that is not known.
 pub fn around(
-    read: Sampled<'_>,
+    read: TextureRead<'_>,
     rule: &Rule,
     item: &Prepared<'_>,
     piece: &Piece,
