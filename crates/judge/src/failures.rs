@@ -81,17 +81,22 @@ pub fn failures(
     };
     let news: Vec<&Failing> = found.failing.iter().filter(|f| !is_known(f)).collect();
     let of = |name: &str| news.iter().find(|f| f.property == name);
-    let firsts = rows.into_iter().filter_map(|row| of(row.name));
+    let firsts: Vec<&Failing> = rows.into_iter().filter_map(|row| of(row.name)).copied().collect();
     let mut program = Spending { asked: program, spent: Duration::ZERO };
     let mut shown: Vec<Failure> = Vec::new();
     let mut kinds: Vec<Kind> = Vec::new();
-    for (done, failing) in firsts.enumerate() {
+    for (done, failing) in firsts.iter().enumerate() {
+        // The time for all of them is shared among those that are still to be made smaller, so that none is left without any.
+        let left = (2 * options.terms.patience).saturating_sub(program.spent);
         // Beyond as many searches as cases are shown, others are for what is still to be seen.
-        let is_over = done >= MOST_SHOWN && program.spent >= options.terms.patience;
-        if shown.len() == MOST_SHOWN || is_over {
+        if shown.len() == MOST_SHOWN || done >= MOST_SHOWN && left.is_zero() {
             break;
         }
-        let Some(failure) = failure(&mut program, found, failing, options, truth) else { continue };
+        let to_do = (firsts.len() - done).min(MOST_SHOWN - shown.len());
+        let patience = options.terms.patience.min(left / to_do as u32);
+        let Some(failure) = failure(&mut program, found, failing, patience, options, truth) else {
+            continue;
+        };
         let kind = Kind::of(&failure, truth.declared.convention.sample);
         match kinds.iter().position(|known| *known == kind) {
             Some(at) => shown[at].evidence.also.push(failing.property),
@@ -213,6 +218,7 @@ fn failure(
     program: &mut Spending<'_>,
     found: &RunFindings,
     failing: &Failing,
+    patience: Duration,
     options: &Options,
     truth: &Truth,
 ) -> Option<Failure> {
@@ -225,8 +231,7 @@ fn failure(
     let may_be = |smaller: &Case| leaves || !adapt_case::leaves_window(smaller);
     let first = AskedCase::of(program, check, &case, truth);
     let was_asked = !first.is_late();
-    let (seed, patience) = (options.seed, options.terms.patience.saturating_sub(program.spent));
-    let search = Search { check, truth, seed, patience, may_be: &may_be };
+    let search = Search { check, truth, seed: options.seed, patience, may_be: &may_be };
     let mut failure = search.smallest(program, failing, case, first);
     if !was_asked {
         let described = found.described.get(&failing.name());
