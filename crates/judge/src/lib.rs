@@ -59,8 +59,9 @@ pub type Options = rasterproof_verify::judge::Options<String, Asking>;
 /// What is done about failing cases of a program.
 #[derive(Clone, Debug)]
 pub struct Asking {
-    /// How long the program may take to answer while the smallest failing cases are looked for, of all properties together; and how
-    /// long the cause of each kind of mistake is looked for.
+    /// How long the program may take to answer while the smallest case of a property is looked for, twice as long for all
+    /// properties together; and how long the cause of each kind of mistake is looked for. Where the time is limited, all
+    /// smallest cases together may take half of it.
     pub patience: Duration,
     /// Every case and every failure is remembered, for a baseline.
     pub remember: bool,
