@@ -84,7 +84,7 @@ pub fn failures(
     let firsts: Vec<&Failing> = rows.into_iter().filter_map(|row| of(row.name)).copied().collect();
     let mut program = Spending { asked: program, spent: Duration::ZERO };
     let patience = options.terms.patience;
-    // Where the time is limited, so much is left for smaller cases and causes together.
+    // Of a limited time `patience` is what is left, and half of that is for the causes.
     let in_all = if options.time_limit.is_some() { patience / 2 } else { 2 * patience };
     let mut shown: Vec<Failure> = Vec::new();
     let mut kinds: Vec<Kind> = Vec::new();
@@ -528,7 +528,7 @@ mod tests {
         let shrunk: Vec<_> = verdict.failures.iter().map(|f| f.evidence.shrunk).collect();
         assert!(shrunk.len() > 1, "{shrunk:?}");
         assert!(shrunk.iter().all(|said| said.ends_with("the time was up")), "{shrunk:?}");
-        // Each gets a part of the time, also the last one.
+        // The first one has not the whole time, but enough to begin.
         assert_eq!(shrunk[0], "shrunk until the time was up");
     }
 

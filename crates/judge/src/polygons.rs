@@ -102,9 +102,8 @@ pub fn polygon_that_asks(
         [] => Family::ALL.to_vec(),
         some => some.to_vec(),
     };
-    let indices = options.only.map_or(0..options.cases, |index| index..index + 1);
     for family in families {
-        for index in indices.clone() {
+        for index in options.numbers() {
             let polygon = family.polygon(options.seed, index, declared.tessellation.coordinates);
             let question = Question { width: 1, height: 1, of: Asked::Polygon(polygon) };
             if question.text(1) == request {
