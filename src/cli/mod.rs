@@ -59,6 +59,7 @@ use rasterproof_render::scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases;
+use rasterproof_verify::facts::{self, design};
 
 pub mod exit {
     pub const AGREES: u8 = 0;
@@ -149,7 +150,11 @@ enum Command {
     /// Ask the exercises of the pages, and explain each answer with its pixel grid
     Quiz(quiz::QuizArguments),
     /// List families, named cases, engines, planted faults and invariants
-    List,
+    List {
+        /// List the facts of questions instead, of which the families of designs have every two together
+        #[arg(long)]
+        facts: bool,
+    },
 }
 
 /// Something wrong with the input: what, and what to do about it. Its exit status is 2.
@@ -351,7 +356,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
 /// that they start.
 fn uses_pool(command: &Command) -> bool {
     use Command::{Course, Engine, Judge, List, Quiz};
-    !matches!(command, Engine { .. } | Judge(_) | Course(_) | Quiz(_) | List)
+    !matches!(command, Engine { .. } | Judge(_) | Course(_) | Quiz(_) | List { .. })
 }
 
 /// Whether programs read what a command prints, so that its lines are not broken.
@@ -415,7 +420,8 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
             playground::run(("your-gpu", &rasterproof_playground::YOUR_GPU), arguments, streams)
         }
         Command::Quiz(arguments) => quiz::run(arguments, streams),
-        Command::List => list(streams),
+        Command::List { facts: false } => list(streams),
+        Command::List { facts: true } => list_facts(streams),
     }
 }
 
@@ -452,6 +458,25 @@ fn list(streams: &mut Streams<'_>) -> Status {
     ];
     #[cfg(feature = "vulkan")]
     tables.extend(vulkan::listed());
+    page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
+}
+
+/// The facts of each kind of question, each with its classes.
+fn list_facts(streams: &mut Streams<'_>) -> Status {
+    let mut tables = Vec::new();
+    for topic in &facts::TOPICS {
+        let mut rows = Vec::new();
+        for fact in topic.facts() {
+            rows.push(Row::of(&[&fact.name, &fact.classes.join(" · ")]));
+        }
+        let impossible = design::impossible(topic).len();
+        let title = format!(
+            "Facts of the family {}: {} classes, {impossible} pairs of which cannot occur",
+            topic.name,
+            topic.count()
+        );
+        tables.push(Table::new(&title, "~fact 40 | ~classes 1", rows));
+    }
     page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
 }
 

@@ -294,7 +294,7 @@ fn progress_counts_what_is_judged() {
         for family in adapt_case::families(&[]) {
             by_hand += (0..13)
                 .filter(|index| {
-                    let case = adapt_case::put(family.case(1, *index), &declared);
+                    let case = adapt_case::case(family, 1, *index, &declared);
                     !Check::of(family.name, &case, *index, &declared).is_empty()
                 })
                 .count() as u64;

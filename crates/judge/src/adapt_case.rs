@@ -7,8 +7,8 @@
 
 use super::declared::Declared;
 use rasterproof_core::grid::SUBPIXELS;
-use rasterproof_core::triangle::{Corners, PixelPoint};
-use rasterproof_verify::cases::{self, Case, Family, Shape};
+use rasterproof_core::triangle::Corners;
+use rasterproof_verify::cases::{self, Case, Family, Limits, Shape};
 
 /// Families whose danger are ties come first, values and far coordinates last.
 const FIRST: [&str; 8] = [
@@ -42,31 +42,39 @@ pub fn is_lines(family: &Family) -> bool {
     cases::lines::FAMILIES.iter().any(|f| f.name == family.name)
 }
 
-pub fn put(mut case: Case, declared: &Declared) -> Case {
-    if let Some([width, height]) = declared.window {
-        case.window.x1 = case.window.x1.min(width as i32);
-        case.window.y1 = case.window.y1.min(height as i32);
-    }
-    match &mut case.shape {
-        Shape::Triangles { list, disjoint } => {
-            declared.convention.put(list, range(declared));
-            let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
-            *disjoint = list.len() > 1 && super::mesh::is_disjoint(&corners);
-        }
-        Shape::Lines(lines) => {
-            // Two ends are at most twice as far from each other.
-            let reach = declared.reach.map_or(i32::MAX, |reach| (reach / 2).max(1));
-            let most = declared.range.unwrap_or(i32::MAX).min(reach);
-            // The centre of a pixel lies half a pixel further.
-            let keep =
-                |px: i32| px.clamp(if most == i32::MAX { i32::MIN } else { -most }, most - 1);
-            for end in lines.iter_mut().flat_map(|l| &mut l.ends) {
-                end.pixel = PixelPoint::new(keep(end.pixel.x), keep(end.pixel.y));
-            }
-        }
-        Shape::Unsnapped { .. } => {}
+/// A case of a family, put where a program declares that it draws.
+#[must_use]
+pub fn case(family: &Family, seed: u64, index: u64, declared: &Declared) -> Case {
+    mended(family.case_within(seed, index, &limits(declared)))
+}
+
+/// Another case, put there.
+#[must_use]
+pub fn put(case: Case, declared: &Declared) -> Case {
+    mended(limits(declared).put(case))
+}
+
+/// Rounding may have folded a mesh.
+fn mended(mut case: Case) -> Case {
+    if let Shape::Triangles { list, disjoint } = &mut case.shape {
+        let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+        *disjoint = list.len() > 1 && super::mesh::is_disjoint(&corners);
     }
     case
+}
+
+/// What a program can be asked, by what it declares and by how far it was seen to draw.
+#[must_use]
+pub fn limits(declared: &Declared) -> Limits {
+    // Two ends are at most twice as far from each other.
+    let reach = declared.reach.map(|reach| (reach / 2).max(1));
+    Limits {
+        convention: declared.convention,
+        range_px: range(declared),
+        // The centre of the last pixel of all would be no coordinate.
+        line_range_px: declared.range.into_iter().chain(reach).min().or(Some(i32::MAX)),
+        window: declared.window,
+    }
 }
 
 /// How far corners may lie from the origin: two of them are at most twice as far from each other.
@@ -123,7 +131,7 @@ mod tests {
             assert!(declared.unknown.is_empty());
             for family in families(&[]) {
                 for index in 0..30 {
-                    let case = put(family.case(1, index), &declared);
+                    let case = case(family, 1, index, &declared);
                     assert!(holds(&case, &declared), "{words}: {}#{index}", family.name);
                 }
             }

@@ -22,6 +22,7 @@ use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::Winding;
 use rasterproof_verify::comparison::pixels::{compare, few, hits, mix, sequence};
+use rasterproof_verify::facts;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
@@ -223,14 +224,20 @@ impl Check {
     pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
         let mut checks = Vec::new();
         match &case.shape {
-            // Exact depths of overlapping triangles are dear.
+            // Exact depths of overlapping triangles are dear, and a design leaves no case out.
             Shape::Triangles { .. } if family.starts_with("depth-") => {
-                let every = if family == "depth-order" { 4 } else { 2 };
+                let every = match family {
+                    "depth-order" => 4,
+                    "depth-near-tie" => 2,
+                    _ => 1,
+                };
                 if declared.depth && index.is_multiple_of(every) {
                     checks.push(Self::Depth);
                 }
             }
-            Shape::Triangles { .. } if family == "near-plane" => {
+            Shape::Triangles { .. }
+                if ["near-plane", facts::near::TOPIC.name].contains(&family) =>
+            {
                 if declared.clip {
                     checks.push(Self::Near);
                 }
@@ -268,7 +275,7 @@ impl Check {
                 if declared.samples4
                     && declared.shape == declared::Shape::Sample
                     && declared.convention.is_standard()
-                    && index % 8 == 1
+                    && (index % 8 == 1 || family == facts::triangles::TOPIC.name)
                     && !is_perspective
                 {
                     checks.push(Self::Samples);

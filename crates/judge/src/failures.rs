@@ -139,7 +139,7 @@ pub fn changing(found: &RunFindings, options: &Options, truth: &Truth) -> Vec<Fa
     let one = |changing: &Changing| {
         let Changing { failing, check, questions, answers } = changing;
         let family = adapt_case::family(failing.family)?;
-        let case = adapt_case::put(family.case(options.seed, failing.index), &truth.declared);
+        let case = adapt_case::case(family, options.seed, failing.index, &truth.declared);
         // Of two programs that are compared the one whose answers change is shown.
         let mut answers = answers.clone();
         let (mut truth, mut who) = (truth, String::new());
@@ -226,7 +226,7 @@ fn failure(
     truth: &Truth,
 ) -> Option<Failure> {
     let family = adapt_case::family(failing.family)?;
-    let case = adapt_case::put(family.case(options.seed, failing.index), &truth.declared);
+    let case = adapt_case::case(family, options.seed, failing.index, &truth.declared);
     let check = Check::of_truth(family.name, &case, failing.index, truth)
         .into_iter()
         .find(|check| check.name(family.name) == failing.property)?;

@@ -80,7 +80,7 @@ pub fn otherwise(
     let check = if lines { Check::Line } else { Check::Coverage };
     let mut questions = Vec::new();
     for index in 0..CASES {
-        check.questions(&adapt_case::put(family.case(1, index), declared), &truth, &mut questions);
+        check.questions(&adapt_case::case(family, 1, index, declared), &truth, &mut questions);
     }
     let window = |q: &Question| PixelRect::window(q.width, q.height);
     questions.retain(|q| match &q.of {

@@ -12,6 +12,7 @@
 pub mod adapt_case;
 pub mod against;
 pub mod ask;
+pub mod asked;
 pub mod baseline;
 pub mod check;
 pub mod declared;

@@ -353,8 +353,7 @@ impl Bench<'_> {
         let is_looked_at = |name| if lines { true } else { LOOK.contains(&name) };
         families.iter().filter(|f| adapt_case::is_lines(f) == lines && is_looked_at(f.name)).all(
             |f| {
-                let cases =
-                    (0..LOOK_CASES).map(|index| adapt_case::put(f.case(SEED, index), declared));
+                let cases = (0..LOOK_CASES).map(|index| adapt_case::case(f, SEED, index, declared));
                 let cases: Vec<_> = cases.filter(|case| !adapt_case::leaves_window(case)).collect();
                 let mut questions = Vec::new();
                 let mut ends = Vec::new();

@@ -323,7 +323,7 @@ pub fn cases_of(options: &Options, declared: &Declared) -> u64 {
     const PERIOD: u64 = 8;
     let of_family = |family: &&Family| {
         let is_asked = |index: &u64| {
-            let case = adapt_case::put(family.case(options.seed, *index), declared);
+            let case = adapt_case::case(family, options.seed, *index, declared);
             !Check::of(family.name, &case, *index, declared).is_empty()
         };
         if let Some(index) = options.only {
@@ -461,7 +461,7 @@ pub fn case_that_asks(
     // Families take turns, as they do where they are judged, so that an early case is found early.
     for (index, families) in indices {
         for family in families {
-            let case = adapt_case::put(family.case(options.seed, index), declared);
+            let case = adapt_case::case(family, options.seed, index, declared);
             questions.clear();
             for check in Check::of_truth(family.name, &case, index, &truth) {
                 check.questions(&case, &truth, &mut questions);
@@ -489,7 +489,7 @@ fn block(
     let mut cases: Vec<Case> = Vec::new();
     let mut questions: Vec<Question> = Vec::new();
     for index in indices {
-        let case = adapt_case::put(family.case(shared.options.seed, index), &truth.declared);
+        let case = adapt_case::case(family, shared.options.seed, index, &truth.declared);
         if adapt_case::leaves_window(&case) != pass {
             continue;
         }

@@ -67,7 +67,7 @@ fn answered(
             if !goes_on() || deaths >= MOST_DEATHS {
                 return all;
             }
-            let case: Case = adapt_case::put(family.case(seed, index), &truth.declared);
+            let case: Case = adapt_case::case(family, seed, index, &truth.declared);
             let mut questions = Vec::new();
             check.questions(&case, truth, &mut questions);
             let answers = program.ask(&questions, MOST_DEATHS);

@@ -60,7 +60,7 @@ pub fn windings(program: &mut dyn Subject, seed: u64) -> Windings {
     }
     let family = adapt_case::families(&["uniform".to_owned()])[0];
     let plain = (0..8 * PROBES).filter_map(|index| {
-        let case = adapt_case::put(family.case(seed, index), &declared);
+        let case = adapt_case::case(family, seed, index, &declared);
         let Shape::Triangles { list, .. } = &case.shape else { return None };
         let corners = list[0].corners();
         let is_plain =

@@ -8,6 +8,7 @@ use super::words::{of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::{Breach, Complaints};
+use rasterproof_judge::asked;
 use rasterproof_judge::check::{Check, Counted};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
@@ -57,6 +58,10 @@ pub fn report(
                 last.notes.push("every family as a table: add --table".to_owned());
             }
         }
+    }
+    let asked = asked(verdict);
+    if !asked.is_empty() {
+        first_screen.push(Table::of_notes("", asked));
     }
     if verdict.more.known > 0 {
         let known = thousands(verdict.more.known);
@@ -236,6 +241,22 @@ fn dangers(verdict: &Verdict) -> Table {
         out.push(summary::row(is_good(row.name), row.name, &what));
     }
     summary::judged("", out)
+}
+
+/// How much of all that could be asked was asked, and what was not.
+fn asked(verdict: &Verdict) -> Vec<String> {
+    let mut notes = Vec::new();
+    for asked in asked::asked(verdict) {
+        notes.push(format!("asked of {}", asked.sentence()));
+        let never = asked.never.len();
+        if never > 0 {
+            notes.push(format!(
+                "  never, by what it declares: {never} classes of facts, as '{}'",
+                asked.never[0]
+            ));
+        }
+    }
+    notes
 }
 
 /// A score in the words of what it counts.

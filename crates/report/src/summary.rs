@@ -33,6 +33,8 @@ pub const DANGERS: &[Danger] = dangers![
         "w-equal", "w-4", "w-100", "w-1e4", "w-1e6", "w-extreme";
     "lines", "docs/ch02.md":
         "line-octants", "line-ties", "line-axis", "line-points", "line-clipped", "line-far";
+    "every two facts together", "docs/stability.md":
+        "design", "w-design", "line-design";
     "corners not snapped", "docs/offgrid.md":
         "f32-random", "f32-sliver", "f32-near-tie", "f32-tie", "f32-fan", "f32-cut", "f32-tiny",
         "f32-mixed", "f32-denormal", "f32-far", "f32-huge", "f64-near-tie", "f64-huge",

@@ -121,7 +121,7 @@ fn ask_family<'a>(
     let mut cases = Vec::new();
     let mut questions = Vec::new();
     for index in 0..amount.cases {
-        let case = adapt_case::put(family.case(amount.seed, index), &truth.declared);
+        let case = adapt_case::case(family, amount.seed, index, &truth.declared);
         let Some(case) = (exercise.prepare)(case).filter(|case| check.fits(case)) else {
             continue;
         };

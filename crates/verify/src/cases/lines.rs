@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Shape, family, pixel};
+use super::{Case, Family, Shape, designed, family, pixel};
+use crate::facts;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
@@ -15,6 +16,7 @@ pub const FAMILIES: &[Family] = &[
     family("line-points", "zero length, and one step", points),
     family("line-clipped", "across the borders of the window", clipped),
     family("line-far", "up to 2^31 pixels away, often through the window", far),
+    designed(facts::lines::TOPIC, "every two facts of a line together"),
 ];
 
 const SIDE_PX: u32 = 40;

@@ -20,6 +20,8 @@ use std::str::FromStr;
 
 use glam::DVec2;
 
+use crate::comparison::Convention;
+use crate::facts::{Topic, design};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 #[doc(inline)]
 pub use rasterproof_core::random::Rng;
@@ -109,19 +111,89 @@ pub struct Family {
     pub name: &'static str,
     /// What it threatens, in a few words.
     pub about: &'static str,
-    make: fn(&mut Rng) -> Case,
+    source: Source,
+}
+
+/// Where the cases of a family come from.
+#[derive(Clone, Copy)]
+enum Source {
+    /// Each is drawn at random, without the others.
+    Drawn(fn(&mut Rng) -> Case),
+    /// A covering design chooses them one after the other.
+    Designed(Topic),
 }
 
 impl Family {
     /// The case number `index` of this family under `seed`.
     #[must_use]
     pub fn case(&self, seed: u64, index: u64) -> Case {
-        (self.make)(&mut Rng::new(self.name, seed, index))
+        self.case_within(seed, index, &Limits::default())
+    }
+
+    /// The same for a rasterizer that does not draw everything: a drawn case is put where it draws, and a design covers
+    /// what can be asked of it.
+    #[must_use]
+    pub fn case_within(&self, seed: u64, index: u64, limits: &Limits) -> Case {
+        match &self.source {
+            Source::Drawn(make) => limits.put(make(&mut Rng::new(self.name, seed, index))),
+            Source::Designed(topic) => design::case(topic, seed, index, limits),
+        }
+    }
+
+    /// The kind of question whose facts a covering design chooses the cases by; none where each is drawn for itself.
+    #[must_use]
+    pub fn design(&self) -> Option<&Topic> {
+        match &self.source {
+            Source::Drawn(_) => None,
+            Source::Designed(topic) => Some(topic),
+        }
     }
 }
 
 const fn family(name: &'static str, about: &'static str, make: fn(&mut Rng) -> Case) -> Family {
-    Family { name, about, make }
+    Family { name, about, source: Source::Drawn(make) }
+}
+
+const fn designed(topic: Topic, about: &'static str) -> Family {
+    Family { name: topic.name, about, source: Source::Designed(topic) }
+}
+
+/// What a rasterizer can be asked: what lies outside is put inside, and kept apart from what is wrong.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Its sample and its grid of corners.
+    pub convention: Convention,
+    /// Coordinates of corners lie in [-range, range] px.
+    pub range_px: Option<i32>,
+    /// Ends of lines lie in [-range, range) px.
+    pub line_range_px: Option<i32>,
+    /// The largest window.
+    pub window: Option<[u32; 2]>,
+}
+
+impl Limits {
+    /// Puts a case inside: what lay on a pixel's centre lies on the sample, then every coordinate is rounded to the grid and
+    /// kept within the range. A mesh may be folded by that.
+    #[must_use]
+    pub fn put(&self, mut case: Case) -> Case {
+        if let Some([width, height]) = self.window {
+            case.window.x1 = case.window.x1.min(width as i32);
+            case.window.y1 = case.window.y1.min(height as i32);
+        }
+        match &mut case.shape {
+            Shape::Triangles { list, .. } => self.convention.put(list, self.range_px),
+            Shape::Lines(lines) => {
+                let Some(most) = self.line_range_px else { return case };
+                // The centre of a pixel lies half a pixel further.
+                for end in lines.iter_mut().flat_map(|line| &mut line.ends) {
+                    let [x, y] = [end.pixel.x, end.pixel.y].map(|px| px.clamp(-most, most - 1));
+                    end.pixel = PixelPoint::new(x, y);
+                }
+            }
+            Shape::Unsnapped { .. } => {}
+        }
+        case
+    }
 }
 
 macro_rules! family_names {
@@ -154,8 +226,9 @@ family_names! {
     NearHorizontal "near-horizontal" NearVertical "near-vertical" Tiny "tiny" Flat "flat" Degenerate "degenerate"
     PartlyOff "partly-off" OffScreen "off-screen" Huge "huge" NearTie "near-tie" Far "far"
     WEqual "w-equal" W4 "w-4" W100 "w-100" W1e4 "w-1e4" W1e6 "w-1e6" WExtreme "w-extreme"
+    Design "design" WDesign "w-design"
     LineOctants "line-octants" LineTies "line-ties" LineAxis "line-axis" LinePoints "line-points"
-    LineClipped "line-clipped" LineFar "line-far"
+    LineClipped "line-clipped" LineFar "line-far" LineDesign "line-design"
     F32Random "f32-random" F32Sliver "f32-sliver" F32NearTie "f32-near-tie" F32Tie "f32-tie" F32Fan "f32-fan"
     F32Cut "f32-cut" F32Tiny "f32-tiny" F32Mixed "f32-mixed" F32Denormal "f32-denormal" F32Far "f32-far"
     F32Huge "f32-huge" F64NearTie "f64-near-tie" F64Huge "f64-huge" F64Denormal "f64-denormal"

@@ -5,7 +5,8 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Shape, Triangle, family, sub};
+use super::{Case, Family, Shape, Triangle, designed, family, sub};
+use crate::facts;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
@@ -17,6 +18,8 @@ pub const FAMILIES: &[Family] = &[
     family("depth-near-tie", "triangles that lie almost in one plane", near_ties),
     family("mesh-border", "meshes across the border of the window", across),
     family("wide-window", "triangles far to the right or far below in their window", far_inside),
+    designed(facts::depth::TOPIC, "every two facts of some triangles together"),
+    designed(facts::near::TOPIC, "every two facts of a triangle of clip space together"),
 ];
 
 /// Side of the window of a pile, in pixels.

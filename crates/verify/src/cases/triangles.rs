@@ -4,7 +4,8 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Shape, Triangle, family, sub};
+use super::{Case, Family, Shape, Triangle, designed, family, sub};
+use crate::facts;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::centre_of;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -35,6 +36,8 @@ pub const FAMILIES: &[Family] = &[
     family("w-1e4", "w ratio up to 10,000", |rng| perspective(rng, |rng| spread(rng, 1e4))),
     family("w-1e6", "w ratio up to 1,000,000", |rng| perspective(rng, |rng| spread(rng, 1e6))),
     family("w-extreme", "w anywhere in its domain, ratio up to 2^400", w_extreme),
+    designed(facts::triangles::TOPIC, "every two facts of a triangle together"),
+    designed(facts::values::TOPIC, "every two facts of its values together"),
 ];
 
 /// Side of the usual window, in pixels and in subpixels.

@@ -52,7 +52,7 @@ impl Changing {
     fn failure(&self, of: &Chosen<'_>, options: &Options) -> Failure {
         let Self { pair, index, found: [first, again] } = self;
         let pair = of.pairs[*pair].clone();
-        let case = options.terms.place(of.family.case(options.seed, *index));
+        let case = options.terms.case(of.family, options.seed, *index);
         // Of two engines that are compared the one whose pixels changed; where only values did, the first.
         let who = usize::from(first.drawn[0] == again.drawn[0] && first.drawn[1] != again.drawn[1]);
         let changed = Changed {

@@ -589,7 +589,7 @@ fn judge_block(chosen: &Chosen<'_>, indices: &[u64], options: &Options) -> Parti
         // What an earlier case reached need not be looked into again.
         let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
         let known: Vec<_> = report.pairs.iter().map(known).collect();
-        let case = options.terms.place(chosen.family.case(options.seed, index));
+        let case = options.terms.case(chosen.family, options.seed, index);
         let (facts, findings) = chosen.comparer.judge(&case, known.clone());
         report.count(&facts);
         if findings.iter().any(Finding::is_wrong) {
@@ -723,7 +723,7 @@ fn shrink_failures(
     let shrunk = |number: usize| {
         let (place, pair, index) = failing[number];
         let Chosen { family, comparer, pairs } = &chosen[place];
-        let original = options.terms.place(family.case(options.seed, index));
+        let original = options.terms.case(family, options.seed, index);
         let fails = |case: &Case| {
             !watch.is_over()
                 && options.terms.holds(case)

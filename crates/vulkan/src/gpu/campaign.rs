@@ -135,7 +135,7 @@ pub fn judge_with(
 
 fn case_of(family: &str, index: u64, options: &Options, declared: &Declared) -> Option<Case> {
     let family = cases::families().find(|f| f.name == family)?;
-    Some(adapt_case::put(family.case(options.seed, index), declared))
+    Some(adapt_case::case(family, options.seed, index, declared))
 }
 
 fn is_known(

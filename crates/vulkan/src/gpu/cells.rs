@@ -71,7 +71,7 @@ pub fn in_perspective(declared: &Declared, seed: u64, cases: u64) -> Vec<Triangl
     let mut triangles = Vec::new();
     for family in adapt_case::families(&names) {
         for index in 0..cases / 3 {
-            let case = adapt_case::put(family.case(seed, index), declared);
+            let case = adapt_case::case(family, seed, index, declared);
             let Shape::Triangles { list, .. } = case.shape else { continue };
             triangles.extend(list.iter().take(1));
         }

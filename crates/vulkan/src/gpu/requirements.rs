@@ -300,7 +300,7 @@ fn twice(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
         cases::triangles::FAMILIES.iter().filter(|f| f.name != "far" && f.name != "w-extreme")
     {
         for index in 0..cases.div_ceil(64) {
-            let case = adapt_case::put(family.case(seed, index), &declared);
+            let case = adapt_case::case(family, seed, index, &declared);
             let Shape::Triangles { list, .. } = case.shape else { continue };
             triangles.extend(list.first().map(|t| valued(t, half)));
         }

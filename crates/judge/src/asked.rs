@@ -1,0 +1,34 @@
+//! What a program was asked, as the share of everything that a question can be.
+
+use super::adapt_case;
+use super::check::Check;
+use super::declared::Declared;
+use super::run::Row;
+use super::verdict::Verdict;
+use rasterproof_verify::facts::{self, asked::Asked};
+
+/// The pairs and the triples of facts that the designs asked of a program, one entry for each design. Nothing where a single
+/// case was judged, not all cases were, or two programs are compared.
+#[must_use]
+pub fn asked(verdict: &Verdict) -> Vec<Asked> {
+    let Verdict { options, families, more, .. } = verdict;
+    let is_cut = more.found.out_of_time || more.found.gave_up;
+    if options.only.is_some() || more.against.is_some() || is_cut {
+        return Vec::new();
+    }
+    let declared = Declared { reach: more.reach, side: more.side, ..more.declared.clone() };
+    let limits = adapt_case::limits(&declared);
+    let mut all = Vec::new();
+    for family in adapt_case::families(&options.families) {
+        let Some(topic) = family.design() else { continue };
+        // Values are counted over all families.
+        let is_of_values = topic.name == facts::values::TOPIC.name;
+        let is_judged = |row: &Row| {
+            row.name == family.name || (is_of_values && row.check == Some(Check::Values))
+        };
+        if families.iter().any(|row| is_judged(row) && !row.stopped) {
+            all.push(Asked::of(topic, options.seed, options.numbers(), &limits));
+        }
+    }
+    all
+}

@@ -1,0 +1,123 @@
+//! What a design asks: how many of the pairs and of the triples of classes its cases have.
+
+use std::ops::Range;
+
+use super::table::Table;
+use super::{Topic, design};
+use crate::cases::Limits;
+
+/// How much some cases of a design ask.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Asked {
+    /// The name of the family whose cases the design chooses.
+    pub family: &'static str,
+    /// How many cases there are.
+    pub cases: u64,
+    /// Facts of a question.
+    pub facts: usize,
+    /// Classes of all facts, without those that no case has.
+    pub classes: usize,
+    /// Pairs of classes that occur.
+    pub pairs: usize,
+    /// Pairs of those classes that can occur for a rasterizer without limits.
+    pub of_pairs: usize,
+    /// Triples of classes that occur.
+    pub triples: usize,
+    /// Triples of those classes whose three pairs can occur. A few of them cannot occur themselves.
+    pub of_triples: usize,
+    /// The classes that no case has, in words.
+    pub never: Vec<String>,
+}
+
+/// Cases of which triples are counted at most: after so many of them hardly one is missing.
+const MOST_COUNTED: usize = 20_000;
+
+impl Asked {
+    /// What the cases of a design with these numbers ask, for a rasterizer with limits.
+    #[must_use]
+    pub fn of(topic: &Topic, seed: u64, numbers: Range<u64>, limits: &Limits) -> Self {
+        let mut table = Table::new(topic.count());
+        let cases = numbers.end.saturating_sub(numbers.start);
+        for index in numbers.take(MOST_COUNTED) {
+            let case = design::case(topic, seed, index, limits);
+            if let Some(classes) = topic.classes(&case, limits) {
+                table.note(&classes);
+            }
+        }
+        let ([seen, never], [of_pairs, of_triples]) = possible(topic, &table);
+        let [pairs, triples] = table.counts();
+        Self {
+            family: topic.name,
+            cases,
+            facts: topic.starts().len(),
+            classes: seen.len(),
+            pairs,
+            of_pairs,
+            triples,
+            of_triples,
+            never: never.into_iter().map(|class| topic.class_words(class)).collect(),
+        }
+    }
+
+    /// One sentence about it.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let share = |some: usize, all: usize| match (100 * some).checked_div(all) {
+            Some(percent) if some < all => format!("{percent}% of {}", grouped(all)),
+            _ => format!("all {}", grouped(all)),
+        };
+        let pairs = match self.pairs == self.of_pairs {
+            true => format!("all {}", grouped(self.pairs)),
+            false => format!("{} of {}", grouped(self.pairs), grouped(self.of_pairs)),
+        };
+        format!(
+            "the family {}: {pairs} pairs and {} triples of facts",
+            self.family,
+            share(self.triples, self.of_triples)
+        )
+    }
+}
+
+/// A number with a comma after each three digits.
+fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut out = String::new();
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// The classes that occur, the pairs of these that can occur, and the triples whose three pairs can.
+fn possible(topic: &Topic, table: &Table) -> ([Vec<u16>; 2], [usize; 2]) {
+    let (starts, all) = (topic.starts(), topic.count() as u16);
+    let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class)) - 1;
+    let occurs =
+        |class: &u16| (0..all).any(|other| table.has(&[*class.min(&other), *class.max(&other)]));
+    let (seen, never): (Vec<u16>, Vec<u16>) = (0..all).partition(occurs);
+    let impossible = design::impossible(topic);
+    // Of each class the smaller ones that it can occur with.
+    let mut partners: Vec<Vec<u16>> = vec![Vec::new(); usize::from(all)];
+    for &second in &seen {
+        let can_occur = |first: &u16| {
+            fact_of(*first) != fact_of(second) && !impossible.contains(&[*first, second])
+        };
+        partners[usize::from(second)] =
+            seen.iter().copied().filter(|first| *first < second && can_occur(first)).collect();
+    }
+    let mut counts = [0; 2];
+    for third in &partners {
+        counts[0] += third.len();
+        for second in third {
+            let both = partners[usize::from(*second)]
+                .iter()
+                .filter(|first| third.binary_search(first).is_ok());
+            counts[1] += both.count();
+        }
+    }
+    ([seen, never], counts)
+}

@@ -1,0 +1,429 @@
+//! Facts of a question about which of several triangles is seen.
+
+use glam::DVec2;
+
+use rasterproof_core::geometry::{centre, twice_area};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::random::Rng;
+use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
+
+use super::{Fact, Test, Topic, Unit, classes, fact, words};
+use crate::cases::{Case, Shape, Triangle};
+
+/// Triangles before and behind each other.
+pub const TOPIC: Topic = Topic {
+    name: "depth-design",
+    words: || words(&FACTS),
+    measure: |case, _| Some(classes(&FACTS, &Measured::of_case(case)?)),
+    impossible: include_str!("impossible/depth-design.txt"),
+    draw,
+    vary,
+};
+
+/// The most triangles that the line protocol has in one question.
+const MOST: i64 = 64;
+const SIDES: Test = Test::Steps(&[2, 3, 9, 17]);
+const PILED: Test = Test::Steps(&[2, 3, 5, 9, 17, 33]);
+const PX: i64 = SUBPIXELS as i64;
+const EXTENT: Test = Test::Steps(&[2 * PX, 8 * PX, 24 * PX]);
+const SOME: Test = Test::Choice(&["none", "some", "all"]);
+
+/// The facts that the design covers.
+pub(super) const FACTS: [Fact<Measured>; 18] = [
+    fact("triangles", Unit::Count, |m| m.count, Test::Steps(&[2, 3, 5, 9, 17, 33, 64])),
+    fact("triangles that cover one of 16 pixels", Unit::Count, |m| m.piled, PILED),
+    fact("triangles whose boxes meet one block of 8 x 8 px", Unit::Count, |m| m.in_block, PILED),
+    fact("the width of the window", Unit::Pixels, |m| m.window[0], SIDES),
+    fact("the height of the window", Unit::Pixels, |m| m.window[1], SIDES),
+    fact("the width of the window in pixels", Unit::Count, |m| m.window[0], Test::Divisor),
+    fact("the height of the window in pixels", Unit::Count, |m| m.window[1], Test::Divisor),
+    fact(
+        "the order of mean depths",
+        Unit::Count,
+        |m| m.order,
+        Test::Choice(&["of one alone", "near to far", "far to near", "neither", "all the same"]),
+    ),
+    fact("triangles with the same depths as another", Unit::Count, |m| m.equal, SOME),
+    fact("triangles whose depth is not the same everywhere", Unit::Count, |m| m.leaning, SOME),
+    fact("clockwise triangles", Unit::Count, |m| m.clockwise, SOME),
+    fact("the largest extent of a triangle", Unit::Subpixels, |m| m.largest, EXTENT),
+    fact("the smallest extent of a triangle", Unit::Subpixels, |m| m.smallest, EXTENT),
+    fact("triangles that the window cuts", Unit::Count, |m| m.cut, SOME),
+    fact(
+        "the smallest difference of mean depths",
+        Unit::Doublings,
+        |m| m.closest,
+        Test::Steps(&[-20, -12, -6]),
+    ),
+    fact("depths 0 and 1", Unit::Count, |m| m.ends, Test::Choice(&["neither", "0", "1", "both"])),
+    fact(
+        "a triangle whose box has all samples of the window but one row or column at its border",
+        Unit::Count,
+        |m| m.leaves_open,
+        Test::Choice(&["none", "all but the first", "all but the last"]),
+    ),
+    fact(
+        "a triangle that is drawn last and seen",
+        Unit::Count,
+        |m| m.last_is_nearest,
+        Test::Choice(&["no", "the last is nearest"]),
+    ),
+];
+
+/// What was measured of some triangles in their window.
+pub struct Measured {
+    /// How many there are.
+    pub count: i64,
+    /// The most that cover one of at most 4 x 4 samples, evenly spread.
+    pub piled: i64,
+    /// The most whose boxes meet the same block.
+    pub in_block: i64,
+    /// Sides of the window in pixels.
+    pub window: [i64; 2],
+    /// How the means of depths follow each other in the order of drawing.
+    pub order: i64,
+    /// How many have the depths of another, at all three corners: none, some, all. Likewise the next three.
+    pub equal: i64,
+    /// Those with different depths at their corners.
+    pub leaning: i64,
+    /// Those that run clockwise on the screen.
+    pub clockwise: i64,
+    /// Those with a corner outside the window.
+    pub cut: i64,
+    /// The longer side of the largest box, and of the smallest one, in steps of the lattice.
+    pub largest: i64,
+    /// See `largest`.
+    pub smallest: i64,
+    /// The logarithm of the smallest difference of means that is not 0; 0 where all are the same.
+    pub closest: i64,
+    /// Which ends of the range of depths occur.
+    pub ends: i64,
+    /// Whether no triangle has a smaller mean than the last one.
+    pub last_is_nearest: i64,
+    /// Whether the box of a triangle leaves open the last row or column (2) and nothing else, or one leaves open the first (1).
+    pub leaves_open: i64,
+}
+
+impl Measured {
+    /// Of a case of triangles.
+    #[must_use]
+    pub fn of_case(case: &Case) -> Option<Self> {
+        let list = case.triangles();
+        list.first()?;
+        let window = [case.window.width(), case.window.height()].map(i64::from);
+        let boxes: Vec<[[i64; 2]; 2]> = list.iter().map(box_of).collect();
+        let means: Vec<f64> =
+            list.iter().map(|t| t.vertices.iter().map(|v| v.depth).sum::<f64>() / 3.0).collect();
+        let depths: Vec<[f64; 3]> =
+            list.iter().map(|t| t.vertices.each_ref().map(|v| v.depth)).collect();
+        let mut sorted = means.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let gaps = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.0);
+        let extents = boxes.iter().map(|[low, high]| (high[0] - low[0]).max(high[1] - low[1]));
+        let share = |count: usize| match count {
+            0 => 0,
+            count if count == list.len() => 2,
+            _ => 1,
+        };
+        let is_cut = |[low, high]: &&[[i64; 2]; 2]| {
+            (0..2).any(|axis| low[axis] < 0 || high[axis] > window[axis] * PX)
+        };
+        let has = |depth: f64| depths.iter().flatten().any(|d| *d == depth);
+        let last = means[means.len() - 1];
+        Some(Self {
+            count: list.len() as i64,
+            piled: piled(list, case.window),
+            in_block: in_block(&boxes, window),
+            window,
+            order: order(&means),
+            equal: share(equal(&depths)),
+            leaning: share(depths.iter().filter(|[a, b, c]| a != b || b != c).count()),
+            clockwise: share(list.iter().filter(|t| twice_area(&t.corners()) > 0).count()),
+            cut: share(boxes.iter().filter(is_cut).count()),
+            largest: extents.clone().max().unwrap_or(0),
+            smallest: extents.min().unwrap_or(0),
+            closest: gaps.map(|gap| ((gap.to_bits() >> 52) as i64) - 1023).min().unwrap_or(0),
+            ends: i64::from(has(0.0)) + 2 * i64::from(has(1.0)),
+            leaves_open: boxes.iter().map(|of| leaves_open(of, window)).max().unwrap_or(0),
+            last_is_nearest: i64::from(list.len() > 1 && means.iter().all(|mean| *mean >= last)),
+        })
+    }
+}
+
+/// The least and the largest coordinates.
+fn box_of(triangle: &Triangle) -> [[i64; 2]; 2] {
+    let [a, b, c] = triangle.corners().map(|p| [i64::from(p.x), i64::from(p.y)]);
+    [
+        [0, 1].map(|axis| a[axis].min(b[axis]).min(c[axis])),
+        [0, 1].map(|axis| a[axis].max(b[axis]).max(c[axis])),
+    ]
+}
+
+/// Whether a box has all samples of the window but those of the first (1) or the last (2) row or column.
+fn leaves_open([low, high]: &[[i64; 2]; 2], window: [i64; 2]) -> i64 {
+    let half = PX / 2;
+    // Of each axis the first and the last row or column of samples in the box.
+    let first = low.map(|v| (v - half + PX - 1).div_euclid(PX).max(0));
+    let last = [0, 1].map(|axis| (high[axis] - half).div_euclid(PX).min(window[axis] - 1));
+    for axis in 0..2 {
+        let is_whole = first[1 - axis] == 0 && last[1 - axis] == window[1 - axis] - 1;
+        match [first[axis], window[axis] - 1 - last[axis]] {
+            [1, 0] if is_whole && window[axis] > 1 => return 1,
+            [0, 1] if is_whole && window[axis] > 1 => return 2,
+            _ => {}
+        }
+    }
+    0
+}
+
+fn order(means: &[f64]) -> i64 {
+    let is = |holds: fn(f64, f64) -> bool| means.windows(2).all(|pair| holds(pair[0], pair[1]));
+    if means.len() == 1 {
+        0
+    } else if is(|a, b| a == b) {
+        4
+    } else if is(|a, b| a <= b) {
+        1
+    } else if is(|a, b| a >= b) {
+        2
+    } else {
+        3
+    }
+}
+
+/// How many have the depths of another.
+fn equal(depths: &[[f64; 3]]) -> usize {
+    let mut sorted: Vec<[u64; 3]> = depths.iter().map(|depths| depths.map(f64::to_bits)).collect();
+    sorted.sort_unstable();
+    sorted.chunk_by(|a, b| a == b).map(<[_]>::len).filter(|count| *count > 1).sum()
+}
+
+/// The most triangles that cover one of a few samples.
+fn piled(list: &[Triangle], window: PixelRect) -> i64 {
+    let mut most = 0;
+    let [wide, high] = [window.x1, window.y1].map(|side| side.min(4));
+    for row in 0..high {
+        for column in 0..wide {
+            let [x, y] = [centre(column * window.x1 / wide), centre(row * window.y1 / high)];
+            let covering = list.iter().filter(|t| covers(t, [x, y])).count();
+            most = most.max(covering as i64);
+        }
+    }
+    most
+}
+
+/// Whether a triangle covers a point, its boundary included.
+fn covers(triangle: &Triangle, [x, y]: [i64; 2]) -> bool {
+    let points = triangle.corners().map(|p| [i64::from(p.x), i64::from(p.y)]);
+    let side = |[a, b]: [[i64; 2]; 2]| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+    let [a, b, c] = points;
+    let sides = [[a, b], [b, c], [c, a]].map(side);
+    sides != [0; 3] && (sides.iter().all(|s| *s >= 0) || sides.iter().all(|s| *s <= 0))
+}
+
+/// The most boxes that meet the same block of 8 x 8 px of the window.
+fn in_block(boxes: &[[[i64; 2]; 2]], window: [i64; 2]) -> i64 {
+    let mut most = 0;
+    for block_y in 0..(window[1] + 7) / 8 {
+        for block_x in 0..(window[0] + 7) / 8 {
+            let near = [block_x, block_y].map(|block| block * 8 * PX);
+            let meets = |[low, high]: &&[[i64; 2]; 2]| {
+                (0..2).all(|axis| low[axis] < near[axis] + 8 * PX && high[axis] >= near[axis])
+            };
+            most = most.max(boxes.iter().filter(meets).count() as i64);
+        }
+    }
+    most
+}
+
+/// A side of a window: exact depths are dear, so that it is small.
+fn draw_side(rng: &mut Rng) -> i32 {
+    match rng.int(0, 11) {
+        0 => 1,
+        1 => 2,
+        2..=5 => rng.coordinate(3, 8),
+        6 => 8,
+        7 => 16,
+        _ => rng.coordinate(9, 24),
+    }
+}
+
+/// How the depths of a pile are drawn.
+#[derive(Clone, Copy)]
+struct Depths {
+    leans: i64,
+    step: f64,
+    most: i64,
+}
+
+fn draw_depths(rng: &mut Rng) -> Depths {
+    let bits = rng.int(1, 24);
+    Depths {
+        leans: rng.int(0, 2),
+        step: 1.0 / f64::from(1 << bits),
+        most: 1 << bits.min(rng.int(1, 24)),
+    }
+}
+
+fn draw_triangle(rng: &mut Rng, window: PixelRect, depths: Depths) -> Triangle {
+    let sides = [window.x1, window.y1].map(i64::from);
+    let quarter = PX / 4;
+    let reach = 1 << rng.int(1, 6);
+    // Some lie at the border of the window, where a pixel has no neighbour.
+    let middle = sides.map(|side| match rng.int(0, 3) {
+        0 => [quarter, side * PX - quarter][rng.int(0, 1) as usize],
+        _ => rng.int(0, 4 * side) * quarter,
+    });
+    let flat = rng.int(0, depths.most);
+    let leans = depths.leans == 2 || (depths.leans == 1 && rng.chance(2));
+    let vertices = [(); 3].map(|()| {
+        let [x, y] = middle.map(|middle| middle + rng.int(-4 * reach, 4 * reach) * quarter);
+        let steps = if leans { rng.int(0, depths.most) } else { flat };
+        ScreenVertex {
+            position: SubpixelPoint::new(x as i32, y as i32),
+            depth: steps as f64 * depths.step,
+            inv_w: 1.0,
+            varying: DVec2::ZERO,
+        }
+    });
+    ScreenTriangle { vertices }
+}
+
+fn draw(rng: &mut Rng) -> Case {
+    let window = PixelRect::window(draw_side(rng) as u32, draw_side(rng) as u32);
+    let depths = draw_depths(rng);
+    let most = 1 << rng.int(0, 6);
+    let list =
+        (0..rng.int((most + 1) / 2, most)).map(|_| draw_triangle(rng, window, depths)).collect();
+    let mut list: Vec<Triangle> = list;
+    if rng.chance(2) {
+        list[0] = background(rng, window);
+    }
+    arrange(rng, &mut list);
+    Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// A triangle of one depth that covers the window, or all of it but one row or column at its border.
+fn background(rng: &mut Rng, window: PixelRect) -> Triangle {
+    let far = 4 * window.x1.max(window.y1) * SUBPIXELS;
+    let depth = rng.int(0, 16) as f64 / 16.0;
+    // Its right angle lies at the upper left corner, and then both axes are mirrored.
+    let open = rng.int(0, 4);
+    let place = |axis: usize, v: i32| {
+        let side = [window.x1, window.y1][axis] * SUBPIXELS;
+        let start = if open == axis as i64 { SUBPIXELS } else { -SUBPIXELS };
+        start + if v == 0 { 0 } else { far + side }
+    };
+    let corners = [[0, 0], [1, 0], [0, 1]].map(|[x, y]| [place(0, x), place(1, y)]);
+    let mirror = rng.chance(2);
+    let vertices = corners.map(|[x, y]| {
+        let [x, y] = match mirror {
+            true => [window.x1 * SUBPIXELS - x, window.y1 * SUBPIXELS - y],
+            false => [x, y],
+        };
+        let position = SubpixelPoint::new(x, y);
+        ScreenVertex { position, depth, inv_w: 1.0, varying: DVec2::ZERO }
+    });
+    ScreenTriangle { vertices }
+}
+
+fn mean(triangle: &Triangle) -> f64 {
+    triangle.vertices.iter().map(|v| v.depth).sum()
+}
+
+/// Puts some piles in an order, gives them one winding, or the depths of each other.
+fn arrange(rng: &mut Rng, list: &mut [Triangle]) {
+    match rng.int(0, 8) {
+        0 => list.sort_by(|a, b| mean(a).total_cmp(&mean(b))),
+        1 => list.sort_by(|a, b| mean(b).total_cmp(&mean(a))),
+        2 | 3 => {
+            let sign = if rng.chance(2) { 1 } else { -1 };
+            for triangle in list.iter_mut().filter(|t| twice_area(&t.corners()) * sign < 0) {
+                triangle.vertices.swap(1, 2);
+            }
+        }
+        // The depths of the first.
+        4 => {
+            let first = list[0].vertices;
+            let every = rng.int(1, 2) as usize;
+            for triangle in list.iter_mut().step_by(every) {
+                triangle
+                    .vertices
+                    .iter_mut()
+                    .zip(&first)
+                    .for_each(|(v, first)| v.depth = first.depth);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
+    let mut window = one.window;
+    let (mut list, others) = (one.triangles().to_vec(), other.triangles());
+    for _ in 0..rng.int(1, 3) {
+        let depths = draw_depths(rng);
+        let at = rng.int(0, list.len() as i64 - 1) as usize;
+        match rng.int(0, 13) {
+            0 => window = PixelRect::window(draw_side(rng) as u32, window.height()),
+            1 => window = PixelRect::window(window.width(), draw_side(rng) as u32),
+            2 => window.x1 = other.window.x1,
+            3 => window.y1 = other.window.y1,
+            // As many as the other, of this one's kind.
+            4 => {
+                while list.len() < others.len() {
+                    let copy = list[rng.int(0, list.len() as i64 - 1) as usize];
+                    list.push(copy);
+                }
+                list.truncate(others.len());
+            }
+            5 => {
+                let wanted = rng.int(1, MOST) as usize;
+                while list.len() < wanted {
+                    list.push(draw_triangle(rng, window, depths));
+                }
+            }
+            6 => list.truncate(at + 1),
+            7 => list[at] = draw_triangle(rng, window, depths),
+            8 => list[at] = others[rng.int(0, others.len() as i64 - 1) as usize],
+            // The depths of the other.
+            9 => {
+                for (triangle, other) in list.iter_mut().zip(others.iter().cycle()) {
+                    triangle
+                        .vertices
+                        .iter_mut()
+                        .zip(&other.vertices)
+                        .for_each(|(v, other)| v.depth = other.depth);
+                }
+            }
+            // Drawn smaller or larger about the middle of the window.
+            10 => scale(&mut list, window, rng.int(-3, 1)),
+            11 => {
+                let last = list.len() - 1;
+                list.swap(at, last);
+            }
+            12 => list[at] = background(rng, window),
+            _ => arrange(rng, &mut list),
+        }
+    }
+    Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// Multiplies all distances from the middle of a window by a power of two, on quarters of pixels.
+fn scale(list: &mut [Triangle], window: PixelRect, doublings: i64) {
+    let quarter = SUBPIXELS / 4;
+    let middle = [window.x1, window.y1].map(|side| side * SUBPIXELS / 2);
+    for v in list.iter_mut().flat_map(|t| &mut t.vertices) {
+        let scaled = |v: i32, middle: i32| {
+            let by = v - middle;
+            let by = if doublings < 0 {
+                by >> -doublings
+            } else {
+                by.clamp(-(1 << 14), 1 << 14) << doublings
+            };
+            (middle + by).div_euclid(quarter) * quarter
+        };
+        v.position =
+            SubpixelPoint::new(scaled(v.position.x, middle[0]), scaled(v.position.y, middle[1]));
+    }
+}

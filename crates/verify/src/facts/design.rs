@@ -1,0 +1,388 @@
+//! The covering design: cases chosen one after the other so that every pair of classes occurs, and of the triples as many as
+//! possible.
+//!
+//! Cases come in blocks of [`BLOCK`]. The first block has every pair of classes that can occur. In block k the rare triples are
+//! looked for that hold a class of fact k - 1, so that after as many blocks as there are facts all triples were looked for. A
+//! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it.
+//!
+//! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. What is rare
+//! is looked for beside cases that have a part of it. Which pairs cannot occur was found by a search that was much longer, and is
+//! data ([`impossible`]).
+
+use std::collections::{BTreeSet, VecDeque};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use rasterproof_core::random::Rng;
+
+use super::Topic;
+use super::table::{Gain, Table};
+use crate::cases::{Case, Limits};
+
+/// Cases of a block.
+pub const BLOCK: u64 = 1000;
+/// Cases of a block that are chosen before what is rare is looked for.
+const EASY: u64 = 150;
+/// Candidates at a time for something rare.
+const AT_ONCE: usize = 8;
+/// How many things that are missing are few, how many turns they get for one case, and how many in all beyond the effort: within
+/// limits some of them cannot occur.
+const FEW: usize = 16;
+const MANY_TURNS: usize = 100;
+const MOST_TURNS: usize = 6000;
+/// Cases that are remembered of each class, to look beside them.
+const REMEMBERED: usize = 6;
+/// Blocks that are kept for whoever asks for their cases next.
+const KEPT: usize = 16;
+
+/// How many candidates there are for each case.
+struct Effort {
+    /// Those that are drawn at random.
+    drawn: usize,
+    /// Things that are wanted, with [`AT_ONCE`] candidates each.
+    wanted: usize,
+}
+
+impl Effort {
+    /// Every pair has to be in the first block. The others add triples.
+    fn of_block(number: u64) -> Self {
+        if number == 0 { Self { drawn: 6, wanted: 8 } } else { Self { drawn: 2, wanted: 1 } }
+    }
+}
+
+/// A case with its classes.
+#[derive(Clone)]
+struct Candidate {
+    case: Case,
+    classes: Vec<u16>,
+}
+
+/// A pair or a triple of classes that is missing, in ascending order.
+type Wanted = Vec<u16>;
+
+struct Chooser<'a> {
+    topic: &'a Topic,
+    limits: &'a Limits,
+    rng: Rng,
+    effort: Effort,
+    impossible: BTreeSet<[u16; 2]>,
+    table: Table,
+    /// Some cases of each class.
+    examples: Vec<Vec<Candidate>>,
+    /// What is missing, in the order in which it is looked for.
+    wanted: VecDeque<Wanted>,
+    /// Turns beyond the effort of a case that are left for the block.
+    more_turns: usize,
+}
+
+impl Chooser<'_> {
+    /// A case put within the limits; none where nothing is left of it.
+    fn candidate(&self, case: Case) -> Option<Candidate> {
+        let case = self.limits.put(case);
+        let classes = self.topic.classes(&case, self.limits)?;
+        Some(Candidate { case, classes })
+    }
+
+    /// The candidate of a few that has most of what is missing.
+    fn choose(&mut self) -> Option<Candidate> {
+        let mut best = None;
+        for _ in 0..self.effort.drawn {
+            let case = (self.topic.draw)(&mut self.rng);
+            self.consider(self.candidate(case), &mut best);
+        }
+        // The last few are the rarest.
+        let turns = match self.wanted.len() {
+            0..FEW if self.more_turns > 0 => MANY_TURNS,
+            _ => self.effort.wanted,
+        };
+        self.more_turns = self.more_turns.saturating_sub(turns - self.effort.wanted);
+        for _ in 0..turns {
+            let Some(wanted) = self.next_wanted() else { break };
+            let is_found = self.look_for(&wanted, &mut best);
+            // It is looked for again when all others had their turn, if another candidate is better.
+            self.wanted.push_back(wanted);
+            if is_found {
+                break;
+            }
+        }
+        best.map(|(_, candidate)| candidate)
+    }
+
+    fn consider(&self, candidate: Option<Candidate>, best: &mut Option<(Gain, Candidate)>) {
+        let Some(candidate) = candidate else { return };
+        let gain = self.table.gain(&candidate.classes);
+        if best.as_ref().is_none_or(|(most, _)| gain > *most) {
+            *best = Some((gain, candidate));
+        }
+    }
+
+    /// The next thing that is still missing.
+    fn next_wanted(&mut self) -> Option<Wanted> {
+        loop {
+            let wanted = self.wanted.pop_front()?;
+            if !self.table.has(&wanted) {
+                return Some(wanted);
+            }
+        }
+    }
+
+    /// Considers candidates beside cases that have a part of what is wanted. Whether one of them has all of it.
+    fn look_for(&mut self, wanted: &Wanted, best: &mut Option<(Gain, Candidate)>) -> bool {
+        let mut nearest: Option<(usize, Case)> = None;
+        for _ in 0..AT_ONCE {
+            let Some([one, other]) = self.examples_of(wanted) else { return false };
+            // What already has most of it is a good start, too.
+            let one = match &nearest {
+                Some((_, nearest)) if self.rng.chance(2) => nearest,
+                _ => &one,
+            };
+            let case = (self.topic.vary)(&mut self.rng, one, &other);
+            let Some(candidate) = self.candidate(case) else { continue };
+            let has = wanted.iter().filter(|class| candidate.classes.contains(class)).count();
+            if nearest.as_ref().is_none_or(|(most, _)| has >= *most) {
+                nearest = Some((has, candidate.case.clone()));
+            }
+            self.consider(Some(candidate), best);
+            if has == wanted.len() {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Two cases that have one of some classes each; none where a class has no case.
+    fn examples_of(&mut self, wanted: &[u16]) -> Option<[Case; 2]> {
+        let mut example = || {
+            let class = wanted[self.rng.int(0, wanted.len() as i64 - 1) as usize];
+            let examples = &self.examples[usize::from(class)];
+            let last = examples.len().checked_sub(1)?;
+            Some(examples[self.rng.int(0, last as i64) as usize].case.clone())
+        };
+        Some([example()?, example()?])
+    }
+
+    /// Notes what a chosen case has, and keeps it as an example of its classes.
+    fn note(&mut self, chosen: &Candidate) {
+        self.table.note(&chosen.classes);
+        for class in &chosen.classes {
+            let examples = &mut self.examples[usize::from(*class)];
+            if examples.len() < REMEMBERED {
+                examples.push(chosen.clone());
+            } else if self.rng.chance(REMEMBERED as i64) {
+                let at = self.rng.int(0, REMEMBERED as i64 - 1) as usize;
+                examples[at] = chosen.clone();
+            }
+        }
+    }
+
+    /// Lists what can occur and is missing, in random order: the pairs, or the triples that hold a class of a fact.
+    fn list_wanted(&mut self, third: Option<usize>) {
+        let starts = self.topic.starts();
+        let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class)) - 1;
+        let all = self.examples.len() as u16;
+        let mut wanted = Vec::new();
+        for second in 0..all {
+            for first in (0..second).filter(|first| fact_of(*first) != fact_of(second)) {
+                let is_given = |class: u16| Some(fact_of(class)) == third;
+                let Some(fact) = third else {
+                    wanted.push(vec![first, second]);
+                    continue;
+                };
+                if is_given(first) || is_given(second) {
+                    continue;
+                }
+                for class in (0..all).filter(|class| fact_of(*class) == fact) {
+                    let mut triple = vec![first, second, class];
+                    triple.sort_unstable();
+                    wanted.push(triple);
+                }
+            }
+        }
+        let can_occur = |classes: &Wanted| {
+            (0..classes.len()).all(|at| {
+                (0..at).all(|before| !self.impossible.contains(&[classes[before], classes[at]]))
+            })
+        };
+        wanted.retain(|classes| !self.table.has(classes) && can_occur(classes));
+        for last in (1..wanted.len()).rev() {
+            wanted.swap(last, self.rng.int(0, last as i64) as usize);
+        }
+        self.wanted = wanted.into();
+    }
+}
+
+/// The pairs of classes that cannot occur, in ascending order: a long search has not found them.
+#[must_use]
+pub fn impossible(topic: &Topic) -> BTreeSet<[u16; 2]> {
+    let mut pairs = BTreeSet::new();
+    for line in topic.impossible.lines() {
+        let mut numbers = line.split_ascii_whitespace().filter_map(|word| word.parse().ok());
+        let Some(first) = numbers.next() else { continue };
+        pairs.extend(numbers.map(|second| [first, second]));
+    }
+    pairs
+}
+
+/// The cases of a block.
+#[must_use]
+pub fn block(topic: &Topic, seed: u64, number: u64, limits: &Limits) -> Vec<Case> {
+    block_without(&impossible(topic), topic, [seed, number], limits)
+}
+
+/// The cases of a block in which some pairs are not looked for.
+fn block_without(
+    impossible: &BTreeSet<[u16; 2]>,
+    topic: &Topic,
+    [seed, number]: [u64; 2],
+    limits: &Limits,
+) -> Vec<Case> {
+    let facts = topic.starts().len() as u64;
+    let third = number.checked_sub(1).map(|number| (number % facts) as usize);
+    let all = topic.count();
+    let mut chooser = Chooser {
+        topic,
+        limits,
+        rng: Rng::new(topic.name, seed, number),
+        effort: Effort::of_block(number),
+        impossible: impossible.clone(),
+        table: Table::new(all),
+        examples: vec![Vec::new(); all],
+        wanted: VecDeque::new(),
+        more_turns: if number == 0 { MOST_TURNS } else { 0 },
+    };
+    let mut cases = Vec::with_capacity(BLOCK as usize);
+    for at in 0..BLOCK {
+        if at == EASY {
+            chooser.list_wanted(third);
+        }
+        let chosen = chooser.choose().expect("what is drawn has facts, put within any limits");
+        chooser.note(&chosen);
+        cases.push(chosen.case);
+    }
+    cases
+}
+
+/// What the cases of a block depend on.
+#[derive(Clone, PartialEq)]
+struct Key {
+    topic: &'static str,
+    seed: u64,
+    number: u64,
+    limits: Limits,
+}
+
+type Shared = Arc<OnceLock<Vec<Case>>>;
+
+static BLOCKS: Mutex<VecDeque<(Key, Shared)>> = Mutex::new(VecDeque::new());
+
+/// A case of the design of a topic. Its block is chosen once, and kept while others ask for cases of it.
+#[must_use]
+pub fn case(topic: &Topic, seed: u64, index: u64, limits: &Limits) -> Case {
+    let key = Key { topic: topic.name, seed, number: index / BLOCK, limits: limits.clone() };
+    let number = key.number;
+    let cases = kept_block(key);
+    let cases = cases.get_or_init(|| block(topic, seed, number, limits));
+    cases[(index % BLOCK) as usize].clone()
+}
+
+/// The place of a block, empty where nobody has asked for it.
+fn kept_block(key: Key) -> Shared {
+    let mut blocks = BLOCKS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = blocks.iter().find(|(known, _)| *known == key) {
+        return Arc::clone(known);
+    }
+    let new = Shared::default();
+    blocks.push_back((key, Arc::clone(&new)));
+    if blocks.len() > KEPT {
+        blocks.pop_front();
+    }
+    new
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::facts::TOPICS;
+
+    /// The classes of the cases of a block.
+    fn table_of(topic: &Topic, blocks: impl IntoIterator<Item = (u64, u64)>) -> Table {
+        let limits = Limits::default();
+        let mut table = Table::new(topic.count());
+        for (seed, number) in blocks {
+            for case in block(topic, seed, number, &limits) {
+                table.note(&topic.classes(&case, &limits).unwrap());
+            }
+        }
+        table
+    }
+
+    /// The pairs of classes of two facts that a table does not have.
+    fn missing(topic: &Topic, table: &Table) -> BTreeSet<[u16; 2]> {
+        let starts = topic.starts();
+        let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class)) - 1;
+        let mut missing = BTreeSet::new();
+        for second in 0..topic.count() as u16 {
+            for first in 0..second {
+                if fact_of(first) != fact_of(second) && !table.has(&[first, second]) {
+                    missing.insert([first, second]);
+                }
+            }
+        }
+        missing
+    }
+
+    /// In the default number of cases every pair is asked that can occur.
+    #[test]
+    fn the_first_block_has_every_pair() {
+        for topic in &TOPICS {
+            for seed in 1..=3 {
+                let table = table_of(topic, [(seed, 0)]);
+                let forgotten: Vec<_> =
+                    missing(topic, &table).difference(&impossible(topic)).copied().collect();
+                let words = |[first, second]: &[u16; 2]| {
+                    format!("{} & {}", topic.class_words(*first), topic.class_words(*second))
+                };
+                let forgotten: Vec<_> = forgotten.iter().map(words).collect();
+                assert!(forgotten.is_empty(), "{} seed {seed}: {forgotten:#?}", topic.name);
+            }
+        }
+    }
+
+    /// The search that `impossible` stems from: 40 blocks that look for every pair.
+    /// `RASTERPROOF_RENEW=1` writes what it has not found.
+    #[test]
+    #[ignore = "a minute"]
+    fn impossible_pairs_are_not_found() {
+        let limits = Limits::default();
+        for topic in &TOPICS {
+            let mut table = Table::new(topic.count());
+            for seed in 100..140 {
+                for case in block_without(&BTreeSet::new(), topic, [seed, 0], &limits) {
+                    table.note(&topic.classes(&case, &limits).unwrap());
+                }
+            }
+            let missing = missing(topic, &table);
+            if std::env::var_os("RASTERPROOF_RENEW").is_some() {
+                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/facts/impossible");
+                std::fs::write(format!("{folder}/{}.txt", topic.name), listed(&missing)).unwrap();
+            } else {
+                let found: Vec<_> = impossible(topic).difference(&missing).copied().collect();
+                assert!(found.is_empty(), "{}: {found:?} can occur", topic.name);
+            }
+        }
+    }
+
+    /// The text that `impossible` reads.
+    fn listed(pairs: &BTreeSet<[u16; 2]>) -> String {
+        let mut text = String::new();
+        let mut line = None;
+        for [first, second] in pairs {
+            if line != Some(first) {
+                let end = if line.is_some() { "\n" } else { "" };
+                text += &format!("{end}{first}");
+                line = Some(first);
+            }
+            text += &format!(" {second}");
+        }
+        text + "\n"
+    }
+}

@@ -1,0 +1,267 @@
+//! Facts of a question, and a covering design over them: which questions are asked, so that none is left out because nobody
+//! thought of it.
+//!
+//! A *quantity* is a whole number that a question has: the width of its window, the length of an edge, how far a corner lies to
+//! the left of the window. A *test* sorts its values into a few *classes*. A quantity with a test is a *fact*. A mistake of a
+//! rasterizer shows only under certain facts, often under two or three of them together: long edges in a narrow window, many
+//! triangles in one block of pixels. A *covering design* of strength two therefore contains every pair of classes of two facts
+//! that can occur ([`design`]). This is combinatorial testing, as with the covering arrays of the greedy generators AETG and IPOG;
+//! here a question is drawn and measured, since its facts depend on each other and cannot be chosen freely.
+
+pub mod asked;
+pub mod depth;
+pub mod design;
+pub mod lines;
+pub mod near;
+mod table;
+pub mod triangles;
+pub mod values;
+
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
+
+use crate::cases::{Case, Limits};
+
+/// What a number of a quantity counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// Steps of the lattice, 1/256 px.
+    Subpixels,
+    /// Half square steps of the lattice: of twice an area.
+    HalfSquareSubpixels,
+    /// Pixels.
+    Pixels,
+    /// Things, or a plain number.
+    Count,
+    /// Powers of two of a ratio.
+    Doublings,
+}
+
+/// A whole number that a question has, read off what was measured of it.
+#[derive(Clone, Copy)]
+pub struct Quantity<M> {
+    /// Its name, as the subject of a sentence.
+    pub name: &'static str,
+    /// What it counts.
+    pub unit: Unit,
+    /// Its value.
+    pub of: fn(&M) -> i64,
+}
+
+/// How the values of a quantity are sorted into classes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Test {
+    /// Below zero, zero, above zero.
+    Sign,
+    /// Between these limits, in ascending order; a limit belongs to the class above it.
+    Steps(&'static [i64]),
+    /// By the powers of two that divide it, up to 16.
+    Divisor,
+    /// The value is the number of a word.
+    Choice(&'static [&'static str]),
+}
+
+impl Test {
+    /// How many classes there are.
+    #[must_use]
+    pub fn count(self) -> usize {
+        match self {
+            Self::Sign => 3,
+            Self::Steps(limits) => limits.len() + 1,
+            Self::Divisor => 5,
+            Self::Choice(words) => words.len(),
+        }
+    }
+
+    /// The class of a value.
+    #[must_use]
+    pub fn class(self, value: i64) -> usize {
+        match self {
+            Self::Sign => (value.signum() + 1) as usize,
+            Self::Steps(limits) => limits.iter().filter(|limit| value >= **limit).count(),
+            Self::Divisor => value.trailing_zeros().min(4) as usize,
+            Self::Choice(words) => (value as usize).min(words.len() - 1),
+        }
+    }
+
+    /// A class in words.
+    #[must_use]
+    pub fn words(self, unit: Unit, class: usize) -> String {
+        match self {
+            Self::Sign => ["below 0", "0", "above 0"][class].to_owned(),
+            Self::Divisor => [
+                "odd",
+                "twice an odd number",
+                "a multiple of 4",
+                "a multiple of 8",
+                "a multiple of 16",
+            ][class]
+                .to_owned(),
+            Self::Choice(words) => words[class].to_owned(),
+            Self::Steps(limits) => {
+                match (class.checked_sub(1).map(|i| limits[i]), limits.get(class)) {
+                    (None, limit) => format!("less than {}", shown(unit, *limit.unwrap_or(&0))),
+                    (Some(limit), None) => format!("{} or more", shown(unit, limit)),
+                    (Some(limit), Some(end)) if unit == Unit::Count && limit + 1 == *end => {
+                        limit.to_string()
+                    }
+                    (Some(limit), Some(end)) if unit == Unit::Pixels && limit + 1 == *end => {
+                        format!("{limit} px")
+                    }
+                    (Some(limit), Some(end)) => {
+                        format!("{} to less than {}", shown(unit, limit), shown(unit, *end))
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A value with its unit.
+fn shown(unit: Unit, value: i64) -> String {
+    match unit {
+        Unit::Count => value.to_string(),
+        Unit::Pixels => format!("{value} px"),
+        Unit::Subpixels if value % 256 != 0 => format!("{value}/256 px"),
+        Unit::Subpixels => format!("{} px", value / 256),
+        Unit::HalfSquareSubpixels if value % (1 << 17) != 0 => format!("{}/2^17 square px", value),
+        Unit::HalfSquareSubpixels => format!("{} square px", value >> 17),
+        Unit::Doublings if value < 0 => format!("1/{}", 1_i64 << -value),
+        Unit::Doublings => (1_i64 << value).to_string(),
+    }
+}
+
+/// A quantity with a test.
+#[derive(Clone, Copy)]
+pub struct Fact<M> {
+    /// What is tested.
+    pub quantity: Quantity<M>,
+    /// How.
+    pub test: Test,
+}
+
+/// Shorthand of the tables of facts.
+const fn fact<M>(name: &'static str, unit: Unit, of: fn(&M) -> i64, test: Test) -> Fact<M> {
+    Fact { quantity: Quantity { name, unit, of }, test }
+}
+
+/// The classes of what was measured. Those of all facts of a table are numbered one after the other.
+fn classes<M>(facts: &[Fact<M>], measured: &M) -> Vec<u16> {
+    let mut start = 0;
+    let mut classes = Vec::with_capacity(facts.len());
+    for Fact { quantity, test } in facts {
+        classes.push((start + test.class((quantity.of)(measured))) as u16);
+        start += test.count();
+    }
+    classes
+}
+
+/// A fact in words: its name and those of its classes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FactWords {
+    /// The name of the quantity.
+    pub name: &'static str,
+    /// Each class.
+    pub classes: Vec<String>,
+}
+
+/// A table of facts in words.
+fn words<M>(facts: &[Fact<M>]) -> Vec<FactWords> {
+    let mut all = Vec::new();
+    for Fact { quantity, test } in facts {
+        let classes = (0..test.count()).map(|class| test.words(quantity.unit, class)).collect();
+        all.push(FactWords { name: quantity.name, classes });
+    }
+    all
+}
+
+/// A kind of question: what can be measured of it, and how such questions are drawn.
+#[derive(Clone, Copy)]
+pub struct Topic {
+    /// Its name: that of the family whose cases the design chooses.
+    pub name: &'static str,
+    words: fn() -> Vec<FactWords>,
+    measure: fn(&Case, &Limits) -> Option<Vec<u16>>,
+    /// The pairs of classes that cannot occur: on each line the number of a class, and those of others.
+    impossible: &'static str,
+    /// Draws a case.
+    draw: fn(&mut Rng) -> Case,
+    /// A case beside the first one, that may take something of the second.
+    vary: fn(&mut Rng, &Case, &Case) -> Case,
+}
+
+impl Topic {
+    /// Its facts, in words.
+    #[must_use]
+    pub fn facts(&self) -> Vec<FactWords> {
+        (self.words)()
+    }
+
+    /// The number of the first class of each fact: all classes are numbered one after the other.
+    #[must_use]
+    pub fn starts(&self) -> Vec<usize> {
+        let mut starts = Vec::new();
+        let mut next = 0;
+        for fact in self.facts() {
+            starts.push(next);
+            next += fact.classes.len();
+        }
+        starts
+    }
+
+    /// How many classes there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.facts().iter().map(|fact| fact.classes.len()).sum()
+    }
+
+    /// The class of each fact of a question, for a rasterizer with limits; nothing where the case is of another kind.
+    #[must_use]
+    pub fn classes(&self, case: &Case, limits: &Limits) -> Option<Vec<u16>> {
+        (self.measure)(case, limits)
+    }
+
+    /// A class with the name of its fact.
+    #[must_use]
+    pub fn class_words(&self, class: u16) -> String {
+        let mut rest = usize::from(class);
+        for fact in self.facts() {
+            if let Some(words) = fact.classes.get(rest) {
+                return format!("{}: {words}", fact.name);
+            }
+            rest -= fact.classes.len();
+        }
+        String::new()
+    }
+}
+
+/// Every kind of question that has a design.
+pub const TOPICS: [Topic; 5] =
+    [triangles::TOPIC, values::TOPIC, lines::TOPIC, depth::TOPIC, near::TOPIC];
+
+/// A side of a window in pixels: mostly small, since every pixel of it is compared; each class of size and divisor occurs.
+fn draw_side(rng: &mut Rng) -> i32 {
+    match rng.int(0, 9) {
+        0 => 1,
+        1 => 2,
+        2 | 3 => rng.coordinate(3, 8),
+        4 | 5 => rng.coordinate(9, 33),
+        6 => 8 * rng.coordinate(1, 6),
+        7 => 16 * rng.coordinate(1, 3),
+        8 => rng.coordinate(34, 64),
+        _ => rng.coordinate(65, 80),
+    }
+}
+
+/// A window at the origin. One in a few is wider or higher than the words of eight bits hold, seldom both.
+fn draw_window(rng: &mut Rng) -> PixelRect {
+    let (mut width, mut height) = (draw_side(rng), draw_side(rng));
+    let long = |rng: &mut Rng| rng.coordinate(257, 320);
+    match rng.int(0, 47) {
+        0 => (width, height) = (long(rng), long(rng)),
+        1 | 2 => width = long(rng),
+        3 | 4 => height = long(rng),
+        _ => {}
+    }
+    PixelRect::window(width as u32, height as u32)
+}
