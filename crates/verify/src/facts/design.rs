@@ -1,8 +1,8 @@
 //! The covering design: cases chosen one after the other so that every pair of classes occurs, and of the triples as many as
 //! possible.
 //!
-//! Cases come in blocks of [`BLOCK`]. The first block has every pair of classes that can occur. In block k the rare triples are
-//! looked for that hold a class of fact k - 1, so that after as many blocks as there are facts all triples were looked for. A
+//! Cases come in blocks of [`BLOCK`]. The first block has every pair of classes that can occur. In block k some triples are
+//! looked for that hold a class of fact k - 1. A
 //! block depends on its number, the seed and the limits alone: case n is found again without the blocks before it.
 //!
 //! The choice is greedy. Of a few candidates the one is taken that has most pairs that are missing, then most triples. What is rare
@@ -125,7 +125,7 @@ impl Chooser<'_> {
         }
     }
 
-    /// Considers candidates beside cases that have a part of what is wanted. Whether one of them has all of it.
+    /// Draws candidates beside cases that have a part of what is wanted, until one has all of it. Whether one had.
     fn look_for(&mut self, wanted: &Wanted, best: &mut Option<(Gain, Candidate)>) -> bool {
         let mut nearest: Option<(usize, Case)> = None;
         for _ in 0..AT_ONCE {
@@ -141,7 +141,10 @@ impl Chooser<'_> {
             if nearest.as_ref().is_none_or(|(most, _)| has >= *most) {
                 nearest = Some((has, candidate.case.clone()));
             }
-            self.consider(Some(candidate), best);
+            // It may have something else that is missing.
+            if has == wanted.len() || self.table.missing_pairs(&candidate.classes) > 0 {
+                self.consider(Some(candidate), best);
+            }
             if has == wanted.len() {
                 return true;
             }
@@ -174,39 +177,58 @@ impl Chooser<'_> {
         }
     }
 
-    /// Lists what can occur and is missing, in random order: the pairs, or the triples that hold a class of a fact.
+    /// Lists what can occur and is missing, in random order: the pairs, or some triples that hold a class of a fact.
     fn list_wanted(&mut self, third: Option<usize>) {
-        let starts = self.topic.starts();
-        let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class)) - 1;
-        let all = self.examples.len() as u16;
-        let mut wanted = Vec::new();
-        for second in 0..all {
-            for first in (0..second).filter(|first| fact_of(*first) != fact_of(second)) {
-                let is_given = |class: u16| Some(fact_of(class)) == third;
-                let Some(fact) = third else {
-                    wanted.push(vec![first, second]);
-                    continue;
-                };
-                if is_given(first) || is_given(second) {
-                    continue;
-                }
-                for class in (0..all).filter(|class| fact_of(*class) == fact) {
-                    let mut triple = vec![first, second, class];
-                    triple.sort_unstable();
-                    wanted.push(triple);
-                }
-            }
-        }
-        let can_occur = |classes: &Wanted| {
-            (0..classes.len()).all(|at| {
-                (0..at).all(|before| !self.impossible.contains(&[classes[before], classes[at]]))
-            })
+        let mut wanted = match third {
+            None => self.all_pairs(),
+            Some(fact) => self.some_triples(fact),
         };
-        wanted.retain(|classes| !self.table.has(classes) && can_occur(classes));
+        let is_possible = |classes: &Wanted| {
+            let mut pairs =
+                (1..classes.len()).flat_map(|at| (0..at).map(move |before| [before, at]));
+            pairs.all(|pair| !self.impossible.contains(&pair.map(|at| classes[at])))
+        };
+        wanted.retain(|classes| !self.table.has(classes) && is_possible(classes));
         for last in (1..wanted.len()).rev() {
             wanted.swap(last, self.rng.int(0, last as i64) as usize);
         }
         self.wanted = wanted.into();
+    }
+
+    /// The pairs of classes of two facts.
+    fn all_pairs(&self) -> Vec<Wanted> {
+        let starts = self.topic.starts();
+        let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class));
+        let mut pairs = Vec::new();
+        for second in 0..self.examples.len() as u16 {
+            for first in (0..second).filter(|first| fact_of(*first) != fact_of(second)) {
+                pairs.push(vec![first, second]);
+            }
+        }
+        pairs
+    }
+
+    /// As many triples as a block has cases, each of a class of this fact and of classes of two others.
+    fn some_triples(&mut self, fact: usize) -> Vec<Wanted> {
+        let mut starts = self.topic.starts();
+        let facts = starts.len();
+        starts.push(self.examples.len());
+        let mut triples = Vec::new();
+        for _ in 0..BLOCK {
+            let mut chosen = vec![fact];
+            while chosen.len() < 3 {
+                let other = self.rng.int(0, facts as i64 - 1) as usize;
+                if !chosen.contains(&other) {
+                    chosen.push(other);
+                }
+            }
+            chosen.sort_unstable();
+            let mut class = |fact: &usize| {
+                self.rng.int(starts[*fact] as i64, starts[fact + 1] as i64 - 1) as u16
+            };
+            triples.push(chosen.iter().map(&mut class).collect());
+        }
+        triples
     }
 }
 

@@ -259,8 +259,8 @@ fn draw_window(rng: &mut Rng) -> PixelRect {
     let long = |rng: &mut Rng| rng.coordinate(257, 320);
     match rng.int(0, 47) {
         0 => (width, height) = (long(rng), long(rng)),
-        1 | 2 => width = long(rng),
-        3 | 4 => height = long(rng),
+        1 | 2 => (width, height) = (long(rng), rng.coordinate(1, 8)),
+        3 | 4 => (width, height) = (rng.coordinate(1, 8), long(rng)),
         _ => {}
     }
     PixelRect::window(width as u32, height as u32)

@@ -36,6 +36,18 @@ impl Table {
         }
     }
 
+    /// How many pairs a question has that are missing.
+    pub(super) fn missing_pairs(&self, classes: &[u16]) -> usize {
+        let mut missing = 0;
+        for (at, &second) in classes.iter().enumerate() {
+            let row = usize::from(second) * self.all;
+            for &first in &classes[..at] {
+                missing += usize::from(!self.pairs[row + usize::from(first)]);
+            }
+        }
+        missing
+    }
+
     /// How much a question has that is missing.
     pub(super) fn gain(&self, classes: &[u16]) -> Gain {
         let mut gain = Gain { pairs: 0, triples: 0 };

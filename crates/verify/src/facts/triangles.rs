@@ -438,6 +438,7 @@ fn adjust(rng: &mut Rng, points: &mut [Point; 3], sides: [i64; 2]) {
                 points[one][1 - axis] + if rng.chance(2) { long } else { -long };
             // A sliver along it.
             if rng.chance(3) {
+                points[3 - one - other] = points[one];
                 points[3 - one - other][axis] = line + rng.int(-off, off);
             }
         }
