@@ -59,7 +59,7 @@ use rasterproof_render::scene;
 use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases;
-use rasterproof_verify::facts::{self, design};
+use rasterproof_verify::cases::facts::{self, design};
 
 pub mod exit {
     pub const AGREES: u8 = 0;

@@ -248,7 +248,7 @@ fn a_right_verdict_is_short_and_narrow() {
     let out = check(words, 0).out;
     assert!(out.lines().next().unwrap().ends_with(": every engine is right"), "{out}");
     let groups: Vec<_> = out.lines().filter(|line| line.starts_with("  \u{2713} ")).collect();
-    assert_eq!(groups.len(), 9, "{out}");
+    assert_eq!(groups.len(), 10, "{out}");
     assert!(groups.iter().all(|line| line.chars().count() <= 60), "{out}");
     assert!(out.contains("ties on edges             60 cases, all right"), "{out}");
     assert!(out.contains("% of the bound") && !out.contains("half-integer "), "{out}");

@@ -69,11 +69,10 @@ pub fn limits(declared: &Declared) -> Limits {
     // Two ends are at most twice as far from each other.
     let reach = declared.reach.map(|reach| (reach / 2).max(1));
     Limits {
-        convention: declared.convention,
-        range_px: range(declared),
         // The centre of the last pixel of all would be no coordinate.
         line_range_px: declared.range.into_iter().chain(reach).min().or(Some(i32::MAX)),
         window: declared.window,
+        ..declared.convention.limits(range(declared))
     }
 }
 
@@ -92,7 +91,7 @@ pub fn holds(case: &Case, declared: &Declared) -> bool {
         return false;
     }
     match &case.shape {
-        Shape::Triangles { list, .. } => declared.convention.takes(list, range(declared)),
+        Shape::Triangles { list, .. } => limits(declared).takes(list),
         Shape::Lines(_) => put(case.clone(), declared) == *case,
         Shape::Unsnapped { .. } => false,
     }

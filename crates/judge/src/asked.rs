@@ -5,12 +5,12 @@ use super::check::Check;
 use super::declared::Declared;
 use super::run::Row;
 use super::verdict::Verdict;
-use rasterproof_verify::facts::{self, asked::Asked};
+use rasterproof_verify::cases::facts::{self, asked::DesignShare};
 
 /// The pairs and the triples of facts that the designs asked of a program, one entry for each design. Nothing where a single
 /// case was judged, not all cases were, or two programs are compared.
 #[must_use]
-pub fn asked(verdict: &Verdict) -> Vec<Asked> {
+pub fn asked(verdict: &Verdict) -> Vec<DesignShare> {
     let Verdict { options, families, more, .. } = verdict;
     let is_cut = more.found.out_of_time || more.found.gave_up;
     if options.only.is_some() || more.against.is_some() || is_cut {
@@ -27,7 +27,7 @@ pub fn asked(verdict: &Verdict) -> Vec<Asked> {
             row.name == family.name || (is_of_values && row.check == Some(Check::Values))
         };
         if families.iter().any(|row| is_judged(row) && !row.stopped) {
-            all.push(Asked::of(topic, options.seed, options.numbers(), &limits));
+            all.push(DesignShare::of(topic, options.seed, options.numbers(), &limits));
         }
     }
     all

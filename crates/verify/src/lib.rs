@@ -204,7 +204,6 @@ pub mod cases;
 pub mod comparison;
 #[doc(hidden)]
 pub mod convention;
-pub mod facts;
 pub mod judge;
 #[doc(hidden)]
 pub mod mistakes;

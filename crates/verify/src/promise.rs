@@ -9,7 +9,7 @@
 
 use std::fmt;
 
-use crate::cases::{Case, Family, Limits, Shape, Triangle};
+use crate::cases::{Case, Family, Limits, Shape};
 use crate::oracle::Oracle;
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::geometry::{centre_of, pixel_box, twice_area};
@@ -232,50 +232,27 @@ impl Convention {
         }
     }
 
-    /// The coordinates of cases, in subpixels: those in [-range, range] px, or the domain, with room at its ends for a mirror image
-    /// where one is needed to know the truth.
-    fn limits(&self, range_px: Option<i32>) -> (i64, i64) {
-        let step = self.step();
+    /// What such a rasterizer can be asked whose coordinates lie in [-range, range] px, or in the domain: with room at its ends
+    /// for a mirror image where one is needed to know the truth.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn limits(&self, range_px: Option<i32>) -> Limits {
+        let step = 1 << SUBPIXEL_BITS.saturating_sub(self.subpixel_bits);
         let room = if self.is_standard() { 0 } else { 1 << 23 };
         let (least, most) = (i64::from(i32::MIN) + room, i64::from(i32::MAX) - room);
         let range = range_px.map_or(i64::MAX, |px| i64::from(px) * i64::from(SUBPIXELS));
-        let (least, most) = (least.max(-range), most.min(range));
-        (-(-least).div_euclid(step) * step, most.div_euclid(step) * step)
-    }
-
-    fn step(&self) -> i64 {
-        1 << SUBPIXEL_BITS.saturating_sub(self.subpixel_bits)
-    }
-
-    /// The corners put where a rasterizer draws whose coordinates lie in [-range, range] px: what lay on a pixel's centre lies on
-    /// the declared sample, then every coordinate is rounded to the declared grid. Ties stay ties where the grid holds the sample.
-    #[doc(hidden)]
-    pub fn put(&self, list: &mut [Triangle], range_px: Option<i32>) {
-        let (step, (least, most)) = (self.step(), self.limits(range_px));
-        let place = |sub: i32, axis: usize| {
-            let moved = i64::from(sub) + i64::from(self.sample[axis] - HALF_PIXEL);
-            ((moved + step / 2).div_euclid(step) * step).clamp(least, most) as i32
-        };
-        for vertex in list.iter_mut().flat_map(|triangle| &mut triangle.vertices) {
-            let SubpixelPoint { x, y } = vertex.position;
-            vertex.position = SubpixelPoint::new(place(x, 0), place(y, 1));
+        Limits {
+            sample: self.sample,
+            step,
+            least: -(-least.max(-range)).div_euclid(step) * step,
+            most: most.min(range).div_euclid(step) * step,
+            ..Limits::default()
         }
-    }
-
-    /// Whether corners lie where such a rasterizer draws.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn takes(&self, list: &[Triangle], range_px: Option<i32>) -> bool {
-        let (step, (least, most)) = (self.step(), self.limits(range_px));
-        let is_on =
-            |v: i32| (least..=most).contains(&v.into()) && i64::from(v).rem_euclid(step) == 0;
-        list.iter().flat_map(|t| t.corners()).all(|p| is_on(p.x) && is_on(p.y))
     }
 
     /// A case of a family, put where the rasterizer draws.
     pub(super) fn case(&self, family: &Family, seed: u64, index: u64) -> Case {
-        let mut case =
-            family.case_within(seed, index, &Limits { convention: *self, ..Limits::default() });
+        let mut case = family.case_within(seed, index, &self.limits(None));
         if let Shape::Triangles { disjoint, .. } = &mut case.shape
             && *self != Self::default()
         {
@@ -288,7 +265,7 @@ impl Convention {
     /// Whether a case, shrunk perhaps, lies where the rasterizer draws.
     pub(super) fn holds(&self, case: &Case) -> bool {
         match &case.shape {
-            Shape::Triangles { list, .. } => self.takes(list, None),
+            Shape::Triangles { list, .. } => self.limits(None).takes(list),
             _ => true,
         }
     }

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use super::facts;
 use super::{Case, Family, Shape, designed, family, pixel};
-use crate::facts;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};

@@ -5,6 +5,8 @@
 //! aims at one danger. A case is a pure function of (family, seed, index), on every machine:
 //! whole-number arithmetic, no trigonometry.
 
+mod clip;
+pub mod facts;
 pub mod lines;
 pub mod named;
 #[doc(hidden)]
@@ -20,12 +22,12 @@ use std::str::FromStr;
 
 use glam::DVec2;
 
-use crate::comparison::Convention;
-use crate::facts::{Topic, design};
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SubpixelPoint};
 #[doc(inline)]
 pub use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{FreeCorners, PixelPoint, ScreenLine, ScreenTriangle};
+
+use facts::{Topic, design};
 
 /// A triangle as the harness draws it: two attributes besides depth.
 pub type Triangle = ScreenTriangle<DVec2>;
@@ -158,22 +160,40 @@ const fn designed(topic: Topic, about: &'static str) -> Family {
     Family { name: topic.name, about, source: Source::Designed(topic) }
 }
 
-/// What a rasterizer can be asked: what lies outside is put inside, and kept apart from what is wrong.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// What a rasterizer can be asked, in steps of the lattice where nothing else is said: its coordinates and its windows.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
-    /// Its sample and its grid of corners.
-    pub convention: Convention,
-    /// Coordinates of corners lie in [-range, range] px.
-    pub range_px: Option<i32>,
+    /// Where in a pixel the sample lies, from the pixel's upper left corner.
+    pub sample: [i32; 2],
+    /// Coordinates of corners are multiples of this.
+    pub step: i64,
+    /// The least and the largest coordinate of a corner.
+    pub least: i64,
+    /// See `least`.
+    pub most: i64,
     /// Ends of lines lie in [-range, range) px.
     pub line_range_px: Option<i32>,
-    /// The largest window.
+    /// The largest window, in pixels.
     pub window: Option<[u32; 2]>,
+}
+
+impl Default for Limits {
+    /// The whole domain.
+    fn default() -> Self {
+        Self {
+            sample: [HALF_PIXEL; 2],
+            step: 1,
+            least: i32::MIN.into(),
+            most: i32::MAX.into(),
+            line_range_px: None,
+            window: None,
+        }
+    }
 }
 
 impl Limits {
     /// Puts a case inside: what lay on a pixel's centre lies on the sample, then every coordinate is rounded to the grid and
-    /// kept within the range. A mesh may be folded by that.
+    /// kept within the limits. Ties stay ties where the grid holds the sample. A mesh may be folded by that.
     #[must_use]
     pub fn put(&self, mut case: Case) -> Case {
         if let Some([width, height]) = self.window {
@@ -181,7 +201,12 @@ impl Limits {
             case.window.y1 = case.window.y1.min(height as i32);
         }
         match &mut case.shape {
-            Shape::Triangles { list, .. } => self.convention.put(list, self.range_px),
+            Shape::Triangles { list, .. } => {
+                for vertex in list.iter_mut().flat_map(|triangle| &mut triangle.vertices) {
+                    let SubpixelPoint { x, y } = vertex.position;
+                    vertex.position = SubpixelPoint::new(self.place(x, 0), self.place(y, 1));
+                }
+            }
             Shape::Lines(lines) => {
                 let Some(most) = self.line_range_px else { return case };
                 // The centre of a pixel lies half a pixel further.
@@ -193,6 +218,21 @@ impl Limits {
             Shape::Unsnapped { .. } => {}
         }
         case
+    }
+
+    fn place(&self, sub: i32, axis: usize) -> i32 {
+        let moved = i64::from(sub) + i64::from(self.sample[axis] - HALF_PIXEL);
+        let on_grid = (moved + self.step / 2).div_euclid(self.step) * self.step;
+        on_grid.clamp(self.least, self.most) as i32
+    }
+
+    /// Whether corners lie within the limits.
+    #[must_use]
+    pub fn takes(&self, list: &[Triangle]) -> bool {
+        let is_on = |v: i32| {
+            (self.least..=self.most).contains(&v.into()) && i64::from(v).rem_euclid(self.step) == 0
+        };
+        list.iter().flat_map(|triangle| triangle.corners()).all(|p| is_on(p.x) && is_on(p.y))
     }
 }
 

@@ -5,8 +5,9 @@
 
 use glam::DVec2;
 
+pub use super::clip::{ClipCorner, clip_corners};
+use super::facts;
 use super::{Case, Family, Shape, Triangle, designed, family, sub};
-use crate::facts;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
@@ -160,19 +161,6 @@ fn far_inside(rng: &mut Rng) -> Case {
         window: PixelRect::window(width, height),
         shape: Shape::Triangles { list: vec![ScreenTriangle { vertices }], disjoint: true },
     }
-}
-
-/// x, y, z, w in clip space, and an attribute.
-pub type ClipCorner = [f64; 5];
-
-/// The corners of a case of `near-plane`, whose vertices keep w as their first attribute: a window position has no place
-/// for a w that is zero or less. The second one is the attribute.
-#[must_use]
-pub fn clip_corners(triangle: &Triangle) -> [ClipCorner; 3] {
-    triangle.vertices.each_ref().map(|v| {
-        let (x, y) = v.position.to_px();
-        [x, y, v.depth, v.varying.x, v.varying.y]
-    })
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@
 
 use glam::DVec2;
 
+use super::facts;
 use super::{Case, Family, Shape, Triangle, designed, family, sub};
-use crate::facts;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::centre_of;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};

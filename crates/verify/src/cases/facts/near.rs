@@ -7,14 +7,14 @@ use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
 use super::{Fact, Test, Topic, Unit, classes, fact, words};
-use crate::cases::near_plane::clip_corners;
+use crate::cases::clip::clip_corners;
 use crate::cases::{Case, Limits, Shape};
 
 /// Triangles of clip space.
 pub const TOPIC: Topic = Topic {
     name: "near-design",
     words: || words(&FACTS),
-    measure: |case, _: &Limits| Some(classes(&FACTS, &Measured::of_case(case)?)),
+    measure: |case, _: &Limits| Some(classes(&FACTS, &ClipFacts::of_case(case)?)),
     impossible: include_str!("impossible/near-design.txt"),
     draw,
     vary,
@@ -25,7 +25,7 @@ const SIZE: Test = Test::Steps(&[1, 64, 1024]);
 const SOME: Test = Test::Choice(&["of no corner", "of some corners", "of all"]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<Measured>; 17] = [
+pub(super) const FACTS: [Fact<ClipFacts>; 17] = [
     fact("the first corner and the plane z = -w", Unit::Count, |m| m.sides[0] + 1, SIDE),
     fact("the second corner and the plane z = -w", Unit::Count, |m| m.sides[1] + 1, SIDE),
     fact("the third corner and the plane z = -w", Unit::Count, |m| m.sides[2] + 1, SIDE),
@@ -56,7 +56,7 @@ pub(super) const FACTS: [Fact<Measured>; 17] = [
 ];
 
 /// What was measured of the corners of a triangle of clip space.
-pub struct Measured {
+pub struct ClipFacts {
     /// The sign of z + w of each corner: 1 before the plane, where it is kept.
     pub sides: [i64; 3],
     /// The signs of z and of w.
@@ -77,7 +77,7 @@ pub struct Measured {
     pub attribute: i64,
 }
 
-impl Measured {
+impl ClipFacts {
     /// Of the first triangle of a case.
     #[must_use]
     pub fn of_case(case: &Case) -> Option<Self> {

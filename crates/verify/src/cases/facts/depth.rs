@@ -14,7 +14,7 @@ use crate::cases::{Case, Shape, Triangle};
 pub const TOPIC: Topic = Topic {
     name: "depth-design",
     words: || words(&FACTS),
-    measure: |case, _| Some(classes(&FACTS, &Measured::of_case(case)?)),
+    measure: |case, _| Some(classes(&FACTS, &PileFacts::of_case(case)?)),
     impossible: include_str!("impossible/depth-design.txt"),
     draw,
     vary,
@@ -29,7 +29,7 @@ const EXTENT: Test = Test::Steps(&[2 * PX, 8 * PX, 24 * PX]);
 const SOME: Test = Test::Choice(&["none", "some", "all"]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<Measured>; 18] = [
+pub(super) const FACTS: [Fact<PileFacts>; 18] = [
     fact("triangles", Unit::Count, |m| m.count, Test::Steps(&[2, 3, 5, 9, 17, 33, 64])),
     fact("triangles that cover one of 16 pixels", Unit::Count, |m| m.piled, PILED),
     fact("triangles whose boxes meet one block of 8 x 8 px", Unit::Count, |m| m.in_block, PILED),
@@ -71,7 +71,7 @@ pub(super) const FACTS: [Fact<Measured>; 18] = [
 ];
 
 /// What was measured of some triangles in their window.
-pub struct Measured {
+pub struct PileFacts {
     /// How many there are.
     pub count: i64,
     /// The most that cover one of at most 4 x 4 samples, evenly spread.
@@ -104,7 +104,7 @@ pub struct Measured {
     pub leaves_open: i64,
 }
 
-impl Measured {
+impl PileFacts {
     /// Of a case of triangles.
     #[must_use]
     pub fn of_case(case: &Case) -> Option<Self> {

@@ -13,7 +13,7 @@ use crate::cases::{Case, Shape};
 pub const TOPIC: Topic = Topic {
     name: "line-design",
     words: || words(&FACTS),
-    measure: |case, _| Some(classes(&FACTS, &Measured::of_case(case)?)),
+    measure: |case, _| Some(classes(&FACTS, &LineFacts::of_case(case)?)),
     impossible: include_str!("impossible/line-design.txt"),
     draw,
     vary,
@@ -25,7 +25,7 @@ const LENGTH: Test = Test::Steps(&[1, 2, 9, 41, 257, 1 << 12, 1 << 15, 1 << 20])
 const PLACE: Test = Test::Steps(&[-(1 << 15), -256, 0, 1, 257, 1 << 15]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<Measured>; 20] = [
+pub(super) const FACTS: [Fact<LineFacts>; 20] = [
     fact("columns from its first to its second end", Unit::Count, |m| m.by[0], Test::Sign),
     fact("rows from its first to its second end", Unit::Count, |m| m.by[1], Test::Sign),
     fact(
@@ -69,7 +69,7 @@ pub(super) const FACTS: [Fact<Measured>; 20] = [
 ];
 
 /// What was measured of a line in its window, in pixels.
-pub struct Measured {
+pub struct LineFacts {
     /// Columns and rows from the first end to the second.
     pub by: [i64; 2],
     /// The same without sign.
@@ -90,7 +90,7 @@ pub struct Measured {
     pub on_border: i64,
 }
 
-impl Measured {
+impl LineFacts {
     /// Of the first line of a case.
     #[must_use]
     pub fn of_case(case: &Case) -> Option<Self> {

@@ -9,7 +9,7 @@ use crate::cases::Limits;
 /// How much some cases of a design ask.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Asked {
+pub struct DesignShare {
     /// The name of the family whose cases the design chooses.
     pub family: &'static str,
     /// How many cases there are.
@@ -33,7 +33,7 @@ pub struct Asked {
 /// Cases of which triples are counted at most: after so many of them hardly one is missing.
 const MOST_COUNTED: usize = 20_000;
 
-impl Asked {
+impl DesignShare {
     /// What the cases of a design with these numbers ask, for a rasterizer with limits.
     #[must_use]
     pub fn of(topic: &Topic, seed: u64, numbers: Range<u64>, limits: &Limits) -> Self {

@@ -18,7 +18,7 @@ const SQUARE_PX: i64 = 2 * PX * PX;
 pub const TOPIC: Topic = Topic {
     name: "design",
     words: || words(&FACTS),
-    measure: |case, limits| Some(classes(&FACTS, &Measured::of_case(case, limits)?)),
+    measure: |case, limits| Some(classes(&FACTS, &TriangleFacts::of_case(case, limits)?)),
     impossible: include_str!("impossible/design.txt"),
     draw,
     vary,
@@ -34,7 +34,7 @@ const SLOPE: Test = Test::Steps(&[0, 4, 8, 12, 15]);
 const BITS: Test = Test::Steps(&[1, 2, 5]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<Measured>; 27] = [
+pub(super) const FACTS: [Fact<TriangleFacts>; 27] = [
     fact("its winding", Unit::Count, |m| m.turn + 1, WINDING),
     fact(
         "its uppermost corner",
@@ -117,7 +117,7 @@ pub(super) const FACTS: [Fact<Measured>; 27] = [
 ];
 
 /// What was measured of a triangle in its window. Lengths are in steps of the lattice.
-pub struct Measured {
+pub struct TriangleFacts {
     /// 1 where the corners run clockwise on the screen, -1 the other way round, 0 without area.
     pub turn: i64,
     /// The number of the uppermost corner, or 3.
@@ -159,11 +159,11 @@ pub struct Measured {
 /// A point, in 64 bits, where pixels are sampled at their centres.
 type Point = [i64; 2];
 
-impl Measured {
+impl TriangleFacts {
     /// Of a case with one triangle or of the first one of several.
     #[must_use]
     pub fn of_case(case: &Case, limits: &Limits) -> Option<Self> {
-        Some(Self::of(&case.triangles().first()?.corners(), case.window, limits.convention.sample))
+        Some(Self::of(&case.triangles().first()?.corners(), case.window, limits.sample))
     }
 
     /// Of a triangle whose pixels are sampled there.

@@ -13,7 +13,7 @@ use crate::cases::{Case, Limits, Shape, Triangle};
 pub const TOPIC: Topic = Topic {
     name: "w-design",
     words: || words(&FACTS),
-    measure: |case, limits| Some(classes(&FACTS, &Measured::of_case(case, limits)?)),
+    measure: |case, limits| Some(classes(&FACTS, &ValueFacts::of_case(case, limits)?)),
     impossible: include_str!("impossible/w-design.txt"),
     draw,
     vary,
@@ -26,7 +26,7 @@ const KINDS: Test =
 const SIZE: Test = Test::Steps(&[-8, 0, 8]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<Measured>; 16] = [
+pub(super) const FACTS: [Fact<ValueFacts>; 16] = [
     fact("its winding", Unit::Count, |m| m.form.turn + 1, triangles::WINDING),
     fact("its width", Unit::Subpixels, |m| m.form.size[0], EXTENT),
     fact("its height", Unit::Subpixels, |m| m.form.size[1], EXTENT),
@@ -71,9 +71,9 @@ pub(super) const FACTS: [Fact<Measured>; 16] = [
 ];
 
 /// What was measured of a triangle with its values.
-pub struct Measured {
+pub struct ValueFacts {
     /// Its form and its place.
-    pub form: triangles::Measured,
+    pub form: triangles::TriangleFacts,
     /// The logarithm of the largest w over the smallest; -1 where all are the same.
     pub w_ratio: i64,
     /// The logarithm of the smallest w.
@@ -90,12 +90,12 @@ pub struct Measured {
     pub sizes: [i64; 2],
 }
 
-impl Measured {
+impl ValueFacts {
     /// Of the first triangle of a case.
     #[must_use]
     pub fn of_case(case: &Case, limits: &Limits) -> Option<Self> {
         let triangle = case.triangles().first()?;
-        let form = triangles::Measured::of_case(case, limits)?;
+        let form = triangles::TriangleFacts::of_case(case, limits)?;
         let w = triangle.vertices.each_ref().map(|v| 1.0 / v.inv_w);
         let depths = triangle.vertices.each_ref().map(|v| v.depth);
         let [least, most] = [w[0].min(w[1]).min(w[2]), w[0].max(w[1]).max(w[2])];

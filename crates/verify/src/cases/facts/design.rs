@@ -292,9 +292,9 @@ struct Key {
     limits: Limits,
 }
 
-type Shared = Arc<OnceLock<Vec<Case>>>;
+type KeptBlock = Arc<OnceLock<Vec<Case>>>;
 
-static BLOCKS: Mutex<VecDeque<(Key, Shared)>> = Mutex::new(VecDeque::new());
+static BLOCKS: Mutex<VecDeque<(Key, KeptBlock)>> = Mutex::new(VecDeque::new());
 
 /// A case of the design of a topic. Its block is chosen once, and kept while others ask for cases of it.
 #[must_use]
@@ -307,12 +307,12 @@ pub fn case(topic: &Topic, seed: u64, index: u64, limits: &Limits) -> Case {
 }
 
 /// The place of a block, empty where nobody has asked for it.
-fn kept_block(key: Key) -> Shared {
+fn kept_block(key: Key) -> KeptBlock {
     let mut blocks = BLOCKS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = blocks.iter().find(|(known, _)| *known == key) {
         return Arc::clone(known);
     }
-    let new = Shared::default();
+    let new = KeptBlock::default();
     blocks.push_back((key, Arc::clone(&new)));
     if blocks.len() > KEPT {
         blocks.pop_front();
@@ -322,8 +322,8 @@ fn kept_block(key: Key) -> Shared {
 
 #[cfg(test)]
 mod tests {
+    use super::super::TOPICS;
     use super::*;
-    use crate::facts::TOPICS;
 
     /// The classes of the cases of a block.
     fn table_of(topic: &Topic, blocks: impl IntoIterator<Item = (u64, u64)>) -> Table {
@@ -384,7 +384,7 @@ mod tests {
             }
             let missing = missing(topic, &table);
             if std::env::var_os("RASTERPROOF_RENEW").is_some() {
-                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/facts/impossible");
+                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/cases/facts/impossible");
                 std::fs::write(format!("{folder}/{}.txt", topic.name), listed(&missing)).unwrap();
             } else {
                 let found: Vec<_> = impossible(topic).difference(&missing).copied().collect();
