@@ -110,6 +110,7 @@ mod docs {
         Chapter11Evidence "ch11-evidence"
         Conventions "conventions"
         Effects "effects"
+        EffectsEvidence "effects-evidence"
         Gpus "gpus"
         Games101 "games101"
         Judge "judge"
