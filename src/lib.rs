@@ -95,6 +95,8 @@ mod docs {
         Chapter9 "ch09"
         Chapter10 "ch10"
         Chapter11 "ch11"
+        Samples "samples"
+        Textures "textures"
         Chapter1Evidence "ch01-evidence"
         Chapter2Evidence "ch02-evidence"
         Chapter2EdgeFunctionsEvidence "ch02-edge-functions-evidence"

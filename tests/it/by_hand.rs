@@ -3,14 +3,19 @@
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
-use rasterproof_core::frame::Coverage;
+use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::line::dda::Dda;
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::edge_function::probe::edges_at;
+use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{
     Corners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex,
 };
+use rasterproof_precision::ladder::antialiasing::{
+    Antialias, ExactArea, FOUR, Multisample, ONE, Supersample,
+};
+use rasterproof_render::pipeline::footprint::Footprint;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{about, frustum};
@@ -185,4 +190,128 @@ pub fn light() -> Vec<f64> {
     let read = |filter| texture(filter).at(DVec2::new(0.6, 0.5)).x * 255.0;
     let brightness = light.intensity(DVec3::Y);
     vec![brightness, brightness * 100.0, read(Filter::Nearest), read(Filter::Bilinear)]
+}
+
+/// The chapter on samples: a flat edge through eight pixels of a row, and the triangle on its other side.
+const FLAT: [[f64; 2]; 3] = [[0.0, 0.0], [8.0, 1.0], [0.0, 1.0]];
+const OTHER_SIDE: [[f64; 2]; 3] = [[0.0, 0.0], [8.0, 0.0], [8.0, 1.0]];
+
+/// The share that a triangle covers of each of the eight pixels.
+fn row_of_shares(mut choice: impl Antialias, triangle: [[f64; 2]; 3]) -> Vec<f64> {
+    let mut target = Frame::new(PixelRect::window(8, 1), 0.0);
+    choice.draw(&[corners(triangle)], &mut target);
+    target.row(0).to_vec()
+}
+
+/// By one sample, a grid of 2 x 2, the pattern of four and a grid of 4 x 4.
+fn sampled_shares() -> [Vec<f64>; 4] {
+    [
+        row_of_shares(Multisample::new(Scanline, ONE), FLAT),
+        row_of_shares(Supersample::new(Scanline, 2), FLAT),
+        row_of_shares(Multisample::new(Scanline, FOUR), FLAT),
+        row_of_shares(Supersample::new(Scanline, 4), FLAT),
+    ]
+}
+
+/// The exact shares, then the sampled ones.
+pub fn shares() -> Vec<f64> {
+    [vec![row_of_shares(ExactArea, FLAT)], sampled_shares().to_vec()].concat().concat()
+}
+
+/// The root of the mean square of the errors of each choice.
+pub fn share_errors() -> Vec<f64> {
+    let exact = row_of_shares(ExactArea, FLAT);
+    let error = |shares: &Vec<f64>| {
+        let squares = shares.iter().zip(&exact).map(|(a, b)| (a - b).powi(2));
+        (squares.sum::<f64>() / 8.0).sqrt()
+    };
+    sampled_shares().iter().map(error).collect()
+}
+
+/// How often a colour is computed: once for each pixel with a covered sample, or for each covered sample of a grid.
+pub fn shadings() -> Vec<f64> {
+    let [one, two, pattern, four] = sampled_shares();
+    let touched = |shares: &[f64]| shares.iter().filter(|share| **share > 0.0).count() as f64;
+    let samples = |shares: &[f64], each: f64| shares.iter().sum::<f64>() * each;
+    vec![touched(&one), touched(&pattern), samples(&two, 4.0), samples(&four, 16.0)]
+}
+
+/// The shares of pixel 2 of the triangles on both sides, and the white of 255 that is left when two black ones are mixed by them.
+pub fn mixed() -> Vec<f64> {
+    let [first, second] = [FLAT, OTHER_SIDE].map(|side| row_of_shares(ExactArea, side)[2]);
+    vec![first, second, 255.0 * (1.0 - first) * (1.0 - second)]
+}
+
+/// The chapter on textures: a floor whose row of pixels s lies at the distance 100/s, with 16 texels for each unit of length. Row 0
+/// is the horizon.
+struct Floor {
+    triangle: ScreenTriangle<DVec2>,
+    footprint: Footprint,
+}
+
+impl Floor {
+    /// Texels along a side of the texture.
+    const SIDE: f64 = 256.0;
+
+    fn new() -> Self {
+        // Half a pixel further, so that the centres of pixels lie on whole coordinates.
+        let vertex = |x: f64, s: f64| {
+            let uv = DVec2::new(16.0 * x / s, 1600.0 / s) / Self::SIDE;
+            ScreenVertex::new(x + 0.5, s + 0.5, 0.0, 100.0 / s, uv).unwrap()
+        };
+        let triangle =
+            ScreenTriangle { vertices: [vertex(0.0, 5.0), vertex(64.0, 5.0), vertex(0.0, 80.0)] };
+        let vertices = &triangle.vertices;
+        let footprint = Footprint::new(
+            triangle.corners(),
+            [0, 1, 2].map(|i: usize| vertices[i].inv_w),
+            [0, 1, 2].map(|i: usize| vertices[i].varying),
+            (Self::SIDE as u32, Self::SIDE as u32),
+        );
+        Self { triangle, footprint }
+    }
+
+    /// The texture coordinates in column 0 of a row.
+    fn uv(&self, row: i32) -> DVec2 {
+        let mut found = None;
+        EdgeFunction.fragments(&self.triangle, PixelRect::window(64, 64), |f| {
+            if (f.x_px, f.y_px) == (0, row) {
+                found = Some(f.varying);
+            }
+        });
+        found.unwrap()
+    }
+}
+
+/// The lengths of the derivatives and the levels in some rows, the difference of two pixels, and how row 10 is read along its axis.
+pub fn floor() -> Vec<f64> {
+    let floor = Floor::new();
+    let w = |row: i32| 100.0 / f64::from(row);
+    let [across, along] = floor.footprint.lengths(floor.uv(10), w(10));
+    let levels = [10, 20, 40, 50].map(|row| floor.footprint.level(floor.uv(row), w(row)));
+    let texels = |row: i32| floor.uv(row).y * Floor::SIDE;
+    let differences = [texels(10) - texels(11), texels(9) - texels(10)];
+    let taps = floor.footprint.taps(floor.uv(10), w(10), 16);
+    let mut all = vec![across, along];
+    all.extend(levels);
+    all.extend(differences);
+    all.extend(differences.map(f64::log2));
+    all.extend([f64::from(taps.count), taps.level]);
+    all
+}
+
+/// A row of eight texels at the levels 1 to 3 and at 1.5, and one of two islands at the levels 2 and 3.
+pub fn levels() -> Vec<f64> {
+    let row = |grey: [u8; 8]| Texture::grey(8, 1, grey.to_vec()).unwrap().with_mip_map();
+    let read =
+        |texture: &Texture, level: f64| texture.at_level(DVec2::new(0.1, 0.5), level).x * 255.0;
+    let ramp = row([10, 30, 50, 70, 90, 110, 130, 150]);
+    let islands = row([200, 200, 200, 200, 0, 0, 0, 0]);
+    let ramp = [1.0, 2.0, 3.0, 1.5].map(|level| read(&ramp, level));
+    [ramp.to_vec(), [2.0, 3.0].map(|level| read(&islands, level)).to_vec()].concat()
+}
+
+/// The levels of a difference of two coordinates across the seam of a texture of 256 texels, wrapped and not.
+pub fn seam() -> Vec<f64> {
+    [0.002 - 0.998, 1.002 - 0.998].map(|difference: f64| (difference * 256.0).abs().log2()).to_vec()
 }

@@ -5,7 +5,7 @@
 use crate::pages::page;
 
 /// The chapters in the order in which they are read.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 15] = [
     "ch01",
     "ch02",
     "ch02-edge-functions",
@@ -19,6 +19,8 @@ const ORDER: [&str; 13] = [
     "ch09",
     "ch10",
     "ch11",
+    "samples",
+    "textures",
 ];
 
 /// A folder of pages, the column of its words in the glossary, and where the main text of a chapter ends.
