@@ -1,9 +1,10 @@
 //! The examples that the chapters work by hand, computed by the engines: their results are marked like other figures.
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::line::dda::Dda;
 use rasterproof_core::raster::edge_function::EdgeFunction;
@@ -15,6 +16,8 @@ use rasterproof_core::triangle::{
 use rasterproof_precision::ladder::antialiasing::{
     Antialias, ExactArea, FOUR, Multisample, ONE, Supersample,
 };
+use rasterproof_render::pipeline::ClipVertex;
+use rasterproof_render::pipeline::clip::{Outcode, clip};
 use rasterproof_render::pipeline::footprint::Footprint;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
@@ -314,4 +317,73 @@ pub fn levels() -> Vec<f64> {
 /// The levels of a difference of two coordinates across the seam of a texture of 256 texels, wrapped and not.
 pub fn seam() -> Vec<f64> {
     [0.002 - 0.998, 1.002 - 0.998].map(|difference: f64| (difference * 256.0).abs().log2()).to_vec()
+}
+
+/// What the harder exercises of the chapters come to, in the order of the pages.
+pub fn exercises() -> Vec<f64> {
+    // Chapter 1: the mean of squares, each at a place of its own, and a triangle that vanishes.
+    let side = 2.8_f64;
+    let part = side.fract();
+    let mean = (part * side.ceil() + (1.0 - part) * side.floor()).powi(2);
+    let vanishing = [[0.0, 0.0], [1024.0, 0.0], [512.0, 0.0019]];
+    assert_eq!(twice_area(&corners(vanishing)), 0);
+    let area = 1024.0 * vanishing[2][1] / 2.0;
+    // Chapter 2: ties of a line, and the first product that overflows.
+    let ties = (0..=12).filter(|x| (2 * x * 10) % 24 == 12).count() as f64;
+    let overflowing =
+        (1i32..).find(|u| 2i32.checked_mul(*u).and_then(|v| v.checked_mul(*u)).is_none());
+    let fits = |width_px: &i64| (width_px * 256 + 256) * (16 * 256 + 256) < 1 << 31;
+    let widest = (1..).take_while(fits).last().unwrap() as f64;
+    let row = values([[0.0, 0.0], [7.0, 4.0], [3.0, 10.0]], [0.0; 3]);
+    let row: Vec<_> = row.iter().filter(|([_, y], _)| *y == 5).map(|([x, _], _)| *x).collect();
+    assert_eq!((row.iter().min(), row.iter().max()), (Some(&2), Some(&5)));
+    // Chapters 4 and 5: the middle of a picture, and the largest error of affine values.
+    let picture = |t: f64| 6.0 * t / (2.0 + 4.0 * t);
+    assert_eq!(picture(0.25), 0.5);
+    let error =
+        |k: i32| f64::from(k) / 3000.0 - f64::from(k) / 3000.0 / (4.0 - f64::from(k) / 1000.0);
+    let worst = (0..=3000).map(error).fold(0.0, f64::max);
+    // Chapter 6: bits of depth.
+    let slope = 100.0 / (99.0 * 100.0 * 100.0);
+    let bits = (1..).find(|bits| 0.5f64.powi(*bits) / slope < 0.01).unwrap();
+    // Chapter 8: depth from 0 to 1.
+    let depth = (10.0 / 9.0 * 2.0 - 10.0 / 9.0) / 2.0;
+    // Chapter 10: a reflection, and what a turn makes of a move.
+    let moved = |x| DMat4::from_translation(DVec3::X * x);
+    let reflected = moved(2.0) * DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * moved(-2.0);
+    assert_eq!(reflected.determinant(), -1.0);
+    let turned = turn_z(std::f64::consts::FRAC_PI_2).transform_vector3(DVec3::X * 3.0);
+    // Chapter 11: a stretched roof, and short normals.
+    let cosine = |normal: DVec2| normal.normalize().y;
+    let mean_of_60 = (DVec2::X + DVec2::from_angle(60f64.to_radians())) / 2.0;
+    vec![
+        mean,
+        area,
+        ties,
+        f64::from(overflowing.unwrap()),
+        widest,
+        row.len() as f64,
+        0.25,
+        worst,
+        f64::from(bits),
+        clipped_corners() as f64,
+        depth,
+        12.0 * 3.0,
+        reflected.transform_point3(DVec3::X * 5.0).x,
+        turned.y,
+        cosine(DVec2::new(1.0, 4.0)),
+        cosine(DVec2::new(4.0, 1.0)),
+        mean_of_60.length(),
+        2.0 * 0.95f64.acos().to_degrees(),
+    ]
+}
+
+/// Corners of an equilateral triangle around the window from -1 to 1, turned by 15 degrees, after it was cut by the four sides.
+fn clipped_corners() -> usize {
+    let corner = |degrees: f64| {
+        let [x, y] = (DVec2::from_angle(degrees.to_radians()) * 2.0).to_array();
+        ClipVertex { position: DVec4::new(x, y, 0.0, 1.0), varying: 0.0 }
+    };
+    let (polygon, _) = clip(&[105.0, 225.0, 345.0].map(corner), Outcode::MAX);
+    polygon.vertices().count()
 }

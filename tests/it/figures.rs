@@ -112,6 +112,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("hand-winding", by_hand::winding),
     ("hand-turns", by_hand::turns),
     ("hand-light", by_hand::light),
+    ("hand-exercises", by_hand::exercises),
     ("hand-shares", by_hand::shares),
     ("hand-share-errors", by_hand::share_errors),
     ("hand-shadings", by_hand::shadings),

@@ -140,6 +140,21 @@ fn terms_of_a_lesson_are_few() {
     assert_eq!(lesson_words(page), 3);
 }
 
+/// A lesson ends with four exercises, two of them hard, each with its answer and the hard ones with hints.
+#[test]
+fn terms_are_exercised() {
+    for chapter in ORDER {
+        let text = page("docs", chapter);
+        let lesson = text.split("\n## Predict").next().unwrap_or("");
+        let (_, exercises) = lesson.split_once("\n## Try it yourself").unwrap_or_default();
+        let count = |word: &str| exercises.matches(word).count();
+        let numbers = [1, 2, 3, 4].map(|n| count(&format!("\n**{n}.** ")));
+        let found = (numbers, count(".** (hard) "), count("<summary>Answer "));
+        assert_eq!(found, ([1; 4], 2, 4), "docs/{chapter}.md");
+        assert!(count("<summary>Hint") > 0, "docs/{chapter}.md");
+    }
+}
+
 /// One thing has one word: what was a step of a ladder in one page and a choice in another is a choice of a group.
 #[test]
 fn a_choice_has_one_word() {
