@@ -1,16 +1,24 @@
 //! The examples that the chapters work by hand, computed by the engines: their results are marked like other figures.
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
-use rasterproof_core::frame::Coverage;
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::line::dda::Dda;
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::edge_function::probe::edges_at;
+use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{
     Corners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex,
 };
+use rasterproof_precision::ladder::antialiasing::{
+    Antialias, ExactArea, FOUR, Multisample, ONE, Supersample,
+};
+use rasterproof_render::pipeline::ClipVertex;
+use rasterproof_render::pipeline::clip::{Outcode, clip};
+use rasterproof_render::pipeline::footprint::Footprint;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{about, frustum};
@@ -185,4 +193,197 @@ pub fn light() -> Vec<f64> {
     let read = |filter| texture(filter).at(DVec2::new(0.6, 0.5)).x * 255.0;
     let brightness = light.intensity(DVec3::Y);
     vec![brightness, brightness * 100.0, read(Filter::Nearest), read(Filter::Bilinear)]
+}
+
+/// The chapter on samples: a flat edge through eight pixels of a row, and the triangle on its other side.
+const FLAT: [[f64; 2]; 3] = [[0.0, 0.0], [8.0, 1.0], [0.0, 1.0]];
+const OTHER_SIDE: [[f64; 2]; 3] = [[0.0, 0.0], [8.0, 0.0], [8.0, 1.0]];
+
+/// The share that a triangle covers of each of the eight pixels.
+fn row_of_shares(mut choice: impl Antialias, triangle: [[f64; 2]; 3]) -> Vec<f64> {
+    let mut target = Frame::new(PixelRect::window(8, 1), 0.0);
+    choice.draw(&[corners(triangle)], &mut target);
+    target.row(0).to_vec()
+}
+
+/// By one sample, a grid of 2 x 2, the pattern of four and a grid of 4 x 4.
+fn sampled_shares() -> [Vec<f64>; 4] {
+    [
+        row_of_shares(Multisample::new(Scanline, ONE), FLAT),
+        row_of_shares(Supersample::new(Scanline, 2), FLAT),
+        row_of_shares(Multisample::new(Scanline, FOUR), FLAT),
+        row_of_shares(Supersample::new(Scanline, 4), FLAT),
+    ]
+}
+
+/// The exact shares, then the sampled ones.
+pub fn shares() -> Vec<f64> {
+    [vec![row_of_shares(ExactArea, FLAT)], sampled_shares().to_vec()].concat().concat()
+}
+
+/// The root of the mean square of the errors of each choice.
+pub fn share_errors() -> Vec<f64> {
+    let exact = row_of_shares(ExactArea, FLAT);
+    let error = |shares: &Vec<f64>| {
+        let squares = shares.iter().zip(&exact).map(|(a, b)| (a - b).powi(2));
+        (squares.sum::<f64>() / 8.0).sqrt()
+    };
+    sampled_shares().iter().map(error).collect()
+}
+
+/// How often a colour is computed: once for each pixel with a covered sample, or for each covered sample of a grid.
+pub fn shadings() -> Vec<f64> {
+    let [one, two, pattern, four] = sampled_shares();
+    let touched = |shares: &[f64]| shares.iter().filter(|share| **share > 0.0).count() as f64;
+    let samples = |shares: &[f64], each: f64| shares.iter().sum::<f64>() * each;
+    vec![touched(&one), touched(&pattern), samples(&two, 4.0), samples(&four, 16.0)]
+}
+
+/// The shares of pixel 2 of the triangles on both sides, and the white of 255 that is left when two black ones are mixed by them.
+pub fn mixed() -> Vec<f64> {
+    let [first, second] = [FLAT, OTHER_SIDE].map(|side| row_of_shares(ExactArea, side)[2]);
+    vec![first, second, 255.0 * (1.0 - first) * (1.0 - second)]
+}
+
+/// The chapter on textures: a floor whose row of pixels s lies at the distance 100/s, with 16 texels for each unit of length. Row 0
+/// is the horizon.
+struct Floor {
+    triangle: ScreenTriangle<DVec2>,
+    footprint: Footprint,
+}
+
+impl Floor {
+    /// Texels along a side of the texture.
+    const SIDE: f64 = 256.0;
+
+    fn new() -> Self {
+        // Half a pixel further, so that the centres of pixels lie on whole coordinates.
+        let vertex = |x: f64, s: f64| {
+            let uv = DVec2::new(16.0 * x / s, 1600.0 / s) / Self::SIDE;
+            ScreenVertex::new(x + 0.5, s + 0.5, 0.0, 100.0 / s, uv).unwrap()
+        };
+        let triangle =
+            ScreenTriangle { vertices: [vertex(0.0, 5.0), vertex(64.0, 5.0), vertex(0.0, 80.0)] };
+        let vertices = &triangle.vertices;
+        let footprint = Footprint::new(
+            triangle.corners(),
+            [0, 1, 2].map(|i: usize| vertices[i].inv_w),
+            [0, 1, 2].map(|i: usize| vertices[i].varying),
+            (Self::SIDE as u32, Self::SIDE as u32),
+        );
+        Self { triangle, footprint }
+    }
+
+    /// The texture coordinates in column 0 of a row.
+    fn uv(&self, row: i32) -> DVec2 {
+        let mut found = None;
+        EdgeFunction.fragments(&self.triangle, PixelRect::window(64, 64), |f| {
+            if (f.x_px, f.y_px) == (0, row) {
+                found = Some(f.varying);
+            }
+        });
+        found.unwrap()
+    }
+}
+
+/// The lengths of the derivatives and the levels in some rows, the difference of two pixels, and how row 10 is read along its axis.
+pub fn floor() -> Vec<f64> {
+    let floor = Floor::new();
+    let w = |row: i32| 100.0 / f64::from(row);
+    let [across, along] = floor.footprint.lengths(floor.uv(10), w(10));
+    let levels = [10, 20, 40, 50].map(|row| floor.footprint.level(floor.uv(row), w(row)));
+    let texels = |row: i32| floor.uv(row).y * Floor::SIDE;
+    let differences = [texels(10) - texels(11), texels(9) - texels(10)];
+    let taps = floor.footprint.taps(floor.uv(10), w(10), 16);
+    let mut all = vec![across, along];
+    all.extend(levels);
+    all.extend(differences);
+    all.extend(differences.map(f64::log2));
+    all.extend([f64::from(taps.count), taps.level]);
+    all
+}
+
+/// A row of eight texels at the levels 1 to 3 and at 1.5, and one of two islands at the levels 2 and 3.
+pub fn levels() -> Vec<f64> {
+    let row = |grey: [u8; 8]| Texture::grey(8, 1, grey.to_vec()).unwrap().with_mip_map();
+    let read =
+        |texture: &Texture, level: f64| texture.at_level(DVec2::new(0.1, 0.5), level).x * 255.0;
+    let ramp = row([10, 30, 50, 70, 90, 110, 130, 150]);
+    let islands = row([200, 200, 200, 200, 0, 0, 0, 0]);
+    let ramp = [1.0, 2.0, 3.0, 1.5].map(|level| read(&ramp, level));
+    [ramp.to_vec(), [2.0, 3.0].map(|level| read(&islands, level)).to_vec()].concat()
+}
+
+/// The levels of a difference of two coordinates across the seam of a texture of 256 texels, wrapped and not.
+pub fn seam() -> Vec<f64> {
+    [0.002 - 0.998, 1.002 - 0.998].map(|difference: f64| (difference * 256.0).abs().log2()).to_vec()
+}
+
+/// What the harder exercises of the chapters come to, in the order of the pages.
+pub fn exercises() -> Vec<f64> {
+    // Chapter 1: the mean of squares, each at a place of its own, and a triangle that vanishes.
+    let side = 2.8_f64;
+    let part = side.fract();
+    let mean = (part * side.ceil() + (1.0 - part) * side.floor()).powi(2);
+    let vanishing = [[0.0, 0.0], [1024.0, 0.0], [512.0, 0.0019]];
+    assert_eq!(twice_area(&corners(vanishing)), 0);
+    let area = 1024.0 * vanishing[2][1] / 2.0;
+    // Chapter 2: ties of a line, and the first product that overflows.
+    let ties = (0..=12).filter(|x| (2 * x * 10) % 24 == 12).count() as f64;
+    let overflowing =
+        (1i32..).find(|u| 2i32.checked_mul(*u).and_then(|v| v.checked_mul(*u)).is_none());
+    let fits = |width_px: &i64| (width_px * 256 + 256) * (16 * 256 + 256) < 1 << 31;
+    let widest = (1..).take_while(fits).last().unwrap() as f64;
+    let row = values([[0.0, 0.0], [7.0, 4.0], [3.0, 10.0]], [0.0; 3]);
+    let row: Vec<_> = row.iter().filter(|([_, y], _)| *y == 5).map(|([x, _], _)| *x).collect();
+    assert_eq!((row.iter().min(), row.iter().max()), (Some(&2), Some(&5)));
+    // Chapters 4 and 5: the middle of a picture, and the largest error of affine values.
+    let picture = |t: f64| 6.0 * t / (2.0 + 4.0 * t);
+    assert_eq!(picture(0.25), 0.5);
+    let error =
+        |k: i32| f64::from(k) / 3000.0 - f64::from(k) / 3000.0 / (4.0 - f64::from(k) / 1000.0);
+    let worst = (0..=3000).map(error).fold(0.0, f64::max);
+    // Chapter 6: bits of depth.
+    let slope = 100.0 / (99.0 * 100.0 * 100.0);
+    let bits = (1..).find(|bits| 0.5f64.powi(*bits) / slope < 0.01).unwrap();
+    // Chapter 8: depth from 0 to 1.
+    let depth = (10.0 / 9.0 * 2.0 - 10.0 / 9.0) / 2.0;
+    // Chapter 10: a reflection, and what a turn makes of a move.
+    let moved = |x| DMat4::from_translation(DVec3::X * x);
+    let reflected = moved(2.0) * DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * moved(-2.0);
+    assert_eq!(reflected.determinant(), -1.0);
+    let turned = turn_z(std::f64::consts::FRAC_PI_2).transform_vector3(DVec3::X * 3.0);
+    // Chapter 11: a stretched roof, and short normals.
+    let cosine = |normal: DVec2| normal.normalize().y;
+    let mean_of_60 = (DVec2::X + DVec2::from_angle(60f64.to_radians())) / 2.0;
+    vec![
+        mean,
+        area,
+        ties,
+        f64::from(overflowing.unwrap()),
+        widest,
+        row.len() as f64,
+        0.25,
+        worst,
+        f64::from(bits),
+        clipped_corners() as f64,
+        depth,
+        12.0 * 3.0,
+        reflected.transform_point3(DVec3::X * 5.0).x,
+        turned.y,
+        cosine(DVec2::new(1.0, 4.0)),
+        cosine(DVec2::new(4.0, 1.0)),
+        mean_of_60.length(),
+        2.0 * 0.95f64.acos().to_degrees(),
+    ]
+}
+
+/// Corners of an equilateral triangle around the window from -1 to 1, turned by 15 degrees, after it was cut by the four sides.
+fn clipped_corners() -> usize {
+    let corner = |degrees: f64| {
+        let [x, y] = (DVec2::from_angle(degrees.to_radians()) * 2.0).to_array();
+        ClipVertex { position: DVec4::new(x, y, 0.0, 1.0), varying: 0.0 }
+    };
+    let (polygon, _) = clip(&[105.0, 225.0, 345.0].map(corner), Outcode::MAX);
+    polygon.vertices().count()
 }

@@ -14,6 +14,7 @@ use rasterproof_faults::published::book_triangle::BookChapter2;
 use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
 use rasterproof_faults::published::sysu_strict_t::clip_strict;
 use rasterproof_invariants::CATALOGUE;
+use rasterproof_judge::league::League;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_registry::published_check::{free_truth, specimen_coverage};
 use rasterproof_render::effects::render::Rendered;
@@ -75,8 +76,30 @@ fn shadow_bits() -> Vec<f64> {
     [changed(0.0), changed(1e4)].concat()
 }
 
+/// Of the league: the rows of triangles, those without a wrong pixel by their own convention, those that no convention
+/// explains, and those whose meshes have no hole and no pixel that is drawn twice.
+fn league_answer() -> Vec<f64> {
+    let league: League = serde_json::from_str(&read("docs/league.json")).unwrap();
+    let mut counts = [0; 5];
+    for row in &league.rows {
+        let Some(triangles) = &row.triangles else { continue };
+        let [_, holes, doubles] = row.meshes;
+        let found = triangles.by_convention.as_ref();
+        let kinds = [
+            true,
+            found.is_some_and(|score| score.wrong == 0),
+            found.is_none(),
+            holes == 0,
+            doubles == 0,
+        ];
+        counts.iter_mut().zip(kinds).for_each(|(count, holds)| *count += u32::from(holds));
+    }
+    counts.map(f64::from).to_vec()
+}
+
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
 pub const ALL: &[(&str, Values)] = &[
+    ("league-answer", league_answer),
     ("hand-square", by_hand::square),
     ("corner-square", by_hand::corner_square),
     ("hand-lines", by_hand::lines),
@@ -89,6 +112,14 @@ pub const ALL: &[(&str, Values)] = &[
     ("hand-winding", by_hand::winding),
     ("hand-turns", by_hand::turns),
     ("hand-light", by_hand::light),
+    ("hand-exercises", by_hand::exercises),
+    ("hand-shares", by_hand::shares),
+    ("hand-share-errors", by_hand::share_errors),
+    ("hand-shadings", by_hand::shadings),
+    ("hand-mixed", by_hand::mixed),
+    ("hand-floor", by_hand::floor),
+    ("hand-levels", by_hand::levels),
+    ("hand-seam", by_hand::seam),
     ("apart-facets", || apart("facets", Antialias::Supersample(4))),
     ("apart-panels-supersampled", || apart("panels", Antialias::Supersample(4))),
     ("apart-panels-multisampled", || apart("panels", Antialias::Multisample4)),

@@ -13,6 +13,7 @@ use rasterproof_render::scene::chapters::SCENES;
 use rasterproof_render::scene::{Corner, Item, Material, Scene, shapes};
 use serde_json::{Value, json};
 
+use crate::pages::{Renewal, read};
 use crate::program::{Folder, Run};
 use crate::scenes::{as_they_come, still, target_of};
 
@@ -271,4 +272,53 @@ fn text_and_data_of_a_plan_say_the_same_of_a_model() {
     assert!(page.out.contains("\nAGREES: Planned, it was drawn "), "{}", page.out);
     let sentence = json["sentence"].as_str().unwrap();
     assert!(sentence.starts_with("Planned, it was drawn "), "{sentence}");
+}
+
+/// The table on the page of effects has a row for each, in the order of the pipeline. When a usual renderer pays for it and by how
+/// little its condition can be violated are those of the program. `RASTERPROOF_RENEW=1 cargo test --test it effects_table` writes them.
+#[test]
+fn effects_table_is_that_of_the_conditions() {
+    let kept = read("snapshots/counterexamples.snap");
+    let powers = |effect: Effect| {
+        let begins = [":", " "].map(|end| effect.name().to_owned() + end);
+        let lines = kept.lines().filter(|line| begins.iter().any(|begin| line.starts_with(begin)));
+        let mut powers: Vec<_> =
+            lines.flat_map(|line| line.split(' ').find(|word| word.starts_with("2^"))).collect();
+        powers.dedup();
+        powers.join(", ")
+    };
+    let mut renewal = Renewal::default();
+    for (path, words) in [
+        ("docs/effects.md", ["where called for", "where the material asks", "everywhere"]),
+        ("docs/zh/effects.md", ["需要之处", "材质要求之处", "一律"]),
+    ] {
+        let (mut named, mut lines) = (Vec::new(), Vec::new());
+        for line in read(path).lines() {
+            let name = line.strip_prefix("| `").and_then(|rest| rest.split('`').next());
+            let Some(effect) =
+                name.and_then(|name| Effect::ALL.into_iter().find(|effect| effect.name() == name))
+            else {
+                lines.push(line.to_owned());
+                continue;
+            };
+            let cells: Vec<_> = line.split(" | ").collect();
+            let [what, condition, knowing, _, violation] = cells[..] else {
+                panic!("{path}: {line}")
+            };
+            let usual = match Effects::USUAL.mode(effect) {
+                Mode::Planned => words[0],
+                Mode::Material => words[1],
+                Mode::Always | Mode::Never => words[2],
+            };
+            let (_, violation) = violation.split_once(": ").unwrap();
+            let powers = powers(effect);
+            lines.push(
+                [what, condition, knowing, usual, &format!("{powers}: {violation}")].join(" | "),
+            );
+            named.push(effect);
+        }
+        assert_eq!(named, Effect::ALL, "{path}");
+        renewal.is(path, &(lines.join("\n") + "\n"));
+    }
+    renewal.check("effects_table");
 }

@@ -17,10 +17,6 @@ struct Words {
     wrong: &'static str,
     by: &'static str,
     growth: &'static str,
-    /// What a run before is called, the head of its table, and its kinds of rows.
-    before: &'static str,
-    changes: &'static str,
-    kinds: [&'static str; 4],
     /// What bounds a frame; the parts of a frame; what fills take.
     limits: [&'static str; 3],
     ends: [&'static str; 2],
@@ -44,9 +40,6 @@ const ENGLISH: Words = Words {
     wrong: "Of these, on one core, pixels uncovered, and of another colour",
     by: "by",
     growth: "| what grows | from, to | drawn by | ms | power of it | in the last step | MB | power of it |",
-    before: "What is different from the run before, on one core",
-    changes: "| by | what | times as long as ours, before | now | its own time, of that before |",
-    kinds: ["one sample, fills", "antialiased", "frames", "frames, 4 samples"],
     limits: [
         "| mesh | samples | ms | instructions, millions | at the highest rate, ms | of the time | picture and mesh, MB | at the rate of a copy, ms | of the time | fetched, MB |",
         "Parts of the instructions of a frame",
@@ -73,9 +66,6 @@ const CHINESE: Words = Words {
     wrong: "其中一个核上，覆盖不同的像素，与颜色不同的像素",
     by: "由谁",
     growth: "| 增长的是 | 从，到 | 由谁画 | 毫秒 | 它的几次方 | 最后一步 | MB | 它的几次方 |",
-    before: "与上一次测量有何不同，一个核",
-    changes: "| 由谁 | 什么 | 之前是我们的多少倍 | 现在 | 它自己的时间是之前的多少倍 |",
-    kinds: ["一个采样点的填充", "抗锯齿", "帧", "4 个采样点的帧"],
     limits: [
         "| 网格 | 采样点 | 毫秒 | 指令，百万 | 以最高速率，毫秒 | 占时间 | 画面和网格，MB | 以复制的速率，毫秒 | 占时间 | 取入，MB |",
         "一帧的指令各占多少",
@@ -187,25 +177,6 @@ fn ours<'a>(rows: &[&'a Value], row: &Value) -> &'a Value {
     equal.min_by(|a, b| ns(a).total_cmp(&ns(b))).expect("ours fills every class")
 }
 
-/// The name of a row and what it draws, its kind, how many times as long as ours it takes, and its own time.
-type Factor<'a> = ([&'a str; 2], usize, f64, f64);
-
-fn factors(run: &Value) -> Vec<Factor<'_>> {
-    let all = |key: &str| run[key].as_array().unwrap().iter().collect::<Vec<_>>();
-    let (fills, frames) = (all("fills"), all("frames"));
-    let of_fills = fills.iter().map(|row| {
-        let kind = usize::from(row["errors"]["pixels"].is_null());
-        let (time, ours) = (number(&row["ns"]["median"]), ours(&fills, row));
-        ([text(row, "name"), text(row, "class")], kind, time / number(&ours["ns"]["median"]), time)
-    });
-    let of_frames = frames.iter().filter(|row| row["cores"] == 1).map(|row| {
-        let tiles = tiles(&frames, row);
-        let (time, kind) = (number(&row["ms"]["median"]), 2 + usize::from(row["samples"] == 4));
-        ([text(row, "name"), text(row, "mesh")], kind, time / number(&tiles["ms"]["median"]), time)
-    });
-    of_fills.chain(of_frames).collect()
-}
-
 /// The tiles' frame of the same mesh, with as many samples and cores.
 fn tiles<'a>(frames: &[&'a Value], row: &Value) -> &'a Value {
     let like = |other: &&&Value| {
@@ -213,45 +184,6 @@ fn tiles<'a>(frames: &[&'a Value], row: &Value) -> &'a Value {
             && ["mesh", "samples", "cores"].iter().all(|key| other[key] == row[key])
     };
     frames.iter().find(like).expect("tiles draw everything")
-}
-
-/// What is different from a run before: for each who draws in both, the least and the most of its rows.
-fn changes(before: &Value, now: &Value, words: &Words) -> String {
-    let mut table = format!(
-        "{}{}\n\n{}\n|---|---|---|---|---|\n",
-        words.before,
-        words.ends[0].trim_end(),
-        words.changes
-    );
-    let (before, now) = (factors(before), factors(now));
-    for (kind, called) in words.kinds.iter().enumerate() {
-        let mut names: Vec<&str> = Vec::new();
-        for ([name, _], of, ..) in &now {
-            if *of == kind && !names.contains(name) {
-                names.push(name);
-            }
-        }
-        for name in names {
-            let pairs: Vec<(&Factor<'_>, &Factor<'_>)> = now
-                .iter()
-                .filter(|row| row.1 == kind && row.0[0] == name)
-                .filter_map(|row| Some((before.iter().find(|b| (b.0, b.1) == (row.0, kind))?, row)))
-                .collect();
-            let range = |of: &dyn Fn(&Factor<'_>, &Factor<'_>) -> f64| {
-                let all = pairs.iter().map(|(then, now)| of(then, now));
-                let (low, high) =
-                    all.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
-                format!("{low:.2}–{high:.2}")
-            };
-            let ranges = [
-                range(&|then, _| then.2),
-                range(&|_, now| now.2),
-                range(&|then, now| now.3 / then.3),
-            ];
-            writeln!(table, "| {name} | {called} | {} |", ranges.join(" | ")).unwrap();
-        }
-    }
-    table + "\n"
 }
 
 /// What bounds frames, and what they and fills spend their instructions on.
@@ -465,11 +397,11 @@ fn with_tables(page: &str, words: &Words, command: &str, tables: &str) -> String
 #[test]
 fn speed_pages_hold_what_was_measured() {
     let mut run: Value = serde_json::from_str(&read("docs/peers.json")).unwrap();
-    let [before, grown, bounds]: [Value; 3] = ["peers-earlier", "growth", "limits"]
+    let [grown, bounds]: [Value; 2] = ["growth", "limits"]
         .map(|name| serde_json::from_str(&read(format!("docs/{name}.json"))).unwrap());
     let mut renewal = Renewal::default();
     for (page, words) in [("docs/speed.md", &ENGLISH), ("docs/zh/speed.md", &CHINESE)] {
-        let tables = peers(&run, words) + &changes(&before, &run, words);
+        let tables = peers(&run, words);
         let told = with_tables(&read(page), words, "benches/peers/run --json", &tables);
         let told =
             with_tables(&told, words, "benches/peers/run --limits", &limits(&bounds, &run, words));
@@ -487,7 +419,7 @@ fn speed_pages_hold_what_was_measured() {
     // Another number is noticed.
     run["frames"][0]["other"] = 12345.into();
     let page = read("docs/speed.md");
-    let tables = peers(&run, &ENGLISH) + &changes(&before, &run, &ENGLISH);
+    let tables = peers(&run, &ENGLISH);
     assert_ne!(with_tables(&page, &ENGLISH, "benches/peers/run --json", &tables), page);
 }
 

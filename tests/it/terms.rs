@@ -1,11 +1,11 @@
 //! The order of concepts: a chapter uses a word of the glossary only if it, or a chapter before it,
-//! explains the word. What is in a link is free, since the link leads to the explanation; so is what is
-//! below 'Going deeper', in the box about the book, in code and in the generated exercises.
+//! explains the word. What is in a link is free, since the link leads to the explanation; so is what is in the box
+//! about the book, in code and in the generated exercises. What a lesson need not say is on its page of evidence.
 
 use crate::pages::page;
 
 /// The chapters in the order in which they are read.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 15] = [
     "ch01",
     "ch02",
     "ch02-edge-functions",
@@ -19,13 +19,16 @@ const ORDER: [&str; 13] = [
     "ch09",
     "ch10",
     "ch11",
+    "samples",
+    "textures",
 ];
 
 /// A folder of pages, the column of its words in the glossary, and where the main text of a chapter ends.
-const LANGUAGES: [(&str, usize, [&str; 2]); 2] = [
-    ("docs", 2, ["\n## Going deeper", "\n## Predict"]),
-    ("docs/zh", 3, ["\n## 深入阅读", "\n## 先预测"]),
-];
+const LANGUAGES: [(&str, usize, &str); 2] =
+    [("docs", 2, "\n## Predict"), ("docs/zh", 3, "\n## 先预测")];
+
+/// The most words of a lesson in English: code, formulas, tables, pictures and the generated exercises left out.
+const MOST_WORDS: usize = 2200;
 
 /// The words of a glossary that a chapter explains, each with the place of the chapter.
 fn words(glossary: &str, column: usize) -> Vec<(String, usize)> {
@@ -51,8 +54,8 @@ fn without(text: &str, begin: &str, end: &str) -> String {
 }
 
 /// The text in which words count, in small letters.
-fn main_text(page: &str, ends: [&str; 2]) -> String {
-    let page = ends.iter().fold(page, |page, end| page.split(end).next().unwrap_or(""));
+fn main_text(page: &str, end: &str) -> String {
+    let page = page.split(end).next().unwrap_or("");
     let kept: String = page.split("```").step_by(2).collect();
     let kept = without(&kept, "<!--", "-->");
     let lines = kept.lines().filter(|line| !line.starts_with("> "));
@@ -91,11 +94,11 @@ fn early(text: &str, place: usize, words: &[(String, usize)]) -> Vec<String> {
 #[test]
 fn terms_are_used_after_they_are_explained() {
     let mut found = Vec::new();
-    for (folder, column, ends) in LANGUAGES {
+    for (folder, column, end) in LANGUAGES {
         let words = words(&page(folder, "glossary"), column);
         assert!(words.len() > 40, "{folder}: only {} words", words.len());
         for (place, chapter) in ORDER.iter().enumerate() {
-            let text = main_text(&page(folder, chapter), ends);
+            let text = main_text(&page(folder, chapter), end);
             assert!(text.len() > 1000, "{folder}/{chapter}.md has no main text");
             let early = early(&text, place, &words).into_iter();
             found.extend(early.map(|word| format!("{folder}/{chapter}.md uses {word}")));
@@ -108,12 +111,47 @@ fn terms_are_used_after_they_are_explained() {
 fn a_term_that_comes_too_early_is_found() {
     let glossary = "| a | **span, edge function** | c | d | [x](ch02-scanline.md) |";
     let words = words(glossary, 2);
-    let check =
-        |page: &str, place| early(&main_text(page, ["\n## Going", "\n## Pre"]), place, &words);
+    let check = |page: &str, place| early(&main_text(page, "\n## Pre"), place, &words);
     assert_eq!(check("Spans are runs.", 1).len(), 1);
     assert!(check("Spans are runs.", 3).is_empty());
-    for free in ["[spans](a.md)", "`span`", "spanner", "> span", "a\n## Going deeper\nspan"] {
+    for free in ["[spans](a.md)", "`span`", "spanner", "> span", "a\n## Predict\nspan"] {
         assert!(check(free, 0).is_empty(), "{free}");
+    }
+}
+
+/// The words of a lesson that somebody reads as sentences.
+fn lesson_words(page: &str) -> usize {
+    let lesson = page.split("\n## Predict").next().unwrap_or("");
+    let kept: String = lesson.split("```").step_by(2).collect();
+    let kept = without(&without(&kept, "<!--", "-->"), "![", ")");
+    let kept = without(&kept, "](", ")");
+    let lines = kept.lines().filter(|line| !line.starts_with('|'));
+    let words = lines.flat_map(str::split_whitespace);
+    words.filter(|word| word.contains(char::is_alphanumeric)).count()
+}
+
+#[test]
+fn terms_of_a_lesson_are_few() {
+    for chapter in ORDER {
+        let words = lesson_words(&page("docs", chapter));
+        assert!((1000..=MOST_WORDS).contains(&words), "docs/{chapter}.md has {words} words");
+    }
+    let page = "one ![two](a.png) [three](b.md) <!-- 4 -->\n| 5 |\n```text\n6\n```\n+ four\n## Predict\nsix";
+    assert_eq!(lesson_words(page), 3);
+}
+
+/// A lesson ends with four exercises, two of them hard, each with its answer and the hard ones with hints.
+#[test]
+fn terms_are_exercised() {
+    for chapter in ORDER {
+        let text = page("docs", chapter);
+        let lesson = text.split("\n## Predict").next().unwrap_or("");
+        let (_, exercises) = lesson.split_once("\n## Try it yourself").unwrap_or_default();
+        let count = |word: &str| exercises.matches(word).count();
+        let numbers = [1, 2, 3, 4].map(|n| count(&format!("\n**{n}.** ")));
+        let found = (numbers, count(".** (hard) "), count("<summary>Answer "));
+        assert_eq!(found, ([1; 4], 2, 4), "docs/{chapter}.md");
+        assert!(count("<summary>Hint") > 0, "docs/{chapter}.md");
     }
 }
 

@@ -19,8 +19,8 @@ struct Words {
     unscored: &'static str,
     unanswered: &'static str,
     kinds: [&'static str; 2],
-    /// What stands after what a line is about, between the parts of one, and at its end.
-    marks: [&'static str; 3],
+    /// What stands after what a line is about, and at its end.
+    marks: [&'static str; 2],
     /// A sentence, or how a call is made, which are English in the data.
     say: fn(&str) -> String,
     made: fn(&League) -> String,
@@ -34,10 +34,10 @@ const ENGLISH: Words = Words {
     by_mistake: "a mistake",
     mistake: "By mistake it ",
     besides: "As a convention",
-    unscored: "Left out, since the convention says nothing of them",
+    unscored: "Left out",
     unanswered: "Requests refused, and not answered",
     kinds: ["Triangles", "Lines"],
-    marks: [": ", "; ", "."],
+    marks: [": ", "."],
     say: str::to_owned,
     made: |l| {
         format!(
@@ -54,10 +54,10 @@ const CHINESE: Words = Words {
     by_mistake: "已知的错误",
     mistake: "它错在：",
     besides: "作为约定",
-    unscored: "约定对之无所断言、未计入的图形",
+    unscored: "未计入",
     unanswered: "被拒绝的请求与没有回答的请求",
     kinds: ["三角形", "直线"],
-    marks: ["：", "；", "。"],
+    marks: ["：", "。"],
     say: phrases::chinese,
     made: |l| {
         format!("由 rasterproof {} 生成，每族 {} 个案例，种子 {}。", l.rasterproof, l.cases, l.seed)
@@ -91,12 +91,12 @@ pub fn tables(league: &League, chinese: bool) -> String {
     out
 }
 
-/// What a library was asked by, and what it does.
+/// How a library was called, and what it does.
 fn one(out: &mut String, row: &Ranked, words: &Words) {
-    let Ranked { name, declares, call, unanswered: [refused, died], .. } = row;
-    let [colon, semicolon, stop] = words.marks;
+    let Ranked { name, call, unanswered: [refused, died], .. } = row;
+    let [colon, stop] = words.marks;
     let call = (words.say)(call);
-    let _ = writeln!(out, "- **{name}**{colon}{call}{semicolon}`{declares}`{stop}");
+    let _ = writeln!(out, "- **{name}**{colon}{call}{stop}");
     let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
     for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
         let gap = if stop == "." { " " } else { "" };
