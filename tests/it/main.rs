@@ -79,6 +79,7 @@ mod ties;
 mod tiled;
 mod tiles;
 mod tolerances;
+mod transcripts;
 mod workspace;
 mod writers;
 mod your_gpu;
