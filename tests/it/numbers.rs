@@ -6,7 +6,6 @@ use std::os::unix::process::ExitStatusExt as _;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use rasterproof::cli::exit::USAGE;
 use rasterproof_core::parallel;
 
 use crate::program::{Folder, PROGRAM};
@@ -116,20 +115,4 @@ fn numbers_have_bounds_or_cost_nothing() {
     let faults = parallel::map(lines.len(), |number| fault(&folder, &lines[number]));
     let faults: Vec<_> = faults.into_iter().flatten().collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
-}
-
-#[test]
-fn numbers_beyond_a_bound_are_refused() {
-    let folder = Folder::new("numbers-refused");
-    let most = u64::MAX;
-    for words in [
-        format!("verify --family fan --case {most}"),
-        format!("judge --case {most} -- true"),
-        format!("course --grade --memory {most} true"),
-        format!("course --grade --memory {} true", 1u64 << 31),
-    ] {
-        folder.check(&words, USAGE).says("error: ");
-    }
-    // The largest that there is.
-    folder.check(format!("verify --family fan --case {}", most - 1), 0);
 }
