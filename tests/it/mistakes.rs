@@ -1663,7 +1663,7 @@ fn what_draws_nothing_has_no_cause() {
 #[test]
 #[ignore = "takes a minute; .ci/run runs it"]
 fn mistakes_in_triangles_are_named() {
-    let programs = tried(&FILLS);
+    let programs = tried(FILLS);
     let found = programs.par_iter().map(|(number, (name, fill))| (*number, *name, of_fill(fill)));
     check("mistakes-in-triangles", found.collect());
 }
@@ -1672,7 +1672,7 @@ fn mistakes_in_triangles_are_named() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn mistakes_in_lines_are_named() {
-    let programs = tried(&STROKES);
+    let programs = tried(STROKES);
     let found =
         programs.par_iter().map(|(number, (name, stroke))| (*number, *name, of_stroke(stroke)));
     check("mistakes-in-lines", found.collect());
