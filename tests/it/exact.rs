@@ -16,10 +16,9 @@ use rasterproof_verify::cases::unsnapped::FAMILIES;
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{FamilyReport, Finding, Options, exact_coverage};
 
-use crate::program::check;
 use crate::recorded::hits as hits_of;
 
-const ALL: [ExactEngine; 3] =
+pub const ALL: [ExactEngine; 3] =
     [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
 
 fn drawn(engine: ExactEngine, case: &Case) -> Coverage {
@@ -280,29 +279,6 @@ fn refusals() {
     for v in [-8_388_608.0, 8_388_608.0_f64.next_down(), -0.0, f64::from_bits(1), -1e-310] {
         assert_eq!(with(v), None, "{v:e}");
     }
-}
-
-#[test]
-fn command_line() {
-    let output = check("list", 0).out;
-    for name in ALL.iter().map(ExactEngine::name).chain(FAMILIES.iter().map(|f| f.name)) {
-        assert!(output.lines().any(|l| l.split_whitespace().next() == Some(name)), "{name}");
-    }
-    check("verify --family f32-tie --cases 50", 0)
-        .prints("50 triangles off the grid, 0 wrong pixels");
-    let planted = "verify --plant exact-inclusive-ties --family f32-tie --cases 50";
-    check(planted, 1).prints("repeat with: rasterproof verify --family f32-tie --case");
-    let run = check(format!("{planted} --json"), 1);
-    let json: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
-    assert_eq!(json["agrees"], false);
-    assert_eq!(json["families"][0]["family"], "f32-tie");
-    assert_eq!(json["families"][0]["kind"], "unsnapped");
-    assert_eq!(json["failures"][0]["pair"][1], "oracle");
-    // A number beyond the default count of cases is judged, too.
-    let run = check("verify --family f32-tie --case 123456789012", 0)
-        .prints(", 1 triangles off the grid, 0 wrong pixels");
-    assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{run}");
-    check("inspect f64-denormal#5", 0).prints("edge-function-exact against oracle: agrees");
 }
 
 fn lattice() -> impl Strategy<Value = [SubpixelPoint; 3]> {

@@ -273,33 +273,6 @@ fn exhaust_merge_refuses_what_does_not_fit() {
 }
 
 #[test]
-fn exhaust_command_exits_by_what_it_finds() {
-    let folder = Folder::new("exhaust-exit");
-    let fails = [
-        "exhaust triangles --subpixel-bits 1 --plant inclusive-edges -o t.json",
-        "exhaust lines --reach 16 --plant line-directed-ties -o l.json",
-        "exhaust edges --subpixel-bits 1 --plant sample-off-by-one-subpixel -o e.json",
-    ];
-    for words in fails {
-        folder.check(words, 1).says("wrong: ").says("DISAGREES: ");
-    }
-    let bad = [
-        "exhaust triangles --subpixel-bits 9",
-        "exhaust lines --reach 0",
-        "exhaust lines --shard 3/3",
-        "exhaust lines --plant inclusive-edges",
-        "exhaust edges --offset-px 7",
-        "exhaust",
-    ];
-    for words in bad {
-        folder.check(words, 2);
-    }
-    folder.check("exhaust edges --subpixel-bits 1 --offset-px -2048,16384", 0);
-    // No checkpoint is left behind by runs that have ended.
-    assert_eq!(fs::read_dir(folder.join("target/rasterproof")).unwrap().count(), 0);
-}
-
-#[test]
 fn exhaust_command_resumes_its_own_checkpoint_alone() {
     let folder = Folder::new("exhaust-resume");
     let plan = Plan::Triangles(triangles(1));
@@ -328,28 +301,6 @@ fn exhaust_command_resumes_its_own_checkpoint_alone() {
         folder.check(words, 2).says("--restart");
         folder.check(format!("{words} --restart"), 0);
     }
-}
-
-/// What somebody else wrote is neither replaced nor removed, whatever the options say; nor what is half a checkpoint.
-#[test]
-fn exhaust_command_leaves_what_is_no_checkpoint() {
-    let folder = Folder::new("exhaust-no-checkpoint");
-    let whole = Progress::new(&Plan::Lines(lines(2)), Shard::WHOLE);
-    let whole = serde_json::to_string(&whole).unwrap();
-    for text in ["my notes\n", "", "{}", "[1, 2]", &whole[..whole.len() / 2], &format!("{whole}x")]
-    {
-        folder.put("notes.txt", text);
-        for restart in ["", " --restart"] {
-            let words = format!("exhaust lines --reach 2 --checkpoint notes.txt{restart}");
-            folder.check(words, 2).says("notes.txt is not a checkpoint").says("--checkpoint");
-            assert_eq!(folder.text("notes.txt"), text);
-        }
-    }
-    // One of another run is replaced where that is asked for.
-    folder.put("notes.txt", whole);
-    folder.check("exhaust lines --reach 3 --checkpoint notes.txt", 2).says("--restart");
-    folder.check("exhaust lines --reach 3 --checkpoint notes.txt --restart", 0);
-    assert!(!folder.join("notes.txt").exists());
 }
 
 #[test]

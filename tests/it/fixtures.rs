@@ -100,7 +100,7 @@ fn fixtures_follow_their_schema() {
 
 /// The file is what the command prints; in a release build, since shrinking a thousand cases takes a while.
 #[test]
-#[ignore = "takes more than six seconds"]
+#[ignore = "takes a minute; .ci/run --all runs it"]
 fn fixtures_are_what_the_command_prints() {
     let text = read("crates/verify/fixtures/fixtures.json");
     assert!(generate(1, &|_| ()).to_json() == text, "renew it: cargo run --release -- fixtures");

@@ -31,16 +31,8 @@ use rasterproof_verify::judge::ascii;
 
 #[cfg(target_os = "linux")]
 use crate::judge::is_gone;
-use crate::judge::{Answering, inside, judged, of, of_misbehaving, options, patient, property};
+use crate::judge::{Answering, inside, judged, of_misbehaving, options, patient, property};
 use crate::program::{PROGRAM, Run, check, shared};
-
-/// Where nothing is expected, who draws nothing does not agree: there was no judgement.
-#[test]
-fn judge_refuses_an_empty_case() {
-    let families = ["--family", "half-integer", "--declare", "range=1", "--declare", "window=1x1"];
-    check(of(&families, &["scanline"]), 2).says("no pixel was expected");
-    check(of(&["--family", "degenerate"], &["scanline"]), 0);
-}
 
 /// An engine that shows the first triangle of a pile everywhere, clips nothing, and covers all samples
 /// of a pixel that it touches.

@@ -71,65 +71,6 @@ fn broken_textures_are_named() {
     }
 }
 
-#[test]
-fn render_draws_models_by_both() {
-    let folder = Folder::new("models-render");
-    folder.put("ball.obj", sphere(|p| p));
-    for options in [
-        "--aa none",
-        "--aa msaa4 --shading flat",
-        "--aa ssaa2 --cull cw --depth unorm24",
-        "--wireframe --shading gouraud",
-        "--zoom 4 --depth f32-reversed",
-        "--effects all,-clip",
-    ] {
-        let words = format!("render ball.obj --size 96x72 -o ball.png {options}");
-        folder.check(words, 0).shows("AGREES").shows("loaded in ").shows("; drawn in ");
-        assert_eq!(image::open(folder.join("ball.png")).unwrap().width(), 96);
-    }
-    folder.check("render --scene spinning --size 40x30 --spin 3 -o spin.gif", 0);
-    assert!(fs::read(folder.join("spin.gif")).unwrap().starts_with(b"GIF89a"));
-}
-
-#[test]
-fn render_refuses_what_it_cannot_draw() {
-    let folder = Folder::new("models-refuses");
-    folder.put("t.obj", TETRAHEDRON);
-    for (words, part) in [
-        ("t.obj -o t.png --size 100000x100000", "too large"),
-        ("t.obj -o t.png --size 0x10", "no pixels"),
-        ("t.obj -o t.png --size 10", "WIDTHxHEIGHT"),
-        ("t.obj -o t.png --size 9000x9000 --aa ssaa4", "too large"),
-        ("t.obj -o t.png --fov 180", "180"),
-        ("t.obj -o t.png --zoom 0", "--zoom"),
-        ("t.obj -o t.png --zoom nan", "--zoom"),
-        ("t.obj -o t.png --effects depht", "depth"),
-        ("nowhere.obj", "nowhere.obj"),
-        ("cub", "cub is neither a file nor a scene"),
-        ("cub", "cube"),
-        ("--scene cub", "cube"),
-    ] {
-        folder.check(format!("render {words}"), 2).shows(part);
-        assert!(!folder.join("t.png").exists(), "{words}");
-    }
-    folder
-        .check("plan panels --size 64x48 --rounds 1", 0)
-        .shows("no bounding box of another piece meets");
-}
-
-/// A byte order mark is no part of a model, and a picture of nothing says so: of a triangle alone one
-/// of the two windings is culled.
-#[test]
-fn a_picture_of_nothing_says_so() {
-    let folder = Folder::new("models-nothing");
-    folder.put("marked.obj", "\u{feff}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    let is_empty = ["none", "cw", "ccw"].map(|cull| {
-        let run = folder.check(format!("render marked.obj --size 40x30 --cull {cull}"), 0);
-        (run.out + &run.errors).contains("EMPTY: nothing of it is seen")
-    });
-    assert!(!is_empty[0] && is_empty[1] != is_empty[2], "{is_empty:?}");
-}
-
 /// The picture that the program draws of a model, and what it says on standard error.
 fn drawn(folder: &Folder, words: &str) -> (RgbImage, String) {
     let words = format!("render --size 96x72 --engine scanline -o out.png {words}");
@@ -257,31 +198,6 @@ fn names_of_pictures_of_a_gltf_are_found() {
         let named = text.replace("file:///nowhere/plain.png", uri);
         let model = load(&folder.put("m.gltf", named), Shading::Phong).unwrap();
         assert!(model.items[0].material.texture.is_some(), "{uri:?}: {:?}", model.warnings);
-    }
-}
-
-/// Loose lines and points are no part of the picture, so they do not make the model small in it.
-#[test]
-fn what_is_not_drawn_is_said_by_every_command_that_draws() {
-    let folder = Folder::new("models-not-drawn");
-    let mtl = "newmtl a\nKs 1 1 1\nNs 20\nd 0.5\nillum 3\nmap_Bump b.png\nnewmtl b\nKs .1 0 0\nKe 0 1 0\nmap_d c.png\n\
-        newmtl unused\nKs 1 1 1\nnewmtl plain\nKd 1 0 0\nKs 0 0 0\nd 1\nTr 0\nillum 2\nKe 0 0 0\n";
-    folder.put("m.mtl", mtl);
-    let triangle = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    let loose = "v 100 100 100\nl 1 4\np 4\np 1\ncurv 0 1 1 2\n";
-    folder.put("plain.obj", format!("{triangle}usemtl plain\nf 1 2 3\n"));
-    folder.put("loose.obj", format!("{triangle}{loose}usemtl plain\nf 1 2 3\n"));
-    let [(plain, silent), (with, said)] =
-        ["plain.obj", "loose.obj"].map(|name| drawn(&folder, name));
-    assert!(plain == with, "loose elements move the picture");
-    assert!(!silent.contains("not drawn"), "{silent}");
-    assert!(said.contains("not drawn: 1 curve, 1 line, 2 points\n"), "{said}");
-    folder.put("m.obj", format!("{triangle}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n"));
-    for command in ["render m.obj -o o.png", "plan m.obj --rounds 1"] {
-        folder.check(format!("{command} --size 32x24"), 0).shows(
-            "not drawn: 1 bump map, emission of 1 material, reflection (illum) of 1 material, \
-             specular colour without shininess (Ns) of 1 material\n",
-        );
     }
 }
 
@@ -613,39 +529,6 @@ fn text_outside_the_folder_is_not_quoted() {
     folder.put("in/below/m.mtl", "newmtl a\nmap_Kd nowhere.png\n");
     let model = load(&path, Shading::Phong).unwrap();
     assert!(warning(&model).contains("nowhere.png: cannot be read"), "{:?}", model.warnings);
-}
-
-#[test]
-#[ignore = "takes seconds; .ci/run runs it"]
-fn a_file_of_which_no_face_can_be_drawn_is_an_empty_picture() {
-    let folder = Folder::new("models-no-face");
-    folder.put("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
-    folder
-        .put("clear.mtl", "newmtl glass\nd 0\nnewmtl other\nTr 1\nnewmtl half\nmap_Kd clear.png\n");
-    image::RgbaImage::new(2, 2).save(folder.join("clear.png")).unwrap();
-    let model = "mtllib clear.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl NAME\nf 1 2 3\n";
-    for name in ["glass", "other", "half"] {
-        folder.put(&format!("{name}.obj"), model.replace("NAME", name));
-    }
-    let glass = "the material 'glass' is fully transparent";
-    let half = "the material 'half' is fully transparent";
-    for (name, cause) in [("nan", "all its faces are left out"), ("glass", glass), ("half", half)] {
-        let empty = "EMPTY: nothing of it is seen; the picture is background alone\n";
-        folder
-            .check(format!("render {name}.obj -o o.png --size 32x24"), 0)
-            .prints(&format!("{empty}the cause is that {cause}\n"))
-            .says(cause);
-        // Without a piece there is nothing to verify.
-        let status = if name == "nan" { 2 } else { 0 };
-        folder.check(format!("verify {name}.obj --size 32x24"), status).says(cause);
-        for command in ["plan --rounds 1", "study --quick", "cost --quick"] {
-            folder.check(format!("{command} {name}.obj --size 32x24"), 0).says(cause);
-        }
-    }
-    folder.check("inspect glass.obj#1", 0);
-    for words in ["glass.obj --opacity 1", "other.obj"] {
-        folder.check(format!("render {words} -o o.png --size 32x24"), 0).omits("EMPTY");
-    }
 }
 
 /// Polygons in space that do not lie in a plane: all of their outline is the outline of their triangles.

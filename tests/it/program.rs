@@ -132,6 +132,12 @@ pub fn shared() -> &'static Folder {
     &SHARED
 }
 
+/// The step through a long list: each of its items is tried where `.ci/run --all` asks for that, which it does every night,
+/// and otherwise every `step`-th.
+pub fn every(step: usize) -> usize {
+    if std::env::var_os("RASTERPROOF_ALL").is_some() { 1 } else { step }
+}
+
 /// The bytes of a file with this picture; none where the format has no such pixels. It is written to a file, because
 /// encoders for a writer in memory would be compiled with the tests: 100,000 lines of LLVM code.
 pub fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Option<Vec<u8>> {

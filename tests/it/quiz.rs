@@ -1,7 +1,5 @@
 //! The exercises: what the pages say is what the code computes, and the command asks the same.
 
-use std::fs;
-
 use rasterproof_teaching::quiz::page::{HEADINGS, section};
 use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Language, Right};
 
@@ -98,82 +96,4 @@ fn quiz_counts_right_answers() {
     let all: String = CHAPTERS.iter().map(key).collect();
     let count = all.lines().count();
     assert!(check("", &all, 0).out.ends_with(&format!("{count} of {count} right\n")));
-}
-
-#[test]
-fn quiz_says_what_is_wrong_and_why() {
-    // A student: a wrong count, the pixel, the number.
-    let out = check("ch02", "4\n4,2\n0\n", 1).prints("No: 10. ").prints("Right: (4, 2). ").out;
-    assert!(out.ends_with("\n2 of 3 right\n"), "{out}");
-    // The choice by its pixel, a pass, the number, a letter.
-    let out = check("ch02-edge-functions", "2,2\n\n10\nb\n", 1)
-        .prints("Right: c. ")
-        .prints("Passed: a. ")
-        .out;
-    assert!(out.contains("\n2###+") && out.ends_with("\n3 of 4 right\n"), "{out}");
-}
-
-#[test]
-fn quiz_ends_with_its_input() {
-    let Run { out, errors, .. } = check("2", "10\n", 1);
-    assert!(out.ends_with("1 of 3 right, 2 not answered\n"), "{out}");
-    assert_eq!(errors, "");
-    assert!(check("", "", 1).out.contains("0 of "));
-}
-
-#[test]
-fn quiz_refuses_what_is_no_answer() {
-    check("2", "10\n4;2\n", 2)
-        .says("standard input, line 2: '4;2' is no answer here; give a pixel");
-    check("12", "", 2).says("no chapter '12'").says("2, ch02-edge-functions, ");
-    check("2 --answers no/such/file", "", 2).says("no/such/file");
-    check("2 --language la", "", 2);
-    check("2 --seed x", "", 2);
-}
-
-#[test]
-fn quiz_reads_a_file_and_asks_in_an_order() {
-    let file = shared().join("answers.txt");
-    fs::write(&file, key(&CHAPTERS[1])).unwrap();
-    let file = file.to_str().unwrap();
-    assert!(check(&format!("2 --answers {file}"), "", 0).out.contains("3 of 3 right"));
-    let first = |out: &str| out.lines().nth(1).unwrap().to_owned();
-    let seeds =
-        ["1", "2", "3", "4"].map(|seed| first(&check(&format!("--seed {seed}"), "", 1).out));
-    assert_eq!(seeds[0], first(&check("--seed 1", "", 1).out));
-    assert!(seeds.iter().any(|question| *question != seeds[0]), "{seeds:?}");
-}
-
-#[test]
-fn quiz_speaks_chinese_and_lists() {
-    let out = check("2 --language zh", &key(&CHAPTERS[1]), 0).out;
-    assert!(out.ends_with("3 题答对 3 题\n"), "{out}");
-    let out = check("--list", "", 0).out;
-    for chapter in CHAPTERS.iter() {
-        assert!(
-            out.contains(&format!(" {} ({})", chapter.title[0], chapter.exercises.len())),
-            "{out}"
-        );
-    }
-}
-
-/// The same seed is the same paper, whose key has an answer for each question and none of its choices.
-#[test]
-fn quiz_prints_a_paper_and_its_key() {
-    let paper = check("--paper 12 --seed 7", "", 0).out;
-    let key = check("--paper 12 --seed 7 --key", "", 0).out;
-    assert_eq!(paper, check("--paper 12 --seed 7", "", 0).out);
-    assert_ne!(paper, check("--paper 12 --seed 8", "", 0).out);
-    for number in 1..=12 {
-        for text in [&paper, &key] {
-            assert_eq!(text.matches(&format!("\n{number}. ")).count(), 1, "{text}");
-        }
-    }
-    assert!(
-        !paper.contains("\n13. ") && key.contains(" [ch") && !key.contains("\n   a) "),
-        "{key}"
-    );
-    check("1 --paper 900", "", 2);
-    let chinese = check("--paper 12 --seed 7 --language zh", "", 0).out;
-    assert!(chinese.starts_with("试卷 7"), "{chinese}");
 }

@@ -120,12 +120,3 @@ fn many_snapshots_are_counted_and_the_first_are_shown() {
     let page = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
     assert!(page.len() < 2_000_000 && page.contains("1500 more are not looked into"));
 }
-
-#[test]
-fn what_waits_is_printed_before_the_page_is_written() {
-    let folder = folder("unwritten");
-    write(&folder, "a.snap.new", "---\n---\nnew\n");
-    // A snapshot waits, whether or not the page could be written.
-    let run = folder.check("review -o snapshots", 1).prints("snapshots/a.snap: a new text");
-    run.prints("1 changed snapshot waits").says("snapshots");
-}

@@ -189,7 +189,7 @@ fn plans_change_no_bit() {
 }
 
 #[test]
-#[ignore = "takes seconds; .ci/run runs it"]
+#[ignore = "takes seconds; .ci/run --all runs it"]
 fn plans_change_no_bit_with_any_smoothing() {
     check_pictures(true);
 }
@@ -516,7 +516,7 @@ fn parts_of_pieces_change_no_bit() {
 }
 
 #[test]
-#[ignore = "takes half a minute; .ci/run runs it"]
+#[ignore = "takes half a minute; .ci/run --all runs it"]
 fn parts_of_pieces_of_many_scenes_change_no_bit() {
     check_parts(4000);
 }

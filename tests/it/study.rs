@@ -4,7 +4,7 @@ use base64::Engine as _;
 use serde_json::{Value, json};
 
 use crate::pages::root;
-use crate::program::{Folder, PROGRAM};
+use crate::program::Folder;
 
 /// A box, closed and wound alike, whose coordinates f32 holds.
 const BOX: &str = "v -1.25 -0.75 -1\nv 1.25 -0.75 -1\nv 1.25 0.75 -1\nv -1.25 0.75 -1\n\
@@ -143,107 +143,8 @@ fn the_commands_of_a_study_work() {
     folder.check("verify --yaw 3", 2).says("--yaw is for models");
 }
 
-/// A face whose box is empty at its left upper corner: what is shown begins where it has pixels.
+/// A face whose box is empty at its left upper corner.
 const CORNERLESS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
-const FROM_THE_FRONT: &str = "--yaw 0 --pitch 0";
-
-#[test]
-fn a_face_is_shown_where_it_has_pixels() {
-    let folder = Folder::new("study-window");
-    folder.put("m.obj", CORNERLESS);
-    for more in ["", " --exact", " --aa msaa4", " --size 2000x1500"] {
-        let words = format!("inspect m.obj#1 {FROM_THE_FRONT}{more}");
-        let run = folder.check(words, 0).prints("agrees").prints("cropped: the shape is");
-        let grid = run.out.lines().filter(|line| line.contains("##")).count();
-        assert!(grid > 20, "{run}");
-    }
-    // All of a small one, as before.
-    let words = format!("inspect m.obj#1 {FROM_THE_FRONT} --size 60x45");
-    folder.check(words, 0).prints("agrees").omits("cropped");
-    // The same of corners that are typed, however far apart they are.
-    for words in ["500,1 0,500 500,500", "8388000,-8388000 -8388000,8388000 8388000,8388000"] {
-        let run = folder.check(format!("inspect {words}"), 0).prints("cropped: the shape is");
-        assert!(run.out.lines().any(|line| line.contains('#')), "{run}");
-    }
-}
-
-/// What compares nothing says so, and its status is not that of agreement.
-#[test]
-fn a_comparison_of_nothing_says_that_nothing_was_compared() {
-    let folder = Folder::new("study-nothing");
-    folder.put("m.obj", CORNERLESS);
-    let front = format!("m.obj {FROM_THE_FRONT} --size 64x48");
-    let face = front.replacen("m.obj", "m.obj#1", 1);
-    let nothing = "othing was compared";
-    for words in [
-        format!("inspect {face} --window 0,0,4x4"),
-        format!("inspect {face} --cull cw"),
-        format!("inspect {face} --cull ccw"),
-        "inspect 0,0 300,0 0,300 --window 290,290,8x8".to_owned(),
-        "inspect 0,0 300,0 0,300 --window 290,290,8x8 --exact".to_owned(),
-        "inspect --line 0,0 300,300 --window 200,0,8x8".to_owned(),
-    ] {
-        let run = folder.run(&words);
-        // Of the two windings one is culled.
-        if words.contains("--cull") && run.status == Some(0) {
-            continue;
-        }
-        run.has(2).prints("NOT COMPARED").prints(nothing).omits("oracle: agrees");
-    }
-    let culled = ["cw", "ccw"].map(|cull| format!("{front} --cull {cull}"));
-    let culled = culled.into_iter().find(|words| {
-        let run = folder.run(format!("verify {words}"));
-        run.status == Some(2) && run.out.contains("NOT JUDGED") && !run.out.contains("AGREES")
-    });
-    let culled = culled.expect("one of the two is culled");
-    let judged = folder.check(format!("verify {culled} --json"), 2).json();
-    assert!(judged["agrees"].is_null() && judged["pieces"] == 0, "{judged}");
-    assert!(judged["engines"].as_array().unwrap().is_empty(), "{judged}");
-    let not_compared = |words: &str| {
-        let run = folder.check(format!("{words} --out ."), 0);
-        run.shows("NOT COMPARED").omits("AGREES");
-    };
-    not_compared(&format!("render {culled} --report"));
-    assert!(folder.text("render.html").contains("NOT COMPARED"));
-    folder.put("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-    not_compared("render flat.obj --size 32x24 --spin 2 -o a.gif");
-    let program = format!("-- {PROGRAM} engine scanline");
-    let show = format!("course show --model flat.obj --size 32x24 --out . {program}");
-    let shown = folder.check(show, 0).prints("NOT COMPARED");
-    assert!(shown.out.starts_with("course show model\n"), "{shown}");
-    shown.prints("repeat with: rasterproof course show --model flat.obj -- ");
-    assert!(folder.text("course-model.html").contains("NOT COMPARED"));
-    let study = folder.check("study flat.obj --size 32x24 --once", 0);
-    study.prints("NOT COMPARED").prints("so nothing was compared").omits("wrong here");
-    not_compared(&format!("plan {culled} --rounds 1 --whole --report"));
-    assert!(folder.text("plan.html").contains("NOT COMPARED"));
-    let compared = folder.check(format!("render {culled} --json"), 0).json();
-    assert!(compared["comparison"].is_null(), "{compared}");
-    // A shape without area that is shown whole: that nobody draws a pixel is the answer.
-    folder.check("inspect 0,0 4,4 8,8", 0).prints("agrees");
-    // What is drawn where nothing should be is a difference.
-    let planted = "inspect 0,0 300,0 0,300 --window 148,148,4x4 --plant inclusive-edges";
-    folder.check(planted, 1);
-}
-
-/// A folder into which nothing would be written is refused, with the word that is missing.
-#[test]
-fn a_folder_without_a_page_is_refused() {
-    let folder = Folder::new("study-idle-folder");
-    folder.put("m.obj", format!("{BOX}{FACES}"));
-    for words in ["study m.obj", "study m.obj --views 2", "plan m.obj"] {
-        let run = folder.check(format!("{words} --out d"), 2);
-        run.says("add --report, or leave --out away");
-    }
-    let run = folder.check("judge --cases 1 --out d -- true", 2);
-    run.says("add --report, or leave --out away");
-    for words in ["cost m.obj --out d", "verify m.obj --out d"] {
-        folder.check(words, 2).says("--out");
-    }
-    assert!(!folder.join("d").exists());
-    folder.check("plan m.obj --size 32x24 --without depth --out d", 0);
-    assert!(folder.join("d").exists());
-}
 
 /// A floor and, a ten-millionth above it, another one: coarse depths show the wrong one, and values that ignore w are wrong.
 #[test]

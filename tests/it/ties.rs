@@ -213,7 +213,7 @@ fn render_model(folder: &Folder, words: &str) -> Run {
 
 /// The page's table, its first row: the model from twelve pitches, one sample a pixel, in f64.
 #[test]
-#[ignore = "takes seconds; .ci/run runs it"]
+#[ignore = "takes seconds; .ci/run --all runs it"]
 fn the_page_counts_ties() {
     let count = |aa: &str, pitch: u32| -> [u64; 2] {
         let folder = Folder::new(&format!("ties-page-{aa}-{pitch}"));
