@@ -336,7 +336,7 @@ fn judge_goes_by_what_is_declared() {
     assert_eq!(property(&verdict, "half-integer"), Outcome::Fail);
 }
 
-const EVERYTHING: Scope = Scope { triangles: true, lines: true, always: false };
+const EVERYTHING: Scope = Scope { triangles: true, lines: true, always: false, patience: None };
 
 fn recognised(asker: Box<dyn Subject>, options: &Options) -> Verdict {
     judge(&mut [asker], options, &|program| recognise(program, EVERYTHING), &|_| ())
@@ -687,7 +687,7 @@ fn judge_tells_what_leaves_the_window() {
     let options = patient(30, &["line-octants", "line-clipped"]);
     let entry = engines::find("bresenham").unwrap();
     // Within the window it draws as it declares, so that it is questioned only where that is asked.
-    let scope = Scope { triangles: false, lines: true, always: true };
+    let scope = Scope { triangles: false, lines: true, always: true, patience: None };
     let judged = |change: fn([PixelPoint; 2], [i32; 2]) -> [PixelPoint; 2]| {
         let mut engine = Inside::new(entry);
         let changes =

@@ -46,7 +46,10 @@ pub fn report(
         let most = thousands(reach.unsigned_abs().into());
         format!("it walks along its lines, so lines of at most {most} steps are asked for")
     }));
-    let mut first_screen: Vec<Table> = verdict.cause.iter().map(cause).collect();
+    let left_out = verdict.more.left_out.to_string();
+    let mut first_screen: Vec<Table> =
+        Vec::from_iter((!left_out.is_empty()).then(|| Table::of_notes("", vec![left_out])));
+    first_screen.extend(verdict.cause.iter().map(cause));
     match &names {
         Some(names) => first_screen.extend([who_is_right(&verdict.sides(), names), sides(verdict)]),
         None => {
@@ -424,7 +427,10 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
         notes.push(format!("({of})"));
     }
     Excerpt {
-        title: format!("{property}: {what} (from {family} #{index}, {})", failure.evidence.shrunk),
+        title: format!(
+            "{property}: {what} (from {family} #{index}, {})",
+            failure.evidence.shrunk.name()
+        ),
         exchanges: exchanges.collect(),
         grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
         notes,
@@ -548,7 +554,8 @@ fn views(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<page_ca
         let Exchanged { property, shrunk, picture, check, .. } = evidence;
         let name = format!("{family}#{index}");
         let also = also(evidence).map_or(String::new(), |also| format!("; {also}"));
-        let about = format!("{property}: found in {family} #{index}, {shrunk}{also}");
+        let how_far = shrunk.name();
+        let about = format!("{property}: found in {family} #{index}, {how_far}{also}");
         let mut view = page_cases::of_program(name, about, &f.case, &programs, picture.as_ref());
         view.found.clone_from(&f.what);
         view.command = repeat(family, *index);

@@ -10,6 +10,7 @@ use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{AskedCase, Failure, Search, judge};
 use rasterproof_judge::run::Failing;
 use rasterproof_judge::stages::Answered;
+use rasterproof_judge::timed::Timed;
 use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::mistakes::Mistakes;
@@ -193,7 +194,8 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
         Check::Direction => Check::Line,
         check => check,
     }];
-    let found = recognise::mistakes(program, &checks, &failing.truth, None, patience);
+    let mut asked = Timed::new(program, None).within(Some(patience));
+    let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None);
     found.into_iter().map(|found| found.why).find(Mistakes::is_known)
 }
 

@@ -405,7 +405,7 @@ mod tests {
         let options = Options::default().cases(1).family(FamilyName::Rectangle);
         let message = whole(judge_coverage(&Slow, &options)).replace('\n', " ");
         assert!(start.elapsed() < Duration::from_secs(30), "{:?}", start.elapsed());
-        let said = "since the judged code had run for 10 s after the cases: ";
+        let said = "since the judged code has 10 s for what comes after a failure: ";
         assert!(message.contains(said) && message.contains("the cause."), "{message}");
         assert!(message.contains("wrong pixels, in 1 of 1 cases"), "{message}");
     }
