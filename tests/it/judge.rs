@@ -508,6 +508,16 @@ fn judge_writes_junit_beside_the_text() {
         text.split("time=\"").map(|part| part.trim_start_matches(digit)).collect::<String>()
     };
     assert_eq!(timeless(&folder.text("mine.xml")), timeless(&run(&["--format", "junit"])));
+    // What is shown of a failure in a list of tests is its cause.
+    let xml = folder.text("mine.xml");
+    let xml = roxmltree::Document::parse(&xml).unwrap();
+    let of_it = |name: &str| {
+        let test = xml.descendants().find(|n| n.attribute("name") == Some(name)).unwrap();
+        let failure = test.first_element_child().unwrap();
+        [failure.attribute("message").unwrap(), failure.text().unwrap()].map(str::to_owned)
+    };
+    let cause = "Triangles: it samples at the pixel's centre and draws nothing on an edge";
+    assert!(of_it("half-integer").iter().all(|said| said.starts_with(cause)), "{xml:?}");
     let other = ["--junit", "mine.xml", "--baseline", "mine.xml"];
     folder.check(of(&other, &["scanline"]), 2).says("--junit and --baseline name this file");
 }

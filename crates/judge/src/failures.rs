@@ -82,8 +82,8 @@ impl Exchanged {
 /// Kinds of failing cases that are shown.
 const MOST_SHOWN: usize = 6;
 
-/// The first failing case of each property that is not known, shrunk, and each kind once: holes and doubles, then those of the
-/// most often wrong. Where the pictures show what is wrong, it comes first. For all of them the answers may take `patience`; how
+/// The first failing case of each property that is not known, shrunk, and each kind once. Where the pictures show what is wrong, it
+/// comes first, and of these the smallest; of equal ones holes and doubles, then those of the most often wrong. For all of them the answers may take `patience`; how
 /// long they took comes with them.
 pub(super) fn failures(
     program: &mut dyn Subject,
@@ -129,9 +129,18 @@ pub(super) fn failures(
             }
         }
     }
-    let is_same = |f: &Failure| f.evidence.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
-    shown.sort_by_key(is_same);
+    shown.sort_by_key(to_read);
     (shown, program.spent)
+}
+
+/// How much there is to read until it is seen what is wrong: whether the pictures do not show it, then the pixels of the window, then
+/// the requests.
+fn to_read(failure: &Failure) -> (bool, u64, usize) {
+    let Exchanged { picture, exchanges, .. } = &failure.evidence;
+    let is_same = picture.as_ref().is_none_or(|picture| picture.drawn == picture.expected);
+    let window = failure.case.window;
+    let pixels = u64::from(window.width()) * u64::from(window.height());
+    (is_same, pixels, exchanges.iter().map(|exchange| exchange.request.len()).sum())
 }
 
 /// Somebody who is asked, and how long the answers took in all. What the judge itself computes does not count, so that of a program
@@ -531,6 +540,17 @@ mod tests {
         let same = judged(|answer, _| forget(answer, 0));
         assert!(same.failures.iter().all(|failure| !failure.evidence.changes));
         assert_eq!(same.failures[0].evidence.shrunk, HowFar::Shrunk);
+    }
+
+    #[test]
+    fn the_smallest_case_stands_first() {
+        let options = Options::default().cases(40);
+        let wrong = altered(|answer, _| forget(answer, 0));
+        let shown = crate::judge(&mut [wrong], &options, &|_| None, &|_| ()).failures;
+        let sizes: Vec<_> = shown.iter().map(to_read).collect();
+        assert!(sizes.len() > 2 && sizes.is_sorted(), "{sizes:?}");
+        let window = shown[0].case.window;
+        assert_eq!((window.width(), window.height()), (1, 1), "{sizes:?}");
     }
 
     fn slow() -> Box<dyn Subject> {
