@@ -133,14 +133,17 @@ pub(super) fn failures(
     (shown, program.spent)
 }
 
-/// How much there is to read until it is seen what is wrong: whether the pictures do not show it, then the pixels of the window, then
-/// the requests.
-fn to_read(failure: &Failure) -> (bool, u64, usize) {
+/// How much there is to read until it is seen what is wrong: whether the pictures do not show it, and how many characters the requests
+/// and the two pictures have.
+fn to_read(failure: &Failure) -> (bool, u64) {
     let Exchanged { picture, exchanges, .. } = &failure.evidence;
     let is_same = picture.as_ref().is_none_or(|picture| picture.drawn == picture.expected);
     let window = failure.case.window;
-    let pixels = u64::from(window.width()) * u64::from(window.height());
-    (is_same, pixels, exchanges.iter().map(|exchange| exchange.request.len()).sum())
+    let mut characters = 2 * u64::from(window.width()) * u64::from(window.height());
+    for exchange in exchanges {
+        characters += exchange.request.len() as u64;
+    }
+    (is_same, characters)
 }
 
 /// Somebody who is asked, and how long the answers took in all. What the judge itself computes does not count, so that of a program
