@@ -10,10 +10,10 @@ use super::requirements;
 use super::specified::Specified;
 use crate::device::find::About;
 use rasterproof_judge::ask::{Answer, Complaints, Question, Subject};
-use rasterproof_judge::check::Truth;
+use rasterproof_judge::check::{Check, Truth};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
-use rasterproof_judge::run::{Failing, Row, RunFindings, run};
+use rasterproof_judge::run::{Changing, Failing, Row, RunFindings, run};
 use rasterproof_judge::verdict::{Outcome, Particulars, Verdict, sentence, verdict};
 use rasterproof_judge::windings as first_stages;
 use rasterproof_judge::{Explained, Options, Patience, adapt_case, explain, for_families};
@@ -111,7 +111,9 @@ pub fn judge_with(
     let is_news = |f: &Failing| !is_known(known, f, &options, &declared);
     let (news, old): (Vec<_>, Vec<_>) = found.failing.drain(..).partition(is_news);
     found.failing = news;
-    found.changing.retain(|changing| is_news(&changing.failing));
+    // Asked again, a triangle is drawn in another cell of the page, where its values may round otherwise.
+    let is_picture = |changing: &Changing| changing.check != Check::Values;
+    found.changing.retain(|changing| is_news(&changing.failing) && is_picture(changing));
     let is_explained = !found.failing.is_empty() && found.changing.is_empty();
     let patience = options.time_limit.is_none().then_some(AFTER_FAILURE / 2);
     let scope = Scope { triangles: true, lines: false, always: false, patience };
