@@ -604,7 +604,7 @@ mod tests {
             };
             questions.iter().map(draw).collect::<Vec<_>>()
         };
-        of_triangles(&mut ask, &Declarations::default(), &TriangleConvention::default(), &|| true)
+        of_triangles(&mut ask, &Declarations::default(), &TriangleConvention::default())
     }
 
     fn sides(corners: &Corners) -> [i64; 2] {
