@@ -2,7 +2,7 @@
 export class AssertionError extends Error {}
 
 /** Width and height, in pixels. */
-export type Window = [width: number, height: number];
+export type Window = readonly [width: number, height: number];
 /** How often each pixel is drawn, row by row; of booleans it cannot be seen whether a pixel is drawn twice. */
 export type Mask =
   | Uint8Array | Uint8ClampedArray | Uint16Array | Uint32Array | Int8Array | Int16Array | Int32Array | boolean[] | number[];
@@ -18,7 +18,7 @@ export interface Options {
   case?: number;
   /** Words of the line protocol for what the function promises, such as "rule=strict winding=cw range=4096". */
   declare?: string;
-  /** No case is begun after so many seconds. */
+  /** So many seconds for cases, for making failing ones smaller, and for their cause. */
   seconds?: number;
   /** Whether a mask of 0 and a number above 1 counts how often a pixel is drawn; refused where it is not given. */
   hits?: boolean;

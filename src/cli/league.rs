@@ -47,7 +47,7 @@ pub fn run(
                 continue;
             }
         };
-        let everything = Scope { triangles: true, lines: true, always: true };
+        let everything = Scope { triangles: true, lines: true, always: true, patience: None };
         let convention = |program: &mut dyn Subject| recognise(program, everything);
         let mut askers: Vec<Box<dyn Subject>> = vec![Box::new(program)];
         let progress = Progress::new(streams.progress, "cases", None);

@@ -333,7 +333,7 @@ fn judge_goes_by_what_is_declared() {
     assert_eq!(property(&verdict, "half-integer"), Outcome::Fail);
 }
 
-const EVERYTHING: Scope = Scope { triangles: true, lines: true, always: false };
+const EVERYTHING: Scope = Scope { triangles: true, lines: true, always: false, patience: None };
 
 fn recognised(asker: Box<dyn Subject>, options: &Options) -> Verdict {
     judge(&mut [asker], options, &|program| recognise(program, EVERYTHING), &|_| ())
@@ -485,6 +485,16 @@ fn judge_writes_junit_beside_the_text() {
         text.split("time=\"").map(|part| part.trim_start_matches(digit)).collect::<String>()
     };
     assert_eq!(timeless(&folder.text("mine.xml")), timeless(&run(&["--format", "junit"])));
+    // What is shown of a failure in a list of tests is its cause.
+    let xml = folder.text("mine.xml");
+    let xml = roxmltree::Document::parse(&xml).unwrap();
+    let of_it = |name: &str| {
+        let test = xml.descendants().find(|n| n.attribute("name") == Some(name)).unwrap();
+        let failure = test.first_element_child().unwrap();
+        [failure.attribute("message").unwrap(), failure.text().unwrap()].map(str::to_owned)
+    };
+    let cause = "Triangles: it samples at the pixel's centre and draws nothing on an edge";
+    assert!(of_it("half-integer").iter().all(|said| said.starts_with(cause)), "{xml:?}");
     let other = ["--junit", "mine.xml", "--baseline", "mine.xml"];
     folder.check(of(&other, &["scanline"]), 2).says("--junit and --baseline name this file");
 }
@@ -611,7 +621,7 @@ fn judge_tells_what_leaves_the_window() {
     let options = patient(30, &["line-octants", "line-clipped"]);
     let entry = engines::find("bresenham").unwrap();
     // Within the window it draws as it declares, so that it is questioned only where that is asked.
-    let scope = Scope { triangles: false, lines: true, always: true };
+    let scope = Scope { triangles: false, lines: true, always: true, patience: None };
     let judged = |change: fn([PixelPoint; 2], [i32; 2]) -> [PixelPoint; 2]| {
         let mut engine = Inside::new(entry);
         let changes =

@@ -203,7 +203,7 @@ fn judge_keeps_its_time() {
     });
     let options = options(100_000, &[]).time_limit(Duration::from_secs(6));
     let start = std::time::Instant::now();
-    let scope = Scope { triangles: true, lines: true, always: false };
+    let scope = Scope { triangles: true, lines: true, always: false, patience: None };
     let recognise = |program: &mut dyn Subject| recognise(program, scope);
     let verdict = judge(&mut [Box::new(slow)], &options, &recognise, &|_| ());
     let took = start.elapsed();

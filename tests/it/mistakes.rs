@@ -1603,7 +1603,7 @@ fn of_fill_in(
     };
     let known = Declarations { window_px, ..Declarations::default() };
     let found = diagnose(&mut ask, &known, 1);
-    mistakes::of_triangles(&mut ask, &known, Some(&found), &[], &|| true)
+    mistakes::of_triangles(&mut ask, &known, Some(&found), &[])
 }
 
 fn of_stroke(
@@ -1622,7 +1622,7 @@ fn of_stroke(
         questions.iter().map(draw).collect()
     };
     let found = diagnose_lines(&mut ask, 32, true, 1);
-    mistakes::of_lines(&mut ask, &Declarations::default(), Some(&found), &[], &|| true)
+    mistakes::of_lines(&mut ask, &Declarations::default(), Some(&found), &[])
 }
 
 /// Every fifth program with its number, and at night each of them.
@@ -2167,7 +2167,7 @@ fn mistakes_that_are_planted_are_named() {
     for &name in &names {
         let entry = engines::find_planted(name).unwrap();
         let options = unhurried(120);
-        let scope = Scope { triangles: true, lines: true, always: false };
+        let scope = Scope { triangles: true, lines: true, always: false, patience: None };
         let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
@@ -2589,7 +2589,7 @@ fn mistakes_planted_elsewhere_are_named() {
                 continue;
             }
         };
-        let scope = Scope { triangles: true, lines: false, always: false };
+        let scope = Scope { triangles: true, lines: false, always: false, patience: None };
         let change =
             move |question: &judge::ask::Question, answer| planted_answer(mutant, question, answer);
         let verdict = verdict(declared(everything(), words), change, families, &|program| {
@@ -2601,7 +2601,7 @@ fn mistakes_planted_elsewhere_are_named() {
         let entry = engines::find_planted(name).unwrap();
         let mut askers = [Box::new(Inside::new(&entry)) as Box<dyn judge::ask::Subject>];
         let options = unhurried(100);
-        let scope = Scope { triangles: true, lines: false, always: false };
+        let scope = Scope { triangles: true, lines: false, always: false, patience: None };
         let verdict =
             judge::judge(&mut askers, &options, &|program| recognise(program, scope), &|_| ());
         table += &format!("{name}: {}\n", told(&verdict));

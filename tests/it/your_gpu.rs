@@ -156,6 +156,11 @@ fn your_gpu_is_judged_by_both_interfaces() {
     let right = rows(&mut browser, None, &options);
     let noisy = rows(&mut browser, Some("noise"), &options);
     assert!(noisy[0]["twice"][0] == "outside" && noisy[1]["twice"][0] == "allowed", "{noisy:?}");
+    // What changes from one time to the next is shown as it is, and no cause is looked for.
+    let options_of = json!({ "only": [["coverage", 0], ["twice", 0]], "bits": 4 });
+    rows(&mut browser, Some("noise"), &options_of);
+    let shown = browser.eval("state.results.map(r => 'twice' in r.views && r.cause === undefined)");
+    assert_eq!(shown, json!([true, true]));
     // What is lost is opened anew, and nothing else changes.
     let lost = rows(&mut browser, Some("lost"), &options);
     assert_eq!(lost, right);

@@ -39,7 +39,7 @@ class Options(TypedDict, total=False):
     family: Union[str, Sequence[str]]  # only this one, or these
     case: int  # only the case of this number
     declare: str  # words of the line protocol for what is promised, such as "rule=strict winding=cw range=4096"
-    seconds: float  # no case is begun after so many
+    seconds: float  # so many for the cases, for making failing ones smaller and for their causes
     hits: bool  # whether a mask of 0 and a number above 1 counts how often a pixel is drawn; refused where it is not given
 
 

@@ -5,10 +5,10 @@
 
 use std::time::Instant;
 
+use super::after::{self, Explained, Patience};
 use super::ask::{Answer, Complaints, Misbehaviour, Question, Subject};
 use super::check::Truth;
 use super::declared::Declared;
-use super::failures;
 use super::recognise::{self, Why};
 use super::run::{self, Sides};
 use super::timed::Timed;
@@ -135,17 +135,13 @@ pub fn compare(
     pairs.iter_mut().for_each(|pair| pair.end_at(end));
     let mut askers: Vec<&mut dyn Subject> =
         pairs.iter_mut().map(|pair| pair as &mut dyn Subject).collect();
-    let limited = &for_families(options, start);
-    let mut found = run::run(&mut askers, limited, &truth, &|cases| progress(Step::Judged(cases)));
+    let judged = |cases| progress(Step::Judged(cases));
+    let mut found = run::run(&mut askers, &for_families(options, start), &truth, &judged);
     progress(Step::Smaller);
     let pair = &mut pairs[0];
-    let (failures, causes) = if found.changing.is_empty() {
-        let failures = failures::failures(&mut Timed::new(pair, end), &found, limited, &truth);
-        progress(Step::Cause);
-        (failures, causes(pair, &found, limited, &truth, end))
-    } else {
-        // What is said of one answer is not true of the next: then nothing is shrunk or explained.
-        (failures::changing(&found, limited, &truth), Vec::new())
+    let Explained { failures, causes, left_out } = match found.changing.is_empty() {
+        true => explain(pair, &found, options, &truth, end, progress),
+        false => Explained::changing(&found, options, &truth),
     };
     found.strays.extend(pair.strays());
     let complaints = finish(pairs.iter_mut().map(|pair| pair as &mut dyn Subject), &mut found);
@@ -157,32 +153,40 @@ pub fn compare(
         reach: truth.declared.reach,
         side: truth.declared.side,
         complaints,
+        left_out,
         ..Particulars::default()
     };
     verdict::verdict(options, more, failures, causes)
 }
 
-/// Why each of them is wrong where the answers differ.
-fn causes(
+/// The smallest cases in which the answers differ, and why each of both is wrong there.
+fn explain(
     pair: &mut Pair<'_>,
     found: &run::RunFindings,
     options: &Options,
     truth: &Truth,
     end: Option<Instant>,
-) -> Vec<Why> {
-    let Some(of_two) = &truth.of_two else { return Vec::new() };
+    progress: &(dyn Fn(Step) + Sync),
+) -> Explained {
+    let patience = Patience::of(options, end, None);
+    let (failures, mut spent) = after::smaller(pair, found, options, truth, patience);
+    progress(Step::Cause);
+    let mut left_out = after::left_out(found, options);
+    left_out.shrinking = failures.iter().any(|failure| failure.evidence.shrunk.is_cut());
     let names = pair.names();
     let is_wrong: [fn(&Sides) -> bool; 2] =
         [|s| s.second + s.neither > 0, |s| s.first + s.neither > 0];
     let mut causes = Vec::new();
+    let of_two = truth.of_two.iter().flat_map(|of_two| of_two.iter());
     for (((side, truth), name), is_wrong) in
-        pair.sides.iter_mut().zip(of_two.iter()).zip(names).zip(is_wrong)
+        pair.sides.iter_mut().zip(of_two).zip(names).zip(is_wrong)
     {
         let rows = found.rows.iter().filter(|row| row.sides.as_ref().is_some_and(is_wrong));
-        let checks = run::checks_of(rows);
-        let (asked, patience) = (&mut Timed::new(&mut **side, end), options.terms.patience);
-        let why = recognise::mistakes(asked, &checks, truth, None, patience);
+        let mut asked = patience.limit(&mut **side, spent);
+        let (why, was_cut) = recognise::mistakes(&mut asked, &run::checks_of(rows), truth, None);
+        spent = patience.spent(&asked);
+        left_out.cause |= was_cut;
         causes.extend(why.into_iter().map(|why| Why { by: name.clone(), ..why }));
     }
-    causes
+    Explained { failures, causes, left_out }
 }

@@ -182,6 +182,16 @@ impl Check {
         matches!(self, Self::Order | Self::Watertight | Self::Direction | Self::Outline)
     }
 
+    /// The check whose cause is that of this one, too: what differs between answers comes of the same mistakes as wrong answers.
+    #[must_use]
+    pub fn of_its_cause(self) -> Self {
+        match self {
+            Self::Order | Self::Watertight | Self::Outline => Self::Coverage,
+            Self::Direction => Self::Line,
+            other => other,
+        }
+    }
+
     /// Whether a case can be asked: a mesh that falls apart has no holes.
     #[must_use]
     pub fn fits(self, case: &Case) -> bool {

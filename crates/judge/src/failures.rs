@@ -29,13 +29,34 @@ pub struct Exchanged {
     /// The other properties whose smallest case shows the same.
     pub also: Vec<&'static str>,
     pub check: Check,
-    /// How far it was made smaller, in words.
-    pub shrunk: &'static str,
+    pub shrunk: HowFar,
     pub exchanges: Vec<Exchange>,
     /// All its answers as one picture, and the one expected, where there are both.
     pub picture: Option<Pictured>,
     /// Whether the answers changed when it was asked a second time. These stand where those of a second program do.
     pub changes: bool,
+}
+
+rasterproof_core::named! {
+    /// How far a failing case was made smaller.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum HowFar {
+        Shrunk = "shrunk",
+        UntilTheEnd = "shrunk until the time was up",
+        NotAtAll = "not made smaller: the time was up",
+        /// It is not asked again.
+        TakesLong = "as it is, since it takes long",
+        /// The answers to smaller ones would change too.
+        Changes = "as it is",
+    }
+}
+
+impl HowFar {
+    /// Whether it might have become smaller with more time.
+    #[must_use]
+    pub fn is_cut(self) -> bool {
+        matches!(self, Self::UntilTheEnd | Self::NotAtAll)
+    }
 }
 
 /// A request, its answer, and the answer that was expected; as lines of the protocol.
@@ -61,14 +82,16 @@ impl Exchanged {
 /// Kinds of failing cases that are shown.
 const MOST_SHOWN: usize = 6;
 
-/// The first failing case of each property that is not known, shrunk, and each kind once: holes and doubles, then those of the
-/// most often wrong. Where the pictures show what is wrong, it comes first.
-pub fn failures(
+/// The first failing case of each property that is not known, shrunk, and each kind once. Where the pictures show what is wrong, it
+/// comes first, and of these the smallest; of equal ones holes and doubles, then those of the most often wrong. For all of them the answers may take `patience`; how
+/// long they took comes with them.
+pub(super) fn failures(
     program: &mut dyn Subject,
     found: &RunFindings,
     options: &Options,
     truth: &Truth,
-) -> Vec<Failure> {
+    patience: Duration,
+) -> (Vec<Failure>, Duration) {
     let mut rows: Vec<_> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
     let share = |row: &Row| match row.check {
         Some(Check::Watertight) => f64::INFINITY,
@@ -83,21 +106,18 @@ pub fn failures(
     let of = |name: &str| news.iter().find(|f| f.property == name);
     let firsts: Vec<&Failing> = rows.into_iter().filter_map(|row| of(row.name)).copied().collect();
     let mut program = Spending { asked: program, spent: Duration::ZERO };
-    let patience = options.terms.patience;
-    // Of a limited time `patience` is what is left, and half of that is for the causes.
-    let in_all = if options.time_limit.is_some() { patience / 2 } else { 2 * patience };
     let mut shown: Vec<Failure> = Vec::new();
     let mut kinds: Vec<Kind> = Vec::new();
     for (done, failing) in firsts.iter().enumerate() {
         // The time for all of them is shared among those that are still to be made smaller, so that none is left without any.
-        let left = in_all.saturating_sub(program.spent);
+        let left = patience.saturating_sub(program.spent);
         // Beyond as many searches as cases are shown, others are for what is still to be seen.
         if shown.len() == MOST_SHOWN || done >= MOST_SHOWN && left.is_zero() {
             break;
         }
         let to_do = (firsts.len() - done).min(MOST_SHOWN - shown.len());
-        let patience = patience.min(left / to_do as u32);
-        let Some(failure) = failure(&mut program, found, failing, patience, options, truth) else {
+        let share = left / to_do as u32;
+        let Some(failure) = failure(&mut program, found, failing, share, options, truth) else {
             continue;
         };
         let kind = Kind::of(&failure, truth.declared.convention.sample);
@@ -109,9 +129,21 @@ pub fn failures(
             }
         }
     }
-    let is_same = |f: &Failure| f.evidence.picture.as_ref().is_none_or(|p| p.drawn == p.expected);
-    shown.sort_by_key(is_same);
-    shown
+    shown.sort_by_key(to_read);
+    (shown, program.spent)
+}
+
+/// How much there is to read until it is seen what is wrong: whether the pictures do not show it, and how many characters the requests
+/// and the two pictures have.
+fn to_read(failure: &Failure) -> (bool, u64) {
+    let Exchanged { picture, exchanges, .. } = &failure.evidence;
+    let is_same = picture.as_ref().is_none_or(|picture| picture.drawn == picture.expected);
+    let window = failure.case.window;
+    let mut characters = 2 * u64::from(window.width()) * u64::from(window.height());
+    for exchange in exchanges {
+        characters += exchange.request.len() as u64;
+    }
+    (is_same, characters)
 }
 
 /// Somebody who is asked, and how long the answers took in all. What the judge itself computes does not count, so that of a program
@@ -173,7 +205,7 @@ pub fn changing(found: &RunFindings, options: &Options, truth: &Truth) -> Vec<Fa
             property: failing.property,
             also: Vec::new(),
             check: *check,
-            shrunk: "as it is",
+            shrunk: HowFar::Changes,
             exchanges: exchanges.collect(),
             picture,
             changes: true,
@@ -296,10 +328,10 @@ impl Search<'_> {
         let again =
             if is_asked_again { Some(ask(&case)).filter(|again| !again.is_late()) } else { None };
         let shrunk = match (is_slow, was_cut || again.is_none()) {
-            (true, _) => "as it is, since it takes long",
-            (_, true) if case == original => "not made smaller: the time was up",
-            (_, true) => "shrunk until the time was up",
-            (_, false) => "shrunk",
+            (true, _) => HowFar::TakesLong,
+            (_, true) if case == original => HowFar::NotAtAll,
+            (_, true) => HowFar::UntilTheEnd,
+            (_, false) => HowFar::Shrunk,
         };
         let AskedCase { questions, answers, judged } = again.unwrap_or_else(|| kept.into_inner());
         // Asked again, it was right: the program does not repeat itself.
@@ -430,6 +462,7 @@ mod tests {
     use super::*;
     use crate::against;
     use crate::in_process::Inside;
+    use crate::recognise::{Scope, recognise};
     use crate::verdict::{Scores as _, Verdict};
     use rasterproof_core::triangle::Span;
     use rasterproof_registry::engines;
@@ -503,33 +536,89 @@ mod tests {
         assert!(first.what.starts_with("first "), "{}", first.what);
         assert!(first.what.contains(", then "), "{}", first.what);
         let evidence = &first.evidence;
-        assert!(evidence.changes && evidence.shrunk == "as it is");
+        assert!(evidence.changes && evidence.shrunk == HowFar::Changes);
         assert!(evidence.exchanges.iter().any(|exchange| exchange.answer != exchange.other));
         assert!(verdict.failures.iter().all(|failure| failure.evidence.changes));
         // Who is wrong in the same way each time is made smaller.
         let same = judged(|answer, _| forget(answer, 0));
         assert!(same.failures.iter().all(|failure| !failure.evidence.changes));
-        assert_eq!(same.failures[0].evidence.shrunk, "shrunk");
+        assert_eq!(same.failures[0].evidence.shrunk, HowFar::Shrunk);
     }
 
-    /// Of a program that is slow, all failing cases together are made smaller for a limited time, and it is said.
     #[test]
-    fn what_is_slow_is_not_made_smaller_for_long() {
-        let mut options = options();
-        options.families.push("rectangle".to_owned());
-        options.terms.patience = Duration::from_millis(100);
-        let slow = altered(|answer, _| {
+    fn the_smallest_case_stands_first() {
+        let options = Options::default().cases(40);
+        let wrong = altered(|answer, _| forget(answer, 0));
+        let shown = crate::judge(&mut [wrong], &options, &|_| None, &|_| ()).failures;
+        let sizes: Vec<_> = shown.iter().map(to_read).collect();
+        assert!(sizes.len() > 2 && sizes.is_sorted(), "{sizes:?}");
+        let window = shown[0].case.window;
+        assert_eq!((window.width(), window.height()), (1, 1), "{sizes:?}");
+    }
+
+    fn slow() -> Box<dyn Subject> {
+        altered(|answer, _| {
             std::thread::sleep(Duration::from_millis(20));
             forget(answer, 0);
-        });
-        let mut options_of = options.clone();
-        options_of.cases = 4;
-        let verdict = crate::judge(&mut [slow], &options_of, &|_| None, &|_| ());
+        })
+    }
+
+    /// Of a program that is slow, all failing cases together are made smaller for a limited time, causes are looked for as long, and
+    /// it is said.
+    #[test]
+    fn what_is_slow_is_not_made_smaller_for_long() {
+        let mut options = options().cases(4);
+        options.families.push("rectangle".to_owned());
+        options.terms.patience = Duration::from_millis(400);
+        let verdict = crate::judge(&mut [slow()], &options, &|_| None, &|_| ());
         let shrunk: Vec<_> = verdict.failures.iter().map(|f| f.evidence.shrunk).collect();
         assert!(shrunk.len() > 1, "{shrunk:?}");
-        assert!(shrunk.iter().all(|said| said.ends_with("the time was up")), "{shrunk:?}");
+        assert!(shrunk.iter().all(|how_far| how_far.is_cut()), "{shrunk:?}");
         // The first one has not the whole time, but enough to begin.
-        assert_eq!(shrunk[0], "shrunk until the time was up");
+        assert_eq!(shrunk[0], HowFar::UntilTheEnd);
+        assert!(verdict.cause.is_empty());
+        let said = verdict.more.left_out.to_string();
+        let parts = "making failing cases smaller, the cause. --seconds allows more.";
+        assert!(said.ends_with(parts), "{said}");
+        // A limited time is for the same, and for the cases.
+        options.terms.time_limit_is = "seconds=";
+        let options = options.cases(1000).time_limit(Duration::from_secs(1));
+        let start = Instant::now();
+        let verdict = crate::judge(&mut [slow()], &options, &|_| None, &|_| ());
+        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+        let said = verdict.more.left_out.to_string();
+        assert!(said.starts_with("Left out, since the time limit of 1 s was up: "), "{said}");
+        let parts = " cases, making failing cases smaller, the cause. seconds allows more.";
+        assert!(said.ends_with(parts), "{said}");
+    }
+
+    /// Each of two programs that are compared had the whole time for each kind of check.
+    #[test]
+    fn two_that_are_slow_share_the_time() {
+        let mut options = options().cases(4);
+        options.terms.patience = Duration::from_millis(400);
+        let right: fn(&mut Answer, u64) = |_, _| ();
+        let verdict = against::compare(&mut [[altered(right), slow()]], &options, &|_| ());
+        let left_out = verdict.more.left_out;
+        assert!(left_out.shrinking && left_out.cause, "{left_out:?}");
+        assert!(verdict.cause.is_empty());
+    }
+
+    /// Who follows another convention slowly is asked for it for a limited time.
+    #[test]
+    fn the_convention_of_what_is_slow_is_not_looked_for_for_long() {
+        let scope = Scope {
+            triangles: true,
+            lines: false,
+            always: true,
+            patience: Some(Duration::from_millis(100)),
+        };
+        let options = options().cases(4);
+        let recognised = |program: &mut dyn Subject| recognise(program, scope);
+        let verdict = crate::judge(&mut [slow()], &options, &recognised, &|_| ());
+        assert!(verdict.more.left_out.convention && verdict.by_convention().is_none());
+        let said = verdict.more.left_out.to_string();
+        assert!(said.contains(": its convention"), "{said}");
     }
 
     #[test]

@@ -71,8 +71,8 @@ impl Ranked {
             let sentence = sentence.unwrap_or_default().to_owned();
             let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
             let by_convention = is_explained.then_some(found);
-            let of = if lines { "lines" } else { "triangles" };
-            let why = verdict.cause.iter().find(|why| why.of == of);
+            let check = if lines { Check::Line } else { Check::Coverage };
+            let why = verdict.cause.iter().find(|why| why.check == check);
             let mistake = why.and_then(|why| Some(why.why.causes.first()?.does.clone()));
             let kind = Kind { sentence, as_declared, by_convention, mistake };
             (as_declared.pixels > 0).then_some(kind)

@@ -5,11 +5,12 @@
 //! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
 //! wrong with a case ([`judged`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
-//! convention that is followed, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
+//! convention that is followed, `after` makes failing cases smaller and asks why they fail, [`against`] compares two programs, and [`verdict`] says what came of it, property by property; [`timed`] keeps a
 //! limited time;
 //! [`polygons`] judges tessellators. [`baseline`] knows failures that are known. [`server`] is the other side: it answers as an engine.
 
 pub mod adapt_case;
+mod after;
 pub mod against;
 pub mod ask;
 pub mod asked;
@@ -44,12 +45,13 @@ pub mod windings;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
+pub use after::{Explained, Patience, explain};
 use ask::{Answer, Complaints, Question, Subject};
 use check::Truth;
 use declared::Declared;
-use rasterproof_verify::judge::Terms;
+use rasterproof_verify::judge::{AFTER_FAILURE, Terms};
 use rasterproof_verify::partition;
-use recognise::{Recognised, Said};
+use recognise::Recognised;
 use run::Incident;
 use timed::Timed;
 use verdict::{Particulars, Verdict};
@@ -60,10 +62,11 @@ pub type Options = rasterproof_verify::judge::Options<String, Asking>;
 /// What is done about failing cases of a program.
 #[derive(Clone, Debug)]
 pub struct Asking {
-    /// How long the program may take to answer while the smallest case of a property is looked for, twice as long for all
-    /// properties together; and how long the cause of each kind of mistake is looked for. Where the time is limited, all
-    /// smallest cases together may take half of it.
+    /// How long the program may take to answer after the first failure in all, where the time is not limited: half of it while
+    /// failing cases are made smaller, and the rest while their causes are looked for.
     pub patience: Duration,
+    /// What the caller writes before the seconds of a time limit, for what is said of it.
+    pub time_limit_is: &'static str,
     /// Every case and every failure is remembered, for a baseline.
     pub remember: bool,
     /// The fingerprints of failures that are known, by [`run::Failing::name`]. These are not shown.
@@ -72,7 +75,20 @@ pub struct Asking {
 
 impl Default for Asking {
     fn default() -> Self {
-        Self { patience: Duration::from_secs(5), remember: false, known: BTreeMap::new() }
+        Self {
+            patience: AFTER_FAILURE,
+            time_limit_is: "--seconds ",
+            remember: false,
+            known: BTreeMap::new(),
+        }
+    }
+}
+
+impl Asking {
+    /// What the caller calls the time limit.
+    #[must_use]
+    pub fn time_limit_option(&self) -> &'static str {
+        self.time_limit_is.trim_end_matches(['=', ':', ' '])
     }
 }
 
@@ -81,11 +97,11 @@ impl Terms for Asking {
 }
 
 /// Of a limited time that began then, what is left for the families: a tenth of all is for the questions after them.
-fn for_families(options: &Options, start: Instant) -> Options {
+#[must_use]
+pub fn for_families(options: &Options, start: Instant) -> Options {
     let mut options = options.clone();
     if let Some(limit) = options.time_limit {
         options.time_limit = Some((limit - limit / 10).saturating_sub(start.elapsed()));
-        options.terms.patience = options.terms.patience.min(limit / 10);
     }
     options
 }
@@ -137,37 +153,22 @@ pub fn judge(
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
     truth.declared.reach = reach::reach(&mut first);
     truth.declared.side = reach::side(&mut first);
-    let mut found_before = recognise(&mut first);
-    let mut recognised = found_before.as_mut().map(|found| {
-        truth.recognised = found.expect.take();
-        found.said.clone()
-    });
+    let mut convention = recognise(&mut first);
     if first.asked.is_late {
-        let late = "The time was up before its convention was found.".to_owned();
-        (recognised, truth.recognised) =
-            (Some(Said { sentences: vec![late], ..Said::default() }), None);
+        convention = Some(Recognised::late());
     }
+    truth.recognised = convention.as_mut().and_then(|found| found.expect.take());
     let before = first.incidents;
-    let asked = &for_families(options, start);
     let mut all: Vec<&mut dyn Subject> = askers.iter_mut().map(|asker| &mut **asker as _).collect();
-    let mut found = run::run(&mut all, asked, &truth, &|cases| progress(Step::Judged(cases)));
+    let judged = |cases| progress(Step::Judged(cases));
+    let mut found = run::run(&mut all, &for_families(options, start), &truth, &judged);
     found.incidents.splice(0..0, before);
     found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];
-    progress(Step::Smaller);
-    // What is said of one answer is not true of the next: then nothing is shrunk or explained.
-    let changes = !found.changing.is_empty();
-    let failures = match changes {
-        true => failures::changing(&found, asked, &truth),
-        false => failures::failures(&mut Timed::new(first, end), &found, asked, &truth),
-    };
-    let recognised = recognised.filter(|_| !changes);
-    let checks = if changes { Vec::new() } else { found.unexplained() };
-    if !checks.is_empty() {
-        progress(Step::Cause);
-    }
-    let (timed, patience) = (&mut Timed::new(first, end), asked.terms.patience);
-    let causes = recognise::mistakes(timed, &checks, &truth, found_before.as_ref(), patience);
+    let patience = Patience::of(options, end, convention.as_ref());
+    let Explained { failures, causes, left_out } =
+        explain(first, &found, options, &truth, convention.as_ref(), patience, progress);
+    let recognised = convention.map(|found| found.said).filter(|_| found.changing.is_empty());
     found.strays.extend(first.strays());
     let Declared { reach, side, .. } = truth.declared;
     let complaints = finish(askers.iter_mut().map(|asker| &mut **asker as _), &mut found);
@@ -179,6 +180,7 @@ pub fn judge(
         reach,
         side,
         complaints,
+        left_out,
         ..Particulars::default()
     };
     verdict::verdict(options, more, failures, causes)

@@ -81,11 +81,14 @@ pub fn judge(program: &mut dyn Subject, given: &Options) -> Result<partition::Ve
         });
         made.collect()
     };
-    let judged = partition::judge_partitions_of(&answer, &options);
+    let mut judged = partition::judge_partitions_of(&answer, &options);
+    if let Ok(report) = &mut judged {
+        report.more.option = given.terms.time_limit_option();
+    }
     let (mut program, ..) = asked.into_inner().unwrap_or_else(PoisonError::into_inner);
     program.end_at(None);
     judged.map_err(|nothing| match given.time_limit.filter(|_| program.is_late) {
-        Some(limit) => verdict::nothing_within(limit),
+        Some(limit) => verdict::nothing_within(limit, given),
         None => nothing.to_string(),
     })
 }
@@ -134,7 +137,8 @@ pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdi
         out_of_time: is_out_of_time(report),
         ..RunFindings::default()
     };
-    let more = Particulars { declared: declared.clone(), found, ..Particulars::default() };
+    let (declared, left_out) = (declared.clone(), report.more);
+    let more = Particulars { declared, found, left_out, ..Particulars::default() };
     let mut verdict = verdict::verdict(options, more, Vec::new(), Vec::new());
     // The families of cases have a text of their own.
     for family in &report.families {

@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::Options;
 use super::adapt_case;
@@ -20,6 +20,7 @@ use super::pixels::picture_of;
 use super::run::MOST_DEATHS;
 use super::stages;
 use super::text::px;
+use super::timed::Timed;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};
@@ -29,6 +30,7 @@ use rasterproof_verify::comparison::{Convention, Expectation, Rule};
 use rasterproof_verify::convention::{
     self, Confidence, Declarations, Diagnosis, FACINGS, LineDiagnosis, LineQuestion, Quantum,
 };
+use rasterproof_verify::judge::AFTER_FAILURE;
 use rasterproof_verify::mistakes::{self, Mistakes, Program};
 
 pub struct Recognised {
@@ -37,6 +39,10 @@ pub struct Recognised {
     pub lines: Option<LineDiagnosis>,
     /// What it is expected to draw under this convention; nothing where no hypothesis explains it.
     pub expect: Option<Box<dyn Expect>>,
+    /// How long its answers took after the first wrong one.
+    pub spent: Duration,
+    /// Whether the time was up before it was found.
+    pub is_late: bool,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
@@ -57,6 +63,8 @@ pub struct Scope {
     pub lines: bool,
     /// Also where it draws as it declares.
     pub always: bool,
+    /// How long its answers may take after the first wrong one.
+    pub patience: Option<Duration>,
 }
 
 impl Scope {
@@ -67,7 +75,9 @@ impl Scope {
         let any = |lines| {
             options.only.is_none() && families.iter().any(|f| adapt_case::is_lines(f) == lines)
         };
-        Self { triangles: any(false), lines: any(true), always: false }
+        // Without a time limit, half of what comes after the first wrong answer is for smaller cases and for causes.
+        let patience = options.time_limit.is_none().then_some(AFTER_FAILURE / 2);
+        Self { triangles: any(false), lines: any(true), always: false, patience }
     }
 }
 
@@ -80,13 +90,15 @@ const LOOK_CASES: u64 = 16;
 /// The convention of a program; nothing where it draws as it declares.
 pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
-    let mut bench = Bench { program, deaths_left: MOST_DEATHS, is_over: false };
+    let mut bench = Bench { program: Timed::new(program, None), deaths_left: MOST_DEATHS };
     let open = declared.convention.rule == Rule::Unspecified;
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
             let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
-            (ask && !bench.is_over)
-                .then(|| convention::diagnose(&mut bench, &known(&declared), SEED))
+            (ask && !bench.program.is_late).then(|| {
+                bench.limit(scope.patience);
+                convention::diagnose(&mut bench, &known(&declared), SEED)
+            })
         })
         .flatten();
     let lines = (scope.lines && declared.line)
@@ -94,11 +106,17 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
             let ask = scope.always || !bench.draws_as_declared(&declared, true);
             let side_px = known(&declared).side_px();
             let ordered = !declared.line_set;
-            (ask && !bench.is_over)
-                .then(|| convention::diagnose_lines(&mut bench, side_px, ordered, SEED))
+            (ask && !bench.program.is_late).then(|| {
+                bench.limit(scope.patience);
+                convention::diagnose_lines(&mut bench, side_px, ordered, SEED)
+            })
         })
         .flatten();
-    if bench.is_over || (triangles.is_none() && lines.is_none()) {
+    if bench.program.is_late {
+        let spent = bench.spent(scope.patience);
+        return Some(Recognised { spent, ..Recognised::late() });
+    }
+    if triangles.is_none() && lines.is_none() {
         return None;
     }
     let is_explained = triangles.as_ref().is_some_and(|t| t.confidence != Confidence::Unexplained)
@@ -114,7 +132,23 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     let said = Said { sentences, compass, declare, is_explained };
     let (triangles, lines) = (found.triangles.clone(), found.lines.clone());
     let expect = is_explained.then(|| Box::new(found) as Box<dyn Expect>);
-    Some(Recognised { said, triangles, lines, expect })
+    let spent = bench.spent(scope.patience);
+    Some(Recognised { said, triangles, lines, expect, spent, is_late: false })
+}
+
+impl Recognised {
+    /// What is said where the time was up.
+    pub(super) fn late() -> Self {
+        let late = "The time was up before its convention was found.".to_owned();
+        Self {
+            said: Said { sentences: vec![late], ..Said::default() },
+            triangles: None,
+            lines: None,
+            expect: None,
+            spent: Duration::ZERO,
+            is_late: true,
+        }
+    }
 }
 
 fn clause(about: &str, sentence: &str) -> String {
@@ -203,31 +237,31 @@ fn known(declared: &Declared) -> Declarations {
     }
 }
 
-/// Why a program is wrong in each kind of check, where no convention explains it. It is asked so long for each of them, so that
-/// what is found of one does not depend on the others.
+/// Why a program is wrong in each kind of check, where no convention explains it; and whether the time was up before this was
+/// known. The time that is left is shared among the checks, so that what is found of one depends less on the others.
 pub fn mistakes(
-    program: &mut dyn Subject,
+    program: &mut Timed<'_>,
     checks: &[Check],
     truth: &Truth,
     recognised: Option<&Recognised>,
-    patience: Duration,
-) -> Vec<Why> {
+) -> (Vec<Why>, bool) {
     let known = known(&truth.declared);
-    let mut all = Vec::new();
-    for &check in checks {
-        let start = Instant::now();
-        let goes_on: &dyn Fn() -> bool = &|| start.elapsed() < patience;
-        let mut bench = Bench { program: &mut *program, deaths_left: MOST_DEATHS, is_over: false };
+    let (mut all, mut was_cut) = (Vec::new(), false);
+    for (&check, to_do) in checks.iter().zip((1..=checks.len() as u32).rev()) {
+        let share = program.rest().map(|rest| rest / to_do);
+        let end = program.end;
+        let part = Timed::new(&mut *program, end).within(share);
+        let mut bench = Bench { program: part, deaths_left: MOST_DEATHS };
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
                 let programs = programs(of_triangle);
-                ("triangles", mistakes::of_triangles(&mut bench, &known, found, &programs, goes_on))
+                ("triangles", mistakes::of_triangles(&mut bench, &known, found, &programs))
             }
             Check::Line => {
                 let found = recognised.and_then(|found| found.lines.as_ref());
                 let programs = programs(of_line);
-                ("lines", mistakes::of_lines(&mut bench, &known, found, &programs, goes_on))
+                ("lines", mistakes::of_lines(&mut bench, &known, found, &programs))
             }
             check => {
                 let of = match check {
@@ -240,12 +274,17 @@ pub fn mistakes(
                 let programs: Vec<_> = entries()
                     .map(|(entry, about)| (RefCell::new(Inside::new(&entry)), about))
                     .collect();
-                (of, stages::mistakes(program, check, truth, &programs, goes_on))
+                (of, stages::mistakes(&mut bench.program, check, truth, &programs))
             }
         };
-        all.extend(why.map(|why| Why { by: String::new(), of, why }));
+        // What is concluded from few of the answers would be no conclusion.
+        let is_enough = |why: &Mistakes| why.wrong.drawn >= mistakes::ENOUGH_WRONG as u64;
+        let is_cut = bench.program.is_late && !why.as_ref().is_some_and(is_enough);
+        was_cut |= is_cut;
+        let why = why.filter(|_| !is_cut);
+        all.extend(why.map(|why| Why { by: String::new(), check, of, why }));
     }
-    all
+    (all, was_cut)
 }
 
 /// The mistakes of a program in one kind of check.
@@ -254,6 +293,8 @@ pub struct Why {
     /// Whose mistake it is, where two programs are compared.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub by: String,
+    #[serde(skip)]
+    pub check: Check,
     /// What is wrong: triangles, lines, values, samples, depths, or the near plane.
     pub of: &'static str,
     #[serde(flatten)]
@@ -327,21 +368,30 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 
 /// The program as the questions want it; asked no more once it has died too often.
 struct Bench<'a> {
-    program: &'a mut dyn Subject,
+    program: Timed<'a>,
     deaths_left: u64,
-    /// Whether the time for answers is over.
-    is_over: bool,
 }
 
 impl Bench<'_> {
+    /// Limits its answers from the first wrong one on.
+    fn limit(&mut self, patience: Option<Duration>) {
+        self.program.left = self.program.left.or(patience);
+    }
+
+    /// How much of the limited time its answers took.
+    fn spent(&self, patience: Option<Duration>) -> Duration {
+        let left = patience.zip(self.program.left);
+        left.map_or(Duration::ZERO, |(patience, left)| patience.saturating_sub(left))
+    }
+
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
-        if self.deaths_left == 0 || self.is_over {
+        if self.deaths_left == 0 || self.program.is_late {
             return Vec::new();
         }
         let answers = self.program.ask(questions, self.deaths_left);
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         self.deaths_left = self.deaths_left.saturating_sub(deaths);
-        self.is_over = answers.len() < questions.len() && deaths == 0;
+        self.program.is_late |= answers.len() < questions.len() && deaths == 0;
         answers
     }
 

@@ -173,6 +173,12 @@ pub struct Failing {
 }
 
 impl Failing {
+    #[must_use]
+    pub fn new(family: &Family, index: u64, check: Check, judged: &CaseJudgement) -> Self {
+        let (property, fingerprint) = (check.name(family.name), judged.fingerprint());
+        Self { property, family: family.name, index, fingerprint }
+    }
+
     /// The name of the case in a baseline.
     #[must_use]
     pub fn name(&self) -> String {
@@ -527,9 +533,7 @@ fn block(
             && died == 0
             && found.row(property, Some(*check)).wrong_cases <= MOST_ASKED_AGAIN
         {
-            let (index, fingerprint) = (*index, judged.fingerprint());
-            let failing = Failing { property, family: family.name, index, fingerprint };
-            wrong.push((failing, *check, *first..next));
+            wrong.push((Failing::new(family, *index, *check, &judged), *check, *first..next));
         }
         let is_last = jobs.get(at + 1).is_none_or(|(.., next)| next != case);
         whole += u64::from(is_last);
@@ -602,8 +606,7 @@ fn note(
             return;
         }
         if found.failing.len() < MOST_REMEMBERED {
-            let fingerprint = judged.fingerprint();
-            let failing = Failing { property, family: family.name, index, fingerprint };
+            let failing = Failing::new(family, index, check, judged);
             if of_it < KEPT {
                 found.described.insert(failing.name(), judged.describe(check));
             }

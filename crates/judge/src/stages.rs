@@ -26,7 +26,7 @@ use rasterproof_verify::comparison::pixels::few;
 use rasterproof_verify::convention::{Quantum, Rounding, Shape, Ties, TriangleConvention};
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis, depths, sum, weights};
 use rasterproof_verify::mistakes::{
-    Explanation, Hypothesis, MistakeId, Mistakes, RULES, chosen_by, of_answers,
+    ENOUGH_WRONG, Explanation, Hypothesis, MistakeId, Mistakes, RULES, chosen_by, of_answers,
 };
 use rasterproof_verify::oracle::Oracle;
 
@@ -37,8 +37,7 @@ pub struct Answered {
     pub is_wrong: bool,
 }
 
-/// Wrong answers that are enough, and how often a program is asked for more of them.
-const ENOUGH_WRONG: usize = 24;
+/// How often a program is asked for more wrong answers than it gave.
 const MOST_ROUNDS: u64 = 4;
 /// Cases that are drawn for a check, over all of its families.
 const CASES: u64 = 400;
@@ -50,7 +49,6 @@ fn answered(
     check: Check,
     families: &[&str],
     truth: &Truth,
-    goes_on: &dyn Fn() -> bool,
 ) -> Vec<Answered> {
     let mut all: Vec<Answered> = Vec::new();
     let mut deaths = 0;
@@ -64,7 +62,7 @@ fn answered(
         }
         let Some(family) = adapt_case::family(name) else { continue };
         for index in 0..CASES / families.len() as u64 {
-            if !goes_on() || deaths >= MOST_DEATHS {
+            if deaths >= MOST_DEATHS {
                 return all;
             }
             let case: Case = adapt_case::case(family, seed, index, &truth.declared);
@@ -106,9 +104,8 @@ pub fn mistakes(
     check: Check,
     truth: &Truth,
     programs: &[(RefCell<Inside>, String)],
-    goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
-    let all = answered(program, check, families(check), truth, goes_on);
+    let all = answered(program, check, families(check), truth);
     let is_wrong: Vec<bool> = all.iter().map(|a| a.is_wrong).collect();
     let tolerance = truth.declared.tolerance;
     let mut hypotheses = hypotheses(check, &all, &is_wrong, truth);

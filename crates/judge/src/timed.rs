@@ -1,6 +1,6 @@
 //! Somebody who is asked within a limited time.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::ask::{Answer, Complaints, Misbehaviour, Question, Subject};
 use super::declared::Declared;
@@ -16,6 +16,9 @@ pub struct Timed<'a> {
     asked: &'a mut dyn Subject,
     /// No batch is begun after this.
     pub end: Option<Instant>,
+    /// How long its answers may still take in all. What the judge itself computes does not count, so that of a program that answers
+    /// at once nothing is left out on a busy machine.
+    pub left: Option<Duration>,
     /// Requests of the next batch.
     batch: usize,
     /// Whether something was not asked, or not answered, because the time was up.
@@ -24,7 +27,20 @@ pub struct Timed<'a> {
 
 impl<'a> Timed<'a> {
     pub fn new(asked: &'a mut dyn Subject, end: Option<Instant>) -> Self {
-        Self { asked, end, batch: 1, is_late: false }
+        Self { asked, end, left: None, batch: 1, is_late: false }
+    }
+
+    /// The same, whose answers may take so long in all.
+    #[must_use]
+    pub fn within(self, left: Option<Duration>) -> Self {
+        Self { left, ..self }
+    }
+
+    /// What is left of the limited time.
+    #[must_use]
+    pub fn rest(&self) -> Option<Duration> {
+        let until_end = self.end.map(|end| end.saturating_duration_since(Instant::now()));
+        until_end.into_iter().chain(self.left).min()
     }
 }
 
@@ -34,11 +50,13 @@ impl Subject for Timed<'_> {
     }
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        let Some(end) = self.end else { return self.asked.ask(questions, most_deaths) };
+        if self.rest().is_none() {
+            return self.asked.ask(questions, most_deaths);
+        }
         let (mut answers, mut deaths) = (Vec::with_capacity(questions.len()), 0);
         while answers.len() < questions.len() && deaths < most_deaths {
             let start = Instant::now();
-            if start >= end {
+            if self.rest().is_some_and(|rest| rest.is_zero()) {
                 self.is_late = true;
                 break;
             }
@@ -48,13 +66,15 @@ impl Subject for Timed<'_> {
             deaths += answered.iter().filter(|answer| answer.is_death()).count() as u64;
             let (count, is_whole) = (answered.len(), answered.len() == some.len());
             answers.extend(answered);
-            let now = Instant::now();
+            let took = start.elapsed();
+            self.left = self.left.map(|left| left.saturating_sub(took));
+            let rest = self.rest().unwrap_or_default();
             if !is_whole {
-                self.is_late |= now >= end;
+                self.is_late |= rest.is_zero();
                 break;
             }
-            let each_s = (now - start).as_secs_f64() / count.max(1) as f64;
-            let fit = PART * end.saturating_duration_since(now).as_secs_f64() / each_s.max(1e-9);
+            let each_s = took.as_secs_f64() / count.max(1) as f64;
+            let fit = PART * rest.as_secs_f64() / each_s.max(1e-9);
             self.batch = (fit as usize).clamp(1, MOST_AT_ONCE.min(2 * self.batch));
         }
         answers

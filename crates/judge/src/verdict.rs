@@ -11,7 +11,7 @@ use super::failures::Failure;
 use super::recognise::{Said, Why};
 use super::run::{Row, RunFindings, Sides};
 use super::windings::Windings;
-use rasterproof_verify::judge;
+use rasterproof_verify::judge::{self, LeftOut};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -61,6 +61,8 @@ pub struct Particulars {
     pub known: u64,
     /// What it wrote on standard error.
     pub complaints: Complaints,
+    /// What was not done, because the time was up.
+    pub left_out: LeftOut,
     pub properties: Vec<Property>,
 }
 
@@ -96,10 +98,10 @@ const CHECKS: [(Check, &str); 7] = [
 ];
 
 /// What is said where the time was up before anything was judged.
-pub(super) fn nothing_within(limit: Duration) -> String {
-    let seconds = limit.as_secs_f64();
+pub(super) fn nothing_within(limit: Duration, options: &Options) -> String {
+    let (limit_is, seconds) = (options.terms.time_limit_is, limit.as_secs_f64());
     format!(
-        "nothing was judged within --seconds {seconds}: the answers take too long; allow more seconds"
+        "nothing was judged within {limit_is}{seconds}: the answers take too long; allow more seconds"
     )
 }
 
@@ -206,7 +208,7 @@ pub trait Scores {
         let is_empty = families.is_empty();
         let limit = options.time_limit.filter(|_| more.found.out_of_time);
         match limit {
-            Some(limit) if is_empty || is_blank => Some(nothing_within(limit)),
+            Some(limit) if is_empty || is_blank => Some(nothing_within(limit, options)),
             _ if is_empty => Some(
                 "no case was judged: the program does not draw what these families hold".to_owned(),
             ),

@@ -55,7 +55,7 @@ fn ask(cases: u64, declare: &str, command: &[String]) -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let scope = Scope { triangles: true, lines: true, always: false };
+    let scope = Scope { triangles: true, lines: true, always: false, patience: None };
     let mut askers = [Box::new(program) as Box<dyn Subject>];
     let options = Options::default().cases(cases);
     let verdict = judge(&mut askers, &options, &|program| recognise(program, scope), &|_| {});

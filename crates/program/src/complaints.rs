@@ -69,14 +69,17 @@ impl StandardError {
         if text.is_empty() {
             return;
         }
-        let has = |mark: &str| text.windows(mark.len()).any(|part| part == mark.as_bytes());
-        let finding = FINDINGS.iter().position(|(mark, _)| has(mark));
+        let finding = FINDINGS.iter().position(|(mark, _)| holds(text, mark));
         let line = Line { text: text.to_vec(), finding };
         self.lines += 1;
         if let Some(kind) = finding {
-            let of_it = self.findings.iter().filter(|other| other.finding == finding);
-            let is_known = self.findings.iter().any(|other| other.text == line.text);
-            if !is_known && of_it.count() < FINDINGS[kind].1 {
+            let mut of_it = 0;
+            let mut is_known = false;
+            for other in &self.findings {
+                of_it += usize::from(other.finding == finding);
+                is_known |= other.text == line.text;
+            }
+            if !is_known && of_it < FINDINGS[kind].1 {
                 self.findings.push(line.clone());
             }
         }
@@ -94,14 +97,26 @@ impl StandardError {
     pub fn complaints(&self) -> Complaints {
         let mut whole = self.clone();
         whole.hear(b"\n");
-        let is_last = |line: &&Line| whole.last.iter().any(|last| last.text == line.text);
-        let findings = whole.findings.iter().filter(|line| !is_last(line));
-        let shown = findings.chain(&whole.last).map(|line| {
-            let most = if line.finding.is_some() { SHOWN_OF_A_FINDING } else { SHOWN };
-            printable(&line.text, most)
-        });
-        Complaints { lines: whole.lines, shown: shown.collect() }
+        let mut shown = Vec::new();
+        for line in &whole.findings {
+            if whole.last.iter().all(|last| last.text != line.text) {
+                shown.push(line.shown());
+            }
+        }
+        shown.extend(whole.last.iter().map(Line::shown));
+        Complaints { lines: whole.lines, shown }
     }
+}
+
+impl Line {
+    fn shown(&self) -> String {
+        let most = if self.finding.is_some() { SHOWN_OF_A_FINDING } else { SHOWN };
+        printable(&self.text, most)
+    }
+}
+
+fn holds(text: &[u8], mark: &str) -> bool {
+    text.windows(mark.len()).any(|part| part == mark.as_bytes())
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::judge_text::excerpts;
+use super::judge_text::{excerpts, why};
 use super::{html, json as json_text, text};
 use json_text::pretty;
 use rasterproof_judge::verdict::{Outcome, Property, Scores as _, Verdict};
@@ -64,11 +64,19 @@ pub fn write(
     }
 }
 
-/// What was found, and the cases that a terminal shows of it.
+/// Why it fails, where that is known, what was found, and the cases that a terminal shows of it.
 fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
+    let cause = cause(verdict, property, "\n");
     let shown = excerpts(verdict, repeat, Some(property.name));
     let shown: String = shown.iter().map(|one| text::excerpt(one, text::WIDTH)).collect();
-    format!("{}: {}\n{shown}", property.about, property.detail).trim_end().to_owned()
+    format!("{cause}{}: {}\n{shown}", property.about, property.detail).trim_end().to_owned()
+}
+
+/// Why a property fails, where that is known, and then `end`.
+fn cause(verdict: &Verdict, property: &Property, end: &str) -> String {
+    let is_wrong = property.outcome != Outcome::Pass;
+    let why = is_wrong.then(|| why(verdict, property.name)).flatten();
+    why.map_or_else(String::new, |why| why + end)
 }
 
 /// Text between tags and in quoted attributes, where the ends of lines are kept.
@@ -93,7 +101,7 @@ fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
     for p in &verdict.more.properties {
         let case = format!("<testcase classname=\"{name}\" name=\"{}\" time=\"0\"", xml(p.name));
         let text = xml(&message(verdict, p, repeat));
-        let about = xml(&p.detail);
+        let about = xml(&(cause(verdict, p, "; ") + &p.detail));
         let kind = match p.outcome {
             Outcome::Pass => {
                 let _ = writeln!(out, "    {case}/>");

@@ -104,7 +104,11 @@ impl Job {
                 let names = family_names().join(", ");
                 return Err(format!("no family is {value}; expected {names}"));
             }
-            "language" => self.is_python = value == "python",
+            "language" => {
+                self.is_python = value == "python";
+                self.options.terms.time_limit_is =
+                    ["seconds: ", "seconds="][usize::from(self.is_python)];
+            }
             "call" => self.call = value.to_owned(),
             "declare" => self.declare = value.to_owned(),
             "hits" => self.hits = true,

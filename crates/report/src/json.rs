@@ -63,7 +63,7 @@ pub fn judgement(
     let failures = verdict.failures.iter().map(|f| {
         json!({
             "property": f.evidence.property, "also": f.evidence.also, "family": f.family, "index": f.index, "what": f.what,
-            "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk, "window": f.case.window,
+            "shrunk": shrink::describe(&f.case), "how_far": f.evidence.shrunk.name(), "window": f.case.window,
             "exchanges": f.evidence.exchanges, "repeat": repeat(f.family, f.index),
         })
     });
@@ -74,6 +74,7 @@ pub fn judgement(
             "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
         })
     });
+    let left_out = verdict.more.left_out;
     let counts = verdict.counts().into_iter().map(|count| {
         let Score { wrong, pixels, .. } = count.score;
         json!({ "what": count.what.name(), "wrong": wrong, "of": pixels })
@@ -83,6 +84,9 @@ pub fn judgement(
         "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.options.seed,
         "cases": verdict.options.cases, "judged_cases": verdict.more.found.cases,
         "all_cases": verdict.more.found.of_cases, "out_of_time": verdict.more.found.out_of_time,
+        "left_out": {
+            "convention": left_out.convention, "cases": left_out.cases, "shrinking": left_out.shrinking, "cause": left_out.cause,
+        },
         "known_failures": verdict.more.known, "agrees": verdict.agrees(), "windings": verdict.more.windings,
         "recognised": verdict.more.recognised, "score_as_declared": verdict.as_declared(),
         "score_by_convention": verdict.by_convention(), "counts": counts.collect::<Vec<_>>(), "asked": asked::asked(verdict), "answers": verdict.more.found.answered,

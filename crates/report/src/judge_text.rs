@@ -47,7 +47,10 @@ pub fn report(
         let most = thousands(reach.unsigned_abs().into());
         format!("it walks along its lines, so lines of at most {most} steps are asked for")
     }));
-    let mut first_screen: Vec<Table> = verdict.cause.iter().map(cause).collect();
+    let left_out = verdict.more.left_out.to_string();
+    let mut first_screen: Vec<Table> =
+        Vec::from_iter((!left_out.is_empty()).then(|| Table::of_notes("", vec![left_out])));
+    first_screen.extend(verdict.cause.iter().map(cause));
     match &names {
         Some(names) => first_screen.extend([who_is_right(&verdict.sides(), names), sides(verdict)]),
         None => {
@@ -138,6 +141,23 @@ fn why_in_short(verdict: &Verdict) -> String {
             first.map(|what| format!(": it {}", what.breach.name())).unwrap_or_default()
         }
     }
+}
+
+/// Why a property fails, where that is known: what its answers do, the mistake in them, or the convention that explains them.
+pub(super) fn why(verdict: &Verdict, property: &str) -> Option<String> {
+    if verdict.failures.iter().any(|f| f.evidence.changes && f.evidence.shows(property)) {
+        return Some("its answers change from one time to the next".to_owned());
+    }
+    let row = verdict.families.iter().find(|row| row.name == property)?;
+    let check = row.check?.of_its_cause();
+    let of_it = verdict.cause.iter().filter(|why| why.check == check);
+    if let Some((of, mistake)) = of_it.filter_map(|of| Some((of, of.why.causes.first()?))).next() {
+        let who = if of.by.is_empty() { "it" } else { &of.by };
+        return Some(format!("{who} {}", mistake.does));
+    }
+    let is_explained = row.recognised_pixels > 0 && row.recognised.total() == 0;
+    let convention = verdict.more.recognised.as_ref().filter(|_| is_explained);
+    convention.map(|found| found.sentences.join(" "))
 }
 
 /// The verdict on a tessellator: what is wrong with the smallest polygons.
@@ -280,14 +300,16 @@ fn score_by_convention(of: Score, left_out_wrong: u64) -> String {
 /// What answers have between each other comes of the same faults, and has no score.
 fn as_declared(verdict: &Verdict) -> Vec<Count> {
     let counts = verdict.counts();
-    let is_by_picture =
-        |what| !matches!(what, Counted::Changes | Counted::Meshes | Counted::Outlines);
     let draws = counts.iter().any(|count| count.what == Counted::Pixels);
-    let is_shown = |count: &Count| match count.what {
+    counts.into_iter().filter(|count| is_shown(count, draws)).collect()
+}
+
+fn is_shown(count: &Count, draws: bool) -> bool {
+    match count.what {
         Counted::Pixels => true,
-        what => is_by_picture(what) && (count.score.wrong > 0 || !draws),
-    };
-    counts.into_iter().filter(is_shown).collect()
+        Counted::Changes | Counted::Meshes | Counted::Outlines => false,
+        _ => count.score.wrong > 0 || !draws,
+    }
 }
 
 fn scores(verdict: &Verdict) -> Table {
@@ -426,14 +448,18 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
     let (property, what) = (failure.evidence.property, &failure.what);
     let changes = failure.evidence.changes;
     let drawn_by = if changes { &["first", "again"] } else { drawn_by };
-    let exchanges = failure.evidence.exchanges.iter().take(MOST_EXCHANGES).flat_map(|exchange| {
+    let second = if changes { "again" } else { "other" };
+    let mut exchanges = Vec::new();
+    for exchange in failure.evidence.exchanges.iter().take(MOST_EXCHANGES) {
         let Exchange { request, answer, other, expected } = exchange;
-        let second = if changes { "again" } else { "other" };
-        let lines =
-            [("request", request), ("answer", answer), (second, other), ("expected", expected)];
-        let lines = lines.into_iter().filter(|(_, line)| !line.is_empty());
-        lines.map(|(what, line)| (what, line.clone()))
-    });
+        for (what, line) in
+            [("request", request), ("answer", answer), (second, other), ("expected", expected)]
+        {
+            if !line.is_empty() {
+                exchanges.push((what, line.clone()));
+            }
+        }
+    }
     let more = failure.evidence.exchanges.len().saturating_sub(MOST_EXCHANGES);
     let mut notes = Vec::new();
     if more > 0 {
@@ -445,8 +471,11 @@ pub fn excerpt(failure: &Failure, drawn_by: &[&str], command: String) -> Excerpt
         notes.push(format!("({of})"));
     }
     Excerpt {
-        title: format!("{property}: {what} (from {family} #{index}, {})", failure.evidence.shrunk),
-        exchanges: exchanges.collect(),
+        title: format!(
+            "{property}: {what} (from {family} #{index}, {})",
+            failure.evidence.shrunk.name()
+        ),
+        exchanges,
         grid: picture.map_or(String::new(), |picture| grid(drawn_by, picture)),
         notes,
         places: Vec::from_iter((!command.is_empty()).then_some(("repeat with", command))),
@@ -564,27 +593,29 @@ fn views(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Vec<page_ca
         Some([first, second]) => vec![first.as_str(), second],
         None => vec![verdict.more.declared.name.as_str()],
     };
-    let view = |f: &Failure| {
-        let Failure { family, index, evidence, .. } = f;
-        let Exchanged { property, shrunk, picture, check, .. } = evidence;
-        let name = format!("{family}#{index}");
-        let also = also(evidence).map_or(String::new(), |also| format!("; {also}"));
-        let about = format!("{property}: found in {family} #{index}, {shrunk}{also}");
-        let mut view = page_cases::of_program(name, about, &f.case, &programs, picture.as_ref());
-        view.found.clone_from(&f.what);
-        view.command = repeat(family, *index);
-        let chapter = match check {
-            Check::Depth => Some(("chapter 6, depth", "ch06.md")),
-            Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),
-            Check::Samples => Some(("GAMES101, four samples", "games101.md")),
-            _ => None,
-        };
-        if let Some((title, path)) = chapter {
-            view.chapter = Chapter { title, path };
-        }
-        view
-    };
+    let view = |failure: &Failure| view(failure, &programs, repeat(failure.family, failure.index));
     verdict.failures.iter().map(view).collect()
+}
+
+fn view(failure: &Failure, programs: &[&str], command: String) -> page_cases::CaseView {
+    let Failure { family, index, evidence, .. } = failure;
+    let Exchanged { property, shrunk, picture, check, .. } = evidence;
+    let name = format!("{family}#{index}");
+    let also = also(evidence).map_or(String::new(), |also| format!("; {also}"));
+    let about = format!("{property}: found in {family} #{index}, {}{also}", shrunk.name());
+    let mut view = page_cases::of_program(name, about, &failure.case, programs, picture.as_ref());
+    view.found.clone_from(&failure.what);
+    view.command = command;
+    let chapter = match check {
+        Check::Depth => Some(("chapter 6, depth", "ch06.md")),
+        Check::Near | Check::Carried => Some(("chapter 7, clipping", "ch07.md")),
+        Check::Samples => Some(("GAMES101, four samples", "games101.md")),
+        _ => None,
+    };
+    if let Some((title, path)) = chapter {
+        view.chapter = Chapter { title, path };
+    }
+    view
 }
 
 fn properties(verdict: &Verdict) -> Table {

@@ -161,6 +161,22 @@ fn planted_faults_are_caught() {
     }
 }
 
+/// What is said of one answer is not true of the next: so it is said first, with both, and nothing is made smaller or explained.
+#[test]
+fn answers_that_change_are_shown() {
+    for engine in devices() {
+        let stand = judged(&format!("{engine}+forgets-at-times"), &options(64, &["uniform"]));
+        let text = said(&stand);
+        let verdict = &stand.verdict;
+        assert!(!stand.agrees() && verdict.cause.is_empty(), "{text}");
+        assert!(verdict.more.recognised.is_none(), "{text}");
+        assert!(verdict.failures.iter().all(|f| f.evidence.changes), "{text}");
+        for part in ["its answers change from one time to the next", ": first ", ", then "] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+    }
+}
+
 #[test]
 fn faults_of_stages_are_caught() {
     for engine in devices() {

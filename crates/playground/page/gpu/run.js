@@ -127,15 +127,19 @@ async function judgeApi(name, { only, bits = null, shrinks = true }) {
   if (readBack.uneven > 0) result.notes.push(['uneven', readBack.uneven]);
   if (!state.running) result.notes.push(['stopped']);
   if (!shrinks || losses > 1) return;
+  const { free: differ = 0, broken: differWrongly = 0 } = result.rows.twice?.tally ?? {};
+  // What is found in one drawing is not true of the next: then nothing is made smaller or explained.
+  const changes = differ + differWrongly > 0;
   try {
     for (const [check, { broken, free }] of Object.entries(result.rows)) {
       if (!state.running || !(broken || free)) continue;
       state.progress = { text: word('shrinking')(result.title, word('checks')[check]), part: 1 };
       drawProgress();
       await breathe();
-      result.views[check] = broken ? await shrunk(api, check, broken) : (await judged(api, { check, only: free })).view;
+      result.views[check] = broken && !changes
+        ? await shrunk(api, check, broken) : (await judged(api, { check, only: broken ?? free })).view;
     }
-    if (OF_PIXELS.some((check) => result.rows[check]?.word === 'outside')) result.cause = await causeOf(api, result.title);
+    if (!changes && OF_PIXELS.some((check) => result.rows[check]?.word === 'outside')) result.cause = await causeOf(api, result.title);
   } catch (error) {
     if (!(error instanceof Lost)) throw error;
     result.notes.push(['lostAgain', error.message, batches.length]);

@@ -5,11 +5,12 @@ use std::time::{Duration, Instant};
 use super::misconceptions::{self, Misconception};
 use super::{Exercise, Step};
 use rasterproof_judge::ask::{Answer, Subject};
-use rasterproof_judge::check::{Check, Truth};
+use rasterproof_judge::check::Truth;
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{AskedCase, Failure, Search, judge};
 use rasterproof_judge::run::Failing;
 use rasterproof_judge::stages::Answered;
+use rasterproof_judge::timed::Timed;
 use rasterproof_judge::{adapt_case, recognise, run};
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::mistakes::Mistakes;
@@ -170,8 +171,7 @@ fn ask_family<'a>(
         }
     }
     first.map(|(index, case, asked)| {
-        let (property, fingerprint) = (check.name(family.name), asked.judged.fingerprint());
-        let is = Failing { property, family: family.name, index, fingerprint };
+        let is = Failing::new(family, index, check, &asked.judged);
         Wrong { exercise, is, case, truth, asked }
     })
 }
@@ -188,12 +188,9 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     if !failing.asked.judged.died.is_empty() {
         return None;
     }
-    let checks = [match failing.exercise.check {
-        Check::Watertight | Check::Order => Check::Coverage,
-        Check::Direction => Check::Line,
-        check => check,
-    }];
-    let found = recognise::mistakes(program, &checks, &failing.truth, None, patience);
+    let checks = [failing.exercise.check.of_its_cause()];
+    let mut asked = Timed::new(program, None).within(Some(patience));
+    let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None);
     found.into_iter().map(|found| found.why).find(Mistakes::is_known)
 }
 

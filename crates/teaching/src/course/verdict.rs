@@ -28,7 +28,7 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
         _ => String::new(),
     };
     let excerpt = judge_text::excerpt(failure, &["yours"], again);
-    let title = format!("smallest found: {what} (from {family} #{index}, {shrunk})");
+    let title = format!("smallest found: {what} (from {family} #{index}, {})", shrunk.name());
     let mut notes = Vec::new();
     if let Some(misconception) = outcome.misconception {
         notes.push(format!("it looks as if {}", misconception.says));

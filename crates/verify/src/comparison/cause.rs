@@ -41,7 +41,7 @@ impl Cause {
         let found = crate::convention::diagnose(ask, known, SEED);
         let cause =
             Self::of(found.confidence, &found.sentence(), Self::declaration(&found, declared));
-        cause.with(mistakes::of_triangles(ask, known, Some(&found), &[], &|| true))
+        cause.with(mistakes::of_triangles(ask, known, Some(&found), &[]))
     }
 
     /// Asks for about 1,100 lines in a small window.
@@ -55,13 +55,7 @@ impl Cause {
             SEED,
         );
         let cause = Self::of(found.confidence, &found.sentence(), None);
-        cause.with(mistakes::of_lines(
-            &mut ask,
-            &Declarations::default(),
-            Some(&found),
-            &[],
-            &|| true,
-        ))
+        cause.with(mistakes::of_lines(&mut ask, &Declarations::default(), Some(&found), &[]))
     }
 
     /// With what is wrong beyond the convention, or instead of one.

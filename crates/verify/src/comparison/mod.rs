@@ -576,6 +576,8 @@ fn drive(
         shrinking: !failures.is_empty() && watch.is_over(),
         cause: false,
         limit: options.time_limit,
+        option: judge::TIME_LIMIT,
+        ..LeftOut::default()
     };
     let families = partials.into_iter().map(|partial| partial.report).collect();
     Verdict { options: options.clone(), families, failures, cause: None, more }

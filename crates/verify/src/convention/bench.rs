@@ -22,7 +22,7 @@ pub trait Ask {
     /// the program refused or died.
     fn ask(&mut self, questions: &[TriangleQuestion]) -> Vec<Option<Coverage>>;
 
-    /// How many questions of a mistake it is asked before it is looked whether there is time for more.
+    /// How many questions of a mistake it is asked at once.
     fn at_once(&self) -> usize {
         100
     }

@@ -191,10 +191,15 @@ impl<F, T> Options<F, T> {
 /// is given. Fast code needs far less.
 pub const AFTER_FAILURE: Duration = Duration::from_secs(10);
 
+/// What the time limit is called in Rust.
+pub(crate) const TIME_LIMIT: &str = "Options::time_limit";
+
 /// What was left out, because the time was up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LeftOut {
+    /// Whether the search for its convention did not end.
+    pub convention: bool,
     /// Cases that were not judged.
     pub cases: u64,
     /// Whether failing cases might have become smaller.
@@ -203,12 +208,17 @@ pub struct LeftOut {
     pub cause: bool,
     /// The time limit, if there was one.
     pub limit: Option<Duration>,
+    /// What the caller calls the time limit.
+    pub option: &'static str,
 }
 
 impl fmt::Display for LeftOut {
     /// A sentence, or nothing where nothing was left out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
+        if self.convention {
+            parts.push("its convention".to_owned());
+        }
         if self.cases > 0 {
             parts.push(format!("{} cases", self.cases));
         }
@@ -221,20 +231,14 @@ impl fmt::Display for LeftOut {
         if parts.is_empty() {
             return Ok(());
         }
-        let parts = parts.join(", ");
-        match self.limit {
-            Some(limit) => write!(
-                f,
-                "Left out, since the time limit of {} s was up: {parts}.",
-                limit.as_secs_f64()
-            ),
-            None => write!(
-                f,
-                "Left out, since the judged code had run for {} s after the cases: {parts}. \
-                 Options::time_limit allows more.",
-                AFTER_FAILURE.as_secs()
-            ),
-        }
+        let why = match self.limit {
+            Some(limit) => format!("the time limit of {} s was up", limit.as_secs_f64()),
+            None => {
+                let seconds = AFTER_FAILURE.as_secs();
+                format!("the judged code has {seconds} s for what comes after a failure")
+            }
+        };
+        write!(f, "Left out, since {why}: {}. {} allows more.", parts.join(", "), self.option)
     }
 }
 

@@ -226,7 +226,7 @@ impl fmt::Display for Mistakes {
 }
 
 /// Wrong answers that are enough, and how often a program is asked for more of them.
-const ENOUGH_WRONG: usize = 24;
+pub const ENOUGH_WRONG: usize = 24;
 const MOST_ROUNDS: u64 = 6;
 /// Lines that are asked at once, so that a slow program can be left in time.
 const AT_ONCE: usize = 100;
@@ -293,13 +293,12 @@ impl AnsweredQuestion<TriangleQuestion> {
 
 /// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems to be:
 /// where that is certain, answers are judged by it. Nothing where all answers are right. It asks for 1,200 triangles, and for
-/// more where few of these are wrong, as long as `goes_on` is true.
+/// more where few of these are wrong. Who gives no more answers ends it.
 pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
     found: Option<&Diagnosis>,
     programs: &[Program<'_, TriangleQuestion, Coverage>],
-    goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
     let mut answered: Vec<AnsweredQuestion<TriangleQuestion>> = Vec::new();
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
@@ -307,7 +306,7 @@ pub fn of_triangles(
     let expected = found.filter(|_| is_certain).unwrap_or(&known.declared);
     let mut ask_all =
         |questions: &[TriangleQuestion], answered: &mut Vec<AnsweredQuestion<TriangleQuestion>>| {
-            for questions in questions.chunks(ask.at_once()).take_while(|_| goes_on()) {
+            for questions in questions.chunks(ask.at_once()) {
                 for (question, answer) in questions.iter().zip(ask.ask(questions)) {
                     let right = expected.mask(&question.corners, question.window);
                     let Some(right) = right else { continue };
@@ -353,7 +352,7 @@ pub fn of_triangles(
         return Some(Mistakes { wrong, common: vec![said], ..Mistakes::default() });
     }
     // All that is asked comes before the weighing, which takes long, where each answer begins the search anew.
-    let limits = thresholds::of_triangles(ask, known, expected, goes_on);
+    let limits = thresholds::of_triangles(ask, known, expected);
     if ask.is_abandoned() {
         return None;
     }
@@ -461,7 +460,6 @@ pub fn of_lines(
     known: &Declarations,
     found: Option<&LineDiagnosis>,
     programs: &[Program<'_, LineQuestion, Vec<[i32; 2]>>],
-    goes_on: &dyn Fn() -> bool,
 ) -> Option<Mistakes> {
     let mut answered: Vec<AnsweredQuestion<LineQuestion>> = Vec::new();
     let default = LineConvention::default();
@@ -479,7 +477,7 @@ pub fn of_lines(
         for questions in questions::lines(known, seed).chunks(AT_ONCE) {
             let wrong = answered.iter().filter(|a| a.is_wrong()).count();
             let is_settled = wrong == 0 || wrong >= ENOUGH_WRONG;
-            if answered.len() >= questions::LINES && is_settled || !goes_on() {
+            if answered.len() >= questions::LINES && is_settled {
                 break 'rounds;
             }
             let answers = ask.ask_lines(questions);
@@ -557,7 +555,7 @@ pub fn of_lines(
         |i: &usize| answered[*i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
     let found = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
-    with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected, goes_on))
+    with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected))
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {

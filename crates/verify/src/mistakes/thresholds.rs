@@ -237,7 +237,6 @@ pub(super) fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
     expected: &TriangleConvention,
-    goes_on: &dyn Fn() -> bool,
 ) -> Vec<Threshold> {
     let mut room = Room::new(known, 2);
     let (grain, sample) = (room.grain, sample_of(expected));
@@ -267,7 +266,6 @@ pub(super) fn of_triangles(
             high = high.min(nearest.unwrap_or(i64::MAX) - i64::from(SIDE_PX));
         }
         let limit = search(low, high, &mut |from, to| {
-            goes_on().then_some(())?;
             let make = |room: &mut Room, measure| triangle(room, axis, measure, sample);
             probe(&mut room, [from, to], make, |shapes| {
                 let questions: Vec<_> = shapes.iter().map(|shape| shape.question).collect();
@@ -322,7 +320,6 @@ pub(super) fn of_lines(
     ask: &mut dyn AskLine,
     known: &Declarations,
     expected: &LineConvention,
-    goes_on: &dyn Fn() -> bool,
 ) -> Vec<Threshold> {
     let mut room = Room::new(known, 3);
     let mut longest = LONGEST_PX.min(room.range_px);
@@ -331,7 +328,6 @@ pub(super) fn of_lines(
         // A short line has few slopes.
         let high = if axis == Axis::Size { longest } else { longest / 4 };
         let limit = search(4, high, &mut |from, to| {
-            goes_on().then_some(())?;
             let make = |room: &mut Room, measure| line(room, axis, measure, longest);
             probe(&mut room, [from, to], make, |questions| {
                 let answers = ask.ask_lines(questions);
@@ -608,7 +604,7 @@ mod tests {
             };
             questions.iter().map(draw).collect::<Vec<_>>()
         };
-        of_triangles(&mut ask, &Declarations::default(), &TriangleConvention::default(), &|| true)
+        of_triangles(&mut ask, &Declarations::default(), &TriangleConvention::default())
     }
 
     fn sides(corners: &Corners) -> [i64; 2] {
@@ -680,9 +676,9 @@ mod tests {
             };
             questions.iter().map(draw).collect::<Vec<_>>()
         };
-        let found = of_lines(&mut ask, &Declarations::default(), &convention, &|| true);
+        let found = of_lines(&mut ask, &Declarations::default(), &convention);
         assert!(found[0].to_string().contains("lines are wrong from 16385 steps on"), "{found:?}");
-        let found = mistakes::of_lines(&mut ask, &Declarations::default(), None, &[], &|| true);
+        let found = mistakes::of_lines(&mut ask, &Declarations::default(), None, &[]);
         let found = found.unwrap();
         assert_eq!(found.limits.len(), 1, "{found}");
     }

@@ -383,7 +383,8 @@ fn judge(
     failing.sort_by_key(|(kind, ..)| *kind);
     let judged: u64 = families.iter().map(|family| family.polygons + family.left_out).sum();
     let cases = options.count().saturating_mul(wanted.len() as u64) - judged;
-    let mut more = LeftOut { cases, limit: options.time_limit, ..LeftOut::default() };
+    let option = judge::TIME_LIMIT;
+    let mut more = LeftOut { cases, limit: options.time_limit, option, ..LeftOut::default() };
     if !changing.is_empty() {
         changing.sort_by_key(|failure| failure.evidence.kind);
         changing.dedup_by_key(|failure| failure.evidence.kind);

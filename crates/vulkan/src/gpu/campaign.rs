@@ -1,7 +1,7 @@
 //! A device judged: the families by the judge of programs, then the stages, each with its rule.
 
-use rasterproof_verify::specification::{Clause, Standing, VULKAN};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 use super::engine::Gpu;
 use super::known::{self, KnownFault};
@@ -10,13 +10,16 @@ use super::requirements;
 use super::specified::Specified;
 use crate::device::find::About;
 use rasterproof_judge::ask::{Answer, Complaints, Question, Subject};
-use rasterproof_judge::check::Truth;
+use rasterproof_judge::check::{Check, Truth};
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::recognise::{Scope, mistakes, recognise};
-use rasterproof_judge::run::{Failing, Row, RunFindings, run};
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::run::{Changing, Failing, Row, RunFindings, run};
 use rasterproof_judge::verdict::{Outcome, Particulars, Verdict, sentence, verdict};
-use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
+use rasterproof_judge::windings as first_stages;
+use rasterproof_judge::{Explained, Options, Patience, adapt_case, explain, for_families};
 use rasterproof_verify::cases::{self, Case};
+use rasterproof_verify::judge::AFTER_FAILURE;
+use rasterproof_verify::specification::{Clause, Standing, VULKAN};
 
 /// Cases of a stage for each case of a family.
 const STAGE_SHARE: u64 = 2;
@@ -87,6 +90,8 @@ pub fn judge_with(
     known: &[KnownFault],
     progress: &(dyn Fn(u64) + Sync),
 ) -> DeviceReport {
+    let start = Instant::now();
+    let end = options.time_limit.map(|limit| start + limit);
     let about = gpu.about().clone();
     let plant = gpu.plant_name();
     let declared = gpu.declared().clone();
@@ -101,16 +106,21 @@ pub fn judge_with(
     let open = declared.convention.rule(VULKAN.edges);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
-    let mut found = run(&mut [&mut shared], &options, &truth, progress);
+    let mut found = run(&mut [&mut shared], &for_families(&options, start), &truth, progress);
     let first = &mut shared;
     let is_news = |f: &Failing| !is_known(known, f, &options, &declared);
     let (news, old): (Vec<_>, Vec<_>) = found.failing.drain(..).partition(is_news);
     found.failing = news;
-    let failures = failures::failures(first, &found, &options, &truth);
-    let scope = Scope { triangles: true, lines: false, always: false };
-    let recognised = if found.failing.is_empty() { None } else { recognise(first, scope) };
-    let checks = if found.failing.is_empty() { Vec::new() } else { found.unexplained() };
-    let causes = mistakes(first, &checks, &truth, recognised.as_ref(), options.terms.patience);
+    // Asked again, a triangle is drawn in another cell of the page, where its values may round otherwise.
+    let is_picture = |changing: &Changing| changing.check != Check::Values;
+    found.changing.retain(|changing| is_news(&changing.failing) && is_picture(changing));
+    let is_explained = !found.failing.is_empty() && found.changing.is_empty();
+    let patience = options.time_limit.is_none().then_some(AFTER_FAILURE / 2);
+    let scope = Scope { triangles: true, lines: false, always: false, patience };
+    let recognised = if is_explained { recognise(first, scope) } else { None };
+    let patience = Patience::of(&options, end, recognised.as_ref());
+    let Explained { failures, causes, left_out } =
+        explain(first, &found, &options, &truth, recognised.as_ref(), patience, &|_| ());
     let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
@@ -120,6 +130,7 @@ pub fn judge_with(
         recognised: said,
         found,
         complaints,
+        left_out,
         ..Particulars::default()
     };
     let mut verdict = verdict(&options, more, failures, causes);

@@ -96,8 +96,9 @@ impl Gpu {
         mut draws: Vec<Draw>,
     ) -> Result<Pictures, Error> {
         let step_px = self.step_px();
+        let before = self.submissions();
         if let Some(plant) = self.plant {
-            plant.spoil(&mut draws, kind == Kind::Samples, step_px);
+            plant.spoil(&mut draws, kind == Kind::Samples, step_px, before);
         }
         let drawn = self.ready().and_then(|painter| painter.draw(kind, cells, &draws));
         drawn.inspect_err(|error| {

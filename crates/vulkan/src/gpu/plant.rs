@@ -22,6 +22,8 @@ rasterproof_core::named! {
         CoarseDepths = "coarse-depths",
         /// What lies in front of the near plane is not clipped but drawn at the plane.
         NoNearPlane = "no-near-plane",
+        /// The first triangle of every third submission is lost, so that answers change.
+        ForgetsAtTimes = "forgets-at-times",
         /// The device is lost at the third submission.
         Lost = "lost",
         /// Memory is short at the third submission.
@@ -38,9 +40,12 @@ impl Plant {
         }
     }
 
-    /// Spoils a list of draws; `samples` says that it is for masks, `step_px` is the lattice's step.
-    pub(super) fn spoil(self, draws: &mut Vec<Draw>, samples: bool, step_px: f32) {
+    /// Spoils a list of draws; `samples` says that it is for masks, `step_px` is the lattice's step, and so many submissions came before.
+    pub(super) fn spoil(self, draws: &mut Vec<Draw>, samples: bool, step_px: f32, before: u64) {
         match self {
+            Self::ForgetsAtTimes if before % 3 == 2 => {
+                draws.iter_mut().take(1).for_each(|d| d.vertices[1] = d.vertices[0]);
+            }
             Self::ShiftedSamples => draws.iter_mut().for_each(|d| d.viewport[0] += 1.0 / 16.0),
             Self::ShiftedMasks if samples => {
                 draws.iter_mut().for_each(|d| d.viewport[1] -= 1.0 / 16.0);

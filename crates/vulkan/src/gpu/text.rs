@@ -54,8 +54,12 @@ fn closing(stand: &DeviceReport) -> String {
     let bad: Vec<_> =
         stand.findings.iter().filter(|f| !f.class.is_good()).map(|f| f.name.as_str()).collect();
     let shapes = stand.verdict.shapes(false);
+    let first = match stand.verdict.more.found.changing.is_empty() {
+        true => "",
+        false => "its answers change from one time to the next; ",
+    };
     let mut said = format!(
-        "{shapes} triangles, {} equal, {} allowed but different from the oracle, {} known",
+        "{first}{shapes} triangles, {} equal, {} allowed but different from the oracle, {} known",
         count(Standing::Equal),
         count(Standing::Allowed),
         count(Standing::Known)
@@ -105,6 +109,8 @@ pub fn report(
         let said = said.sentences.iter().chain(&said.compass);
         notes.extend(said.map(|text| format!("it draws as one who says: {text}")));
     }
+    let left_out = verdict.more.left_out.to_string();
+    notes.extend(Some(left_out).filter(|said| !said.is_empty()));
     notes.extend(stand.known.iter().map(|about| format!("known of this driver: {about}")));
     let columns = "property 22 | ~class 22 | found 1 | rule";
     let rows = stand.findings.iter().map(row).collect();
