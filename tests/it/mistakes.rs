@@ -1925,10 +1925,7 @@ fn programs_of_depth_and_clipping(most: usize) {
         },
         &["uniform"],
     );
-    assert!(
-        said.contains("samples: It tests the right places, and numbers them 3, 2, 1, 0"),
-        "{said}"
-    );
+    assert!(said.contains("samples: It numbers the samples 3, 2, 1, 0"), "{said}");
     // The last triangle that covers a pixel is seen.
     let said = judged(
         "depth",
@@ -1964,7 +1961,7 @@ fn programs_of_depth_and_clipping(most: usize) {
     };
     let said = judged("depth", wrapped, &["depth-order"]);
     assert!(
-        said.contains("depths: It keeps depths that begin again at 0 after every 1/8"),
+        said.contains("depths: It keeps depth in numbers that begin again at 0 after every 1/8"),
         "{said}"
     );
     // No test of depth in every second column.
@@ -1980,7 +1977,7 @@ fn programs_of_depth_and_clipping(most: usize) {
         &["depth-order"],
     );
     assert!(
-        said.contains("depths: It draws without a test of depth in columns of even numbers"),
+        said.contains("depths: It shows the triangle that was drawn last, without a test of depth where the column is even"),
         "{said}"
     );
     // A pixel keeps the depth of its first triangle.
@@ -2020,10 +2017,8 @@ fn programs_of_depth_and_clipping(most: usize) {
             move |question, answer| in_bits(question, answer, bits, is_last),
             &["depth-near-tie"],
         );
-        let which = if is_last { "last" } else { "first" };
-        let wanted = format!(
-            "keeps depth in {bits} bits (cut down), and of equal ones shows the {which} drawn"
-        );
+        let last = if is_last { ", and of equal depths shows the last drawn" } else { "." };
+        let wanted = format!("keeps depth in {bits} bits of fraction, cut down{last}");
         assert!(said.contains(&wanted), "{bits}: {said}");
     }
     // Clippers that are right but for what new corners carry.
@@ -2036,7 +2031,7 @@ fn programs_of_depth_and_clipping(most: usize) {
         (|_, lost, _| lost[4], "keeps attributes of the corner that is cut off"),
         (
             |kept, lost, t| kept[4] + (lost[4] - kept[4]) * (t * 256.0).floor() / 256.0,
-            "divides attributes of an edge by a part that is cut to 1/256",
+            "divides attributes of an edge by a part that is kept in 8 bits of fraction, cut down",
         ),
         (
             |kept, lost, t| t * kept[4] + (1.0 - t) * lost[4],
@@ -2361,7 +2356,11 @@ fn programs_of_values_and_samples(most: usize) {
             elsewhere as Gate,
             "It tests samples at (3, 5), (12, 2), (5, 11) and (11, 13) of 1/16 px",
         ),
-        (SAMPLES, whole, "It draws all four samples of a pixel where any is covered"),
+        (
+            SAMPLES,
+            whole,
+            "It draws all four samples of a pixel where any is covered, and not elsewhere",
+        ),
         (SAMPLES, lost, "It never draws the sample with the number 2"),
     ];
     for (places, gate, wanted) in cases.into_iter().take(most) {
@@ -2388,7 +2387,7 @@ fn programs_of_values_and_samples(most: usize) {
     let cases: [(Wrong, &str); 3] = [
         (
             |_, [x, _]| (x % 2 == 1).then_some(SAMPLES.map(|(x, y)| (x, 16 - y))),
-            "It tests samples that are mirrored upside down in columns of odd numbers",
+            "It tests all four samples mirrored upside down where the column is odd",
         ),
         (
             |c, _| (area(c) > 0).then_some([(8, 8); 4]),
@@ -2396,7 +2395,7 @@ fn programs_of_values_and_samples(most: usize) {
         ),
         (
             |_, [x, y]| ((x + y) % 2 == 0).then_some([(1_000_000, 1_000_000); 4]),
-            "It draws no sample where row and column add up to an even number",
+            "It never draws all four samples where column + row is even",
         ),
     ];
     for (places, wanted) in cases.into_iter().take(most) {
@@ -2455,13 +2454,13 @@ fn programs_of_values_and_samples(most: usize) {
     );
     for wanted in [
         "All wrong pixels are of clockwise triangles.",
-        "All wrong pixels are in rows of odd numbers.",
-        "Depth is right in all of them.",
-        "The first attribute is right in all of them.",
+        "All wrong pixels are where the row is odd.",
+        "All wrong pixels are of right depth.",
+        "All wrong pixels are of a right first attribute.",
     ] {
         assert!(said.contains(wanted), "{wanted}: {said}");
     }
-    assert!(!said.contains("even numbers") && !said.contains("The second attribute"), "{said}");
+    assert!(!said.contains("even") && !said.contains("right second attribute"), "{said}");
     // A plane that is in no table is read off the new corners.
     let said = judged(
         "clip",
@@ -2486,7 +2485,7 @@ fn programs_of_values_and_samples(most: usize) {
         },
         &["near-plane"],
     );
-    assert!(said.contains("near plane: It clips at w = 0.3."), "{said}");
+    assert!(said.contains("near plane: It clips to w >= 0.3."), "{said}");
     // New corners with w = 1, and triangles of which two corners lie behind.
     let said = judged(
         "clip",
@@ -2513,7 +2512,7 @@ fn programs_of_values_and_samples(most: usize) {
         },
         &["near-plane"],
     );
-    assert!(said.contains("near plane: It drops triangles with two corners behind"), "{said}");
+    assert!(said.contains("near plane: It drops the triangle where the number of corners behind the near plane is 2"), "{said}");
 }
 
 /// The answer of a part of this project, with a planted fault, where the protocol has a question for it.

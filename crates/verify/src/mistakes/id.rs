@@ -20,10 +20,10 @@ rasterproof_core::named! {
         SortedByMeanDepth = "sorts whole triangles by the mean depth of their corners (painter's algorithm)",
         NotClipped = "does not clip",
         CutTrianglesDropped = "drops a triangle with any corner behind the near plane",
-        ClippedAtZero = "clips at z = 0, as Direct3D and Vulkan have it",
+        ClippedAtZero = "clips to z >= 0, as Direct3D and Vulkan have it",
         SamplesAtCentre = "tests all four samples at the centre",
-        SamplesInSquare = "tests the samples two by two, at quarters of the pixel",
-        SamplesBackwards = "tests the right places, and numbers them 3, 2, 1, 0",
+        SamplesInSquare = "tests all four samples two by two, at quarters of the pixel",
+        SamplesBackwards = "numbers the samples 3, 2, 1, 0",
     }
 }
 

@@ -10,6 +10,7 @@
 mod cells;
 mod common;
 mod fills;
+mod format;
 mod id;
 mod lines;
 mod questions;
@@ -19,6 +20,7 @@ mod triangles;
 pub mod values;
 mod weigh;
 
+use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::fmt;
 
@@ -36,6 +38,7 @@ use rasterproof_core::triangle::Corners;
 use triangles::{BY_WINDING, Fill, Reach};
 use weigh::{LEAST_WRONG, fresh, weigh};
 
+pub use format::Format;
 #[doc(hidden)]
 pub use id::MistakeId;
 pub use thresholds::Threshold;
@@ -113,7 +116,7 @@ pub struct Explanation {
     /// What the program does, after 'it'.
     pub does: String,
     /// What repairs it; empty of programs.
-    pub repair: &'static str,
+    pub repair: Cow<'static, str>,
     /// The page of the book that explains it, such as `ch02-scanline`.
     pub page: &'static str,
     /// An observation that would refute it; empty of programs.
@@ -130,11 +133,12 @@ impl Explanation {
     pub fn new(
         name: &'static str,
         does: String,
-        repair: &'static str,
+        repair: impl Into<Cow<'static, str>>,
         page: &'static str,
         refuted: &'static str,
     ) -> Self {
         let none = Count::default();
+        let repair = repair.into();
         Self { name, does, repair, page, refuted, wrong: none, right: none }
     }
 
@@ -589,7 +593,7 @@ fn numbers(parameters: Parameters) -> Vec<i64> {
 }
 
 fn says<D>(mistake: &Mistake<D>, p: i64) -> Explanation {
-    let Mistake { name, sentence, repair, page, refuted, .. } = mistake;
+    let Mistake { name, sentence, repair, page, refuted, .. } = *mistake;
     Explanation::new(name, sentence(p), repair, page, refuted)
 }
 

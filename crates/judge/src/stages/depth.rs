@@ -1,0 +1,641 @@
+//! Which of several triangles is seen, as a test of depth that may be mistaken.
+
+use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use crate::ask::{Answer, Asked, Question};
+use crate::declared::Declared;
+use crate::pixels::masks_of;
+use rasterproof_core::geometry::twice_area;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::mistakes::values::{self, depths, sum, weights};
+use rasterproof_verify::mistakes::{Format, MistakeId};
+use rasterproof_verify::oracle::Oracle;
+
+composed! {
+    /// A test of depth.
+    pub struct DepthTest {
+        place: Place,
+        key: Key,
+        bias: Bias,
+        range: Range,
+        wrap: Wrap,
+        store: Store,
+        compare: Compare,
+        write: Write,
+        whose: Whose,
+    }
+}
+
+/// Where depth is computed, in pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Place {
+    #[default]
+    Centre,
+    /// Away from the upper left corner of the pixel, and how that is said.
+    At([f64; 2], &'static str),
+    /// So far from the first pixel of a block of so many.
+    Block(i32, f64),
+    FirstOfRow,
+}
+
+impl Field for Place {
+    const NAME: &'static str = "the place of depth";
+
+    fn options() -> Vec<Self> {
+        let mut all = vec![Self::FirstOfRow];
+        all.extend(values::PLACES[1..].iter().map(|(at, said)| Self::At(*at, said)));
+        for side in [2, 4, 8] {
+            all.extend([0.5, f64::from(side) / 2.0].map(|at| Self::Block(side, at)));
+        }
+        all
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = match self {
+            Self::Centre => return None,
+            Self::At(_, said) => format!("computes depth{said}"),
+            Self::Block(side, at) => format!(
+                "computes depth once for a block of {side} x {side} px, in its {}",
+                if *at == 0.5 { "first pixel" } else { "middle" }
+            ),
+            Self::FirstOfRow => {
+                "computes depth in the first pixel of a row, for all of the row".to_owned()
+            }
+        };
+        Some((does, "compute depth where coverage is sampled"))
+    }
+}
+
+/// The number that is compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Key {
+    #[default]
+    Depth,
+    Negated,
+    Mean,
+    Nearest,
+    Middle,
+    Farthest,
+    Corner(usize),
+    TimesArea,
+    FromHalf,
+}
+
+impl Field for Key {
+    const NAME: &'static str = "order of depths";
+
+    fn options() -> Vec<Self> {
+        use Key::{Corner, Farthest, FromHalf, Mean, Middle, Nearest, Negated, TimesArea};
+        let corners = [0, 1, 2].map(Corner);
+        [Mean, Nearest, Farthest, Middle, TimesArea, FromHalf, Negated]
+            .into_iter()
+            .chain(corners)
+            .collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let sorted = "compare depths at every pixel";
+        Some(match self {
+            Self::Depth => return None,
+            Self::Mean => (MistakeId::SortedByMeanDepth.name().to_owned(), sorted),
+            Self::Nearest => ("sorts whole triangles by their nearest corner".to_owned(), sorted),
+            Self::Middle => ("sorts whole triangles by their middle corner".to_owned(), sorted),
+            Self::Farthest => ("sorts whole triangles by their farthest corner".to_owned(), sorted),
+            Self::Corner(i) => (
+                format!(
+                    "compares the depth of the {} corner for the whole triangle",
+                    ["first", "second", "last"][*i]
+                ),
+                "interpolate depth",
+            ),
+            Self::TimesArea => (
+                MistakeId::UndividedDepthsCompared.name().to_owned(),
+                "divide the weighted sum by the area",
+            ),
+            Self::Negated => (
+                "turns the sign of depths".to_owned(),
+                "divide the weighted sum by the area with its sign",
+            ),
+            Self::FromHalf => (
+                "compares how far depths lie from 1/2, as where the sign of depths from -1 to 1 is lost".to_owned(),
+                "compare the depths themselves",
+            ),
+        })
+    }
+}
+
+/// A number that is added to the depth, once for each of something.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bias {
+    by: f64,
+    of: BiasOf,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum BiasOf {
+    #[default]
+    Triangle,
+    /// For each triangle before it.
+    Number,
+    /// Only while it is compared with what is there.
+    New,
+    Slope,
+}
+
+impl Field for Bias {
+    const NAME: &'static str = "a bias of depth";
+
+    /// Its numbers are read off.
+    fn options() -> Vec<Self> {
+        Vec::new()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let Self { by, of } = *self;
+        let (does, to) = if by > 0.0 { ("adds", "to") } else { ("takes", "off") };
+        let size = format!("{:e}", by.abs());
+        let does = match of {
+            BiasOf::Triangle => format!("{does} {size} {to} the depth of a triangle"),
+            BiasOf::Number => {
+                format!("{does} {size} {to} the depth of a triangle for each one before it")
+            }
+            BiasOf::New if by < 0.0 => {
+                format!("shows a later triangle that lies up to {size} farther")
+            }
+            BiasOf::New => format!("shows a later triangle only where it is nearer by {size}"),
+            BiasOf::Slope => format!(
+                "{does} {size} times the slope of depth {to} the depth of a triangle (a bias for shadows, or for lines on faces)"
+            ),
+        };
+        Some((does, "compare the depths themselves"))
+    }
+}
+
+/// The depths that are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range([f64; 2]);
+
+impl Default for Range {
+    fn default() -> Self {
+        Self([f64::MIN, f64::MAX])
+    }
+}
+
+impl Field for Range {
+    const NAME: &'static str = "a range of depth";
+
+    /// Its ends are read off.
+    fn options() -> Vec<Self> {
+        Vec::new()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = match self.0 {
+            [f64::MIN, most] => format!("draws nothing farther than about {most:.3}"),
+            [least, _] => format!("draws nothing nearer than about {least:.3}"),
+        };
+        Some((does, "clear the buffer with the farthest depth, and clip at the planes alone"))
+    }
+}
+
+/// So many times a depth begins again at 0 between 0 and 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrap(Format);
+
+impl Field for Wrap {
+    const NAME: &'static str = "depth wraps around";
+
+    fn options() -> Vec<Self> {
+        (1..7).map(|times| Self(Format::Wrapped(1 << times))).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = format!("keeps depth in {}", self.0);
+        Some((does, "scale depths to what a word holds, and clamp what goes beyond"))
+    }
+}
+
+/// The numbers in which depths are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Store(Format);
+
+impl Field for Store {
+    const NAME: &'static str = "bits of depth";
+
+    fn options() -> Vec<Self> {
+        let all = Format::options().into_iter();
+        all.filter(|format| !matches!(format, Format::Wrapped(_))).map(Self).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = format!("keeps depth in {}", self.0);
+        Some((does, "keep more bits of depth, or move the near plane away from the eye"))
+    }
+}
+
+const LESS: u8 = 1;
+const EQUAL: u8 = 2;
+const GREATER: u8 = 4;
+
+/// The orders in which a new number passes against the one that is kept: one bit for less, for equal and for greater.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compare(u8);
+
+impl Default for Compare {
+    fn default() -> Self {
+        Self(LESS)
+    }
+}
+
+impl Field for Compare {
+    const NAME: &'static str = "the comparison of depths";
+
+    fn options() -> Vec<Self> {
+        [GREATER, 7, 0, LESS | EQUAL, GREATER | EQUAL, LESS | GREATER, EQUAL].map(Self).to_vec()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = match self.0 {
+            0 => "shows the triangle that was drawn first, without a test of depth",
+            EQUAL => "shows a later triangle only where depths are equal",
+            3 => "of equal depths shows the last drawn",
+            GREATER => MistakeId::FarthestShown.name(),
+            5 => "shows the triangle that was drawn last, unless depths are equal",
+            6 => "shows the farthest triangle, and of equal depths the last drawn",
+            _ => MistakeId::LastShown.name(),
+        };
+        let repair = match self.0 {
+            3 => "keep what is there where depths are equal",
+            4 | 6 => {
+                "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth"
+            }
+            _ => "compare depths before a pixel is written",
+        };
+        Some((does.to_owned(), repair))
+    }
+}
+
+/// When the depth of a triangle is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Write {
+    #[default]
+    WhenShown,
+    Never,
+    Always,
+}
+
+impl Field for Write {
+    const NAME: &'static str = "the buffer of depths";
+
+    fn options() -> Vec<Self> {
+        vec![Self::Never, Self::Always]
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        Some(match self {
+            Self::WhenShown => return None,
+            Self::Never => (
+                "tests depths and does not write them: a pixel keeps the depth of its first triangle".to_owned(),
+                "write the depth of each triangle that passes the test",
+            ),
+            Self::Always => (
+                "writes the depth of a triangle also where the test fails".to_owned(),
+                "write depths where the test passes, and nowhere else",
+            ),
+        })
+    }
+}
+
+/// The triangles that are treated wrongly.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Whose {
+    #[default]
+    All,
+    /// Whether clockwise.
+    Turn(bool),
+    /// By the rest of the number in the list.
+    Number(usize),
+    /// Whether all corners have one depth.
+    Flat(bool),
+}
+
+impl Whose {
+    fn holds(self, layer: &Layer<'_>) -> bool {
+        let [a, b, c] = depths(layer.triangle);
+        match self {
+            Self::All => true,
+            Self::Turn(is_clockwise) => (twice_area(&layer.triangle.corners()) > 0) == is_clockwise,
+            Self::Number(rest) => layer.number % 2 == rest,
+            Self::Flat(is_flat) => (a == b && b == c) == is_flat,
+        }
+    }
+}
+
+impl Field for Whose {
+    const NAME: &'static str = "depth of some triangles";
+
+    fn options() -> Vec<Self> {
+        let of = |is: bool| [Self::Turn(is), Self::Number(usize::from(is)), Self::Flat(is)];
+        [of(false), of(true)].concat()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        None
+    }
+}
+
+/// Triangles of a pixel that are looked at; piles have five at most.
+const MOST_LAYERS: usize = 8;
+
+/// A triangle at a pixel.
+pub struct Layer<'a> {
+    number: usize,
+    /// At the centre of the pixel.
+    depth: f64,
+    /// The first pixel of its row.
+    first: i32,
+    triangle: &'a Triangle,
+}
+
+/// A pixel with all that covers it, in drawing order, and what is shown: its number and one, or 0.
+pub struct Pile<'a> {
+    pub(super) spot: Spot,
+    layers: Vec<Layer<'a>>,
+    shown: usize,
+    noise: f64,
+}
+
+impl AsRef<Spot> for Pile<'_> {
+    fn as_ref(&self) -> &Spot {
+        &self.spot
+    }
+}
+
+/// How fast depth changes along x or y, whichever is faster.
+fn slope(t: &Triangle) -> f64 {
+    let at = |place| sum(weights(&t.corners(), place), depths(t));
+    let from = at([0.0, 0.0]);
+    (at([1.0, 0.0]) - from).abs().max((at([0.0, 1.0]) - from).abs())
+}
+
+impl DepthTest {
+    /// The number that is compared, before it is brought to a format.
+    fn key(&self, layer: &Layer<'_>, [x, y]: [i32; 2]) -> f64 {
+        let t = layer.triangle;
+        if !self.whose.holds(layer) {
+            return layer.depth;
+        }
+        let at = |place| sum(weights(&t.corners(), place), depths(t));
+        let depth = match self.place {
+            Place::Centre => layer.depth,
+            Place::At([dx, dy], _) => at([f64::from(x) + dx, f64::from(y) + dy]),
+            Place::Block(side, by) => at([x, y].map(|v| f64::from(v / side * side) + by)),
+            Place::FirstOfRow => at([f64::from(layer.first) + 0.5, f64::from(y) + 0.5]),
+        };
+        let [a, b, c] = depths(t);
+        let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+        match self.key {
+            Key::Depth => depth,
+            Key::Negated => -depth,
+            Key::Mean => (a + b + c) / 3.0,
+            Key::Nearest => least,
+            Key::Middle => a + b + c - least - most,
+            Key::Farthest => most,
+            Key::Corner(i) => depths(t)[i],
+            Key::TimesArea => depth * twice_area(&t.corners()).unsigned_abs() as f64,
+            Key::FromHalf => (depth - 0.5).abs(),
+        }
+    }
+
+    /// How often the bias is added.
+    fn biased(of: BiasOf, layer: &Layer<'_>, is_new: bool) -> f64 {
+        match of {
+            BiasOf::Triangle => 1.0,
+            BiasOf::Number => layer.number as f64,
+            BiasOf::New => f64::from(u8::from(is_new)),
+            BiasOf::Slope => slope(layer.triangle),
+        }
+    }
+
+    /// The least and the greatest number that may be compared, as far as rounding goes.
+    fn compared(&self, layer: &Layer<'_>, pile: &Pile<'_>, is_new: bool) -> [f64; 2] {
+        let mut key = self.key(layer, pile.spot.at);
+        let is_changed = self.whose.holds(layer);
+        if is_changed && self.bias.by != 0.0 {
+            key += self.bias.by * Self::biased(self.bias.of, layer, is_new);
+        }
+        let noise = pile.noise * key.abs().max(1.0);
+        let [a, b] = [key - noise, key + noise].map(|v| match is_changed {
+            true => self.store.0.of(self.wrap.0.of(v)),
+            false => v,
+        });
+        // What begins again in between may be anything.
+        if a > b { [b.min(0.0), a.max(1.0)] } else { [a, b] }
+    }
+
+    /// The triangles that may be shown, one bit each.
+    pub(super) fn shown(&self, pile: &Pile<'_>) -> u64 {
+        let Range([least, most]) = self.range;
+        let is_drawn = |layer: &&Layer<'_>| {
+            !self.whose.holds(layer) || (layer.depth >= least && layer.depth < most)
+        };
+        let mut kept = [[0.0; 2]; MOST_LAYERS];
+        // What may be shown, and whose depth may be kept meanwhile: a bit for each pair.
+        let mut states = 0_u64;
+        for (i, layer) in pile.layers.iter().filter(is_drawn).take(MOST_LAYERS).enumerate() {
+            kept[i] = self.compared(layer, pile, false);
+            if i == 0 {
+                states = 1;
+                continue;
+            }
+            let new = self.compared(layer, pile, true);
+            let compare = if self.whose.holds(layer) { self.compare.0 } else { LESS };
+            let mut next = 0;
+            for state in (0..MOST_LAYERS * MOST_LAYERS).filter(|state| states >> state & 1 == 1) {
+                let (shown, buffer) = (state / MOST_LAYERS, state % MOST_LAYERS);
+                let order = orders(new, kept[buffer]);
+                let is_written = self.write != Write::Never;
+                let passed = i * MOST_LAYERS + if is_written { i } else { buffer };
+                let is_always = self.write == Write::Always;
+                let failed = shown * MOST_LAYERS + if is_always { i } else { buffer };
+                next |= u64::from(order & compare != 0) << passed;
+                next |= u64::from(order & !compare != 0) << failed;
+            }
+            states = next;
+        }
+        if states == 0 {
+            return 1;
+        }
+        let drawn = pile.layers.iter().filter(is_drawn).take(MOST_LAYERS).enumerate();
+        let may_be = |i: usize| states >> (i * MOST_LAYERS) & ((1 << MOST_LAYERS) - 1) != 0;
+        drawn
+            .filter(|(i, _)| may_be(*i))
+            .fold(0, |all, (_, layer)| all | 2_u64.checked_shl(layer.number as u32).unwrap_or(0))
+    }
+
+    /// The bias of each kind with which all is as it is shown, and the same of some triangles alone.
+    fn with_bias(&self, parts: &[&Pile<'_>]) -> Vec<Self> {
+        let sign = match self.compare.0 {
+            LESS | 3 => 1.0,
+            GREATER | 6 => -1.0,
+            _ => return Vec::new(),
+        };
+        let mut all = Vec::new();
+        let some = Whose::options().into_iter().map(|whose| (BiasOf::Triangle, whose));
+        let kinds = [BiasOf::Number, BiasOf::New, BiasOf::Slope].map(|of| (of, self.whose));
+        for (of, whose) in kinds.into_iter().chain(some) {
+            let (mut least, mut most) = (f64::MIN, f64::MAX);
+            for pile in parts {
+                if least > most {
+                    break;
+                }
+                let Some(shown) = pile.layers.iter().position(|l| l.number + 1 == pile.shown)
+                else {
+                    continue;
+                };
+                // Of more than two, what is compared depends on what went before.
+                if of == BiasOf::New && pile.layers.len() > 2 {
+                    continue;
+                }
+                let key = |i: usize| self.key(&pile.layers[i], pile.spot.at);
+                let times = |i: usize| match whose.holds(&pile.layers[i]) {
+                    true => Self::biased(of, &pile.layers[i], i > 0),
+                    false => 0.0,
+                };
+                for other in (0..pile.layers.len()).filter(|other| *other != shown) {
+                    let room = sign * (key(other) - key(shown));
+                    let by = sign * (times(shown) - times(other));
+                    if by > 0.0 {
+                        most = most.min(room / by);
+                    } else if by < 0.0 {
+                        least = least.max(room / by);
+                    }
+                }
+            }
+            if let Some(by) = between(least, most) {
+                all.push(Self { bias: Bias { by, of }, whose, ..self.clone() });
+            }
+        }
+        all
+    }
+
+    /// The depths beyond which nothing is shown.
+    fn with_range(&self, parts: &[&Pile<'_>]) -> Vec<Self> {
+        let (mut seen, mut lost) = (Vec::new(), Vec::new());
+        for pile in parts {
+            let shown = pile.layers.iter().find(|layer| layer.number + 1 == pile.shown);
+            seen.extend(shown.map(|shown| shown.depth));
+            let is_lost = |depth: &f64| shown.is_none_or(|shown| *depth < shown.depth);
+            lost.extend(pile.layers.iter().map(|layer| layer.depth).filter(is_lost));
+        }
+        let (least, most) =
+            seen.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+        let nearer = lost.iter().copied().filter(|v| *v < least).reduce(f64::max);
+        let farther = lost.iter().copied().filter(|v| *v > most).reduce(f64::min);
+        let low = nearer.map(|nearer| [values::simplest(nearer, least), f64::MAX]);
+        let high = farther.map(|farther| [f64::MIN, values::simplest(farther, most)]);
+        let ranges = [low, high].into_iter().flatten();
+        ranges.map(|range| Self { range: Range(range), ..self.clone() }).collect()
+    }
+}
+
+/// The simplest number that is not 0 and lies between two, of which one may be missing.
+fn between(least: f64, most: f64) -> Option<f64> {
+    // A number that is added at its limit makes depths equal.
+    if least > most || (least <= 0.0 && most >= 0.0) {
+        return None;
+    }
+    let [least, most] = match [least, most] {
+        [f64::MIN, most] => [2.0 * most, most],
+        [least, f64::MAX] => [least, 2.0 * least],
+        both => both,
+    };
+    Some(values::simplest(least, most))
+}
+
+/// The orders that a new number and a kept one may have.
+fn orders(new: [f64; 2], kept: [f64; 2]) -> u8 {
+    if new == kept && new[0] == new[1] {
+        return EQUAL;
+    }
+    let is_any = new[0] <= kept[1] && kept[0] <= new[1];
+    let bit = |holds: bool, bit: u8| if holds { bit } else { 0 };
+    bit(new[0] < kept[1], LESS) | bit(is_any, EQUAL) | bit(new[1] > kept[0], GREATER)
+}
+
+impl Stage for DepthTest {
+    type Part<'a> = Pile<'a>;
+    const PAGE: &'static str = "ch06";
+    const REFUTED: &'static str = "a pixel that shows another triangle";
+    const NOISE: &'static [f64] = &[16.0 * f64::EPSILON, 4.0 * f32::EPSILON as f64];
+    const WHOM: &'static str = "pixels";
+
+    fn parts<'a>(
+        question: &'a Question,
+        answer: &'a Answer,
+        _: &Declared,
+        noise: f64,
+    ) -> Vec<Pile<'a>> {
+        let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else {
+            return Vec::new();
+        };
+        let window = PixelRect::window(question.width, question.height);
+        let numbers: Vec<_> = runs.iter().map(|(run, number)| (*run, number + 1)).collect();
+        let mut piles = Vec::new();
+        for (y, row) in masks_of(&numbers, window).rows() {
+            for (x, shown) in (window.x0..).zip(row) {
+                let spot = Spot { at: [x, y], is_clockwise: true, window };
+                let shown = usize::from(*shown);
+                piles.push(Pile { spot, layers: Vec::new(), shown, noise });
+            }
+        }
+        for (number, triangle) in list.iter().enumerate() {
+            let corners = triangle.corners();
+            Oracle.spans(corners, window, &mut |span| {
+                let row = (span.y_px - window.y0) as usize * window.width() as usize;
+                for x in span.x0_px..span.x1_px {
+                    let at = [x, span.y_px].map(|v| f64::from(v) + 0.5);
+                    let depth = sum(weights(&corners, at), depths(triangle));
+                    let pile: &mut Pile<'_> = &mut piles[row + (x - window.x0) as usize];
+                    pile.layers.push(Layer { number, depth, first: span.x0_px, triangle });
+                }
+            });
+        }
+        for pile in &mut piles {
+            let nearest = pile.layers.iter().min_by(|a, b| a.depth.total_cmp(&b.depth));
+            pile.spot.is_clockwise = nearest.is_some_and(|l| twice_area(&l.triangle.corners()) > 0);
+        }
+        piles.retain(|pile| pile.shown > 0 || !pile.layers.is_empty());
+        piles
+    }
+
+    fn explains(&self, part: &Pile<'_>) -> bool {
+        self.shown(part).checked_shr(part.shown as u32).is_some_and(|shown| shown & 1 == 1)
+    }
+
+    fn solved(&self, parts: &[&Pile<'_>]) -> Vec<Self> {
+        let mut all = self.with_bias(parts);
+        all.extend(self.with_range(parts));
+        all
+    }
+
+    fn quantities<'a>() -> Vec<Quantity<Pile<'a>>> {
+        let mut all = of_pixels();
+        let of: fn(&Pile<'a>) -> f64 = |pile| pile.layers.len() as f64;
+        all.push(Quantity { of, says: Says::Number("the number of triangles at a pixel") });
+        all
+    }
+
+    fn filled(&self, does: &str) -> String {
+        let whose = match self.whose {
+            Whose::All => return does.to_owned(),
+            Whose::Turn(true) => "clockwise",
+            Whose::Turn(false) => "counterclockwise",
+            Whose::Number(0) => "the first, third and every second",
+            Whose::Number(_) => "the second, fourth and every second",
+            Whose::Flat(true) => "flat",
+            Whose::Flat(false) => "leaning",
+        };
+        format!("{does} (of {whose} triangles alone)")
+    }
+}

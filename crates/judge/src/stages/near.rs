@@ -1,0 +1,737 @@
+//! What the near plane leaves of a triangle, as a clipper that may be mistaken.
+
+use super::search::{Composed as _, Field, Quantity, Says, Stage, composed};
+use crate::ask::{Answer, Question};
+use crate::declared::Declared;
+use crate::near_plane::{asked, bounds, is_round};
+use rasterproof_verify::cases::near_plane::{ClipCorner, clip_corners};
+use rasterproof_verify::mistakes::{Format, MistakeId};
+
+composed! {
+    /// A clipper at the near plane.
+    pub struct NearCut {
+        divided: Divided,
+        plane: Plane,
+        kept: KeptCorners,
+        new: New,
+        part: Part,
+        counted: EdgeStart,
+        order: Order,
+        numbers: Numbers,
+        edges: Edges,
+    }
+}
+
+/// Whether corners are divided by w, and when.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Divided {
+    #[default]
+    Not,
+    Before,
+    After,
+}
+
+impl Field for Divided {
+    const NAME: &'static str = "a division by w";
+
+    fn options() -> Vec<Self> {
+        vec![Self::Before, Self::After]
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = match self {
+            Self::Not => return None,
+            Self::Before => "divides x, y, z and w of each corner by its own w before it clips",
+            Self::After => {
+                "divides x, y, z and w by w where only the clipped polygon should be divided"
+            }
+        };
+        Some((does.to_owned(), "clip in clip space, and leave the division to the stage after it"))
+    }
+}
+
+/// The plane: what is kept has z, w and 1, times these numbers, of at least 0 in sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Plane {
+    /// The one that is declared.
+    #[default]
+    Near,
+    At([f64; 3]),
+    /// z = -|w|.
+    Unsigned,
+}
+
+impl Plane {
+    fn distance(self, [_, _, z, w, _]: ClipCorner, is_zero: bool) -> f64 {
+        match self {
+            Self::Near => z + if is_zero { 0.0 } else { w },
+            Self::At([a, b, c]) => a * z + b * w + c,
+            Self::Unsigned => z + w.abs(),
+        }
+    }
+}
+
+impl Field for Plane {
+    const NAME: &'static str = "the near plane";
+
+    fn options() -> Vec<Self> {
+        let signs = (0..27).map(|k| [k / 9, k / 3 % 3, k % 3].map(|digit| f64::from(digit - 1)));
+        let planes = signs.filter(|[z, w, _]| *z != 0.0 || *w != 0.0);
+        // z = -w and z = 0 may be the one that is declared, and differ from it where they are not.
+        [Self::Unsigned].into_iter().chain(planes.map(Self::At)).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let repair = "clip at the near plane that is declared";
+        let [z, w, c] = match *self {
+            Self::Near => return None,
+            Self::Unsigned => {
+                return Some((
+                    "clips to z >= -|w|: the sign of w is lost".to_owned(),
+                    "clip to z >= -w, and keep the sign of w",
+                ));
+            }
+            Self::At(plane) => plane,
+        };
+        let (of, by) = if z == 0.0 { ("w", w) } else { ("z", z) };
+        let sign = if by > 0.0 { ">=" } else { "<=" };
+        let rest = |v: f64| (-v / by * 1e6).round() / 1e6 + 0.0;
+        let times_w = match rest(w) {
+            _ if z == 0.0 => None,
+            0.0 => None,
+            1.0 => Some("w".to_owned()),
+            -1.0 => Some("-w".to_owned()),
+            by => Some(format!("{by} w")),
+        };
+        let at = match (times_w, rest(c)) {
+            (None, c) => format!("{c}"),
+            (Some(w), 0.0) => w,
+            (Some(w), c) => format!("{w} {} {}", if c < 0.0 { "-" } else { "+" }, c.abs()),
+        };
+        let known = match *self {
+            Self::At([1.0, 0.0, 0.0]) => ", as Direct3D and Vulkan have it",
+            Self::At([1.0, 1.0, 0.0]) => ", as OpenGL has it",
+            Self::At([-1.0, 1.0, 0.0]) => ", the far plane",
+            Self::At([-1.0, -1.0, 0.0]) => ": it keeps the part behind",
+            _ => "",
+        };
+        Some((format!("clips to {of} {sign} {at}{known}"), repair))
+    }
+}
+
+/// Which triangles are clipped, and what becomes of the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum KeptCorners {
+    #[default]
+    Clipped,
+    All,
+    Nothing,
+    /// What has no corner behind.
+    Whole,
+    /// What has a corner before.
+    Seen,
+    /// Corners behind are moved onto the plane; what lies wholly behind is left out, or not.
+    Clamped {
+        is_culled: bool,
+    },
+}
+
+impl Field for KeptCorners {
+    const NAME: &'static str = "what is clipped";
+
+    fn options() -> Vec<Self> {
+        let clamped = [false, true].map(|is_culled| Self::Clamped { is_culled });
+        [Self::Nothing, Self::All, Self::Whole, Self::Seen].into_iter().chain(clamped).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        Some(match self {
+            Self::Clipped => return None,
+            Self::All => (
+                MistakeId::NotClipped.name().to_owned(),
+                "clip at the near plane before the division",
+            ),
+            Self::Nothing => ("drops the triangle".to_owned(), "keep the part before the plane"),
+            Self::Whole => {
+                (MistakeId::CutTrianglesDropped.name().to_owned(), "keep the part before the plane")
+            }
+            Self::Seen => (
+                "drops triangles that lie wholly behind and clips no others".to_owned(),
+                "cut what crosses the plane",
+            ),
+            Self::Clamped { is_culled } => {
+                let culled = if *is_culled { ", and drops what lies wholly behind" } else { "" };
+                (
+                    format!(
+                        "moves corners behind the plane onto it (clamps z) and cuts nothing{culled}"
+                    ),
+                    "divide the edges",
+                )
+            }
+        })
+    }
+}
+
+const NEW_REPAIR: &str = "a new corner divides the edge as the distances of its ends do, in all of x, y, z, w and attributes";
+
+/// The part of the way from the corner that stays to the one that goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Part {
+    #[default]
+    Right,
+    Kept(Format),
+    Back,
+    Squared,
+    AtMostHalf,
+    AtLeastHalf,
+    /// Of the sum of the distances.
+    OfSum,
+    /// By other distances: z, w, and that after the division.
+    ByZ,
+    ByW,
+    Divided,
+}
+
+impl Field for Part {
+    const NAME: &'static str = "the part of an edge";
+
+    fn options() -> Vec<Self> {
+        use Part::{AtLeastHalf, AtMostHalf, Back, ByW, ByZ, Divided, OfSum, Squared};
+        let mut all = vec![Back, Squared, AtMostHalf, AtLeastHalf, OfSum, ByZ, ByW, Divided];
+        all.extend(Format::options().into_iter().map(Self::Kept));
+        all
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let part = match self {
+            Self::Right => return None,
+            Self::Kept(format) => format!("a part that is kept in {format}"),
+            Self::Back => "a part that is counted from the wrong end (t is 1 - t)".to_owned(),
+            Self::Squared => "a part that is squared".to_owned(),
+            Self::AtMostHalf => "a part that is 1/2 at most".to_owned(),
+            Self::AtLeastHalf => "a part that is 1/2 at least".to_owned(),
+            Self::OfSum => {
+                "a part of the sum of the distances, where their difference is right".to_owned()
+            }
+            Self::ByZ => "z alone, as if the plane were z = 0".to_owned(),
+            Self::ByW => "w alone, as if the plane were w = 0".to_owned(),
+            Self::Divided => "distances after the division by w".to_owned(),
+        };
+        Some((format!("divides {{}} of an edge by {part}"), NEW_REPAIR))
+    }
+}
+
+/// From where the part is counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum EdgeStart {
+    #[default]
+    FromKept,
+    FromFirst,
+}
+
+impl Field for EdgeStart {
+    const NAME: &'static str = "the end of an edge";
+
+    fn options() -> Vec<Self> {
+        vec![Self::FromFirst]
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        (*self == Self::FromFirst)
+            .then(|| ("counts the part from the first end of the edge".to_owned(), NEW_REPAIR))
+    }
+}
+
+/// What a new corner gets.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum New {
+    #[default]
+    Right,
+    Kept,
+    Lost,
+    First,
+    Second,
+    Mean,
+    Perspective,
+    OverW,
+    OverWAndBack,
+    TimesWAndBack,
+    DividedByW,
+    TimesW,
+    Exchanged,
+    Is(f64),
+    Unsigned,
+    AtLeast(f64),
+    InUnit,
+    Format(Format),
+}
+
+impl New {
+    /// A number of the new corner of an edge, with that of its place.
+    fn of(self, edge: &Edge, k: usize) -> f64 {
+        let Edge { kept, lost, t, is_forward } = *edge;
+        let at = |k: usize| kept[k] + (lost[k] - kept[k]) * t;
+        let over_w = || kept[k] / kept[3] + (lost[k] / lost[3] - kept[k] / kept[3]) * t;
+        match self {
+            Self::Right => at(k),
+            Self::Kept => kept[k],
+            Self::Lost => lost[k],
+            Self::First => {
+                if is_forward {
+                    kept[k]
+                } else {
+                    lost[k]
+                }
+            }
+            Self::Second => {
+                if is_forward {
+                    lost[k]
+                } else {
+                    kept[k]
+                }
+            }
+            Self::Mean => (kept[k] + lost[k]) / 2.0,
+            Self::Perspective => {
+                let (a, b) = ((1.0 - t) / kept[3], t / lost[3]);
+                (a * kept[k] + b * lost[k]) / (a + b)
+            }
+            Self::OverW => over_w(),
+            Self::OverWAndBack => over_w() * at(3),
+            Self::TimesWAndBack => {
+                let (a, b) = (kept[k] * kept[3], lost[k] * lost[3]);
+                (a + (b - a) * t) / at(3)
+            }
+            Self::DividedByW => at(k) / at(3),
+            Self::TimesW => at(k) * at(3),
+            Self::Exchanged => at([1, 0, 2, 3, 4][k]),
+            Self::Is(v) => v,
+            Self::Unsigned => at(k).abs(),
+            Self::AtLeast(least) => at(k).max(least),
+            Self::InUnit => at(k).clamp(0.0, 1.0),
+            Self::Format(format) => format.of(at(k)),
+        }
+    }
+}
+
+impl Field for New {
+    const NAME: &'static str = "a new corner";
+
+    fn options() -> Vec<Self> {
+        let mut all = vec![
+            Self::Kept,
+            Self::Lost,
+            Self::First,
+            Self::Second,
+            Self::Mean,
+            Self::Perspective,
+            Self::OverWAndBack,
+            Self::Is(0.0),
+            Self::Is(1.0),
+            Self::OverW,
+            Self::TimesWAndBack,
+            Self::Unsigned,
+            Self::DividedByW,
+            Self::TimesW,
+            Self::AtLeast(0.1),
+            Self::AtLeast(0.01),
+            Self::AtLeast(1.0),
+            Self::InUnit,
+            Self::Exchanged,
+        ];
+        all.extend(Format::options().into_iter().map(Self::Format));
+        all
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = match self {
+            Self::Right => return None,
+            Self::Kept => "keeps {} of the corner that stays at a new corner",
+            Self::Lost => "keeps {} of the corner that is cut off at a new corner",
+            Self::First => "keeps {} of the first end of an edge at a new corner",
+            Self::Second => "keeps {} of the second end of an edge at a new corner",
+            Self::Mean => "gives a new corner the mean of both ends for {}",
+            Self::Perspective => {
+                "interpolates {} at a new corner with a correction for perspective"
+            }
+            Self::OverWAndBack => {
+                "divides {} by w before it interpolates at a new corner, and multiplies by the new w"
+            }
+            Self::OverW => {
+                "divides {} by w before it interpolates at a new corner, and does not multiply back"
+            }
+            Self::TimesWAndBack => {
+                "multiplies {} by w before it interpolates at a new corner, and divides by the new w"
+            }
+            Self::Unsigned => "loses the sign of {} of a new corner",
+            Self::DividedByW => "divides {} of a new corner by its w",
+            Self::TimesW => "multiplies {} of a new corner by its w",
+            Self::InUnit => "clamps {} of a new corner to 0 to 1",
+            Self::Exchanged => "exchanges {} of a new corner",
+            Self::Is(v) => return Some((format!("gives a new corner {v} for {{}}"), NEW_REPAIR)),
+            Self::AtLeast(least) => {
+                return Some((
+                    format!("raises {{}} of a new corner to {least} at least"),
+                    NEW_REPAIR,
+                ));
+            }
+            Self::Format(format) => {
+                return Some((format!("keeps {{}} of a new corner in {format}"), NEW_REPAIR));
+            }
+        };
+        Some((does.to_owned(), NEW_REPAIR))
+    }
+}
+
+/// The corners of what is left, and the way round.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Order {
+    #[default]
+    Right,
+    Reversed,
+    Crossed,
+    AtMostThree,
+    /// A quadrilateral loses a corner.
+    Lost(usize),
+    /// An edge gets no new corner.
+    Uncut(usize),
+}
+
+impl Field for Order {
+    const NAME: &'static str = "the corners that are left";
+
+    fn options() -> Vec<Self> {
+        let some = (0..3).flat_map(|i| [Self::Lost(i), Self::Uncut(i)]);
+        [Self::AtMostThree, Self::Reversed, Self::Crossed].into_iter().chain(some).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let names = ["first", "second", "third", "first"];
+        let quadrilateral = "a triangle that is cut can have four corners";
+        Some(match *self {
+            Self::Right => return None,
+            Self::Reversed => (
+                "gives the corners of what is left the other way round, so that it turns its back"
+                    .to_owned(),
+                "go round the triangle in the order of its corners",
+            ),
+            Self::Crossed => (
+                "gives the corners of a quadrilateral in a wrong order, so that its sides cross"
+                    .to_owned(),
+                "go round the triangle, and make each new corner where its edge crosses the plane",
+            ),
+            Self::AtMostThree => (
+                "keeps at most three corners, so that a quadrilateral loses one".to_owned(),
+                quadrilateral,
+            ),
+            Self::Lost(i) => {
+                (format!("loses the {} corner of a quadrilateral", names[i]), quadrilateral)
+            }
+            Self::Uncut(i) => (
+                format!(
+                    "does not cut the edge from the {} corner to the {}",
+                    names[i],
+                    names[i + 1]
+                ),
+                "cut all three edges",
+            ),
+        })
+    }
+}
+
+/// The numbers of a new corner that are wrong: of x, y, z, w and the attribute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numbers([bool; 5]);
+
+impl Default for Numbers {
+    fn default() -> Self {
+        Self([true; 5])
+    }
+}
+
+impl Field for Numbers {
+    const NAME: &'static str = "some numbers of a new corner";
+
+    /// They are read off.
+    fn options() -> Vec<Self> {
+        Vec::new()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        None
+    }
+}
+
+/// The edges that are wrong: those of which the second end is cut off, or the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Edges {
+    #[default]
+    All,
+    Leaving,
+    Back,
+}
+
+impl Field for Edges {
+    const NAME: &'static str = "some edges";
+
+    fn options() -> Vec<Self> {
+        vec![Self::Leaving, Self::Back]
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        None
+    }
+}
+
+/// An edge that is cut: the corner that stays, the one that goes, the part of the way between them, and whether the one that
+/// stays comes first.
+struct Edge {
+    kept: ClipCorner,
+    lost: ClipCorner,
+    t: f64,
+    is_forward: bool,
+}
+
+/// A triangle and what was left of it.
+pub struct Cut<'a> {
+    corners: [ClipCorner; 3],
+    left: &'a [ClipCorner],
+    is_zero: bool,
+    tolerance: f64,
+}
+
+impl Cut<'_> {
+    /// How many corners lie behind the plane.
+    fn behind(&self) -> usize {
+        self.corners.iter().filter(|p| Plane::Near.distance(**p, self.is_zero) < 0.0).count()
+    }
+
+    /// Whether both are the same corners one way round; what has fewer than three may be left out.
+    fn is(&self, polygon: &[ClipCorner], times: f64) -> bool {
+        self.is_but_for(polygon, times, [false; 5])
+    }
+
+    /// The same, where some numbers may be anything.
+    fn is_but_for(&self, polygon: &[ClipCorner], times: f64, free: [bool; 5]) -> bool {
+        let tolerance = times * self.tolerance;
+        let bounds = bounds(&self.corners, tolerance);
+        let near = |p: &ClipCorner, q: &ClipCorner| {
+            // Wrong numbers may be larger than those of the corners.
+            (0..5).all(|k| free[k] || (p[k] - q[k]).abs() <= bounds[k].max(tolerance * p[k].abs()))
+        };
+        let has_area = |polygon: &[ClipCorner]| polygon.len() > 2;
+        (!has_area(polygon) && !has_area(self.left))
+            || is_round(polygon.len(), self.left.len(), |i, j| near(&polygon[i], &self.left[j]))
+    }
+
+    /// The corners that the triangle does not have.
+    fn new_corners(&self) -> impl Iterator<Item = &ClipCorner> {
+        self.left.iter().filter(|p| self.corners.iter().all(|corner| corner[..4] != p[..4]))
+    }
+}
+
+impl NearCut {
+    /// What is left; a corner in the plane may be given once more as a new one with the numbers of that, or not.
+    pub(super) fn polygon(&self, cut: &Cut<'_>, is_twice: bool) -> Vec<ClipCorner> {
+        let by_w = |[x, y, z, w, a]: ClipCorner| [x / w, y / w, z / w, 1.0, a];
+        let corners = match self.divided {
+            Divided::Before => cut.corners.map(by_w),
+            _ => cut.corners,
+        };
+        let distance = |p: ClipCorner| self.plane.distance(p, cut.is_zero);
+        let behind = corners.iter().filter(|p| distance(**p) < 0.0).count();
+        let clamped = |p: ClipCorner| [p[0], p[1], p[2] - distance(p).min(0.0), p[3], p[4]];
+        let mut left = match self.kept {
+            KeptCorners::Clipped => self.clipped(corners, cut.is_zero, is_twice),
+            KeptCorners::Nothing => Vec::new(),
+            KeptCorners::Whole if behind > 0 => Vec::new(),
+            KeptCorners::Seen | KeptCorners::Clamped { is_culled: true } if behind == 3 => {
+                Vec::new()
+            }
+            KeptCorners::All | KeptCorners::Whole | KeptCorners::Seen => corners.to_vec(),
+            KeptCorners::Clamped { .. } => corners.map(clamped).to_vec(),
+        };
+        let is_quadrilateral = left.len() > 3;
+        match self.order {
+            Order::Reversed => left.reverse(),
+            Order::Crossed if is_quadrilateral => left.swap(2, 3),
+            Order::AtMostThree => left.truncate(3),
+            Order::Lost(i) if is_quadrilateral => {
+                left.remove(i);
+            }
+            _ => {}
+        }
+        if self.divided == Divided::After {
+            left = left.into_iter().map(by_w).collect();
+        }
+        left
+    }
+
+    /// Sutherland and Hodgman.
+    fn clipped(&self, corners: [ClipCorner; 3], is_zero: bool, is_twice: bool) -> Vec<ClipCorner> {
+        let mut left = Vec::new();
+        for (i, &from) in corners.iter().enumerate() {
+            let to = corners[(i + 1) % 3];
+            let [a, b] = [from, to].map(|p| self.plane.distance(p, is_zero));
+            if a >= 0.0 {
+                left.push(from);
+            }
+            if (a >= 0.0) == (b >= 0.0) || self.order == Order::Uncut(i) {
+                continue;
+            }
+            let is_forward = a >= 0.0;
+            let ((kept, lost), (a, b)) =
+                if is_forward { ((from, to), (a, b)) } else { ((to, from), (b, a)) };
+            let right = Edge { kept, lost, t: a / (a - b), is_forward };
+            let is_changed = match self.edges {
+                Edges::All => true,
+                Edges::Leaving => is_forward,
+                Edges::Back => !is_forward,
+            };
+            let wrong = Edge { t: self.part_of(&right), ..right };
+            left.push([0, 1, 2, 3, 4].map(|k| {
+                match is_changed && self.numbers.0[k] && (is_twice || right.t > 0.0) {
+                    true => self.new.of(&wrong, k),
+                    false => New::Right.of(&right, k),
+                }
+            }));
+        }
+        left
+    }
+
+    fn part_of(&self, edge: &Edge) -> f64 {
+        let by = |distance: fn(ClipCorner) -> f64| {
+            let [a, b] = [edge.kept, edge.lost].map(distance);
+            a / (a - b)
+        };
+        let of = |t: f64| match self.part {
+            Part::Right => t,
+            Part::Kept(format) => format.of(t),
+            Part::Back => 1.0 - t,
+            Part::Squared => t * t,
+            Part::AtMostHalf => t.min(0.5),
+            Part::AtLeastHalf => t.max(0.5),
+            Part::OfSum => t / (2.0 * t - 1.0),
+            Part::ByZ => by(|p| p[2]),
+            Part::ByW => by(|p| p[3]),
+            Part::Divided => by(|p| p[2] / p[3] + 1.0),
+        };
+        match self.counted {
+            EdgeStart::FromFirst if !edge.is_forward => 1.0 - of(1.0 - edge.t),
+            _ => of(edge.t),
+        }
+    }
+
+    /// The plane on which all new corners lie.
+    fn with_plane(&self, parts: &[&Cut<'_>]) -> Vec<Self> {
+        let new: Vec<_> = parts.iter().flat_map(|cut| cut.new_corners()).collect();
+        let Some(first) = new.first() else { return Vec::new() };
+        let away = |p: &ClipCorner| (p[2] - first[2]).abs() + (p[3] - first[3]).abs();
+        let far = new.iter().max_by(|a, b| away(a).total_cmp(&away(b)));
+        let Some(far) = far.filter(|far| away(far) > 0.0) else { return Vec::new() };
+        let (z, w) = (first[3] - far[3], far[2] - first[2]);
+        let size = z.abs().max(w.abs());
+        let [z, w] = [z, w].map(|v| if v.abs() < 1e-6 * size { 0.0 } else { v / size });
+        let by = if z == 0.0 { w } else { z };
+        let simple = |v: f64| (v / by * 1e6).round() / 1e6;
+        let plane = [z, w, -z * first[2] - w * first[3]].map(simple);
+        let tolerance = parts.first().map_or(0.0, |cut| cut.tolerance).max(1e-6);
+        let is_on = |p: &&ClipCorner| {
+            Plane::At(plane).distance(**p, false).abs()
+                <= 10.0 * tolerance * (1.0 + p[2].abs() + p[3].abs())
+        };
+        if new.len() <= 8 || !new.iter().all(is_on) {
+            return Vec::new();
+        }
+        [plane, plane.map(|v| -v)]
+            .map(|plane| Self { plane: Plane::At(plane), ..self.clone() })
+            .to_vec()
+    }
+
+    /// The fewest numbers of new corners that are wrong, where all others are right.
+    fn wrong_numbers(parts: &[&Cut<'_>]) -> Option<Numbers> {
+        let mut sets: Vec<_> =
+            (1..31).map(|set| Numbers([0, 1, 2, 3, 4].map(|k| set >> k & 1 == 1))).collect();
+        sets.sort_by_key(|set| set.0.iter().filter(|is_wrong| **is_wrong).count());
+        let right = Self::default();
+        sets.into_iter().find(|set| {
+            parts.iter().all(|cut| cut.is_but_for(&right.polygon(cut, false), 1.0, set.0))
+        })
+    }
+}
+
+impl Stage for NearCut {
+    type Part<'a> = Cut<'a>;
+    const PAGE: &'static str = "ch07";
+    const REFUTED: &'static str = "a triangle of which something else is left";
+    const NOISE: &'static [f64] = &[0.0];
+    const WHOM: &'static str = "triangles";
+
+    fn parts<'a>(
+        question: &'a Question,
+        answer: &'a Answer,
+        declared: &Declared,
+        _: f64,
+    ) -> Vec<Cut<'a>> {
+        let (Some(triangle), Some(left)) = (asked(&question.of), answer.polygon()) else {
+            return Vec::new();
+        };
+        let (is_zero, tolerance) = (declared.near_is_zero, declared.tolerance);
+        vec![Cut { corners: clip_corners(&triangle), left, is_zero, tolerance }]
+    }
+
+    fn explains(&self, cut: &Cut<'_>) -> bool {
+        [true, false].into_iter().any(|is_twice| {
+            let polygon = self.polygon(cut, is_twice);
+            if *self == Self::default() {
+                return cut.is(&polygon, 1.0);
+            }
+            // What divides by 0 answers a number that is none, too: else it would explain every wrong answer.
+            let is_finite =
+                |polygon: &[ClipCorner]| polygon.iter().flatten().all(|v| v.is_finite());
+            if !is_finite(&polygon) {
+                return !is_finite(cut.left);
+            }
+            let is_right = |times| cut.is(&Self::default().polygon(cut, false), times);
+            // Predictions are rounded too; but what is as near to the right polygon explains nothing.
+            cut.is(&polygon, 1.0) || (cut.is(&polygon, 10.0) && !is_right(10.0))
+        })
+    }
+
+    fn solved(&self, parts: &[&Cut<'_>]) -> Vec<Self> {
+        let mut all = self.with_plane(parts);
+        let numbers = if *self == Self::default() { Self::wrong_numbers(parts) } else { None };
+        if let Some(numbers) = numbers {
+            // Each mistake is tried in these numbers alone.
+            all.extend(Self::options().into_iter().map(|value| Self { numbers, ..value }));
+        }
+        all
+    }
+
+    fn quantities<'a>() -> Vec<Quantity<Cut<'a>>> {
+        let of: fn(&Cut<'a>) -> f64 = |cut| cut.behind() as f64;
+        let behind =
+            Quantity { of, says: Says::Number("the number of corners behind the near plane") };
+        let whether = |of, yes| Quantity { of, says: Says::Whether([yes, ""]) };
+        let is_negative: fn(&Cut<'a>) -> f64 =
+            |cut| f64::from(u8::from(cut.corners.iter().any(|corner| corner[3] < 0.0)));
+        vec![behind, whether(is_negative, "where a corner has a negative w")]
+    }
+
+    fn filled(&self, does: &str) -> String {
+        let names = ["x", "y", "z", "w", "attributes"];
+        let some: Vec<_> = (0..5).filter(|k| self.numbers.0[*k]).map(|k| names[k]).collect();
+        let numbers = match some[..] {
+            [_, _, _, _, _] => "all numbers".to_owned(),
+            [ref others @ .., a, b] if !others.is_empty() => {
+                format!("{}, {a} and {b}", others.join(", "))
+            }
+            _ => some.join(" and "),
+        };
+        let edges = match self.edges {
+            Edges::All => "",
+            Edges::Leaving => " (of edges that leave alone)",
+            Edges::Back => " (of edges that come back alone)",
+        };
+        does.replace("{}", &numbers) + edges
+    }
+}

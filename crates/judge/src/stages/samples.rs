@@ -1,0 +1,535 @@
+//! Which of the four samples of a pixel are covered, as a mask that may be mistaken.
+
+use crate::declared::Declared;
+use std::sync::LazyLock;
+
+use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
+use crate::ask::{Answer, Asked, Question};
+use crate::pixels::masks_of;
+use rasterproof_core::geometry::twice_area;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::Corners;
+use rasterproof_render::pipeline::multisample::SAMPLES;
+use rasterproof_verify::convention::{Quantum, Rounding, Ties};
+use rasterproof_verify::mistakes::RULES;
+
+composed! {
+    /// A mask of samples.
+    pub struct SampleMask {
+        pattern: Pattern,
+        order: Order,
+        grid: Grid,
+        rule: Rule,
+        gate: Gate,
+        table: Table,
+        only: Only,
+    }
+}
+
+/// Places in 1/16 px from the upper left corner of the pixel, in the order of their bits; and how they are said.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pattern([(i32, i32); 4], Option<&'static str>);
+
+impl Default for Pattern {
+    fn default() -> Self {
+        Self(SAMPLES, None)
+    }
+}
+
+impl Field for Pattern {
+    const NAME: &'static str = "places of the samples";
+
+    fn options() -> Vec<Self> {
+        let of = |said, moved: fn((i32, i32)) -> (i32, i32)| Self(SAMPLES.map(moved), Some(said));
+        vec![
+            of("tests {} at the centre", |_| (8, 8)),
+            Self(
+                [(4, 4), (12, 4), (4, 12), (12, 12)],
+                Some("tests {} two by two, at quarters of the pixel"),
+            ),
+            of("tests {} mirrored left to right", |(x, y)| (16 - x, y)),
+            of("tests {} mirrored upside down", |(x, y)| (x, 16 - y)),
+            of("tests {} with x and y exchanged", |(x, y)| (y, x)),
+            of("tests {} around the upper left corner of the pixel", |(x, y)| (x - 8, y - 8)),
+        ]
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let [a, b, c, d] = self.0.map(|(x, y)| format!("({x}, {y})"));
+        let found = format!("tests samples at {a}, {b}, {c} and {d} of 1/16 px");
+        Some((self.1.map_or(found, str::to_owned), "test each sample at its own place"))
+    }
+}
+
+/// The numbers of the places, in the order of the bits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Order([usize; 4]);
+
+impl Default for Order {
+    fn default() -> Self {
+        Self([0, 1, 2, 3])
+    }
+}
+
+impl Field for Order {
+    const NAME: &'static str = "order of the samples";
+
+    fn options() -> Vec<Self> {
+        let codes = (0..256).map(|code| [code >> 6, code >> 4, code >> 2, code].map(|v| v % 4));
+        // Each number once.
+        let is_order = |order: &[usize; 4]| order.iter().fold(0, |seen, n| seen | 1 << n) == 15;
+        codes.filter(is_order).map(Self).filter(|order| *order != Self::default()).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let [a, b, c, d] = self.0;
+        Some((
+            format!("numbers the samples {a}, {b}, {c}, {d}"),
+            "number the samples as the bits that the protocol states",
+        ))
+    }
+}
+
+/// The grid of corners before samples are tested.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid(Quantum);
+
+impl Default for Grid {
+    fn default() -> Self {
+        Self(Quantum::NONE)
+    }
+}
+
+impl Field for Grid {
+    const NAME: &'static str = "corners of the samples";
+
+    fn options() -> Vec<Self> {
+        use Rounding::{Down, HalfAway, HalfEven, Near, TowardZero};
+        let steps = (1..=8).map(|bits| 1 << bits);
+        let of = |step| {
+            [Down, Near, HalfEven, HalfAway, TowardZero]
+                .map(|rounding| Self(Quantum { step, rounding }))
+        };
+        steps.flat_map(of).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let Quantum { step, rounding } = self.0;
+        let unit = match SUBPIXELS / step {
+            1 => "whole pixels".to_owned(),
+            parts => format!("1/{parts} px"),
+        };
+        let does = match rounding {
+            Rounding::Down => format!("tests {{}} of corners that are cut to {unit}"),
+            to => format!("tests {{}} of corners that are brought to {unit} ({})", to.name()),
+        };
+        Some((does, "test samples of the corners by which pixels are covered"))
+    }
+}
+
+/// The fill rules of clockwise triangles and of the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rule([usize; 2]);
+
+/// The rules of the protocol, of which the first one is right.
+static TIES: LazyLock<Vec<Ties>> =
+    LazyLock::new(|| RULES.iter().filter_map(|name| Ties::named(name)).collect());
+
+impl Field for Rule {
+    const NAME: &'static str = "rule for samples";
+
+    fn options() -> Vec<Self> {
+        let both = (0..TIES.len()).flat_map(|a| (0..TIES.len()).map(move |b| Self([a, b])));
+        both.filter(|rule| *rule != Self::default()).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let [clockwise, other] = self.0.map(|rule| RULES[rule]);
+        let does = match clockwise == other {
+            true => format!("follows the {clockwise} rule for {{}} on edges"),
+            false => format!(
+                "follows the {clockwise} rule for {{}} on edges of clockwise triangles and the {other} rule for those of others"
+            ),
+        };
+        Some((does, "test each sample by the rule that pixels follow"))
+    }
+}
+
+/// What becomes of a mask in the pixels of which something holds, or in the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Gate {
+    #[default]
+    None,
+    /// Samples are drawn there alone.
+    Only(If),
+    /// All samples are drawn there, and none elsewhere, or those elsewhere that are covered.
+    Whole(If),
+    WholeToo(If),
+    /// None is drawn there.
+    Not(If),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum If {
+    Centre,
+    /// So many samples at least are covered.
+    Covered(u32),
+    /// The centre lies within these sides of the box around the corners, or also on them.
+    Box {
+        sides: u8,
+        is_open: bool,
+    },
+}
+
+impl If {
+    fn holds(self, mask: u8, pixel: &Masked<'_>) -> bool {
+        match self {
+            Self::Centre => pixel.is_centre_covered,
+            Self::Covered(least) => mask.count_ones() >= least,
+            Self::Box { sides, is_open } => {
+                (0..4).filter(|side| sides >> side & 1 == 1).all(|side| {
+                    let of = |v: i32| if side < 2 { i64::from(v) } else { -i64::from(v) };
+                    let axis = side % 2;
+                    let centre = of(pixel.spot.at[axis] * SUBPIXELS + SUBPIXELS / 2);
+                    let mut corners = pixel.corners.iter().map(|c| of([c.x, c.y][axis]));
+                    corners.any(|v| v < centre || (!is_open && v == centre))
+                })
+            }
+        }
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::Centre => "whose centre is covered".to_owned(),
+            Self::Covered(0) => "of any kind".to_owned(),
+            Self::Covered(least) => {
+                let least = ["any is", "two are", "three are", "all four are"][least as usize - 1];
+                format!("where {least} covered")
+            }
+            Self::Box { sides, is_open } => {
+                let names = ["left", "upper", "right", "lower"];
+                let sides: Vec<_> =
+                    (0..4).filter(|side| sides >> side & 1 == 1).map(|side| names[side]).collect();
+                let border = if is_open { "in" } else { "in, or on the border of," };
+                format!(
+                    "whose centre lies {border} the box around the triangle ({} side)",
+                    sides.join(", ")
+                )
+            }
+        }
+    }
+}
+
+impl Field for Gate {
+    const NAME: &'static str = "pixels whose samples are drawn";
+
+    fn options() -> Vec<Self> {
+        let mut tests = vec![If::Centre];
+        tests.extend((0..=4).map(If::Covered));
+        for is_open in [false, true] {
+            tests.extend((1..16).map(|sides| If::Box { sides, is_open }));
+        }
+        let kinds: [fn(If) -> Self; 4] = [Self::Only, Self::Whole, Self::WholeToo, Self::Not];
+        let all = tests.into_iter().flat_map(|test| kinds.map(|of| of(test)));
+        // What holds of every pixel decides nothing, but that samples may be drawn always or never.
+        all.filter(|gate| *gate != Self::Only(If::Covered(0))).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let does = match self {
+            Self::None => return None,
+            Self::Not(If::Covered(0)) => "never draws {}".to_owned(),
+            Self::Only(test) => format!("tests {{}} in pixels {}, and in no others", test.words()),
+            Self::Whole(test) => {
+                format!("draws {{}} of a pixel {}, and not elsewhere", test.words())
+            }
+            Self::WholeToo(test) => {
+                format!("draws {{}} of a pixel {}, and what is covered elsewhere", test.words())
+            }
+            Self::Not(test) => format!("does not draw {{}} of a pixel {}", test.words()),
+        };
+        Some((does, "test each sample for itself in every pixel"))
+    }
+}
+
+/// The mask that is drawn for each right one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Table([u8; 16]);
+
+impl Default for Table {
+    fn default() -> Self {
+        Self([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15])
+    }
+}
+
+impl Field for Table {
+    const NAME: &'static str = "masks of samples";
+
+    /// It is read off.
+    fn options() -> Vec<Self> {
+        Vec::new()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        let repair = "draw the samples that are covered";
+        let is_lost =
+            |bit: &u8| (0..16).all(|right: u8| self.0[usize::from(right)] == right & !(1 << bit));
+        if let Some(bit) = (0..4).find(is_lost) {
+            return Some((format!("never draws the sample with the number {bit}"), repair));
+        }
+        let samples = |mask: u8| -> String {
+            let bits = (0..4).filter(|bit| mask >> bit & 1 == 1).map(|bit: u8| bit.to_string());
+            let bits: Vec<_> = bits.collect();
+            if bits.is_empty() { "none".to_owned() } else { bits.join(" and ") }
+        };
+        let changed = (0..16).filter(|right| self.0[usize::from(*right)] != *right);
+        let changed: Vec<_> = changed
+            .map(|right| format!("{} for {}", samples(self.0[usize::from(right)]), samples(right)))
+            .collect();
+        let more = match changed.len().saturating_sub(3) {
+            0 => String::new(),
+            more => format!(", and {more} others"),
+        };
+        let first = changed[..changed.len().min(3)].join(", ");
+        Some((format!("draws samples {first}{more}, whatever the place"), repair))
+    }
+}
+
+/// The one sample that is wrong.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Only(Option<u8>);
+
+impl Field for Only {
+    const NAME: &'static str = "one sample";
+
+    fn options() -> Vec<Self> {
+        (0..4).map(|bit| Self(Some(bit))).collect()
+    }
+
+    fn says(&self) -> Option<(String, &'static str)> {
+        None
+    }
+}
+
+/// A pixel with its mask, and the right one.
+pub struct Masked<'a> {
+    pub(super) spot: Spot,
+    corners: &'a Corners,
+    drawn: u8,
+    right: u8,
+    is_centre_covered: bool,
+}
+
+impl AsRef<Spot> for Masked<'_> {
+    fn as_ref(&self) -> &Spot {
+        &self.spot
+    }
+}
+
+/// Whether a triangle covers a place of a pixel, in 1/16 px.
+fn covers(corners: &Corners, pixel: [i32; 2], (x, y): (i32, i32), ties: &Ties) -> bool {
+    let at = [(pixel[0], x), (pixel[1], y)]
+        .map(|(v, part)| i64::from(v) * i64::from(SUBPIXELS) + i64::from(part * (SUBPIXELS / 16)));
+    let turn = i64::from(twice_area(corners).signum() as i8);
+    for i in 0..3 {
+        let [a, b] = [corners[i], corners[(i + 1) % 3]].map(|c| [i64::from(c.x), i64::from(c.y)]);
+        let step = [0, 1].map(|k| (b[k] - a[k]) * turn);
+        let product = |k: usize| i128::from(step[k]) * i128::from(at[1 - k] - a[1 - k]);
+        let side = product(0) - product(1);
+        // The outward normal of a clockwise edge, as one of eight directions from north on, clockwise.
+        let facing = match [step[1], -step[0]].map(i64::signum) {
+            [0, -1] => 0,
+            [1, -1] => 1,
+            [1, 0] => 2,
+            [1, 1] => 3,
+            [0, 1] => 4,
+            [-1, 1] => 5,
+            [-1, 0] => 6,
+            _ => 7,
+        };
+        if side < 0 || (side == 0 && !ties.edges[facing]) {
+            return false;
+        }
+    }
+    turn != 0
+}
+
+impl SampleMask {
+    /// The samples that are covered at the places, before a gate.
+    fn covered(&self, pixel: &Masked<'_>) -> u8 {
+        if self.pattern == Pattern::default()
+            && self.grid == Grid::default()
+            && self.rule == Rule::default()
+        {
+            return (0..4)
+                .fold(0, |mask, bit| mask | (pixel.right >> self.order.0[bit] & 1) << bit);
+        }
+        let corners = self.corners(pixel);
+        let ties = self.ties(&corners);
+        (0..4).fold(0, |mask, bit| {
+            let place = self.pattern.0[self.order.0[bit]];
+            mask | u8::from(covers(&corners, pixel.spot.at, place, ties)) << bit
+        })
+    }
+
+    fn corners(&self, pixel: &Masked<'_>) -> Corners {
+        self.grid.0.snap(pixel.corners)
+    }
+
+    fn ties(&self, corners: &Corners) -> &'static Ties {
+        &TIES[self.rule.0[usize::from(twice_area(corners) < 0)]]
+    }
+
+    /// The mask that is drawn.
+    pub(super) fn mask(&self, pixel: &Masked<'_>) -> u8 {
+        let covered = self.covered(pixel);
+        let mask = match self.gate {
+            Gate::None => covered,
+            Gate::Only(test) if test.holds(covered, pixel) => covered,
+            Gate::Whole(test) | Gate::WholeToo(test) if test.holds(covered, pixel) => 15,
+            Gate::Only(_) | Gate::Whole(_) => 0,
+            Gate::Not(test) if test.holds(covered, pixel) => 0,
+            Gate::WholeToo(_) | Gate::Not(_) => covered,
+        };
+        let mask = self.table.0[usize::from(mask)];
+        match self.only.0 {
+            None => mask,
+            Some(bit) => mask & 1 << bit | pixel.right & !(1 << bit),
+        }
+    }
+
+    /// The places at which the samples seem to be tested, each on its own.
+    fn with_pattern(&self, parts: &[&Masked<'_>]) -> Option<Self> {
+        let mut places: Vec<_> = (0..=16).flat_map(|y| (0..=16).map(move |x| (x, y))).collect();
+        // The right places of the pixels around it, too.
+        let around = (0..9).map(|k| (k % 3 * 16 - 16, k / 3 * 16 - 16)).filter(|by| *by != (0, 0));
+        places.extend(around.flat_map(|(dx, dy)| SAMPLES.map(|(x, y)| (x + dx, y + dy))));
+        let mut left: Vec<_> = places.into_iter().map(|place| (place, 15_u8)).collect();
+        for pixel in parts.iter().take(SOLVED_BY) {
+            let corners = self.corners(pixel);
+            let ties = self.ties(&corners);
+            for (place, bits) in &mut left {
+                let is_covered = covers(&corners, pixel.spot.at, *place, ties);
+                *bits &= if is_covered { pixel.drawn } else { !pixel.drawn };
+            }
+            left.retain(|(_, bits)| *bits > 0);
+        }
+        let of =
+            |bit: u8| left.iter().find(|(_, bits)| bits >> bit & 1 == 1).map(|(place, _)| *place);
+        let pattern = Pattern([of(0)?, of(1)?, of(2)?, of(3)?], None);
+        (pattern.0 != SAMPLES).then(|| Self { pattern, order: Order::default(), ..self.clone() })
+    }
+
+    /// The mask that is drawn for each one, where there is such a table; as it is where none was seen.
+    fn with_table(&self, parts: &[&Masked<'_>]) -> Option<Self> {
+        let mut table: [Option<u8>; 16] = [None; 16];
+        for pixel in parts {
+            let mask = usize::from(self.mask(pixel));
+            if *table[mask].get_or_insert(pixel.drawn) != pixel.drawn {
+                return None;
+            }
+        }
+        let mut masks = Table::default();
+        for (mask, seen) in masks.0.iter_mut().zip(table) {
+            *mask = seen.unwrap_or(*mask);
+        }
+        Some(Self { table: masks, ..self.clone() })
+    }
+}
+
+/// Pixels around a triangle that are looked at.
+const AROUND_PX: i32 = 2;
+/// Pixels by which places are told apart.
+const SOLVED_BY: usize = 4_000;
+
+impl Stage for SampleMask {
+    type Part<'a> = Masked<'a>;
+    const PAGE: &'static str = "games101";
+    const REFUTED: &'static str = "a pixel of which other samples are drawn";
+    const NOISE: &'static [f64] = &[0.0];
+    const WHOM: &'static str = "pixels";
+
+    fn parts<'a>(
+        question: &'a Question,
+        answer: &'a Answer,
+        _: &Declared,
+        _: f64,
+    ) -> Vec<Masked<'a>> {
+        let (Asked::Samples(corners), Answer::Samples(runs)) = (&question.of, answer) else {
+            return Vec::new();
+        };
+        let window = PixelRect::window(question.width, question.height);
+        let mut parts = Vec::new();
+        let (ties, is_clockwise) = (&TIES[0], twice_area(corners) > 0);
+        let [xs, ys] = [corners.map(|c| c.x), corners.map(|c| c.y)].map(|v| {
+            let (least, most) = (v.iter().min().unwrap_or(&0), v.iter().max().unwrap_or(&0));
+            least.div_euclid(SUBPIXELS) - AROUND_PX..=most.div_euclid(SUBPIXELS) + AROUND_PX
+        });
+        for (y, row) in masks_of(runs, window).rows() {
+            for (x, &drawn) in (window.x0..).zip(row) {
+                // Nothing is drawn there by any of the mistakes.
+                if drawn == 0 && !(xs.contains(&x) && ys.contains(&y)) {
+                    continue;
+                }
+                let covers = |place| covers(corners, [x, y], place, ties);
+                let right =
+                    (0..4).fold(0, |mask, bit| mask | u8::from(covers(SAMPLES[bit])) << bit);
+                let spot = Spot { at: [x, y], is_clockwise, window };
+                parts.push(Masked {
+                    spot,
+                    corners,
+                    drawn,
+                    right,
+                    is_centre_covered: covers((8, 8)),
+                });
+            }
+        }
+        parts
+    }
+
+    fn explains(&self, part: &Masked<'_>) -> bool {
+        self.mask(part) == part.drawn
+    }
+
+    fn solved(&self, parts: &[&Masked<'_>]) -> Vec<Self> {
+        let is_open = self.gate == Gate::None
+            && self.table == Table::default()
+            && self.only == Only::default();
+        let pattern = if is_open { self.with_pattern(parts) } else { None };
+        pattern.into_iter().chain(self.with_table(parts)).collect()
+    }
+
+    fn quantities<'a>() -> Vec<Quantity<Masked<'a>>> {
+        let mut all = of_pixels();
+        let of: fn(&Masked<'a>) -> f64 = |pixel| pixel.right.count_ones().into();
+        all.push(Quantity { of, says: Says::Number("the number of covered samples") });
+        all
+    }
+
+    fn observations<'a>() -> Vec<Quantity<Masked<'a>>> {
+        let whether =
+            |of: fn(&Masked<'a>) -> f64, yes| Quantity { of, says: Says::Whether([yes, ""]) };
+        let mut all = Self::quantities();
+        all.push(whether(
+            |p| f64::from(u8::from(p.drawn & !p.right == 0)),
+            "without some samples, and have none too many",
+        ));
+        all.push(whether(
+            |p| f64::from(u8::from(p.right & !p.drawn == 0)),
+            "with samples too many, and lack none",
+        ));
+        let of: fn(&Masked<'a>) -> f64 = |p| {
+            (p.right ^ p.drawn)
+                .checked_ilog2()
+                .filter(|_| (p.right ^ p.drawn).is_power_of_two())
+                .map_or(-1.0, f64::from)
+        };
+        all.push(Quantity { of, says: Says::Number("the number of the wrong sample") });
+        all
+    }
+
+    fn filled(&self, does: &str) -> String {
+        let whose = self.only.0.map(|bit| format!("the sample with the number {bit}"));
+        does.replace("{}", whose.as_deref().unwrap_or("all four samples"))
+    }
+}
