@@ -205,6 +205,7 @@ pub mod comparison;
 pub mod convention;
 pub mod judge;
 #[doc(hidden)]
+mod learn;
 pub mod mistakes;
 pub mod oracle;
 pub mod partition;
