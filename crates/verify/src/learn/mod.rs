@@ -78,6 +78,8 @@ const MOST_FIRST: usize = 1200;
 const ENOUGH_WRONG: usize = 60;
 /// New questions of each round, and those beside wrong ones.
 const FRESH: [usize; 2] = [200, 150];
+/// How often the first are asked, as long as too few of them are wrong.
+const MOST_FRESH: usize = 4;
 /// Searches at most: what refutes one is learned from by the next.
 const MOST_ROUNDS: usize = 4;
 /// New answers below which nothing is called the cause, and wrong ones among them.
@@ -118,7 +120,10 @@ struct Learner<'a> {
 }
 
 /// How many of some new answers a model predicts.
+#[derive(Default)]
 struct Round {
+    /// Wrong answers to questions that are beside no other one.
+    independent: u64,
     wrong: Count,
     right: Count,
     /// Numbers of those that it does not predict.
@@ -214,12 +219,22 @@ impl<'a> Learner<'a> {
     fn try_out(&mut self, model: &Model) -> Option<Round> {
         let before = self.answered.len();
         let wrong: Vec<Question> = self.wrong().map(|a| a.question.clone()).collect();
+        // Questions beside others are alike: a limit that only these share is none. So the independent ones are counted apart.
+        let mut independent = 0;
+        for _ in 0..MOST_FRESH {
+            let from = self.answered.len();
+            let questions = (0..FRESH[0]).map(|_| self.question(&[], false)).collect();
+            self.ask(questions)?;
+            independent += self.answered[from..].iter().filter(|a| a.is_wrong()).count() as u64;
+            if independent >= CERTAIN[1] {
+                break;
+            }
+        }
         let mut questions: Vec<Question> = Vec::new();
-        questions.extend((0..FRESH[0]).map(|_| self.question(&[], false)));
         questions.extend((0..FRESH[1]).map(|_| self.question(&wrong, true)));
         questions.extend(self.at_limits(model));
         self.ask(questions)?;
-        let mut round = Round { wrong: Count::default(), right: Count::default(), missed: Vec::new() };
+        let mut round = Round { independent, ..Round::default() };
         let search = self.search();
         for i in before..self.answered.len() {
             let a = &self.answered[i];
@@ -277,7 +292,7 @@ impl<'a> Learner<'a> {
         let (wrong, right) = (round.wrong, round.right);
         let is_certain = round.missed() == 0
             && wrong.of + right.of >= CERTAIN[0]
-            && wrong.of >= CERTAIN[1];
+            && round.independent >= CERTAIN[1];
         let explains = 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of;
         let does = match explains && wrong.drawn > 0 {
             true => say::sentences(model, &*self.drawer, &self.vocabulary),

@@ -12,6 +12,8 @@ pub(super) enum Unit {
     Count,
     /// A count that is compared with the others of its kind.
     Paired,
+    /// A count that takes many words.
+    Involved,
     /// Whole pixels.
     Pixels,
     /// 1/256 px.
@@ -262,12 +264,12 @@ impl<'a> Scene<'a> {
         for (side, word) in [(2, "2"), (4, "4"), (8, "8"), (16, "16")] {
             let [left, top] = [x, y].map(|v| v.div_euclid(side) * side);
             let [right, below] = [(0, left), (1, top)].map(|(axis, start)| start + side - self.drawn.side[axis]);
-            out.number(Unit::Count, i64::from(right), &["the number of columns of its ", word, " px tile beyond the right side of the window"]);
-            out.number(Unit::Count, i64::from(below), &["the number of rows of its ", word, " px tile beyond the bottom of the window"]);
+            out.number(Unit::Involved, i64::from(right), &["the number of columns of its ", word, " px tile beyond the right side of the window"]);
+            out.number(Unit::Involved, i64::from(below), &["the number of rows of its ", word, " px tile beyond the bottom of the window"]);
             if side <= 4 {
                 let places = (0..side * side).map(|i| [left + i % side, top + i / side]);
                 let filled = places.filter(|at| self.is_shown(*at)).count();
-                out.number(Unit::Count, filled as i64, &["the number of pixels drawn in its ", word, " px tile"]);
+                out.number(Unit::Involved, filled as i64, &["the number of pixels drawn in its ", word, " px tile"]);
             }
         }
     }

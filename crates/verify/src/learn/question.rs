@@ -91,8 +91,6 @@ pub(super) struct Room {
     pub(super) most: i64,
 }
 
-/// Coordinates of most questions are a few windows away at most; these are further away, in pixels.
-const FAR_PX: [i64; 4] = [300, 1000, 3900, 30_000];
 /// The longest line that is asked: some programs walk each of its pixels.
 const LONGEST_LINE_PX: i64 = 40_000;
 
@@ -119,12 +117,10 @@ impl Room {
     pub(super) fn question(&mut self) -> Question {
         let side = self.window();
         let near = [0, 0, 0, 2, 6, 30][self.rng.int(0, 5) as usize];
-        let is_far = self.rng.chance(10);
-        let far = FAR_PX[self.rng.int(0, 3) as usize];
-        let reach = if is_far { far.min(self.most / self.one() / 2) } else { near };
-        let points = match self.is_line {
-            true => self.line(side, reach),
-            false => self.triangle(side, reach),
+        let points = match (self.rng.chance(4), self.is_line) {
+            (true, _) => self.far(side),
+            (_, true) => self.line(side, near),
+            (_, false) => self.triangle(side, near),
         };
         self.fitted(Question { points, side })
     }
@@ -135,6 +131,29 @@ impl Room {
             let high = i64::from(side[axis]) - i64::from(self.is_line) + reach;
             self.rng.int(-reach * steps, high * steps) * self.one() / steps
         })
+    }
+
+    /// A shape with an edge through the window that reaches far beyond it, each power of two as often as another.
+    fn far(&mut self, side: [i32; 2]) -> Vec<[i64; 2]> {
+        let one = self.one();
+        let most = (self.most / one / 2).max(32).ilog2();
+        let reach = one << self.rng.int(5, most.into());
+        let steps = if self.rng.chance(2) { one } else { 1 };
+        let off = |room: &mut Self| [0; 2].map(|_| room.rng.int(-reach / steps, reach / steps) * steps);
+        let at = self.point(side, 0, 1);
+        let (ahead, aside) = (off(self), off(self));
+        let back = self.rng.int(0, 256);
+        let mut points = vec![
+            [0, 1].map(|axis| at[axis] + ahead[axis]),
+            [0, 1].map(|axis| at[axis] - ahead[axis] * back / 256 / steps * steps),
+        ];
+        if !self.is_line {
+            let third = [0, 1].map(|axis| at[axis] + aside[axis]);
+            points.push(if self.rng.chance(3) { self.point(side, 4, 1) } else { third });
+        }
+        let turn = self.rng.int(0, points.len() as i64 - 1) as usize;
+        points.rotate_left(turn);
+        points
     }
 
     fn line(&mut self, side: [i32; 2], reach: i64) -> Vec<[i64; 2]> {

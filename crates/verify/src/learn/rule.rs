@@ -70,6 +70,7 @@ impl Fact {
                 Unit::Flag => 1.0,
                 Unit::Count | Unit::Paired | Unit::Pixels => 1.03,
                 Unit::Subpixels | Unit::Area | Unit::Ratio => 1.06,
+                Unit::Involved => 1.2,
             },
             Of::Difference(..) => 1.15,
         };
@@ -122,8 +123,8 @@ pub(super) struct Found {
 }
 
 /// Rows that are looked at: all are checked in the end.
-const MOST_YES: usize = 1600;
-const MOST_NO: usize = 2400;
+const MOST_YES: usize = 960;
+const MOST_NO: usize = 1440;
 /// Rules that violate a row bring it into the rows that are looked at.
 const ROUNDS: usize = 6;
 const MOST_VIOLATIONS: usize = 400;
@@ -132,7 +133,7 @@ const BEAM: usize = 50;
 /// What another fact costs.
 const LONGER: f64 = 0.86;
 /// Facts that are combined with each other.
-const MOST_FACTS: usize = 1100;
+const MOST_FACTS: usize = 500;
 
 /// The best rules: each of other quantities than those before.
 pub(super) fn best(names: &[Name], table: &Table, terms: Terms) -> Vec<Found> {
@@ -161,22 +162,12 @@ pub(super) fn best(names: &[Name], table: &Table, terms: Terms) -> Vec<Found> {
                 break;
             }
         }
-        // A rule that was refuted may have stood before the ones that were kept.
-        if violated.is_empty() || !kept.is_empty() && terms.slack > 0 {
-            return kept;
-        }
         let before = no.len();
         no.extend(violated);
         no.sort_unstable();
         no.dedup();
-        if no.len() == before {
+        if !kept.is_empty() || no.len() == before {
             return kept;
-        }
-        if !kept.is_empty() {
-            let again = Matrix::of(names, table, &yes, &no).search(Terms { wanted: 1, ..terms });
-            if again.first().is_none_or(|rule| rule.value <= kept[0].value * 1.001) {
-                return kept;
-            }
         }
     }
     Vec::new()
@@ -277,6 +268,11 @@ impl Matrix {
             for (number, partial) in beam.iter().enumerate() {
                 self.grow(partial, number, terms, &mut found, &mut grown);
             }
+            // A longer rule cannot be worth more than all rows.
+            let most = self.rows as f64 * LONGER.powi(length as i32 + 1);
+            if found.first().is_some_and(|best: &Found| best.value >= most) {
+                break;
+            }
             grown.sort_by(|a, b| b.gain.total_cmp(&a.gain));
             // All single facts are combined with each other.
             beam = self.kept(&beam, &grown, if length == 0 { MOST_FACTS } else { BEAM });
@@ -310,8 +306,16 @@ impl Matrix {
                 continue;
             }
             let value = yes as f64 * LONGER.powi(length as i32) / (partial.cost * column.cost);
+            // Far behind the best one it is not wanted.
+            if value < FAR_BEHIND * found.first().map_or(0.0, |best| best.value) {
+                continue;
+            }
             let facts = partial.facts.iter().chain([&fact]).map(|i| self.columns[*i].fact).collect();
             found.push(Found { facts, rows: yes, value });
+            let last = found.len() - 1;
+            if value > found[0].value {
+                found.swap(0, last);
+            }
         }
     }
 
@@ -345,6 +349,8 @@ struct Grown {
 
 /// Rows below which a rule says nothing.
 const LEAST_ROWS: usize = 3;
+/// The share of the best rule's worth below which a rule is left aside.
+const FAR_BEHIND: f64 = 0.4;
 /// Rules that are looked at, the best first.
 const MOST_FOUND: usize = 300;
 
@@ -406,7 +412,7 @@ fn tests(names: &[Name], of: Of, with: &[i64], without: &[i64]) -> Vec<Test> {
         }
     }
     let multiples: &[i64] = match unit {
-        Unit::Count | Unit::Paired | Unit::Pixels => &[2, 4, 8, 16],
+        Unit::Count | Unit::Paired | Unit::Involved | Unit::Pixels => &[2, 4, 8, 16],
         Unit::Subpixels => &[16, 128, 256, 512],
         _ => &[],
     };

@@ -13,14 +13,14 @@ fn number(unit: Unit, v: i64) -> String {
         Unit::Area => (131_072.0, " square pixels"),
         Unit::Ratio => (256.0, ""),
         Unit::Pixels => (1.0, " px"),
-        Unit::Flag | Unit::Count | Unit::Paired => (1.0, ""),
+        Unit::Flag | Unit::Count | Unit::Paired | Unit::Involved => (1.0, ""),
     };
     format!("{}{word}", v as f64 / per)
 }
 
 /// Counts read better as 'at most 7', lengths as 'less than 8 px'.
 fn limited(noun: &str, unit: Unit, test: Test) -> String {
-    let is_count = matches!(unit, Unit::Flag | Unit::Count | Unit::Paired);
+    let is_count = matches!(unit, Unit::Flag | Unit::Count | Unit::Paired | Unit::Involved);
     match test {
         Test::AtMost(-1) => format!("{noun} is negative"),
         Test::AtLeast(1) if !is_count => format!("{noun} is positive"),
@@ -36,10 +36,10 @@ fn modular(noun: &str, unit: Unit, test: Test) -> String {
     match (test, unit) {
         (Test::Remainder(256, 0), Unit::Subpixels) => format!("{noun} is a whole number of px"),
         (Test::NoMultiple(256), Unit::Subpixels) => format!("{noun} is no whole number of px"),
-        (Test::Remainder(2, rest), Unit::Count | Unit::Paired | Unit::Pixels) => {
+        (Test::Remainder(2, rest), Unit::Count | Unit::Paired | Unit::Involved | Unit::Pixels) => {
             format!("{noun} is {}", ["even", "odd"][rest as usize])
         }
-        (Test::NoMultiple(2), Unit::Count | Unit::Paired | Unit::Pixels) => format!("{noun} is odd"),
+        (Test::NoMultiple(2), Unit::Count | Unit::Paired | Unit::Involved | Unit::Pixels) => format!("{noun} is odd"),
         (Test::Remainder(by, 0), _) => format!("{noun} is a multiple of {}", step(by)),
         (Test::Remainder(by, rest), _) => format!("{noun} is {rest} modulo {by}"),
         (Test::NoMultiple(by), _) => format!("{noun} is no multiple of {}", step(by)),
@@ -89,9 +89,11 @@ pub(super) fn sentences(model: &Model, drawer: &dyn Drawer, vocabulary: &Vocabul
     for (number, guarded) in model.chain.iter().enumerate() {
         out.push(base(guarded, number > 0, is_line, drawer, vocabulary));
     }
-    out.extend(model.steps.iter().map(|step| pixels(step, vocabulary)));
-    for said in out.iter_mut().skip(1) {
-        *said = format!("Then: {}{}", said[..1].to_ascii_lowercase(), &said[1..]);
+    for step in &model.steps {
+        let said = pixels(step, vocabulary);
+        // A step is about what the steps before it draw.
+        let is_first = out.is_empty();
+        out.push(if is_first { said } else { said.replacen("It ", "Of what is left, it ", 1) });
     }
     out
 }
@@ -103,26 +105,26 @@ fn base(
     drawer: &dyn Drawer,
     vocabulary: &Vocabulary,
 ) -> String {
-    let mut parts: Vec<String> =
+    let parts: Vec<String> =
         guarded.base.changes.iter().map(|c| change(c, is_line)).collect();
     let rule = &drawer.rules()[guarded.base.rule];
-    let how = match (parts.is_empty(), rule.is_empty()) {
-        (true, _) => format!("it draws {rule}"),
-        (false, true) => format!("it draws as if {}", parts.join(" and ")),
-        (false, false) => {
-            parts.push(String::new());
-            format!("it draws {rule}, and as if {}", parts.join(" and ").trim_end_matches(" and "))
-        }
-    };
-    let when = |all: &Vec<Conjunction>| {
-        all.iter().map(|f| facts(f, &vocabulary.names)).collect::<Vec<_>>().join("; or where ")
-    };
-    let other = if is_other { "otherwise, " } else { "" };
-    match &guarded.when {
-        Some(all) => format!("It does so: {other}where {}, {how}.", when(all)).replacen("It does so: ", "", 1),
-        None => format!("{other}{how}."),
+    let mut how = String::from("draws");
+    if !rule.is_empty() {
+        how += &format!(" {rule}");
     }
-    .replacen("it draws", "it draws", 1)
+    if !parts.is_empty() {
+        how += &format!(" as if {}", parts.join(" and "));
+    }
+    let when = |all: &Vec<Conjunction>| {
+        let all = all.iter().map(|f| facts(f, &vocabulary.names));
+        all.collect::<Vec<_>>().join("; or where ")
+    };
+    match (&guarded.when, is_other) {
+        (Some(all), false) => format!("It {how} where {}.", when(all)),
+        (Some(all), true) => format!("Elsewhere, it {how} where {}.", when(all)),
+        (None, false) => format!("It {how}."),
+        (None, true) => format!("Elsewhere, it {how}."),
+    }
 }
 
 fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {
@@ -132,14 +134,14 @@ fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {
         (Wrong::Missing, true) => "It draws nothing".to_owned(),
         (Wrong::Extra, true) => "It fills the window".to_owned(),
         (Wrong::Twice, true) => "It draws every pixel more than once".to_owned(),
-        (Wrong::Missing, false) => format!("It leaves out each pixel of which this holds: {}", facts(&of_pixel, names)),
-        (Wrong::Extra, false) => format!("It draws, too, each pixel of which this holds: {}", facts(&of_pixel, names)),
-        (Wrong::Twice, false) => format!("It draws more than once each pixel of which this holds: {}", facts(&of_pixel, names)),
+        (Wrong::Missing, false) => format!("It leaves out each pixel where {}", facts(&of_pixel, names)),
+        (Wrong::Extra, false) => format!("It draws, too, each pixel where {}", facts(&of_pixel, names)),
+        (Wrong::Twice, false) => format!("It draws more than once each pixel where {}", facts(&of_pixel, names)),
     };
     let when = match (of_question.is_empty(), of_pixel.is_empty()) {
         (true, _) => String::new(),
         (_, true) => format!(" where {}", facts(&of_question, names)),
-        (_, false) => format!("; only where {}", facts(&of_question, names)),
+        (_, false) => format!(", only where {}", facts(&of_question, names)),
     };
     format!("{does}{when}.")
 }

@@ -68,12 +68,19 @@ impl Search<'_> {
 
     /// The best model that is found.
     pub(super) fn explain(&self) -> Model {
-        let mut tried = vec![self.tried(self.with_steps(&Model::default(), MOST_STEPS, 2))];
-        if tried[0].is_whole() && tried[0].model.cost() <= 4 {
-            return tried.remove(0).model;
+        // The simplest first: one short pixel rule, then one changed question.
+        let mut tried = vec![self.tried(Model::default())];
+        let first = self.candidates(&Model::default(), 2, 1).into_iter().next();
+        tried.extend(first.map(|step| self.tried(Model::default().with(step))));
+        if best(&tried).is_whole() {
+            return self.pruned(best(&tried).model.clone());
         }
         let ranked = self.ranked(&Model::default());
         self.guard_bases(&ranked, &mut tried);
+        if best(&tried).is_whole() && best(&tried).model.cost() <= 5 {
+            return self.pruned(best(&tried).model.clone());
+        }
+        tried.push(self.tried(self.with_steps(&Model::default(), MOST_STEPS, 2)));
         if !best(&tried).is_whole() {
             self.add_bases(&mut tried);
         }
@@ -176,6 +183,7 @@ impl Search<'_> {
     /// rules matters: the best first ones are each followed to the end.
     fn with_steps(&self, model: &Model, most: usize, beam: usize) -> Model {
         let few = |wrong| self.some(wrong, 40);
+        let all = || [true, false].into_iter().flat_map(few);
         let score = |model: &Model| {
             let fit = |some: Vec<&Answered>| {
                 let all = some.len().max(1) as f64;
@@ -190,22 +198,25 @@ impl Search<'_> {
             for model in &alive {
                 let is_first = model.steps.is_empty();
                 let kept = if is_first { beam } else { 1 };
-                let candidates = self.candidates(model, if is_first && beam > 1 { 2 } else { 1 });
+                let candidates = self.candidates(model, 3, if is_first && beam > 1 { 2 } else { 1 });
                 grown.extend(candidates.into_iter().take(kept).map(|step| model.with(step)));
             }
             done.extend(grown.iter().map(|model| (score(model), model.clone())));
             alive = grown;
+            if alive.iter().any(|model| all().all(|a| self.fits(model, a))) {
+                break;
+            }
         }
         let best = done.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a });
         best.map_or_else(Model::default, |(_, model)| model)
     }
 
     /// The pixel rules that explain most of what a model leaves wrong.
-    fn candidates(&self, model: &Model, wanted: usize) -> Vec<Step> {
+    fn candidates(&self, model: &Model, most: usize, wanted: usize) -> Vec<Step> {
         let mut all = Vec::new();
         for wrong in Wrong::ALL {
             let table = self.table(model, wrong);
-            let terms = Terms { most: 3, need: NEED, slack: 0, wanted };
+            let terms = Terms { most, need: NEED, slack: 0, wanted };
             if table.yes.len() >= NEED {
                 let found = rule::best(&self.vocabulary.names, &table, terms);
                 all.extend(found.into_iter().map(|f| (f.rows, Step { wrong, facts: f.facts })));
