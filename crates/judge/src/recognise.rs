@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use super::Options;
+use super::{Asking, Options};
 use super::adapt_case;
 use super::ask::{Answer, Asked, Question, Subject};
 use super::check::{Check, Truth};
@@ -80,7 +80,7 @@ const LOOK_CASES: u64 = 16;
 /// The convention of a program; nothing where it draws as it declares.
 pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
-    let mut bench = Bench { program, deaths_left: MOST_DEATHS, is_over: false };
+    let mut bench = Bench::new(program, Asking::default().patience);
     let open = declared.convention.rule == Rule::Unspecified;
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
@@ -217,7 +217,7 @@ pub fn mistakes(
     for &check in checks {
         let start = Instant::now();
         let goes_on: &dyn Fn() -> bool = &|| start.elapsed() < patience;
-        let mut bench = Bench { program: &mut *program, deaths_left: MOST_DEATHS, is_over: false };
+        let mut bench = Bench::new(&mut *program, patience);
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
@@ -331,14 +331,38 @@ struct Bench<'a> {
     deaths_left: u64,
     /// Whether the time for answers is over.
     is_over: bool,
+    /// How long it may be asked for each mistake.
+    patience: Duration,
+    /// Answers so far, and how long they took.
+    answered: u32,
+    spent: Duration,
 }
 
-impl Bench<'_> {
+/// Learning what a program does may take so many times as long as looking through the known mistakes.
+const PATIENCE_TO_LEARN: u32 = 4;
+
+impl<'a> Bench<'a> {
+    fn new(program: &'a mut dyn Subject, patience: Duration) -> Self {
+        let (answered, spent) = (0, Duration::ZERO);
+        Self { program, deaths_left: MOST_DEATHS, is_over: false, patience, answered, spent }
+    }
+
+    /// As many as are answered in that time. Only of a slow program does the number depend on the machine.
+    fn most_to_learn(&self) -> usize {
+        let each = self.spent / self.answered.max(1);
+        let time = self.patience * PATIENCE_TO_LEARN;
+        let most = time.as_nanos() / each.as_nanos().max(1);
+        convention::MOST_TO_LEARN.min(most as usize)
+    }
+
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
         if self.deaths_left == 0 || self.is_over {
             return Vec::new();
         }
+        let start = Instant::now();
         let answers = self.program.ask(questions, self.deaths_left);
+        self.spent += start.elapsed();
+        self.answered += answers.len() as u32;
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         self.deaths_left = self.deaths_left.saturating_sub(deaths);
         self.is_over = answers.len() < questions.len() && deaths == 0;
@@ -374,6 +398,10 @@ impl Bench<'_> {
 }
 
 impl convention::Ask for Bench<'_> {
+    fn most_to_learn(&self) -> usize {
+        self.most_to_learn()
+    }
+
     fn ask(&mut self, questions: &[convention::TriangleQuestion]) -> Vec<Option<Coverage>> {
         let asked: Vec<_> = questions.iter().map(triangle_question).collect();
         let answers = self.answers(&asked);
@@ -382,6 +410,10 @@ impl convention::Ask for Bench<'_> {
 }
 
 impl convention::AskLine for Bench<'_> {
+    fn most_to_learn(&self) -> usize {
+        self.most_to_learn()
+    }
+
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
         let whole = self.program.declared().grid() == 1;
         let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();

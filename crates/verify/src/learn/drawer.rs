@@ -17,6 +17,8 @@ pub(super) trait Drawer {
     fn right(&self, question: &Question, rule: usize) -> Option<Picture>;
     /// The answers; what is not answered is an empty picture.
     fn ask(&mut self, questions: &[Question]) -> Vec<Picture>;
+    /// How many questions may be asked.
+    fn most_to_learn(&self) -> usize;
     /// Whether the answers come later, and all is asked again.
     fn is_abandoned(&self) -> bool;
     /// What is said of each rule, after 'as'; empty for the right one.
@@ -140,6 +142,10 @@ impl Drawer for Triangles<'_> {
         questions.iter().zip(answers).map(picture).collect()
     }
 
+    fn most_to_learn(&self) -> usize {
+        self.ask.most_to_learn()
+    }
+
     fn is_abandoned(&self) -> bool {
         self.ask.is_abandoned()
     }
@@ -228,6 +234,10 @@ impl Drawer for Lines<'_> {
             picture
         };
         questions.iter().zip(answers).map(picture).collect()
+    }
+
+    fn most_to_learn(&self) -> usize {
+        self.ask.most_to_learn()
     }
 
     fn is_abandoned(&self) -> bool {

@@ -25,13 +25,14 @@ fn when(search: &Search<'_>) -> Option<String> {
             table.no.push(a.facts.clone());
         }
     }
-    let terms = Terms { most: 2, need: 3, slack: 0, wanted: 1 };
+    let terms = Terms { most: 2, need: 3, slack: 30, wanted: 1 };
     let names = &vocabulary.names[..vocabulary.of_question];
     let found = rule::best(names, &table, terms).into_iter().next()?;
     let held = table.no.iter().filter(|row| all_hold(&found.facts, row)).count();
-    (held == 0).then(|| {
+    // What holds of few says nothing.
+    (2 * found.rows >= table.yes.len()).then(|| {
         format!(
-            "It is wrong wherever {}: in {} of {} wrong answers, and in no right one of {}.",
+            "Mostly wrong where {}: this holds for {} of {} wrong answers and {held} of {} right ones.",
             say::facts(&found.facts, names),
             found.rows,
             table.yes.len(),

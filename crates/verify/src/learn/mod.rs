@@ -82,8 +82,8 @@ const FRESH: [usize; 2] = [200, 150];
 const MOST_FRESH: usize = 4;
 /// Searches at most: what refutes one is learned from by the next.
 const MOST_ROUNDS: usize = 4;
-/// New answers below which nothing is called the cause, and wrong ones among them.
-const CERTAIN: [u64; 2] = [300, 50];
+/// New answers below which nothing is called the cause, wrong ones among them, and those of these that are independent.
+const CERTAIN: [u64; 3] = [300, 50, 20];
 /// Wrong answers below which nothing is learned.
 const LEAST_WRONG: usize = 6;
 /// Questions that are asked at once, so that a slow program can be left in time.
@@ -94,9 +94,8 @@ pub(crate) fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
     expected: &TriangleConvention,
-    goes_on: &dyn Fn() -> bool,
 ) -> Option<Learned> {
-    Learner::new(&mut Triangles::new(ask, known, expected, SEED)?, goes_on).learn()
+    Learner::new(&mut Triangles::new(ask, known, expected, SEED)?).learn()
 }
 
 /// Learns from a line drawer.
@@ -104,9 +103,8 @@ pub(crate) fn of_lines(
     ask: &mut dyn AskLine,
     known: &Declarations,
     expected: &LineConvention,
-    goes_on: &dyn Fn() -> bool,
 ) -> Option<Learned> {
-    Learner::new(&mut Lines::new(ask, known, expected, SEED), goes_on).learn()
+    Learner::new(&mut Lines::new(ask, known, expected, SEED)).learn()
 }
 
 /// The questions are the same in every run.
@@ -114,7 +112,8 @@ const SEED: u64 = 1;
 
 struct Learner<'a> {
     drawer: &'a mut dyn Drawer,
-    goes_on: &'a dyn Fn() -> bool,
+    /// Questions that may still be asked.
+    left: usize,
     vocabulary: Vocabulary,
     answered: Vec<Answered>,
 }
@@ -137,9 +136,10 @@ impl Round {
 }
 
 impl<'a> Learner<'a> {
-    fn new(drawer: &'a mut dyn Drawer, goes_on: &'a dyn Fn() -> bool) -> Self {
+    fn new(drawer: &'a mut dyn Drawer) -> Self {
         let sample = drawer.room().question();
-        Self { drawer, goes_on, vocabulary: Vocabulary::of(&sample), answered: Vec::new() }
+        let left = drawer.most_to_learn();
+        Self { drawer, left, vocabulary: Vocabulary::of(&sample), answered: Vec::new() }
     }
 
     fn learn(mut self) -> Option<Learned> {
@@ -162,7 +162,7 @@ impl<'a> Learner<'a> {
             if is_better {
                 best = Some((round, model));
             }
-            if is_settled || !(self.goes_on)() {
+            if is_settled || self.left == 0 {
                 break;
             }
         }
@@ -179,7 +179,7 @@ impl<'a> Learner<'a> {
 
     /// Asks for more until there are enough wrong answers; nothing where nobody waits for a conclusion.
     fn ask_first(&mut self) -> Option<()> {
-        while self.answered.len() < MOST_FIRST && (self.goes_on)() {
+        while self.answered.len() < MOST_FIRST && self.left > 0 {
             let wrong: Vec<Question> = self.wrong().map(|a| a.question.clone()).collect();
             if self.answered.len() >= FIRST && wrong.len() >= ENOUGH_WRONG {
                 break;
@@ -202,9 +202,8 @@ impl<'a> Learner<'a> {
 
     fn ask(&mut self, questions: Vec<Question>) -> Option<()> {
         for questions in questions.chunks(AT_ONCE) {
-            if !(self.goes_on)() {
-                break;
-            }
+            let questions = &questions[..questions.len().min(self.left)];
+            self.left -= questions.len();
             let answers = self.drawer.ask(questions);
             for (question, drawn) in questions.iter().zip(answers) {
                 let Some(right) = self.drawer.right(question, 0) else { continue };
@@ -226,7 +225,7 @@ impl<'a> Learner<'a> {
             let questions = (0..FRESH[0]).map(|_| self.question(&[], false)).collect();
             self.ask(questions)?;
             independent += self.answered[from..].iter().filter(|a| a.is_wrong()).count() as u64;
-            if independent >= CERTAIN[1] {
+            if independent >= CERTAIN[2] {
                 break;
             }
         }
@@ -292,7 +291,8 @@ impl<'a> Learner<'a> {
         let (wrong, right) = (round.wrong, round.right);
         let is_certain = round.missed() == 0
             && wrong.of + right.of >= CERTAIN[0]
-            && round.independent >= CERTAIN[1];
+            && wrong.of >= CERTAIN[1]
+            && round.independent >= CERTAIN[2];
         let explains = 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of;
         let does = match explains && wrong.drawn > 0 {
             true => say::sentences(model, &*self.drawer, &self.vocabulary),

@@ -37,10 +37,6 @@ fn empty(q: &Question) -> Picture {
     Picture::new(q.side)
 }
 
-fn rule(drawer: &dyn Drawer, word: &str) -> usize {
-    drawer.rules().iter().position(|rule| rule.contains(word)).unwrap()
-}
-
 /// What is learned of a rasterizer of triangles that draws so.
 pub(super) fn learn_triangles(draw: &dyn Fn(&Question, Right<'_>) -> Picture) -> Option<Learned> {
     let (known, expected) = (Declarations::default(), TriangleConvention::default());
@@ -61,7 +57,7 @@ pub(super) fn learn_triangles(draw: &dyn Fn(&Question, Right<'_>) -> Picture) ->
         questions.iter().map(answer).collect()
     };
     let mut triangles = Triangles::new(&mut ask, &known, &expected, SEED).unwrap();
-    Learner::new(&mut triangles, &|| true).learn()
+    Learner::new(&mut triangles).learn()
 }
 
 /// What is learned of a line drawer that draws so.
@@ -80,7 +76,7 @@ pub(super) fn learn_lines(draw: &dyn Fn(&Question, Right<'_>) -> Picture) -> Opt
         questions.iter().map(answer).collect()
     };
     let ask: &mut dyn AskLine = &mut ask;
-    Learner::new(&mut Lines::new(ask, &known, &expected, SEED), &|| true).learn()
+    Learner::new(&mut Lines::new(ask, &known, &expected, SEED)).learn()
 }
 
 /// Programs after public bug reports, written before the quantities and the changes were.

@@ -126,7 +126,7 @@ pub(super) struct Found {
 const MOST_YES: usize = 960;
 const MOST_NO: usize = 1440;
 /// Rules that violate a row bring it into the rows that are looked at.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 4;
 const MOST_VIOLATIONS: usize = 400;
 /// Conjunctions that are grown by another fact.
 const BEAM: usize = 50;

@@ -390,7 +390,7 @@ pub fn of_triangles(
         }
     }
     let found = with_limits(why, answered.len(), limits)?;
-    Some(found.or_learned(|| learn::of_triangles(ask, known, expected, goes_on)))
+    Some(found.or_learned(|| learn::of_triangles(ask, known, expected)))
 }
 
 /// The mistake that explains answers about triangles.
@@ -578,7 +578,7 @@ pub fn of_lines(
     let found = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
     let limits = thresholds::of_lines(ask, known, expected, goes_on);
     let found = with_limits(found, is_wrong.len(), limits)?;
-    Some(found.or_learned(|| learn::of_lines(ask, known, expected, goes_on)))
+    Some(found.or_learned(|| learn::of_lines(ask, known, expected)))
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {
