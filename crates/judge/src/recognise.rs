@@ -8,7 +8,6 @@ use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use super::{Asking, Options};
 use super::adapt_case;
 use super::ask::{Answer, Asked, Question, Subject};
 use super::check::{Check, Truth};
@@ -20,6 +19,7 @@ use super::pixels::picture_of;
 use super::run::MOST_DEATHS;
 use super::stages;
 use super::text::px;
+use super::{Asking, Options};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};

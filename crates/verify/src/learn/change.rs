@@ -33,7 +33,6 @@ pub(super) enum How {
     Snap(i64, Toward),
     Add(i64),
     AtLeast(i64),
-    AtMost(i64),
     /// Not beyond the side of the window less so many steps.
     AtMostSide(i64),
     /// Both of [`How::AtLeast`] 0 and [`How::AtMostSide`].
@@ -53,9 +52,15 @@ pub(super) enum How {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Change {
-    Move { points: Points, axes: [bool; 2], how: How },
+    Move {
+        points: Points,
+        axes: [bool; 2],
+        how: How,
+    },
     /// x and y change places.
     Exchange,
+    /// All points become one, so that nothing is drawn.
+    Nothing,
     /// The points come in the other order.
     Reverse,
 }
@@ -67,6 +72,9 @@ pub(super) struct Base {
     pub(super) rule: usize,
 }
 
+/// A coordinate that no window has.
+const FAR_AWAY: i64 = 1 << 20;
+
 impl How {
     fn apply(self, v: i64, side: i64, one: i64, first: i64) -> i64 {
         match self {
@@ -76,7 +84,6 @@ impl How {
             Self::Snap(step, Toward::Zero) => v / step * step,
             Self::Add(by) => v + by,
             Self::AtLeast(least) => v.max(least),
-            Self::AtMost(most) => v.min(most),
             Self::AtMostSide(less) => v.min(side * one - less),
             Self::IntoWindow(less) => v.max(0).min(side * one - less),
             Self::Wrap(bits, true) => {
@@ -99,6 +106,8 @@ impl Change {
         match self {
             Self::Exchange => q.points.iter_mut().for_each(|point| point.reverse()),
             Self::Reverse => q.points.reverse(),
+            // A line of one point is a pixel, which lies beyond every window.
+            Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
             Self::Move { points, axes, how } => {
                 let order = if q.is_line() { [0, 1, 1] } else { q.by_height() };
                 let first = q.points[0];
@@ -141,15 +150,13 @@ const AXES: [[bool; 2]; 3] = [[true, true], [true, false], [false, true]];
 /// each; and every rule.
 pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
     let one = if is_line { 1 } else { 256 };
-    let mut hows = vec![
-        How::AtLeast(0),
-        How::Absolute,
-        How::AboutFirst,
-    ];
+    let mut hows = vec![How::AtLeast(0), How::Absolute, How::AboutFirst];
     let lesses: &[i64] = if is_line { &[0, 1, 2] } else { &[0, 1, 128, 256, 512] };
-    hows.extend(lesses.iter().flat_map(|&less| {
-        [How::AtMostSide(less), How::IntoWindow(less), How::Mirror(less)]
-    }));
+    hows.extend(
+        lesses
+            .iter()
+            .flat_map(|&less| [How::AtMostSide(less), How::IntoWindow(less), How::Mirror(less)]),
+    );
     let words = if is_line { 6..=16 } else { 11..=21 };
     for bits in words {
         hows.extend([How::Wrap(bits, true), How::Wrap(bits, false), How::Saturate(bits)]);
@@ -166,7 +173,10 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
         points.extend((0..3).map(Points::ByHeight));
     }
     let mut bases: Vec<Base> = (1..rules).map(|rule| Base { rule, ..Base::default() }).collect();
-    bases.extend([Change::Exchange, Change::Reverse].map(|change| Base { changes: vec![change], rule: 0 }));
+    bases.extend(
+        [Change::Nothing, Change::Exchange, Change::Reverse]
+            .map(|change| Base { changes: vec![change], rule: 0 }),
+    );
     for &how in &hows {
         for &points in &points {
             let moved = AXES.map(|axes| Change::Move { points, axes, how });
@@ -215,7 +225,13 @@ pub(super) fn solved(is_line: bool, answers: &[&Answered], drawer: &dyn Drawer) 
             if how(0) == How::Scale(0) && is_line {
                 continue;
             }
-            let best = finest(is_line, start, &|v| nearness(&base(v), answers, drawer));
+            let steps = steps_of(is_line, start != 0);
+            // Fine steps are told apart by few answers, so all are looked at.
+            let near = |v: i64, step: i64| {
+                let some = if step > 4 { answers.len().min(COARSE) } else { answers.len() };
+                nearness(&base(v), &answers[..some], drawer)
+            };
+            let best = finest(steps, start, &near);
             of_axes.push(change(best));
             out.push(base(best));
         }
@@ -227,14 +243,26 @@ pub(super) fn solved(is_line: bool, answers: &[&Answered], drawer: &dyn Drawer) 
     out
 }
 
-/// The number with the best nearness, from coarse to fine.
-fn finest(is_line: bool, start: i64, near: &dyn Fn(i64) -> Nearness) -> i64 {
-    let steps: &[i64] = if is_line { &[1] } else { &[256, 64, 16, 4, 1] };
-    let mut best = (near(start), start);
-    for step in steps {
+/// Answers that coarse steps are compared by.
+const COARSE: usize = 24;
+
+/// From coarse to fine.
+fn steps_of(is_line: bool, is_scale: bool) -> &'static [i64] {
+    match (is_line, is_scale) {
+        (true, _) => &[1],
+        (_, true) => &[32, 8, 2, 1],
+        _ => &[256, 64, 16, 4, 1],
+    }
+}
+
+/// The number with the best nearness.
+fn finest(steps: &[i64], start: i64, near: &dyn Fn(i64, i64) -> Nearness) -> i64 {
+    let mut best = (Nearness::default(), start);
+    for &step in steps {
         let center = best.1;
+        best = (near(center, step), center);
         for v in (-6..=6).map(|i| center + i * step) {
-            let nearness = near(v);
+            let nearness = near(v, step);
             if nearness > best.0 {
                 best = (nearness, v);
             }

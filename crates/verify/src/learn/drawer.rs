@@ -32,13 +32,16 @@ pub(super) trait Drawer {
 const BLOCK_PX: i32 = 32;
 
 /// The picture of a question with its margin, in blocks: `draw` gets the first pixel of a block and its window.
-fn in_blocks(side: [i32; 2], draw: &dyn Fn([i32; 2], PixelRect) -> Option<Mask>) -> Option<Picture> {
+fn in_blocks(
+    side: [i32; 2],
+    draw: &dyn Fn([i32; 2], PixelRect) -> Option<Mask>,
+) -> Option<Picture> {
     let mut picture = Picture::new(side);
     let starts = |side: i32| (-MARGIN..side + MARGIN).step_by(BLOCK_PX as usize);
     for top in starts(side[1]) {
         for left in starts(side[0]) {
-            let [width, height] =
-                [(left, side[0]), (top, side[1])].map(|(start, side)| BLOCK_PX.min(side + MARGIN - start));
+            let [width, height] = [(left, side[0]), (top, side[1])]
+                .map(|(start, side)| BLOCK_PX.min(side + MARGIN - start));
             let mask = draw([left, top], PixelRect::window(width as u32, height as u32))?;
             for y in 0..height {
                 for x in (0..width).filter(|x| mask.has(*x, y)) {
@@ -122,9 +125,8 @@ impl Drawer for Triangles<'_> {
             .iter()
             .map(|q| {
                 // Questions keep to the range that is declared.
-                let corners = [0, 1, 2].map(|i| {
-                    SubpixelPoint::new(q.points[i][0] as i32, q.points[i][1] as i32)
-                });
+                let corners = [0, 1, 2]
+                    .map(|i| SubpixelPoint::new(q.points[i][0] as i32, q.points[i][1] as i32));
                 TriangleQuestion { corners, window: window_of(q) }
             })
             .collect();
@@ -192,7 +194,7 @@ impl<'a> Lines<'a> {
             let convention = LineConvention { rounding: LineRounding::Nearest(tie), ..*expected };
             if !conventions.contains(&convention) {
                 conventions.push(convention);
-                rules.push(format!("with ties going {}", tie.name()));
+                rules.push(format!("as if its rule for ties were '{}'", tie.name()));
             }
         }
         Self { ask, conventions, rules, room }

@@ -43,11 +43,13 @@ fn when(search: &Search<'_>) -> Option<String> {
 
 /// The smallest wrong question, and the right one that is nearest to it.
 fn nearest_right(search: &Search<'_>) -> Option<String> {
-    let wrong = search.answered.iter().filter(|a| a.is_wrong()).min_by_key(|a| a.question.bulk())?;
+    let wrong =
+        search.answered.iter().filter(|a| a.is_wrong()).min_by_key(|a| a.question.bulk())?;
     let distance = |a: &&Answered| {
         let points = a.question.points.iter().flatten().zip(wrong.question.points.iter().flatten());
         let moved = points.filter(|(a, b)| a != b).count();
-        let sides = a.question.side.iter().zip(&wrong.question.side).filter(|(a, b)| a != b).count();
+        let sides =
+            a.question.side.iter().zip(&wrong.question.side).filter(|(a, b)| a != b).count();
         (moved + sides, a.question.bulk())
     };
     let right = search.answered.iter().filter(|a| !a.is_wrong()).min_by_key(distance)?;

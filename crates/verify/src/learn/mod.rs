@@ -23,9 +23,7 @@ mod rule;
 mod say;
 mod search;
 
-use crate::convention::{
-    Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention,
-};
+use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
 use drawer::{Drawer, Lines, Triangles};
 use model::{Answered, Model, Vocabulary, facts_of};
 use question::Question;
@@ -64,7 +62,9 @@ impl Learned {
         }
         if let Some(first) = said.first_mut() {
             *first = format!("So far: {}{}", first[..1].to_ascii_lowercase(), &first[1..]);
-            said.push(format!("Of new answers, this predicts {counts}: too few to call it the cause."));
+            said.push(format!(
+                "Of new answers, this predicts {counts}: too few to call it the cause."
+            ));
         }
         said.extend(self.known.iter().cloned());
         said
@@ -83,7 +83,7 @@ const MOST_FRESH: usize = 4;
 /// Searches at most: what refutes one is learned from by the next.
 const MOST_ROUNDS: usize = 4;
 /// New answers below which nothing is called the cause, wrong ones among them, and those of these that are independent.
-const CERTAIN: [u64; 3] = [300, 50, 20];
+const CERTAIN: [u64; 3] = [300, 50, 12];
 /// Wrong answers below which nothing is learned.
 const LEAST_WRONG: usize = 6;
 /// Questions that are asked at once, so that a slow program can be left in time.
@@ -158,7 +158,8 @@ impl<'a> Learner<'a> {
             refuted = round.missed() > 0;
             let is_settled = !refuted && round.missed.is_empty();
             self.put_first(&round.missed);
-            let is_better = best.as_ref().is_none_or(|(before, _)| round.missed() <= before.missed());
+            let is_better =
+                best.as_ref().is_none_or(|(before, _)| round.missed() <= before.missed());
             if is_better {
                 best = Some((round, model));
             }
@@ -249,7 +250,8 @@ impl<'a> Learner<'a> {
     fn at_limits(&mut self, model: &Model) -> Vec<Question> {
         let mut questions = Vec::new();
         for fact in model.conjunctions().flatten() {
-            let (Of::One(i), Test::AtMost(limit) | Test::AtLeast(limit)) = (fact.of, fact.test) else {
+            let (Of::One(i), Test::AtMost(limit) | Test::AtLeast(limit)) = (fact.of, fact.test)
+            else {
                 continue;
             };
             if i < self.vocabulary.of_question {

@@ -33,6 +33,8 @@ pub(super) struct Vocabulary {
     pub(super) names: Vec<Name>,
     /// How many are of the question.
     pub(super) of_question: usize,
+    /// How many quantities of a pixel each group has.
+    sizes: [usize; quantity::GROUPS],
 }
 
 impl Vocabulary {
@@ -42,7 +44,21 @@ impl Vocabulary {
         let of_question = out.values.len();
         let picture = Picture::new(question.side);
         Scene::new(question, &picture, [128; 2]).of_pixel([0, 0], &mut out);
-        Self { names: out.names.unwrap_or_default(), of_question }
+        Self { names: out.names.unwrap_or_default(), of_question, sizes: out.sizes }
+    }
+
+    /// The groups of quantities of a pixel that no fact is about.
+    fn left_out(&self, facts: &[Fact]) -> [bool; quantity::GROUPS] {
+        let grouped: usize = self.sizes.iter().sum();
+        let mut start = self.names.len() - grouped;
+        self.sizes.map(|size| {
+            let group = start..start + size;
+            start += size;
+            facts.iter().all(|fact| match fact.of {
+                Of::One(i) => !group.contains(&i),
+                Of::Difference(i, j) => !group.contains(&i) && !group.contains(&j),
+            })
+        })
     }
 
     fn is_of_question(&self, fact: &Fact) -> bool {
@@ -131,12 +147,7 @@ impl Model {
         }
     }
 
-    pub(super) fn fits(
-        &self,
-        a: &Answered,
-        drawer: &dyn Drawer,
-        vocabulary: &Vocabulary,
-    ) -> bool {
+    pub(super) fn fits(&self, a: &Answered, drawer: &dyn Drawer, vocabulary: &Vocabulary) -> bool {
         self.predict(a, drawer, vocabulary).is_some_and(|picture| picture.is_as(&a.drawn))
     }
 
@@ -189,7 +200,9 @@ impl Step {
             return after;
         }
         let scene = Scene::new(&a.question, before, drawer.sample());
-        let mut row = Quantities { values: a.facts.clone(), names: None };
+        let left_out = vocabulary.left_out(&of_pixel);
+        let (values, sizes) = (a.facts.clone(), vocabulary.sizes);
+        let mut row = Quantities { values, names: None, left_out, sizes };
         for at in before.all().filter(|at| self.wrong.may_befall(before.hits(*at))) {
             row.values.truncate(vocabulary.of_question);
             scene.of_pixel(at, &mut row);

@@ -147,16 +147,12 @@ const TRIANGLES: [(&str, Draw); 15] = [
 ];
 
 const LINES: [(&str, Draw); 5] = [
-    ("the last pixel", |q, right| {
-        keep(q, right, &|_, at| at.map(i64::from) != q.points[1])
-    }),
+    ("the last pixel", |q, right| keep(q, right, &|_, at| at.map(i64::from) != q.points[1])),
     ("the last pixel of diagonals", |q, right| {
         let [dx, dy] = q.side_of(0, 1);
         keep(q, right, &|_, at| dx.abs() != dy.abs() || at.map(i64::from) != q.points[1])
     }),
-    ("ties of lines to the left", |q, right| {
-        right(q, if q.side_of(0, 1)[0] < 0 { 3 } else { 0 })
-    }),
+    ("ties of lines to the left", |q, right| right(q, if q.side_of(0, 1)[0] < 0 { 3 } else { 0 })),
     ("lines to the left are one pixel lower", |q, right| {
         let by = i64::from(q.side_of(0, 1)[0] < 0);
         moved(q, right, &|axis, v| if axis == 1 { v + by } else { v })
@@ -194,26 +190,32 @@ const PAIRS: [(&str, Draw); 4] = [
     }),
 ];
 
-fn explained(name: &str, learn: impl FnOnce() -> Option<Learned>) -> bool {
-    let start = std::time::Instant::now();
-    let learned = learn();
-    let is_certain = learned.as_ref().is_some_and(|l| l.is_certain);
-    let said = learned.map_or_else(|| "nothing".to_owned(), |l| l.sentences().join("\n      "));
-    println!("{} {name} ({:.1} s)\n      {said}", if is_certain { "+" } else { "-" }, start.elapsed().as_secs_f64());
-    is_certain
-}
+/// Not explained so far: each is predicted nearly, and said not to be enough.
+const NOT_YET: [&str; 5] = [
+    "samples on a level bottom edge are drawn",
+    "1024 px wide or 512 px high ones are dropped",
+    "ties of lines to the left",
+    "clamped to the window, then the last row",
+    "odd rows in windows of even width",
+];
 
-/// Most of these are explained to the pixel.
+/// Programs of one mistake, and of two, are explained to the pixel.
 #[test]
 fn programs_are_explained() {
-    let only = std::env::var("ONLY").unwrap_or_default();
-    let is_meant = |name: &str| name.contains(&only);
-    let mut count = 0;
-    for (name, draw) in TRIANGLES.into_iter().chain(PAIRS).filter(|(name, _)| is_meant(name)) {
-        count += usize::from(explained(name, || learn_triangles(&draw)));
+    let is_meant = |(name, _): &(&str, Draw)| !NOT_YET.contains(name);
+    for (name, draw) in TRIANGLES.into_iter().chain(PAIRS).filter(is_meant) {
+        let learned = learn_triangles(&draw).unwrap();
+        assert!(learned.is_certain, "{name}: {learned:#?}");
     }
-    for (name, draw) in LINES.into_iter().filter(|(name, _)| is_meant(name)) {
-        count += usize::from(explained(name, || learn_lines(&draw)));
+    for (name, draw) in LINES.into_iter().filter(is_meant) {
+        let learned = learn_lines(&draw).unwrap();
+        assert!(learned.is_certain, "{name}: {learned:#?}");
     }
-    println!("{count} of {}", TRIANGLES.len() + PAIRS.len() + LINES.len());
+}
+
+/// A right program is asked, and nothing is learned.
+#[test]
+fn a_right_program_has_nothing_to_learn() {
+    assert_eq!(learn_triangles(&|q, right| right(q, 0)), None);
+    assert_eq!(learn_lines(&|q, right| right(q, 0)), None);
 }

@@ -43,9 +43,27 @@ pub(super) const NONE: i64 = i64::MIN;
 pub(super) struct Quantities {
     pub(super) values: Vec<i64>,
     pub(super) names: Option<Vec<Name>>,
+    /// Groups of quantities of a pixel that are left out: their values are not looked at.
+    pub(super) left_out: [bool; GROUPS],
+    /// How many quantities each group has.
+    pub(super) sizes: [usize; GROUPS],
 }
 
+/// Quantities of a pixel that are computed together.
+pub(super) const GROUPS: usize = 4;
+
 impl Quantities {
+    /// Computes a group, unless it is left out.
+    fn group(&mut self, number: usize, compute: impl FnOnce(&mut Self)) {
+        let start = self.values.len();
+        if self.left_out[number] {
+            self.values.resize(start + self.sizes[number], NONE);
+            return;
+        }
+        compute(self);
+        self.sizes[number] = self.values.len() - start;
+    }
+
     fn put(&mut self, unit: Unit, value: i64, noun: &[&str], zero: [&str; 2]) {
         self.values.push(value);
         if let Some(names) = &mut self.names {
@@ -89,7 +107,11 @@ pub(super) fn of_question(q: &Question, out: &mut Quantities) {
             &["the largest ", name, " less the ", SIDES[axis], " of the window"],
         );
         out.number(unit, most - least, &["the ", SIDES[axis], " of the shape"]);
-        out.number(Unit::Count, q.fineness(axis), &["the finest fraction of ", name, ", 1/n px, with n"]);
+        out.number(
+            Unit::Count,
+            q.fineness(axis),
+            &["the finest fraction of ", name, ", 1/n px, with n"],
+        );
     }
     let extent = q.extent();
     out.number(unit, extent[0].max(extent[1]), &["the longer of width and height"]);
@@ -115,13 +137,29 @@ fn of_line(q: &Question, out: &mut Quantities) {
     out.number(Unit::Pixels, du - 2 * dv, &["the longer less twice the shorter of |dx| and |dy|"]);
     out.number(Unit::Area, 131_072 * dx * dy, &["dx dy"]);
     out.flag(is_steep, &["it is steep"], "it is not steep");
-    out.flag(major < 0, &["it runs backwards along its longer axis"], "it runs forwards along its longer axis");
+    out.flag(
+        major < 0,
+        &["it runs backwards along its longer axis"],
+        "it runs forwards along its longer axis",
+    );
     out.flag(dx * dy < 0, &["x and y go opposite ways"], "x and y do not go opposite ways");
     let reduced = du / gcd(du, dv).max(1);
-    out.flag(dv > 0 && reduced % 2 == 0, &["it passes halfway between pixels"], "it passes nowhere halfway between pixels");
+    out.flag(
+        dv > 0 && reduced % 2 == 0,
+        &["it passes halfway between pixels"],
+        "it passes nowhere halfway between pixels",
+    );
     for (point, ordinal) in q.points.iter().zip(ORDINALS) {
         let is_in = (0..2).all(|axis| (0..i64::from(q.side[axis])).contains(&point[axis]));
-        out.flag(is_in, &["its ", ordinal, " end is in the window"], if ordinal == "first" { "its first end is outside the window" } else { "its second end is outside the window" });
+        out.flag(
+            is_in,
+            &["its ", ordinal, " end is in the window"],
+            if ordinal == "first" {
+                "its first end is outside the window"
+            } else {
+                "its second end is outside the window"
+            },
+        );
     }
 }
 
@@ -145,12 +183,20 @@ fn of_triangle(q: &Question, out: &mut Quantities) {
     });
     let known = || slopes.iter().copied().filter(|slope| *slope != NONE);
     out.number(Unit::Ratio, known().max().unwrap_or(NONE), &["the largest |dx|/|dy| of its edges"]);
-    out.number(Unit::Ratio, known().min().unwrap_or(NONE), &["the smallest |dx|/|dy| of its edges"]);
+    out.number(
+        Unit::Ratio,
+        known().min().unwrap_or(NONE),
+        &["the smallest |dx|/|dy| of its edges"],
+    );
     for axis in [0, 1] {
         let of = |a: usize, b: usize| q.points[a][axis] == q.points[b][axis];
         let straight = EDGES.iter().any(|[a, b]| of(*a, *b));
         let word = ["upright", "level"][axis];
-        out.flag(straight, &["it has an ", word, " edge"], ["it has no upright edge", "it has no level edge"][axis]);
+        out.flag(
+            straight,
+            &["it has an ", word, " edge"],
+            ["it has no upright edge", "it has no level edge"][axis],
+        );
     }
     let [top, middle, bottom] = q.by_height();
     out.number(Unit::Count, top as i64 + 1, &["the number of its top corner"]);
@@ -160,7 +206,11 @@ fn of_triangle(q: &Question, out: &mut Quantities) {
     out.number(Unit::Subpixels, height(middle, bottom), &["the height of its lower half"]);
     let [to_middle, to_bottom] = [q.side_of(top, middle), q.side_of(top, bottom)];
     let side = to_bottom[0] * to_middle[1] - to_bottom[1] * to_middle[0];
-    out.flag(side > 0, &["its middle corner is on the left"], "its middle corner is not on the left");
+    out.flag(
+        side > 0,
+        &["its middle corner is on the left"],
+        "its middle corner is not on the left",
+    );
 }
 
 /// What a model predicts of a question so far: its facts are those of its pixels.
@@ -204,16 +254,25 @@ impl<'a> Scene<'a> {
         let [width, height] = self.drawn.side.map(i64::from);
         out.number(Unit::Paired, column, &["its column"]);
         out.number(Unit::Paired, row, &["its row"]);
-        out.put(Unit::Paired, width - 1 - column, &["the number of columns to its right in the window"], ["it is in the last column of the window", ""]);
-        out.put(Unit::Paired, height - 1 - row, &["the number of rows below it in the window"], ["it is in the last row of the window", ""]);
-        self.places([x, y], out);
-        self.neighbours([x, y], out);
-        self.tiles([x, y], out);
-        if self.question.is_line() {
-            self.along_the_line([column, row], out);
-        } else {
-            self.by_edges([column, row], out);
-        }
+        out.put(
+            Unit::Paired,
+            width - 1 - column,
+            &["the number of columns to its right in the window"],
+            ["it is in the last column of the window", ""],
+        );
+        out.put(
+            Unit::Paired,
+            height - 1 - row,
+            &["the number of rows below it in the window"],
+            ["it is in the last row of the window", ""],
+        );
+        out.group(0, |out| self.places([x, y], out));
+        out.group(1, |out| self.neighbours([x, y], out));
+        out.group(2, |out| self.tiles([x, y], out));
+        out.group(3, |out| match self.question.is_line() {
+            true => self.along_the_line([column, row], out),
+            false => self.by_edges([column, row], out),
+        });
     }
 
     /// Its place in its row, its column and the shape.
@@ -221,40 +280,115 @@ impl<'a> Scene<'a> {
         let row = self.runs.row(y);
         let column = self.runs.column(x);
         let count = |value: Option<i32>| value.map_or(NONE, i64::from);
-        out.put(Unit::Paired, count(row.map(|r| x - r.first)), &["the number of columns from the first pixel of its row"], ["it is the first pixel of its row", "it is not the first pixel of its row"]);
-        out.put(Unit::Paired, count(row.map(|r| r.last - x)), &["the number of columns to the last pixel of its row"], ["it is the last pixel of its row", "it is not the last pixel of its row"]);
+        out.put(
+            Unit::Paired,
+            count(row.map(|r| x - r.first)),
+            &["the number of columns from the first pixel of its row"],
+            ["it is the first pixel of its row", "it is not the first pixel of its row"],
+        );
+        out.put(
+            Unit::Paired,
+            count(row.map(|r| r.last - x)),
+            &["the number of columns to the last pixel of its row"],
+            ["it is the last pixel of its row", "it is not the last pixel of its row"],
+        );
         out.number(Unit::Paired, count(row.map(|r| r.count)), &["the number of pixels in its row"]);
-        out.put(Unit::Paired, count(column.map(|c| y - c.first)), &["the number of rows from the first pixel of its column"], ["it is the first pixel of its column", "it is not the first pixel of its column"]);
-        out.put(Unit::Paired, count(column.map(|c| c.last - y)), &["the number of rows to the last pixel of its column"], ["it is the last pixel of its column", "it is not the last pixel of its column"]);
-        out.number(Unit::Paired, count(column.map(|c| c.count)), &["the number of pixels in its column"]);
+        out.put(
+            Unit::Paired,
+            count(column.map(|c| y - c.first)),
+            &["the number of rows from the first pixel of its column"],
+            ["it is the first pixel of its column", "it is not the first pixel of its column"],
+        );
+        out.put(
+            Unit::Paired,
+            count(column.map(|c| c.last - y)),
+            &["the number of rows to the last pixel of its column"],
+            ["it is the last pixel of its column", "it is not the last pixel of its column"],
+        );
+        out.number(
+            Unit::Paired,
+            count(column.map(|c| c.count)),
+            &["the number of pixels in its column"],
+        );
         let (rows, columns) = (self.runs.of_rows, self.runs.of_columns);
         let of = |value: i32| if rows.count == 0 { NONE } else { i64::from(value) };
-        out.put(Unit::Paired, of(y.wrapping_sub(rows.first)), &["the number of rows from the first row of the shape"], ["it is in the first row of the shape", "it is not in the first row of the shape"]);
-        out.put(Unit::Paired, of(rows.last.wrapping_sub(y)), &["the number of rows to the last row of the shape"], ["it is in the last row of the shape", "it is not in the last row of the shape"]);
-        out.put(Unit::Paired, of(x.wrapping_sub(columns.first)), &["the number of columns from the first column of the shape"], ["it is in the first column of the shape", "it is not in the first column of the shape"]);
-        out.put(Unit::Paired, of(columns.last.wrapping_sub(x)), &["the number of columns to the last column of the shape"], ["it is in the last column of the shape", "it is not in the last column of the shape"]);
+        out.put(
+            Unit::Paired,
+            of(y.wrapping_sub(rows.first)),
+            &["the number of rows from the first row of the shape"],
+            ["it is in the first row of the shape", "it is not in the first row of the shape"],
+        );
+        out.put(
+            Unit::Paired,
+            of(rows.last.wrapping_sub(y)),
+            &["the number of rows to the last row of the shape"],
+            ["it is in the last row of the shape", "it is not in the last row of the shape"],
+        );
+        out.put(
+            Unit::Paired,
+            of(x.wrapping_sub(columns.first)),
+            &["the number of columns from the first column of the shape"],
+            [
+                "it is in the first column of the shape",
+                "it is not in the first column of the shape",
+            ],
+        );
+        out.put(
+            Unit::Paired,
+            of(columns.last.wrapping_sub(x)),
+            &["the number of columns to the last column of the shape"],
+            ["it is in the last column of the shape", "it is not in the last column of the shape"],
+        );
         out.number(Unit::Paired, i64::from(rows.count), &["the number of rows of the shape"]);
         out.number(Unit::Paired, i64::from(columns.count), &["the number of columns of the shape"]);
         // A loop by groups of pixels ends early where the row is no whole number of groups.
         for (of, word) in [(2, "2"), (4, "4"), (8, "8"), (16, "16")] {
             let length = count(row.map(|r| r.count / of * of));
-            out.number(Unit::Paired, length, &["the number of pixels in its row, rounded down to a multiple of ", word]);
+            out.number(
+                Unit::Paired,
+                length,
+                &["the number of pixels in its row, rounded down to a multiple of ", word],
+            );
         }
     }
 
     fn neighbours(&self, [x, y]: [i32; 2], out: &mut Quantities) {
         let beside = [
-            ([-1, 0], "left", "its left neighbour is not drawn", "its left neighbour is not in the shape, in the window or not"),
-            ([1, 0], "right", "its right neighbour is not drawn", "its right neighbour is not in the shape, in the window or not"),
-            ([0, -1], "upper", "its upper neighbour is not drawn", "its upper neighbour is not in the shape, in the window or not"),
-            ([0, 1], "lower", "its lower neighbour is not drawn", "its lower neighbour is not in the shape, in the window or not"),
+            (
+                [-1, 0],
+                "left",
+                "its left neighbour is not drawn",
+                "its left neighbour is not in the shape, in the window or not",
+            ),
+            (
+                [1, 0],
+                "right",
+                "its right neighbour is not drawn",
+                "its right neighbour is not in the shape, in the window or not",
+            ),
+            (
+                [0, -1],
+                "upper",
+                "its upper neighbour is not drawn",
+                "its upper neighbour is not in the shape, in the window or not",
+            ),
+            (
+                [0, 1],
+                "lower",
+                "its lower neighbour is not drawn",
+                "its lower neighbour is not in the shape, in the window or not",
+            ),
         ];
         let mut shown = 0;
         for ([dx, dy], word, no, not_whole) in beside {
             let at = [x + dx, y + dy];
             shown += i64::from(self.is_shown(at));
             out.flag(self.is_shown(at), &["its ", word, " neighbour is drawn"], no);
-            out.flag(self.drawn.has(at), &["its ", word, " neighbour is in the shape, in the window or not"], not_whole);
+            out.flag(
+                self.drawn.has(at),
+                &["its ", word, " neighbour is in the shape, in the window or not"],
+                not_whole,
+            );
         }
         out.number(Unit::Count, shown, &["the number of its four neighbours that are drawn"]);
     }
@@ -263,13 +397,30 @@ impl<'a> Scene<'a> {
     fn tiles(&self, [x, y]: [i32; 2], out: &mut Quantities) {
         for (side, word) in [(2, "2"), (4, "4"), (8, "8"), (16, "16")] {
             let [left, top] = [x, y].map(|v| v.div_euclid(side) * side);
-            let [right, below] = [(0, left), (1, top)].map(|(axis, start)| start + side - self.drawn.side[axis]);
-            out.number(Unit::Involved, i64::from(right), &["the number of columns of its ", word, " px tile beyond the right side of the window"]);
-            out.number(Unit::Involved, i64::from(below), &["the number of rows of its ", word, " px tile beyond the bottom of the window"]);
+            let [right, below] =
+                [(0, left), (1, top)].map(|(axis, start)| start + side - self.drawn.side[axis]);
+            out.number(
+                Unit::Involved,
+                i64::from(right),
+                &[
+                    "the number of columns of its ",
+                    word,
+                    " px tile beyond the right side of the window",
+                ],
+            );
+            out.number(
+                Unit::Involved,
+                i64::from(below),
+                &["the number of rows of its ", word, " px tile beyond the bottom of the window"],
+            );
             if side <= 4 {
                 let places = (0..side * side).map(|i| [left + i % side, top + i / side]);
                 let filled = places.filter(|at| self.is_shown(*at)).count();
-                out.number(Unit::Involved, filled as i64, &["the number of pixels drawn in its ", word, " px tile"]);
+                out.number(
+                    Unit::Involved,
+                    filled as i64,
+                    &["the number of pixels drawn in its ", word, " px tile"],
+                );
             }
         }
     }
@@ -280,16 +431,46 @@ impl<'a> Scene<'a> {
         let [dx, dy] = q.side_of(0, 1);
         let axis = usize::from(dy.abs() > dx.abs());
         let [from, to] = [q.points[0], q.points[1]];
-        out.put(Unit::Paired, (at[axis] - from[axis]).abs(), &["the number of steps from the first end"], ["it is the first end", "it is not the first end"]);
-        out.put(Unit::Paired, (to[axis] - at[axis]).abs(), &["the number of steps to the last end"], ["it is the last end", "it is not the last end"]);
-        out.number(Unit::Paired, (at[1 - axis] - from[1 - axis]).abs(), &["the number of side steps from the first end"]);
-        out.number(Unit::Paired, (to[1 - axis] - at[1 - axis]).abs(), &["the number of side steps to the last end"]);
+        out.put(
+            Unit::Paired,
+            (at[axis] - from[axis]).abs(),
+            &["the number of steps from the first end"],
+            ["it is the first end", "it is not the first end"],
+        );
+        out.put(
+            Unit::Paired,
+            (to[axis] - at[axis]).abs(),
+            &["the number of steps to the last end"],
+            ["it is the last end", "it is not the last end"],
+        );
+        out.number(
+            Unit::Paired,
+            (at[1 - axis] - from[1 - axis]).abs(),
+            &["the number of side steps from the first end"],
+        );
+        out.number(
+            Unit::Paired,
+            (to[1 - axis] - at[1 - axis]).abs(),
+            &["the number of side steps to the last end"],
+        );
         let off = (at[1] - from[1]) * dx - (at[0] - from[0]) * dy;
         let du = dx.abs().max(dy.abs());
         let is_tie = du > 0 && 2 * off.abs() == du;
-        out.flag(is_tie, &["it is exactly half a pixel off the line"], "it is not exactly half a pixel off the line");
-        out.number(Unit::Ratio, if du == 0 { 0 } else { off.abs().saturating_mul(256) / du }, &["its distance from the line in px"]);
-        out.number(Unit::Count, off.signum(), &["the side of the line that it lies on, -1, 0 or 1,"]);
+        out.flag(
+            is_tie,
+            &["it is exactly half a pixel off the line"],
+            "it is not exactly half a pixel off the line",
+        );
+        out.number(
+            Unit::Ratio,
+            if du == 0 { 0 } else { off.abs().saturating_mul(256) / du },
+            &["its distance from the line in px"],
+        );
+        out.number(
+            Unit::Count,
+            off.signum(),
+            &["the side of the line that it lies on, -1, 0 or 1,"],
+        );
     }
 
     /// Its place among the edges and corners of a triangle.
@@ -301,25 +482,49 @@ impl<'a> Scene<'a> {
         let is_inside = !all.is_empty() && all.iter().all(|e| *e >= 0);
         let on = |i: usize| is_inside && all[i] == 0;
         let is_on = (0..all.len()).any(on);
-        out.flag(is_on, &["its sample is exactly on an edge"], "its sample is not exactly on an edge");
+        out.flag(
+            is_on,
+            &["its sample is exactly on an edge"],
+            "its sample is not exactly on an edge",
+        );
         let faces: [(&str, &str, fn([i64; 2]) -> bool); 4] = [
             ("a left", "its sample is not exactly on a left edge", |by| by[1] < 0),
             ("a right", "its sample is not exactly on a right edge", |by| by[1] > 0),
-            ("a level top", "its sample is not exactly on a level top edge", |by| by[1] == 0 && by[0] > 0),
-            ("a level bottom", "its sample is not exactly on a level bottom edge", |by| by[1] == 0 && by[0] < 0),
+            ("a level top", "its sample is not exactly on a level top edge", |by| {
+                by[1] == 0 && by[0] > 0
+            }),
+            ("a level bottom", "its sample is not exactly on a level bottom edge", |by| {
+                by[1] == 0 && by[0] < 0
+            }),
         ];
         for (word, no, is_one) in faces {
             let on_one = (0..all.len()).any(|i| on(i) && is_one(self.edges[i].by));
             out.flag(on_one, &["its sample is exactly on ", word, " edge"], no);
         }
         for (i, ordinal) in ORDINALS.iter().enumerate() {
-            let no = ["its sample is not exactly on the first edge", "its sample is not exactly on the second edge", "its sample is not exactly on the third edge"][i];
-            out.flag(i < all.len() && on(i), &["its sample is exactly on the ", ordinal, " edge"], no);
+            let no = [
+                "its sample is not exactly on the first edge",
+                "its sample is not exactly on the second edge",
+                "its sample is not exactly on the third edge",
+            ][i];
+            out.flag(
+                i < all.len() && on(i),
+                &["its sample is exactly on the ", ordinal, " edge"],
+                no,
+            );
         }
         let distances = self.edges.iter().zip(&all).map(|(edge, e)| e.div_euclid(edge.length));
         let nearest = distances.enumerate().min_by_key(|(_, d)| *d);
-        out.number(Unit::Subpixels, nearest.map_or(NONE, |(_, d)| d), &["its distance from the nearest edge (below 0 outside)"]);
-        out.number(Unit::Count, nearest.map_or(NONE, |(i, _)| i as i64 + 1), &["the number of its nearest edge"]);
+        out.number(
+            Unit::Subpixels,
+            nearest.map_or(NONE, |(_, d)| d),
+            &["its distance from the nearest edge (below 0 outside)"],
+        );
+        out.number(
+            Unit::Count,
+            nearest.map_or(NONE, |(i, _)| i as i64 + 1),
+            &["the number of its nearest edge"],
+        );
         let order = q.by_height();
         for (corner, word) in order.into_iter().zip(["top", "middle", "bottom"]) {
             let [cx, cy] = q.points[corner];
@@ -328,12 +533,26 @@ impl<'a> Scene<'a> {
                 "middle" => "it is in the row that holds the middle corner",
                 _ => "it is in the row that holds the bottom corner",
             };
-            out.put(Unit::Count, y - cy.div_euclid(256), &["the number of rows from the row that holds the ", word, " corner"], [zero, ""]);
-            out.number(Unit::Count, x - cx.div_euclid(256), &["the number of columns from the column that holds the ", word, " corner"]);
+            out.put(
+                Unit::Count,
+                y - cy.div_euclid(256),
+                &["the number of rows from the row that holds the ", word, " corner"],
+                [zero, ""],
+            );
+            out.number(
+                Unit::Count,
+                x - cx.div_euclid(256),
+                &["the number of columns from the column that holds the ", word, " corner"],
+            );
         }
         let middle = q.points[order[1]][1] - self.sample[1];
         let start = -(-middle).div_euclid(256);
-        out.put(Unit::Count, y - start, &["the number of rows from the first row below the middle corner"], ["it is in the first row below the middle corner", ""]);
+        out.put(
+            Unit::Count,
+            y - start,
+            &["the number of rows from the first row below the middle corner"],
+            ["it is in the first row below the middle corner", ""],
+        );
     }
 }
 

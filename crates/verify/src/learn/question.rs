@@ -91,6 +91,8 @@ pub(super) struct Room {
     pub(super) most: i64,
 }
 
+/// Most long lines reach less than this power of two.
+const MOST_LINES_REACH: u32 = 10;
 /// The longest line that is asked: some programs walk each of its pixels.
 const LONGEST_LINE_PX: i64 = 40_000;
 
@@ -136,10 +138,14 @@ impl Room {
     /// A shape with an edge through the window that reaches far beyond it, each power of two as often as another.
     fn far(&mut self, side: [i32; 2]) -> Vec<[i64; 2]> {
         let one = self.one();
-        let most = (self.most / one / 2).max(32).ilog2();
+        let mut most = (self.most / one / 2).max(32).ilog2();
+        if self.is_line && !self.rng.chance(8) {
+            most = most.min(MOST_LINES_REACH);
+        }
         let reach = one << self.rng.int(5, most.into());
         let steps = if self.rng.chance(2) { one } else { 1 };
-        let off = |room: &mut Self| [0; 2].map(|_| room.rng.int(-reach / steps, reach / steps) * steps);
+        let off =
+            |room: &mut Self| [0; 2].map(|_| room.rng.int(-reach / steps, reach / steps) * steps);
         let at = self.point(side, 0, 1);
         let (ahead, aside) = (off(self), off(self));
         let back = self.rng.int(0, 256);
@@ -185,7 +191,9 @@ impl Room {
             3 | 4 => p[1][1] = p[0][1],
             5 | 6 => p[1][0] = p[0][0],
             // Thin.
-            7 | 8 => p[2] = [0, 1].map(|i| (p[0][i] + p[1][i]) / 2 + self.rng.int(-1, 1) * 256 / steps),
+            7 | 8 => {
+                p[2] = [0, 1].map(|i| (p[0][i] + p[1][i]) / 2 + self.rng.int(-1, 1) * 256 / steps)
+            }
             // Samples on edges.
             9 | 10 if steps > 1 => p = p.map(|point| point.map(|v| v.div_euclid(256) * 256 + 128)),
             _ => {}

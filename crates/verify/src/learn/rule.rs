@@ -133,44 +133,50 @@ const BEAM: usize = 50;
 /// What another fact costs.
 const LONGER: f64 = 0.86;
 /// Facts that are combined with each other.
-const MOST_FACTS: usize = 500;
+const MOST_FACTS: usize = 900;
 
-/// The best rules: each of other quantities than those before.
+/// The best rules: each the best for the rows that those before do not hold of.
 pub(super) fn best(names: &[Name], table: &Table, terms: Terms) -> Vec<Found> {
-    let yes = spread(table.yes.len(), MOST_YES);
+    let mut all = Vec::new();
+    let mut left: Vec<usize> = (0..table.yes.len()).collect();
+    for _ in 0..terms.wanted {
+        let Some(mut rule) = best_of(names, table, terms, &left) else { break };
+        left.retain(|&i| !all_hold(&rule.facts, &table.yes[i]));
+        rule.rows = table.yes.iter().filter(|row| all_hold(&rule.facts, row)).count();
+        all.push(rule);
+    }
+    all
+}
+
+/// The best rule for some rows. It is searched for among a part of them; a rule that another row refutes brings this row in.
+fn best_of(names: &[Name], table: &Table, terms: Terms, left: &[usize]) -> Option<Found> {
+    let yes: Vec<usize> = spread(left.len(), MOST_YES).into_iter().map(|i| left[i]).collect();
     let mut no = spread(table.no.len(), MOST_NO);
     for _ in 0..ROUNDS {
-        let matrix = Matrix::of(names, table, &yes, &no);
-        let found = matrix.search(terms);
-        let mut kept: Vec<Found> = Vec::new();
-        let mut violated = Vec::new();
-        for mut rule in found {
+        let mut refuting = Vec::new();
+        for mut rule in Matrix::of(names, table, &yes, &no).search(terms) {
             sharpen(&mut rule.facts, names, table);
-            let is_new = |kept: &Found| kept.facts.iter().all(|a| rule.facts.iter().all(|b| a.of != b.of));
-            if !kept.iter().all(is_new) {
-                continue;
-            }
-            let bad: Vec<usize> = (0..table.no.len()).filter(|&i| all_hold(&rule.facts, &table.no[i])).collect();
-            let held: Vec<usize> = (0..table.yes.len()).filter(|&i| all_hold(&rule.facts, &table.yes[i])).collect();
+            let holds = |row: &Vec<i64>| all_hold(&rule.facts, row);
+            let held: Vec<usize> = left.iter().copied().filter(|&i| holds(&table.yes[i])).collect();
+            let bad: Vec<usize> = (0..table.no.len()).filter(|&i| holds(&table.no[i])).collect();
             rule.rows = held.len();
-            if bad.len() * 1000 > terms.slack * rule.rows * 3 / 2 {
-                violated.extend(bad.into_iter().take(MOST_VIOLATIONS));
-            } else if distinct(held.iter().map(|&i| table.groups[i])) >= terms.need {
-                kept.push(rule);
+            let is_refuted = bad.len() * 1000 > terms.slack * rule.rows * 3 / 2;
+            if !is_refuted && distinct(held.iter().map(|&i| table.groups[i])) >= terms.need {
+                return Some(rule);
             }
-            if kept.len() == terms.wanted {
-                break;
+            if is_refuted {
+                refuting.extend(bad.into_iter().take(MOST_VIOLATIONS));
             }
         }
         let before = no.len();
-        no.extend(violated);
+        no.extend(refuting);
         no.sort_unstable();
         no.dedup();
-        if !kept.is_empty() || no.len() == before {
-            return kept;
+        if no.len() == before {
+            break;
         }
     }
-    Vec::new()
+    None
 }
 
 /// So many numbers below `of`, evenly spread.
@@ -231,7 +237,9 @@ impl Matrix {
             let (with, without) = (rows(&table.yes, yes, of), rows(&table.no, no, of));
             for test in tests(names, of, &with, &without) {
                 let bits = |values: &[i64]| -> Vec<u64> {
-                    let word = |chunk: &[i64]| chunk.iter().rev().fold(0, |word, v| word << 1 | u64::from(test.holds(*v)));
+                    let word = |chunk: &[i64]| {
+                        chunk.iter().rev().fold(0, |word, v| word << 1 | u64::from(test.holds(*v)))
+                    };
                     values.chunks(64).map(word).collect()
                 };
                 let held = bits(&with);
@@ -252,8 +260,10 @@ impl Matrix {
             }
         }
         let mut matrix = Self { columns, rows: yes.len(), others: no.len() };
-        let gain = |c: &Column| gain(count(&c.yes), count(&c.no), yes.len(), no.len());
-        matrix.columns.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
+        // A fact that tells a little is needed beside others.
+        let share = |bits: &[u64], rows: usize| count(bits) as f64 / rows.max(1) as f64;
+        let tells = |c: &Column| share(&c.yes, yes.len()) - share(&c.no, no.len());
+        matrix.columns.sort_by(|a, b| tells(b).total_cmp(&tells(a)));
         matrix.columns.truncate(MOST_FACTS);
         matrix
     }
@@ -310,7 +320,8 @@ impl Matrix {
             if value < FAR_BEHIND * found.first().map_or(0.0, |best| best.value) {
                 continue;
             }
-            let facts = partial.facts.iter().chain([&fact]).map(|i| self.columns[*i].fact).collect();
+            let facts =
+                partial.facts.iter().chain([&fact]).map(|i| self.columns[*i].fact).collect();
             found.push(Found { facts, rows: yes, value });
             let last = found.len() - 1;
             if value > found[0].value {
@@ -374,9 +385,10 @@ fn ones(rows: usize) -> Vec<u64> {
 fn sources(names: &[Name]) -> Vec<Of> {
     let is_paired = |i: &usize| names[*i].unit == Unit::Paired;
     let paired: Vec<usize> = (0..names.len()).filter(is_paired).collect();
-    let pairs = paired.iter().enumerate().flat_map(|(n, &i)| {
-        paired[n + 1..].iter().map(move |&j| Of::Difference(i, j))
-    });
+    let pairs = paired
+        .iter()
+        .enumerate()
+        .flat_map(|(n, &i)| paired[n + 1..].iter().map(move |&j| Of::Difference(i, j)));
     (0..names.len()).map(Of::One).chain(pairs).collect()
 }
 
@@ -388,14 +400,22 @@ fn tests(names: &[Name], of: Of, with: &[i64], without: &[i64]) -> Vec<Test> {
     let unit = match of {
         Of::One(i) => names[i].unit,
         Of::Difference(..) => {
-            let all = [Test::Is(0), Test::IsNot(0), Test::AtMost(0), Test::AtMost(-1), Test::AtLeast(0), Test::AtLeast(1)];
+            let all = [
+                Test::Is(0),
+                Test::IsNot(0),
+                Test::AtMost(0),
+                Test::AtMost(-1),
+                Test::AtLeast(0),
+                Test::AtLeast(1),
+            ];
             return all.into();
         }
     };
     if unit == Unit::Flag {
         return vec![Test::Is(1), Test::Is(0)];
     }
-    let mut all = vec![Test::IsNot(0), Test::AtMost(-1), Test::AtMost(0), Test::AtLeast(0), Test::AtLeast(1)];
+    let mut all =
+        vec![Test::IsNot(0), Test::AtMost(-1), Test::AtMost(0), Test::AtLeast(0), Test::AtLeast(1)];
     let (with, without) = (ordered(with), ordered(without));
     let mut values = with.clone();
     values.dedup();
@@ -474,7 +494,8 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
     let mut best = low;
     let mut power = 1_i64 << 40;
     while power >= step / 256 {
-        let multiple = (low + ahead).div_euclid(power) * power + if (low + ahead).rem_euclid(power) == 0 { 0 } else { power };
+        let multiple = (low + ahead).div_euclid(power) * power
+            + if (low + ahead).rem_euclid(power) == 0 { 0 } else { power };
         if multiple - ahead <= high {
             best = multiple - ahead;
             break;

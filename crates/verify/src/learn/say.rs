@@ -39,7 +39,9 @@ fn modular(noun: &str, unit: Unit, test: Test) -> String {
         (Test::Remainder(2, rest), Unit::Count | Unit::Paired | Unit::Involved | Unit::Pixels) => {
             format!("{noun} is {}", ["even", "odd"][rest as usize])
         }
-        (Test::NoMultiple(2), Unit::Count | Unit::Paired | Unit::Involved | Unit::Pixels) => format!("{noun} is odd"),
+        (Test::NoMultiple(2), Unit::Count | Unit::Paired | Unit::Involved | Unit::Pixels) => {
+            format!("{noun} is odd")
+        }
         (Test::Remainder(by, 0), _) => format!("{noun} is a multiple of {}", step(by)),
         (Test::Remainder(by, rest), _) => format!("{noun} is {rest} modulo {by}"),
         (Test::NoMultiple(by), _) => format!("{noun} is no multiple of {}", step(by)),
@@ -68,7 +70,13 @@ pub(super) fn fact(fact: &Fact, names: &[Name]) -> String {
     let Name { unit, noun, zero: [yes, no] } = &names[i];
     match fact.test {
         // A flag has words for both.
-        Test::Is(v) if *unit == Unit::Flag => if v == 1 { noun.clone() } else { yes.clone() },
+        Test::Is(v) if *unit == Unit::Flag => {
+            if v == 1 {
+                noun.clone()
+            } else {
+                yes.clone()
+            }
+        }
         Test::Is(0) if !yes.is_empty() => yes.clone(),
         Test::IsNot(0) if !no.is_empty() => no.clone(),
         Test::Is(v) => format!("{noun} is {}", number(*unit, v)),
@@ -83,7 +91,11 @@ pub(super) fn facts(facts: &[Fact], names: &[Name]) -> String {
 }
 
 /// What a model does: a sentence for each step.
-pub(super) fn sentences(model: &Model, drawer: &dyn Drawer, vocabulary: &Vocabulary) -> Vec<String> {
+pub(super) fn sentences(
+    model: &Model,
+    drawer: &dyn Drawer,
+    vocabulary: &Vocabulary,
+) -> Vec<String> {
     let is_line = vocabulary.names.iter().any(|name| name.noun == "dx");
     let mut out: Vec<String> = Vec::new();
     for (number, guarded) in model.chain.iter().enumerate() {
@@ -105,10 +117,11 @@ fn base(
     drawer: &dyn Drawer,
     vocabulary: &Vocabulary,
 ) -> String {
-    let parts: Vec<String> =
-        guarded.base.changes.iter().map(|c| change(c, is_line)).collect();
+    let parts: Vec<String> = guarded.base.changes.iter().map(|c| change(c, is_line)).collect();
     let rule = &drawer.rules()[guarded.base.rule];
-    let mut how = String::from("draws");
+    let is_nothing = guarded.base.changes == [Change::Nothing];
+    let parts = if is_nothing { Vec::new() } else { parts };
+    let mut how = String::from(if is_nothing { "draws nothing" } else { "draws" });
     if !rule.is_empty() {
         how += &format!(" {rule}");
     }
@@ -134,9 +147,15 @@ fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {
         (Wrong::Missing, true) => "It draws nothing".to_owned(),
         (Wrong::Extra, true) => "It fills the window".to_owned(),
         (Wrong::Twice, true) => "It draws every pixel more than once".to_owned(),
-        (Wrong::Missing, false) => format!("It leaves out each pixel where {}", facts(&of_pixel, names)),
-        (Wrong::Extra, false) => format!("It draws, too, each pixel where {}", facts(&of_pixel, names)),
-        (Wrong::Twice, false) => format!("It draws more than once each pixel where {}", facts(&of_pixel, names)),
+        (Wrong::Missing, false) => {
+            format!("It leaves out each pixel where {}", facts(&of_pixel, names))
+        }
+        (Wrong::Extra, false) => {
+            format!("It draws, too, each pixel where {}", facts(&of_pixel, names))
+        }
+        (Wrong::Twice, false) => {
+            format!("It draws more than once each pixel where {}", facts(&of_pixel, names))
+        }
     };
     let when = match (of_question.is_empty(), of_pixel.is_empty()) {
         (true, _) => String::new(),
@@ -148,6 +167,7 @@ fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {
 
 fn change(change: &Change, is_line: bool) -> String {
     let (points, axes, how) = match change {
+        Change::Nothing => return "nothing were given".to_owned(),
         Change::Exchange => return "x and y were exchanged".to_owned(),
         Change::Reverse => return "its ends were exchanged".to_owned(),
         Change::Move { points, axes, how } => (points, axes, how),
@@ -178,19 +198,31 @@ fn transformed(how: How, one: f64) -> String {
                 Toward::Up => "up",
                 Toward::Zero => "toward 0",
             };
-            let multiple = if step as f64 >= one { px(step) } else { format!("1/{} px", one as i64 / step) };
+            let multiple =
+                if step as f64 >= one { px(step) } else { format!("1/{} px", one as i64 / step) };
             format!("rounded {toward}, to multiples of {multiple}")
         }
         How::Add(by) => format!("moved by {}", px(by)),
         How::AtLeast(least) => format!("at least {}", px(least)),
-        How::AtMost(most) => format!("at most {}", px(most)),
-        How::AtMostSide(less) => format!("at most the side of the window{}", lessened(&px(less), less)),
-        How::IntoWindow(less) => format!("clamped to the range from 0 to the side of the window{}", lessened(&px(less), less)),
-        How::Wrap(bits, true) => format!("wrapped into the range from -{} to {}", power(bits - 1), power(bits - 1)),
+        How::AtMostSide(less) => {
+            format!("at most the side of the window{}", lessened(&px(less), less))
+        }
+        How::IntoWindow(less) => format!(
+            "clamped to the range from 0 to the side of the window{}",
+            lessened(&px(less), less)
+        ),
+        How::Wrap(bits, true) => {
+            format!("wrapped into the range from -{} to {}", power(bits - 1), power(bits - 1))
+        }
         How::Wrap(bits, false) => format!("wrapped into the range from 0 to {}", power(bits)),
-        How::Saturate(bits) => format!("limited to the range from -{} to {}", power(bits - 1), power(bits - 1)),
+        How::Saturate(bits) => {
+            format!("limited to the range from -{} to {}", power(bits - 1), power(bits - 1))
+        }
         How::Absolute => "without its sign".to_owned(),
-        How::Mirror(less) => format!("mirrored: the side of the window{} less the coordinate", lessened(&px(less), less)),
+        How::Mirror(less) => format!(
+            "mirrored: the side of the window{} less the coordinate",
+            lessened(&px(less), less)
+        ),
         How::AboutFirst => "on the other side of the first point".to_owned(),
         How::Scale(times) => format!("multiplied by {}", times as f64 / 256.0),
     }
@@ -203,4 +235,3 @@ fn lessened(px: &str, less: i64) -> String {
         _ => format!(" less {px}"),
     }
 }
-

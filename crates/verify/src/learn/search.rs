@@ -92,7 +92,7 @@ impl Search<'_> {
             self.under_a_rule(&mut tried);
         }
         if !best(&tried).is_whole() {
-            for (_, base) in ranked.iter().take(6) {
+            for (_, base) in ranked.iter().take(2) {
                 let model = Model { chain: vec![always(base)], ..Model::default() };
                 tried.push(self.tried(self.with_steps(&model, 2, 1)));
             }
@@ -105,16 +105,27 @@ impl Search<'_> {
         let answers = self.some(true, RANKED_BY);
         let is_line = answers.first().is_some_and(|a| a.question.is_line());
         let mut bases = change::all(is_line, self.drawer.rules().len());
-        bases.extend(change::solved(is_line, &answers, self.drawer));
+        bases.extend(change::solved(is_line, &self.some(true, 120), self.drawer));
         self.rank(bases, &answers, under)
     }
 
-    fn rank(&self, bases: Vec<Base>, answers: &[&Answered], under: &Model) -> Vec<(Nearness, Base)> {
+    fn rank(
+        &self,
+        bases: Vec<Base>,
+        answers: &[&Answered],
+        under: &Model,
+    ) -> Vec<(Nearness, Base)> {
         let near = |base: &Base| match under.steps.is_empty() {
             true => change::nearness(base, answers, self.drawer),
             false => {
                 let model = Model { chain: vec![always(base)], steps: under.steps.clone() };
-                let exact = answers.iter().filter(|a| self.fits(&model, a)).count();
+                let fitting =
+                    |some: &[&Answered]| some.iter().filter(|a| self.fits(&model, a)).count();
+                let (first, rest) = answers.split_at(answers.len().min(4));
+                let exact = match fitting(first) {
+                    0 => 0,
+                    some => some + fitting(rest),
+                };
                 Nearness { exact, pixels: 0 }
             }
         };
@@ -140,8 +151,12 @@ impl Search<'_> {
     fn add_bases(&self, tried: &mut Vec<Tried>) {
         for _ in 0..MOST_STEPS - 1 {
             let model = best(tried).model.clone();
-            let left: Vec<&Answered> =
-                self.some(true, 300).into_iter().filter(|a| !self.fits(&model, a)).take(25).collect();
+            let left: Vec<&Answered> = self
+                .some(true, 300)
+                .into_iter()
+                .filter(|a| !self.fits(&model, a))
+                .take(25)
+                .collect();
             if left.len() < NEED || (model.chain.is_empty() && model.steps.is_empty()) {
                 return;
             }
@@ -158,13 +173,20 @@ impl Search<'_> {
     /// Takes the best rule that is nearly true, and looks for the changed question under it.
     fn under_a_rule(&self, tried: &mut Vec<Tried>) {
         for wrong in [Wrong::Missing, Wrong::Extra] {
+            if best(tried).is_whole() {
+                return;
+            }
             let table = self.table(&Model::default(), wrong);
             let terms = Terms { most: 2, need: 5, slack: 120, wanted: 1 };
             let names = &self.vocabulary.names;
             for found in rule::best(names, &table, terms) {
                 let under = Model::default().with(Step { wrong, facts: found.facts });
-                let answers: Vec<&Answered> =
-                    self.some(true, 60).into_iter().filter(|a| !self.fits(&under, a)).take(12).collect();
+                let answers: Vec<&Answered> = self
+                    .some(true, 60)
+                    .into_iter()
+                    .filter(|a| !self.fits(&under, a))
+                    .take(12)
+                    .collect();
                 if answers.len() < 3 {
                     continue;
                 }
@@ -198,7 +220,8 @@ impl Search<'_> {
             for model in &alive {
                 let is_first = model.steps.is_empty();
                 let kept = if is_first { beam } else { 1 };
-                let candidates = self.candidates(model, 3, if is_first && beam > 1 { 2 } else { 1 });
+                let candidates =
+                    self.candidates(model, 3, if is_first && beam > 1 { 2 } else { 1 });
                 grown.extend(candidates.into_iter().take(kept).map(|step| model.with(step)));
             }
             done.extend(grown.iter().map(|model| (score(model), model.clone())));
@@ -229,7 +252,8 @@ impl Search<'_> {
     /// The pixels that a model predicts wrongly in one way, and those that it predicts well and that could be.
     fn table(&self, model: &Model, wrong: Wrong) -> Table {
         let mut table = Table::default();
-        let some = [true, false].map(|is_wrong| self.some(is_wrong, LEARNED_FROM[usize::from(!is_wrong)]));
+        let some =
+            [true, false].map(|is_wrong| self.some(is_wrong, LEARNED_FROM[usize::from(!is_wrong)]));
         for (group, a) in some.into_iter().flatten().enumerate() {
             let Some(before) = model.predict(a, self.drawer, self.vocabulary) else { continue };
             self.add_pixels(&mut table, group, a, &before, wrong);
@@ -237,13 +261,20 @@ impl Search<'_> {
         table
     }
 
-    fn add_pixels(&self, table: &mut Table, group: usize, a: &Answered, before: &Picture, wrong: Wrong) {
+    fn add_pixels(
+        &self,
+        table: &mut Table,
+        group: usize,
+        a: &Answered,
+        before: &Picture,
+        wrong: Wrong,
+    ) {
         let scene = Scene::new(&a.question, before, self.drawer.sample());
         let may = |at: &[i32; 2]| wrong.may_befall(before.hits(*at));
         let is_one = |at: &[i32; 2]| wrong.is_seen(a.drawn.hits(*at));
         let (yes, no): (Vec<_>, Vec<_>) = before.pixels().filter(may).partition(is_one);
         let row = |at: [i32; 2]| {
-            let mut row = Quantities { values: a.facts.clone(), names: None };
+            let mut row = Quantities { values: a.facts.clone(), ..Quantities::default() };
             scene.of_pixel(at, &mut row);
             row.values
         };
