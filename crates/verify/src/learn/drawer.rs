@@ -101,7 +101,7 @@ impl<'a> Triangles<'a> {
             }
         }
         let is_plain = expected.mirror == Mirror::None;
-        is_plain.then(|| Self { ask, conventions, rules, room, sample, is_mask: known.mask })
+        is_plain.then_some(Self { ask, conventions, rules, room, sample, is_mask: known.mask })
     }
 }
 

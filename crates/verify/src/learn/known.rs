@@ -1,12 +1,12 @@
 //! What is known where no model predicts every answer: when the program is wrong, where, and what is right beside it.
 
-use super::model::{Answered, Model};
+use super::model::Answered;
 use super::rule::{self, Table, Terms, all_hold};
 use super::say;
 use super::search::Search;
 
-/// The sentences, about what a model leaves wrong.
-pub(super) fn sentences(search: &Search<'_>, _model: &Model) -> Vec<String> {
+/// The sentences.
+pub(super) fn sentences(search: &Search<'_>) -> Vec<String> {
     let mut said = Vec::new();
     said.extend(when(search));
     said.extend(nearest_right(search));

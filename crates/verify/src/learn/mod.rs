@@ -300,7 +300,7 @@ impl<'a> Learner<'a> {
             true => say::sentences(model, &*self.drawer, &self.vocabulary),
             false => Vec::new(),
         };
-        let known = if is_certain { Vec::new() } else { known::sentences(&self.search(), model) };
+        let known = if is_certain { Vec::new() } else { known::sentences(&self.search()) };
         Learned { is_certain, does, wrong, right, known }
     }
 }

@@ -225,6 +225,9 @@ pub(super) struct Scene<'a> {
     edges: Vec<Edge>,
 }
 
+/// Whether an edge with this direction faces somewhere.
+type Facing = fn([i64; 2]) -> bool;
+
 /// An edge with the inside on its positive side.
 struct Edge {
     from: [i64; 2],
@@ -487,7 +490,7 @@ impl<'a> Scene<'a> {
             &["its sample is exactly on an edge"],
             "its sample is not exactly on an edge",
         );
-        let faces: [(&str, &str, fn([i64; 2]) -> bool); 4] = [
+        let faces: [(&str, &str, Facing); 4] = [
             ("a left", "its sample is not exactly on a left edge", |by| by[1] < 0),
             ("a right", "its sample is not exactly on a right edge", |by| by[1] > 0),
             ("a level top", "its sample is not exactly on a level top edge", |by| {
