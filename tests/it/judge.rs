@@ -806,7 +806,7 @@ fn judge_takes_a_declared_near_plane() {
     assert!(judged_as("near=zero").agrees());
     let verdict = judged_as("");
     assert!(!verdict.agrees());
-    assert!(verdict.cause[0].why.to_string().contains("clips at z = 0"), "{:?}", verdict.cause);
+    assert!(verdict.cause[0].why.to_string().contains("clips to z >= 0"), "{:?}", verdict.cause);
 }
 
 /// Meshes across the border of the window show what clipping does to shared edges.

@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 use std::fmt::Write as _;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::Options;
 use super::adapt_case;
@@ -90,7 +90,7 @@ const LOOK_CASES: u64 = 16;
 /// The convention of a program; nothing where it draws as it declares.
 pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> {
     let declared = program.declared().clone();
-    let mut bench = Bench { program: Timed::new(program, None), deaths_left: MOST_DEATHS };
+    let mut bench = Bench::new(Timed::new(program, None));
     let open = declared.convention.rule == Rule::Unspecified;
     let triangles = (scope.triangles && declared.coverage)
         .then(|| {
@@ -251,7 +251,7 @@ pub fn mistakes(
         let share = program.rest().map(|rest| rest / to_do);
         let end = program.end;
         let part = Timed::new(&mut *program, end).within(share);
-        let mut bench = Bench { program: part, deaths_left: MOST_DEATHS };
+        let mut bench = Bench::new(part);
         let (of, why) = match check {
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
@@ -370,9 +370,16 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 struct Bench<'a> {
     program: Timed<'a>,
     deaths_left: u64,
+    /// Answers so far, and how long they took.
+    answered: u32,
+    took: Duration,
 }
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
+    fn new(program: Timed<'a>) -> Self {
+        Self { program, deaths_left: MOST_DEATHS, answered: 0, took: Duration::ZERO }
+    }
+
     /// Limits its answers from the first wrong one on.
     fn limit(&mut self, patience: Option<Duration>) {
         self.program.left = self.program.left.or(patience);
@@ -384,11 +391,23 @@ impl Bench<'_> {
         left.map_or(Duration::ZERO, |(patience, left)| patience.saturating_sub(left))
     }
 
+    /// As many questions as are answered in the time that is left. Only of a slow program does the number depend on the
+    /// machine.
+    fn most_to_learn(&self) -> usize {
+        let Some(rest) = self.program.rest() else { return convention::MOST_TO_LEARN };
+        let each = self.took / self.answered.max(1);
+        let most = rest.as_nanos() / each.as_nanos().max(1);
+        convention::MOST_TO_LEARN.min(most as usize)
+    }
+
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
         if self.deaths_left == 0 || self.program.is_late {
             return Vec::new();
         }
+        let start = Instant::now();
         let answers = self.program.ask(questions, self.deaths_left);
+        self.took += start.elapsed();
+        self.answered += answers.len() as u32;
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         self.deaths_left = self.deaths_left.saturating_sub(deaths);
         self.program.is_late |= answers.len() < questions.len() && deaths == 0;
@@ -423,6 +442,10 @@ impl Bench<'_> {
 }
 
 impl convention::Ask for Bench<'_> {
+    fn most_to_learn(&self) -> usize {
+        self.most_to_learn()
+    }
+
     fn ask(&mut self, questions: &[convention::TriangleQuestion]) -> Vec<Option<Coverage>> {
         let asked: Vec<_> = questions.iter().map(triangle_question).collect();
         let answers = self.answers(&asked);
@@ -431,6 +454,10 @@ impl convention::Ask for Bench<'_> {
 }
 
 impl convention::AskLine for Bench<'_> {
+    fn most_to_learn(&self) -> usize {
+        self.most_to_learn()
+    }
+
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
         let whole = self.program.declared().grid() == 1;
         let asked: Vec<_> = questions.iter().map(|q| line_question(q, whole)).collect();

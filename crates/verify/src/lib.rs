@@ -205,6 +205,7 @@ pub mod comparison;
 #[doc(hidden)]
 pub mod convention;
 pub mod judge;
+mod learn;
 #[doc(hidden)]
 pub mod mistakes;
 pub mod oracle;

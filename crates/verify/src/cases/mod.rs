@@ -6,6 +6,7 @@
 //! whole-number arithmetic, no trigonometry.
 
 mod clip;
+#[doc(hidden)]
 pub mod facts;
 pub mod lines;
 pub mod named;

@@ -61,7 +61,7 @@ impl Cause {
     /// With what is wrong beyond the convention, or instead of one.
     pub(super) fn with(mut self, mistakes: Option<Mistakes>) -> Self {
         let Some(mistakes) = mistakes else { return self };
-        let is_named = !mistakes.causes.is_empty();
+        let is_named = mistakes.is_known();
         self.sentence = match self.is_known {
             true if is_named => format!("{} Beyond that: {mistakes}", self.sentence),
             true => self.sentence,

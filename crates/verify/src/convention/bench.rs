@@ -16,6 +16,9 @@ pub struct TriangleQuestion {
     pub window: PixelRect,
 }
 
+/// Questions that a program is asked at most to learn what it does.
+pub const MOST_TO_LEARN: usize = 4000;
+
 /// Whoever answers: a program behind a pipe, a function, a recording.
 pub trait Ask {
     /// One answer for each question, in order: the hits of each pixel of its window, or None where
@@ -25,6 +28,11 @@ pub trait Ask {
     /// How many questions of a mistake it is asked at once.
     fn at_once(&self) -> usize {
         100
+    }
+
+    /// How many questions it may be asked to learn what it does, where no known mistake explains it: fewer of a slow program.
+    fn most_to_learn(&self) -> usize {
+        MOST_TO_LEARN
     }
 
     /// Whether nobody waits for a conclusion: the answers come later, and all is asked again.

@@ -19,6 +19,11 @@ pub trait AskLine {
     /// One answer for each question, in order: the pixels, x and y, as they were drawn, or None
     /// where the program refused or died.
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>>;
+
+    /// As [`super::Ask::most_to_learn`].
+    fn most_to_learn(&self) -> usize {
+        super::MOST_TO_LEARN
+    }
 }
 
 impl<F: FnMut(&[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>>> AskLine for F {

@@ -36,7 +36,7 @@ mod stepped;
 mod ties;
 mod upright;
 
-pub use bench::{Ask, Declarations, TriangleQuestion};
+pub use bench::{Ask, Declarations, MOST_TO_LEARN, TriangleQuestion};
 pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
 pub(crate) use half_planes::facing;
 pub use lines::{

@@ -29,6 +29,7 @@ use crate::convention::{
     LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape, Ties,
     TriangleConvention, TriangleQuestion, Windings,
 };
+use crate::learn::{self, Learned};
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
@@ -165,6 +166,9 @@ pub struct Mistakes {
     pub lead: Option<Explanation>,
     /// What all wrong answers have in common, as sentences; where none explains it.
     pub common: Vec<String>,
+    /// What was learned of it without the tables, where none of their mistakes explains it.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub learned: Option<Learned>,
     /// Questions whose answer was wrong, of all that were answered.
     pub wrong: Count,
     /// From which size, slope or position on it is wrong, where there is such a limit.
@@ -172,10 +176,20 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    /// Whether a mistake is named.
+    /// Whether a mistake is named, or what it does was learned.
     #[must_use]
     pub fn is_known(&self) -> bool {
-        !self.causes.is_empty()
+        !self.causes.is_empty() || self.is_learned()
+    }
+
+    fn is_learned(&self) -> bool {
+        self.learned.as_ref().is_some_and(|learned| learned.is_certain)
+    }
+
+    /// With what is learned where no mistake of the tables explains it.
+    fn or_learned(self, learn: impl FnOnce() -> Option<Learned>) -> Self {
+        let learned = if self.is_known() { None } else { learn() };
+        Self { learned, ..self }
     }
 
     /// What is said of it: a sentence each. The first one says what the program does, or that this is not known.
@@ -197,6 +211,9 @@ impl Mistakes {
             }
             said.push(format!("This explains {}.", share(&cause.wrong, &cause.right)));
         }
+        if let Some(learned) = self.learned.as_ref().filter(|learned| learned.is_certain) {
+            said.extend(learned.sentences());
+        }
         if self.is_known() {
             let more = self.causes.len().saturating_sub(MOST_SAID);
             said.extend((more > 0).then(|| format!("{more} other causes explain the same.")));
@@ -212,6 +229,7 @@ impl Mistakes {
         });
         said.extend(self.limits.iter().map(Threshold::to_string));
         said.extend(self.common.iter().cloned());
+        said.extend(self.learned.iter().flat_map(Learned::sentences));
         if let Some(lead) = &self.lead {
             let explained = share(&lead.wrong, &lead.right);
             said.push(format!("The nearest is that it {}: this explains {explained}.", lead.does));
@@ -374,7 +392,8 @@ pub fn of_triangles(
             why = why.map(|why| Mistakes { causes, lead: None, common: Vec::new(), ..why });
         }
     }
-    with_limits(why, answered.len(), limits)
+    let found = with_limits(why, answered.len(), limits)?;
+    Some(found.or_learned(|| learn::of_triangles(ask, known, expected)))
 }
 
 /// The mistake that explains answers about triangles.
@@ -559,7 +578,9 @@ pub fn of_lines(
         |i: &usize| answered[*i].question.ends.as_flattened().iter().all(|v| v.abs() <= NEAR_PX);
     let near: Vec<usize> = (0..answered.len()).filter(is_near).collect();
     let found = conclude(hypotheses, &is_wrong, &near, &|_| usize::MAX, &seen);
-    with_limits(found, is_wrong.len(), thresholds::of_lines(ask, known, expected))
+    let limits = thresholds::of_lines(ask, known, expected);
+    let found = with_limits(found, is_wrong.len(), limits)?;
+    Some(found.or_learned(|| learn::of_lines(ask, known, expected)))
 }
 
 impl<Q, Picture> Program<'_, Q, Picture> {
@@ -646,6 +667,7 @@ fn conclude(
         causes,
         lead,
         common,
+        learned: None,
         limits: Vec::new(),
         wrong: Count { drawn: wrong as u64, of: is_wrong.len() as u64 },
     })

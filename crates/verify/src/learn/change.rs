@@ -1,0 +1,272 @@
+//! Changed questions: what is drawn is the right picture of another question.
+//!
+//! A change is a map of numbers, for some of the points and for one axis or both. The numbers in it, such as an offset, are
+//! solved for: tried from coarse to fine, by how near the pictures come to the answers.
+
+use super::drawer::Drawer;
+use super::model::Answered;
+use super::picture::Picture;
+use super::question::Question;
+
+/// Which points are changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Points {
+    All,
+    /// In the order in which they are given.
+    Given(usize),
+    /// In the order from the top down.
+    ByHeight(usize),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Toward {
+    Down,
+    Nearest,
+    Up,
+    Zero,
+}
+
+/// What becomes of a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum How {
+    /// A multiple of so many steps.
+    Snap(i64, Toward),
+    Add(i64),
+    AtLeast(i64),
+    /// Not beyond the side of the window less so many steps.
+    AtMostSide(i64),
+    /// Both of [`How::AtLeast`] 0 and [`How::AtMostSide`].
+    IntoWindow(i64),
+    /// A word of so many bits, which may be signed.
+    Wrap(u32, bool),
+    /// Limited to a signed word of so many bits.
+    Saturate(u32),
+    Absolute,
+    /// The side of the window less so many steps and less the coordinate.
+    Mirror(i64),
+    /// On the other side of the first point.
+    AboutFirst,
+    /// Times so many 256ths.
+    Scale(i64),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Change {
+    Move {
+        points: Points,
+        axes: [bool; 2],
+        how: How,
+    },
+    /// x and y change places.
+    Exchange,
+    /// All points become one, so that nothing is drawn.
+    Nothing,
+    /// The points come in the other order.
+    Reverse,
+}
+
+/// The right picture of a question after some changes, by a rule.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Base {
+    pub(super) changes: Vec<Change>,
+    pub(super) rule: usize,
+}
+
+/// A coordinate that no window has.
+const FAR_AWAY: i64 = 1 << 20;
+
+impl How {
+    fn apply(self, v: i64, side: i64, one: i64, first: i64) -> i64 {
+        match self {
+            Self::Snap(step, Toward::Down) => v.div_euclid(step) * step,
+            Self::Snap(step, Toward::Up) => -(-v).div_euclid(step) * step,
+            Self::Snap(step, Toward::Nearest) => (2 * v + step).div_euclid(2 * step) * step,
+            Self::Snap(step, Toward::Zero) => v / step * step,
+            Self::Add(by) => v + by,
+            Self::AtLeast(least) => v.max(least),
+            Self::AtMostSide(less) => v.min(side * one - less),
+            Self::IntoWindow(less) => v.max(0).min(side * one - less),
+            Self::Wrap(bits, true) => {
+                let half = 1 << (bits - 1);
+                (v + half).rem_euclid(1 << bits) - half
+            }
+            Self::Wrap(bits, false) => v.rem_euclid(1 << bits),
+            Self::Saturate(bits) => v.clamp(-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
+            Self::Absolute => v.abs(),
+            Self::Mirror(less) => side * one - less - v,
+            Self::AboutFirst => 2 * first - v,
+            Self::Scale(times) => (v * times).div_euclid(256),
+        }
+    }
+}
+
+impl Change {
+    fn apply(self, q: &mut Question) {
+        let one = q.one();
+        match self {
+            Self::Exchange => q.points.iter_mut().for_each(|point| point.reverse()),
+            Self::Reverse => q.points.reverse(),
+            // A line of one point is a pixel, which lies beyond every window.
+            Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
+            Self::Move { points, axes, how } => {
+                let order = if q.is_line() { [0, 1, 1] } else { q.by_height() };
+                let first = q.points[0];
+                for i in 0..q.points.len() {
+                    let is_meant = match points {
+                        Points::All => true,
+                        Points::Given(number) => number == i,
+                        Points::ByHeight(place) => order[place] == i,
+                    };
+                    for axis in (0..2).filter(|axis| is_meant && axes[*axis]) {
+                        let side = q.side[axis].into();
+                        let v = &mut q.points[i][axis];
+                        *v = how.apply(*v, side, one, first[axis]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Base {
+    pub(super) fn draw(&self, question: &Question, drawer: &dyn Drawer) -> Option<Picture> {
+        let mut q = question.clone();
+        self.changes.iter().for_each(|change| change.apply(&mut q));
+        drawer.right(&q, self.rule)
+    }
+
+    pub(super) fn cost(&self) -> usize {
+        let moved = self.changes.iter().map(|change| match change {
+            Change::Move { points: Points::All, .. } => 1,
+            _ => 2,
+        });
+        moved.sum::<usize>() + usize::from(self.rule > 0)
+    }
+}
+
+const AXES: [[bool; 2]; 3] = [[true, true], [true, false], [false, true]];
+
+/// All changes whose numbers are known: every map of numbers, for all points and for each of them, for both axes and for
+/// each; and every rule.
+pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
+    let one = if is_line { 1 } else { 256 };
+    let mut hows = vec![How::AtLeast(0), How::Absolute, How::AboutFirst];
+    let lesses: &[i64] = if is_line { &[0, 1, 2] } else { &[0, 1, 128, 256, 512] };
+    hows.extend(
+        lesses
+            .iter()
+            .flat_map(|&less| [How::AtMostSide(less), How::IntoWindow(less), How::Mirror(less)]),
+    );
+    let words = if is_line { 6..=16 } else { 11..=21 };
+    for bits in words {
+        hows.extend([How::Wrap(bits, true), How::Wrap(bits, false), How::Saturate(bits)]);
+    }
+    let steps = if is_line { 1..=3 } else { 1..=9 };
+    for step in steps.map(|bits| 1 << bits) {
+        let all = [Toward::Down, Toward::Nearest, Toward::Up, Toward::Zero];
+        hows.extend(all.map(|toward| How::Snap(step, toward)));
+    }
+    hows.extend([-1, 1].map(|by| How::Add(by * one)));
+    let mut points = vec![Points::All];
+    points.extend((0..if is_line { 2 } else { 3 }).map(Points::Given));
+    if !is_line {
+        points.extend((0..3).map(Points::ByHeight));
+    }
+    let mut bases: Vec<Base> = (1..rules).map(|rule| Base { rule, ..Base::default() }).collect();
+    bases.extend(
+        [Change::Nothing, Change::Exchange, Change::Reverse]
+            .map(|change| Base { changes: vec![change], rule: 0 }),
+    );
+    for &how in &hows {
+        for &points in &points {
+            let moved = AXES.map(|axes| Change::Move { points, axes, how });
+            bases.extend(moved.map(|change| Base { changes: vec![change], rule: 0 }));
+        }
+    }
+    bases
+}
+
+/// How near a base comes to some answers: those that it predicts, and the pixels that it misses, each answer's limited.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Nearness {
+    pub(super) exact: usize,
+    /// Less than none.
+    pub(super) pixels: i64,
+}
+
+/// Pixels of an answer beyond which no more are counted.
+const MOST_PIXELS: usize = 24;
+/// Answers after which a base is left that predicted none, and came nowhere near.
+const FIRST: usize = 12;
+
+pub(super) fn nearness(base: &Base, answers: &[&Answered], drawer: &dyn Drawer) -> Nearness {
+    let mut near = Nearness::default();
+    for (number, a) in answers.iter().enumerate() {
+        let missed = base.draw(&a.question, drawer).map_or(MOST_PIXELS, |p| p.differs(&a.drawn));
+        near.exact += usize::from(missed == 0);
+        near.pixels -= missed.min(MOST_PIXELS) as i64;
+        if number == FIRST && near.exact == 0 && near.pixels < -8 * FIRST as i64 {
+            near.pixels -= (MOST_PIXELS * (answers.len() - number)) as i64;
+            break;
+        }
+    }
+    near
+}
+
+/// Offsets and scales that come nearest: tried in coarse steps, then in finer ones about the best so far.
+pub(super) fn solved(is_line: bool, answers: &[&Answered], drawer: &dyn Drawer) -> Vec<Base> {
+    let mut out = Vec::new();
+    for how in [How::Add as fn(i64) -> How, How::Mirror, How::Scale] {
+        let mut of_axes = Vec::new();
+        for axes in AXES {
+            let change = |v: i64| Change::Move { points: Points::All, axes, how: how(v) };
+            let base = |v: i64| Base { changes: vec![change(v)], rule: 0 };
+            let start = if how(0) == How::Scale(0) { 256 } else { 0 };
+            if how(0) == How::Scale(0) && is_line {
+                continue;
+            }
+            let steps = steps_of(is_line, start != 0);
+            // Fine steps are told apart by few answers, so all are looked at.
+            let near = |v: i64, step: i64| {
+                let some = if step > 4 { answers.len().min(COARSE) } else { answers.len() };
+                nearness(&base(v), &answers[..some], drawer)
+            };
+            let best = finest(steps, start, &near);
+            of_axes.push(change(best));
+            out.push(base(best));
+        }
+        // Each axis by its own number.
+        if let [_, x, y] = of_axes[..] {
+            out.push(Base { changes: vec![x, y], rule: 0 });
+        }
+    }
+    out
+}
+
+/// Answers that coarse steps are compared by.
+const COARSE: usize = 24;
+
+/// From coarse to fine.
+fn steps_of(is_line: bool, is_scale: bool) -> &'static [i64] {
+    match (is_line, is_scale) {
+        (true, _) => &[1],
+        (_, true) => &[32, 8, 2, 1],
+        _ => &[256, 64, 16, 4, 1],
+    }
+}
+
+/// The number with the best nearness.
+fn finest(steps: &[i64], start: i64, near: &dyn Fn(i64, i64) -> Nearness) -> i64 {
+    let mut best = (Nearness::default(), start);
+    for &step in steps {
+        let center = best.1;
+        best = (near(center, step), center);
+        for v in (-6..=6).map(|i| center + i * step) {
+            let nearness = near(v, step);
+            if nearness > best.0 {
+                best = (nearness, v);
+            }
+        }
+    }
+    best.1
+}

@@ -1,0 +1,260 @@
+//! Who answers and who knows the right answer: triangles and lines behind one trait.
+
+use super::picture::{MARGIN, Picture};
+use super::question::{Question, Room};
+use crate::convention::{
+    Ask, AskLine, Declarations, LineConvention, LineQuestion, LineRounding, LineTie, Mask, Mirror,
+    Shape, Ties, TriangleConvention, TriangleQuestion,
+};
+use crate::mistakes::RULES;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::random::Rng;
+
+/// The program under judgement, with what it should draw.
+pub(super) trait Drawer {
+    /// What a rule draws: the right one is number 0. Nothing where it says nothing.
+    fn right(&self, question: &Question, rule: usize) -> Option<Picture>;
+    /// The answers; what is not answered is an empty picture.
+    fn ask(&mut self, questions: &[Question]) -> Vec<Picture>;
+    /// How many questions may be asked.
+    fn most_to_learn(&self) -> usize;
+    /// Whether the answers come later, and all is asked again.
+    fn is_abandoned(&self) -> bool;
+    /// What is said of each rule, after 'as'; empty for the right one.
+    fn rules(&self) -> &[String];
+    /// Where samples lie in their pixel, in subpixels.
+    fn sample(&self) -> [i64; 2];
+    fn room(&mut self) -> &mut Room;
+}
+
+/// The side of the windows that a convention draws at once.
+const BLOCK_PX: i32 = 32;
+
+/// The picture of a question with its margin, in blocks: `draw` gets the first pixel of a block and its window.
+fn in_blocks(
+    side: [i32; 2],
+    draw: &dyn Fn([i32; 2], PixelRect) -> Option<Mask>,
+) -> Option<Picture> {
+    let mut picture = Picture::new(side);
+    let starts = |side: i32| (-MARGIN..side + MARGIN).step_by(BLOCK_PX as usize);
+    for top in starts(side[1]) {
+        for left in starts(side[0]) {
+            let [width, height] = [(left, side[0]), (top, side[1])]
+                .map(|(start, side)| BLOCK_PX.min(side + MARGIN - start));
+            let mask = draw([left, top], PixelRect::window(width as u32, height as u32))?;
+            for y in 0..height {
+                for x in (0..width).filter(|x| mask.has(*x, y)) {
+                    picture.set([left + x, top + y], 1);
+                }
+            }
+        }
+    }
+    Some(picture)
+}
+
+fn window_of(question: &Question) -> PixelRect {
+    PixelRect::window(question.side[0] as u32, question.side[1] as u32)
+}
+
+/// A rasterizer of triangles.
+pub(super) struct Triangles<'a> {
+    ask: &'a mut dyn Ask,
+    conventions: Vec<TriangleConvention>,
+    rules: Vec<String>,
+    room: Room,
+    sample: [i64; 2],
+    /// Whether a pixel drawn twice cannot be seen.
+    is_mask: bool,
+}
+
+impl<'a> Triangles<'a> {
+    /// Nothing where pictures are turned over.
+    pub(super) fn new(
+        ask: &'a mut dyn Ask,
+        known: &Declarations,
+        expected: &TriangleConvention,
+        seed: u64,
+    ) -> Option<Self> {
+        let grid = known.grid.clamp(1, SUBPIXELS);
+        let grain = if SUBPIXELS % grid == 0 { SUBPIXELS / grid } else { SUBPIXELS };
+        let (width, height) = known.window_px;
+        let room = Room {
+            rng: Rng::new("learn", seed, 0),
+            is_line: false,
+            side: [width, height].map(i64::from),
+            grain: grain.into(),
+            most: i64::from(known.range_px.clamp(1, 1 << 20)) * 256,
+        };
+        let sample = match expected.shape {
+            Shape::Point { x, y } => [x, y].map(i64::from),
+            _ => [128; 2],
+        };
+        let mut conventions = vec![*expected];
+        let mut rules = vec![String::new()];
+        for rule in RULES {
+            let Some(ties) = Ties::named(rule) else { continue };
+            let convention = TriangleConvention { ties, ..*expected };
+            if !conventions.contains(&convention) {
+                conventions.push(convention);
+                rules.push(format!("by the {rule} rule"));
+            }
+        }
+        let is_plain = expected.mirror == Mirror::None;
+        is_plain.then_some(Self { ask, conventions, rules, room, sample, is_mask: known.mask })
+    }
+}
+
+impl Drawer for Triangles<'_> {
+    fn right(&self, question: &Question, rule: usize) -> Option<Picture> {
+        in_blocks(question.side, &|block, window| {
+            let corner = |i: usize| {
+                let [x, y] = [0, 1].map(|axis| {
+                    let moved = question.points[i][axis] - 256 * i64::from(block[axis]);
+                    // Changed questions may lie anywhere.
+                    moved.clamp(-(1 << 30), 1 << 30) as i32
+                });
+                SubpixelPoint::new(x, y)
+            };
+            self.conventions[rule].mask(&[corner(0), corner(1), corner(2)], window)
+        })
+    }
+
+    fn ask(&mut self, questions: &[Question]) -> Vec<Picture> {
+        let asked: Vec<TriangleQuestion> = questions
+            .iter()
+            .map(|q| {
+                // Questions keep to the range that is declared.
+                let corners = [0, 1, 2]
+                    .map(|i| SubpixelPoint::new(q.points[i][0] as i32, q.points[i][1] as i32));
+                TriangleQuestion { corners, window: window_of(q) }
+            })
+            .collect();
+        let answers = self.ask.ask(&asked);
+        let most = if self.is_mask { 1 } else { 2 };
+        let picture = |(q, answer): (&Question, Option<Coverage>)| {
+            let mut picture = Picture::new(q.side);
+            if let Some(answer) = answer.filter(|answer| answer.bounds() == window_of(q)) {
+                for at in picture.pixels() {
+                    picture.set(at, answer.get(at[0], at[1]).unwrap_or(0).min(most));
+                }
+            }
+            picture
+        };
+        questions.iter().zip(answers).map(picture).collect()
+    }
+
+    fn most_to_learn(&self) -> usize {
+        self.ask.most_to_learn()
+    }
+
+    fn is_abandoned(&self) -> bool {
+        self.ask.is_abandoned()
+    }
+
+    fn rules(&self) -> &[String] {
+        &self.rules
+    }
+
+    fn sample(&self) -> [i64; 2] {
+        self.sample
+    }
+
+    fn room(&mut self) -> &mut Room {
+        &mut self.room
+    }
+}
+
+/// A line drawer. Pixels that come twice are not told from others.
+pub(super) struct Lines<'a> {
+    ask: &'a mut dyn AskLine,
+    conventions: Vec<LineConvention>,
+    rules: Vec<String>,
+    room: Room,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(
+        ask: &'a mut dyn AskLine,
+        known: &Declarations,
+        expected: &LineConvention,
+        seed: u64,
+    ) -> Self {
+        let (width, height) = known.window_px;
+        let room = Room {
+            rng: Rng::new("learn", seed, 1),
+            is_line: true,
+            side: [width, height].map(i64::from),
+            grain: 1,
+            most: known.range_px.clamp(1, 1 << 20).into(),
+        };
+        let mut conventions = vec![*expected];
+        let mut rules = vec![String::new()];
+        for tie in LineTie::ALL {
+            let convention = LineConvention { rounding: LineRounding::Nearest(tie), ..*expected };
+            if !conventions.contains(&convention) {
+                conventions.push(convention);
+                rules.push(format!("as if its rule for ties were '{}'", tie.name()));
+            }
+        }
+        Self { ask, conventions, rules, room }
+    }
+}
+
+impl Drawer for Lines<'_> {
+    fn right(&self, question: &Question, rule: usize) -> Option<Picture> {
+        in_blocks(question.side, &|block, window| {
+            let ends = [0, 1].map(|i| {
+                [0, 1].map(|axis| {
+                    let moved = question.points[i][axis] - i64::from(block[axis]);
+                    moved.clamp(-(1 << 22), 1 << 22) as i32
+                })
+            });
+            let pixels = self.conventions[rule].pixels(&LineQuestion { ends, window })?;
+            let mut mask = Mask::default();
+            let shown = pixels.into_iter().filter(|p| window.contains(p[0], p[1]));
+            shown.for_each(|[x, y]| mask.set(x, y));
+            Some(mask)
+        })
+    }
+
+    fn ask(&mut self, questions: &[Question]) -> Vec<Picture> {
+        let asked: Vec<LineQuestion> = questions
+            .iter()
+            .map(|q| {
+                // Questions keep to the range that is declared.
+                let ends = [0, 1].map(|i| [0, 1].map(|axis| q.points[i][axis] as i32));
+                LineQuestion { ends, window: window_of(q) }
+            })
+            .collect();
+        let answers = self.ask.ask_lines(&asked);
+        let picture = |(q, answer): (&Question, Option<Vec<[i32; 2]>>)| {
+            let mut picture = Picture::new(q.side);
+            let pixels = answer.unwrap_or_default();
+            let shown: Vec<_> = pixels.into_iter().filter(|p| picture.shows(*p)).collect();
+            shown.into_iter().for_each(|at| picture.set(at, 1));
+            picture
+        };
+        questions.iter().zip(answers).map(picture).collect()
+    }
+
+    fn most_to_learn(&self) -> usize {
+        self.ask.most_to_learn()
+    }
+
+    fn is_abandoned(&self) -> bool {
+        false
+    }
+
+    fn rules(&self) -> &[String] {
+        &self.rules
+    }
+
+    fn sample(&self) -> [i64; 2] {
+        [0; 2]
+    }
+
+    fn room(&mut self) -> &mut Room {
+        &mut self.room
+    }
+}

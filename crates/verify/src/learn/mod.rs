@@ -1,0 +1,310 @@
+//! Explains a wrong rasterizer or line drawer without a table: it learns when the program is wrong, and how its answer
+//! follows from the right one.
+//!
+//! An explanation is a sum of up to three steps. A step is a *changed question* ('it draws as if x were rounded down to
+//! 1/16 px, where the triangle is clockwise') or a *pixel rule* ('it leaves out the last pixel of each row'). Both are made
+//! of facts, and a fact is a quantity with a test: every quantity of `quantity` gets every test of `rule`. What a step
+//! explains is subtracted: the facts of the next one are facts of what is then predicted.
+//!
+//! An explanation is believed only where it predicts every pixel of new questions, among them questions at both sides of
+//! each of its limits. Otherwise what is known is said: what separates wrong answers from right ones, where the wrong pixels
+//! lie, and a right question beside a wrong one.
+
+mod change;
+mod drawer;
+mod known;
+mod model;
+mod picture;
+#[cfg(test)]
+mod programs;
+mod quantity;
+mod question;
+mod rule;
+mod say;
+mod search;
+
+use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
+use drawer::{Drawer, Lines, Triangles};
+use model::{Answered, Model, Vocabulary, facts_of};
+use question::Question;
+use rule::{Of, Test};
+use search::Search;
+
+/// What was learned of a wrong program.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Learned {
+    /// Whether every one of enough new answers was predicted to the pixel.
+    pub is_certain: bool,
+    /// What the program does and when, a sentence for each step; empty where nothing was found.
+    pub does: Vec<String>,
+    /// New answers that are wrong, and those of them that were predicted.
+    pub wrong: Count,
+    /// New answers that are right, and those of them that were predicted.
+    pub right: Count,
+    /// What is known where not every answer was predicted: when it is wrong, where, and what comes out right beside it.
+    pub known: Vec<String>,
+}
+
+impl Learned {
+    /// What is said of it: first what the program does and when.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let mut said = self.does.clone();
+        let counts = format!(
+            "{} of {} wrong ones and {} of {} right ones",
+            self.wrong.drawn, self.wrong.of, self.right.drawn, self.right.of
+        );
+        if self.is_certain {
+            said.push(format!("Of new answers, this predicts every pixel of {counts}."));
+            return said;
+        }
+        if let Some(first) = said.first_mut() {
+            *first = format!("So far: {}{}", first[..1].to_ascii_lowercase(), &first[1..]);
+            said.push(format!(
+                "Of new answers, this predicts {counts}: too few to call it the cause."
+            ));
+        }
+        said.extend(self.known.iter().cloned());
+        said
+    }
+}
+
+/// Questions that are asked first, and at most before the first search.
+const FIRST: usize = 400;
+const MOST_FIRST: usize = 1200;
+/// Wrong answers that are wanted before the first search.
+const ENOUGH_WRONG: usize = 60;
+/// New questions of each round, and those beside wrong ones.
+const FRESH: [usize; 2] = [200, 150];
+/// How often the first are asked, as long as too few of them are wrong.
+const MOST_FRESH: usize = 4;
+/// Searches at most: what refutes one is learned from by the next.
+const MOST_ROUNDS: usize = 4;
+/// New answers below which nothing is called the cause, wrong ones among them, and those of these that are independent.
+const CERTAIN: [u64; 3] = [300, 50, 12];
+/// Wrong answers below which nothing is learned.
+const LEAST_WRONG: usize = 6;
+/// Questions that are asked at once, so that a slow program can be left in time.
+const AT_ONCE: usize = 100;
+
+/// Learns from a rasterizer of triangles; `expected` is what is right.
+pub(crate) fn of_triangles(
+    ask: &mut dyn Ask,
+    known: &Declarations,
+    expected: &TriangleConvention,
+) -> Option<Learned> {
+    Learner::new(&mut Triangles::new(ask, known, expected, SEED)?).learn()
+}
+
+/// Learns from a line drawer.
+pub(crate) fn of_lines(
+    ask: &mut dyn AskLine,
+    known: &Declarations,
+    expected: &LineConvention,
+) -> Option<Learned> {
+    Learner::new(&mut Lines::new(ask, known, expected, SEED)).learn()
+}
+
+/// The questions are the same in every run.
+const SEED: u64 = 1;
+
+struct Learner<'a> {
+    drawer: &'a mut dyn Drawer,
+    /// Questions that may still be asked.
+    left: usize,
+    vocabulary: Vocabulary,
+    answered: Vec<Answered>,
+}
+
+/// How many of some new answers a model predicts.
+#[derive(Default)]
+struct Round {
+    /// Wrong answers to questions that are beside no other one.
+    independent: u64,
+    wrong: Count,
+    right: Count,
+    /// Numbers of those that it does not predict.
+    missed: Vec<usize>,
+}
+
+impl Round {
+    fn missed(&self) -> u64 {
+        self.wrong.of - self.wrong.drawn + self.right.of - self.right.drawn
+    }
+}
+
+impl<'a> Learner<'a> {
+    fn new(drawer: &'a mut dyn Drawer) -> Self {
+        let sample = drawer.room().question();
+        let left = drawer.most_to_learn();
+        Self { drawer, left, vocabulary: Vocabulary::of(&sample), answered: Vec::new() }
+    }
+
+    fn learn(mut self) -> Option<Learned> {
+        self.ask_first()?;
+        if self.wrong().count() < LEAST_WRONG {
+            return None;
+        }
+        let mut best: Option<(Round, Model)> = None;
+        let mut refuted = true;
+        for _ in 0..MOST_ROUNDS {
+            let model = match &best {
+                Some((_, model)) if !refuted => model.clone(),
+                _ => self.search().explain(),
+            };
+            let round = self.try_out(&model)?;
+            refuted = round.missed() > 0;
+            let is_settled = !refuted && round.missed.is_empty();
+            self.put_first(&round.missed);
+            let is_better =
+                best.as_ref().is_none_or(|(before, _)| round.missed() <= before.missed());
+            if is_better {
+                best = Some((round, model));
+            }
+            if is_settled || self.left == 0 {
+                break;
+            }
+        }
+        best.map(|(round, model)| self.learned(&round, &model))
+    }
+
+    fn wrong(&self) -> impl Iterator<Item = &Answered> {
+        self.answered.iter().filter(|a| a.is_wrong())
+    }
+
+    fn search(&self) -> Search<'_> {
+        Search { drawer: &*self.drawer, vocabulary: &self.vocabulary, answered: &self.answered }
+    }
+
+    /// Asks for more until there are enough wrong answers; nothing where nobody waits for a conclusion.
+    fn ask_first(&mut self) -> Option<()> {
+        while self.answered.len() < MOST_FIRST && self.left > 0 {
+            let wrong: Vec<Question> = self.wrong().map(|a| a.question.clone()).collect();
+            if self.answered.len() >= FIRST && wrong.len() >= ENOUGH_WRONG {
+                break;
+            }
+            let questions = (0..AT_ONCE).map(|i| self.question(&wrong, i % 2 == 1)).collect();
+            self.ask(questions)?;
+        }
+        Some(())
+    }
+
+    /// A new question, or one beside a given one.
+    fn question(&mut self, given: &[Question], is_beside: bool) -> Question {
+        let room = self.drawer.room();
+        if !is_beside || given.is_empty() {
+            return room.question();
+        }
+        let i = room.rng.int(0, given.len() as i64 - 1) as usize;
+        room.beside(&given[i])
+    }
+
+    fn ask(&mut self, questions: Vec<Question>) -> Option<()> {
+        for questions in questions.chunks(AT_ONCE) {
+            let questions = &questions[..questions.len().min(self.left)];
+            self.left -= questions.len();
+            let answers = self.drawer.ask(questions);
+            for (question, drawn) in questions.iter().zip(answers) {
+                let Some(right) = self.drawer.right(question, 0) else { continue };
+                let (question, facts) = (question.clone(), facts_of(question));
+                self.answered.push(Answered { question, facts, drawn, right });
+            }
+        }
+        (!self.drawer.is_abandoned()).then_some(())
+    }
+
+    /// Asks new questions, questions beside wrong ones, and questions at the limits of a model.
+    fn try_out(&mut self, model: &Model) -> Option<Round> {
+        let before = self.answered.len();
+        let wrong: Vec<Question> = self.wrong().map(|a| a.question.clone()).collect();
+        // Questions beside others are alike: a limit that only these share is none. So the independent ones are counted apart.
+        let mut independent = 0;
+        for _ in 0..MOST_FRESH {
+            let from = self.answered.len();
+            let questions = (0..FRESH[0]).map(|_| self.question(&[], false)).collect();
+            self.ask(questions)?;
+            independent += self.answered[from..].iter().filter(|a| a.is_wrong()).count() as u64;
+            if independent >= CERTAIN[2] {
+                break;
+            }
+        }
+        let mut questions: Vec<Question> = Vec::new();
+        questions.extend((0..FRESH[1]).map(|_| self.question(&wrong, true)));
+        questions.extend(self.at_limits(model));
+        self.ask(questions)?;
+        let mut round = Round { independent, ..Round::default() };
+        let search = self.search();
+        for i in before..self.answered.len() {
+            let a = &self.answered[i];
+            let fits = search.fits(model, a);
+            let count = if a.is_wrong() { &mut round.wrong } else { &mut round.right };
+            count.add(fits);
+            round.missed.extend((!fits).then_some(i));
+        }
+        Some(round)
+    }
+
+    /// Questions near both sides of each limit of a fact of the question.
+    fn at_limits(&mut self, model: &Model) -> Vec<Question> {
+        let mut questions = Vec::new();
+        for fact in model.conjunctions().flatten() {
+            let (Of::One(i), Test::AtMost(limit) | Test::AtLeast(limit)) = (fact.of, fact.test)
+            else {
+                continue;
+            };
+            if i < self.vocabulary.of_question {
+                questions.extend(self.near_limit(i, limit));
+            }
+        }
+        questions
+    }
+
+    /// The questions nearest to a limit, of many beside those that are nearest so far.
+    fn near_limit(&mut self, quantity: usize, limit: i64) -> Vec<Question> {
+        let distance = |facts: &[i64]| facts[quantity].saturating_sub(limit).saturating_abs();
+        let mut nearest: Vec<usize> = (0..self.answered.len()).collect();
+        nearest.sort_by_key(|&i| distance(&self.answered[i].facts));
+        let start: Vec<Question> =
+            nearest.iter().take(30).map(|&i| self.answered[i].question.clone()).collect();
+        let mut found: Vec<(i64, Question)> = Vec::new();
+        for _ in 0..NEAR_TRIED {
+            let question = self.question(&start, true);
+            found.push((distance(&facts_of(&question)), question));
+        }
+        found.sort_by_key(|(distance, _)| *distance);
+        found.into_iter().take(NEAR_ASKED).map(|(_, question)| question).collect()
+    }
+
+    /// What refutes a model is looked at first by the next search; of new answers as many as of old ones.
+    fn put_first(&mut self, missed: &[usize]) {
+        let mut is_missed = vec![false; self.answered.len()];
+        missed.iter().take(120).for_each(|&i| is_missed[i] = true);
+        let mut marks = is_missed.into_iter();
+        let all = std::mem::take(&mut self.answered);
+        let (mut first, rest): (Vec<_>, Vec<_>) =
+            all.into_iter().partition(|_| marks.next() == Some(true));
+        first.extend(rest);
+        self.answered = first;
+    }
+
+    fn learned(&self, round: &Round, model: &Model) -> Learned {
+        let (wrong, right) = (round.wrong, round.right);
+        let is_certain = round.missed() == 0
+            && wrong.of + right.of >= CERTAIN[0]
+            && wrong.of >= CERTAIN[1]
+            && round.independent >= CERTAIN[2];
+        let explains = 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of;
+        let does = match explains && wrong.drawn > 0 {
+            true => say::sentences(model, &*self.drawer, &self.vocabulary),
+            false => Vec::new(),
+        };
+        let known = if is_certain { Vec::new() } else { known::sentences(&self.search()) };
+        Learned { is_certain, does, wrong, right, known }
+    }
+}
+
+/// Questions beside others that are looked at for each limit, and those of them that are asked.
+const NEAR_TRIED: usize = 600;
+const NEAR_ASKED: usize = 24;

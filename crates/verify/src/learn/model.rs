@@ -1,0 +1,215 @@
+//! An explanation as a value: changed questions with the questions that they hold for, then pixel rules, one on another.
+
+use super::change::Base;
+use super::drawer::Drawer;
+use super::picture::Picture;
+use super::quantity::{self, Name, Quantities, Scene};
+use super::question::Question;
+use super::rule::{Conjunction, Fact, Of, all_hold};
+
+/// A question with its answer and the right one.
+pub(super) struct Answered {
+    pub(super) question: Question,
+    pub(super) facts: Vec<i64>,
+    pub(super) drawn: Picture,
+    pub(super) right: Picture,
+}
+
+impl Answered {
+    pub(super) fn is_wrong(&self) -> bool {
+        !self.drawn.is_as(&self.right)
+    }
+}
+
+/// The quantities of a question.
+pub(super) fn facts_of(question: &Question) -> Vec<i64> {
+    let mut out = Quantities::default();
+    quantity::of_question(question, &mut out);
+    out.values
+}
+
+/// The names of all quantities: those of the question first.
+pub(super) struct Vocabulary {
+    pub(super) names: Vec<Name>,
+    /// How many are of the question.
+    pub(super) of_question: usize,
+    /// How many quantities of a pixel each group has.
+    sizes: [usize; quantity::GROUPS],
+}
+
+impl Vocabulary {
+    pub(super) fn of(question: &Question) -> Self {
+        let mut out = Quantities { names: Some(Vec::new()), ..Quantities::default() };
+        quantity::of_question(question, &mut out);
+        let of_question = out.values.len();
+        let picture = Picture::new(question.side);
+        Scene::new(question, &picture, [128; 2]).of_pixel([0, 0], &mut out);
+        Self { names: out.names.unwrap_or_default(), of_question, sizes: out.sizes }
+    }
+
+    /// The groups of quantities of a pixel that no fact is about.
+    fn left_out(&self, facts: &[Fact]) -> [bool; quantity::GROUPS] {
+        let grouped: usize = self.sizes.iter().sum();
+        let mut start = self.names.len() - grouped;
+        self.sizes.map(|size| {
+            let group = start..start + size;
+            start += size;
+            facts.iter().all(|fact| match fact.of {
+                Of::One(i) => !group.contains(&i),
+                Of::Difference(i, j) => !group.contains(&i) && !group.contains(&j),
+            })
+        })
+    }
+
+    fn is_of_question(&self, fact: &Fact) -> bool {
+        matches!(fact.of, Of::One(i) if i < self.of_question)
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wrong {
+    Missing,
+    Extra,
+    Twice,
+}
+
+impl Wrong {
+    pub(super) const ALL: [Self; 3] = [Self::Missing, Self::Extra, Self::Twice];
+
+    /// Whether it can befall a pixel that is predicted to have so many hits.
+    pub(super) fn may_befall(self, hits: u8) -> bool {
+        match self {
+            Self::Missing => hits > 0,
+            Self::Extra => hits == 0,
+            Self::Twice => hits == 1,
+        }
+    }
+
+    /// Whether a pixel with so many hits shows it.
+    pub(super) fn is_seen(self, hits: u8) -> bool {
+        match self {
+            Self::Missing => hits == 0,
+            Self::Extra => hits > 0,
+            Self::Twice => hits > 1,
+        }
+    }
+
+    fn hits(self) -> u8 {
+        match self {
+            Self::Missing => 0,
+            Self::Extra => 1,
+            Self::Twice => 2,
+        }
+    }
+}
+
+/// Pixels of which all facts hold are wrong in one way.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Step {
+    pub(super) wrong: Wrong,
+    pub(super) facts: Conjunction,
+}
+
+/// A changed question, and when it is the one that is drawn: where one of these conjunctions holds, or always.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Guarded {
+    pub(super) when: Option<Vec<Conjunction>>,
+    pub(super) base: Base,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Model {
+    /// The first whose guard holds is drawn; the right picture where none does.
+    pub(super) chain: Vec<Guarded>,
+    pub(super) steps: Vec<Step>,
+}
+
+impl Model {
+    /// What it predicts, in the window and in its margin.
+    pub(super) fn predict(
+        &self,
+        a: &Answered,
+        drawer: &dyn Drawer,
+        vocabulary: &Vocabulary,
+    ) -> Option<Picture> {
+        let mut drawn = self.start(a, drawer)?;
+        for step in &self.steps {
+            drawn = step.apply(a, &drawn, drawer, vocabulary);
+        }
+        Some(drawn)
+    }
+
+    fn start(&self, a: &Answered, drawer: &dyn Drawer) -> Option<Picture> {
+        let base = self.chain.iter().find(|guarded| guarded.holds(&a.facts));
+        match base {
+            Some(guarded) => guarded.base.draw(&a.question, drawer),
+            None => Some(a.right.clone()),
+        }
+    }
+
+    pub(super) fn fits(&self, a: &Answered, drawer: &dyn Drawer, vocabulary: &Vocabulary) -> bool {
+        self.predict(a, drawer, vocabulary).is_some_and(|picture| picture.is_as(&a.drawn))
+    }
+
+    /// How much it says.
+    pub(super) fn cost(&self) -> usize {
+        let guards = self.chain.iter().map(|guarded| {
+            guarded.base.cost() + guarded.when.iter().flatten().map(Vec::len).sum::<usize>()
+        });
+        guards.chain(self.steps.iter().map(|step| 1 + step.facts.len())).sum()
+    }
+
+    /// Every conjunction in it.
+    pub(super) fn conjunctions(&self) -> impl Iterator<Item = &Conjunction> {
+        let guards = self.chain.iter().filter_map(|guarded| guarded.when.as_ref()).flatten();
+        guards.chain(self.steps.iter().map(|step| &step.facts))
+    }
+
+    /// With another pixel rule.
+    pub(super) fn with(&self, step: Step) -> Self {
+        let mut more = self.clone();
+        more.steps.push(step);
+        more
+    }
+}
+
+impl Guarded {
+    fn holds(&self, facts: &[i64]) -> bool {
+        self.when.as_ref().is_none_or(|when| when.iter().any(|all| all_hold(all, facts)))
+    }
+}
+
+impl Step {
+    /// Facts of the question alone need no look at the pixels.
+    pub(super) fn split(&self, vocabulary: &Vocabulary) -> [Conjunction; 2] {
+        let (of_question, of_pixel) =
+            self.facts.iter().copied().partition(|fact| vocabulary.is_of_question(fact));
+        [of_question, of_pixel]
+    }
+
+    fn apply(
+        &self,
+        a: &Answered,
+        before: &Picture,
+        drawer: &dyn Drawer,
+        vocabulary: &Vocabulary,
+    ) -> Picture {
+        let [of_question, of_pixel] = self.split(vocabulary);
+        let mut after = before.clone();
+        if !all_hold(&of_question, &a.facts) {
+            return after;
+        }
+        let scene = Scene::new(&a.question, before, drawer.sample());
+        let left_out = vocabulary.left_out(&of_pixel);
+        let (values, sizes) = (a.facts.clone(), vocabulary.sizes);
+        let mut row = Quantities { values, names: None, left_out, sizes };
+        for at in before.all().filter(|at| self.wrong.may_befall(before.hits(*at))) {
+            row.values.truncate(vocabulary.of_question);
+            scene.of_pixel(at, &mut row);
+            if all_hold(&of_pixel, &row.values) {
+                after.set(at, self.wrong.hits());
+            }
+        }
+        after
+    }
+}

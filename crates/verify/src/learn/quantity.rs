@@ -1,0 +1,570 @@
+//! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
+
+use super::picture::{Picture, Runs};
+use super::question::Question;
+
+/// How a quantity is tested and printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unit {
+    /// 1 or 0.
+    Flag,
+    /// Pixels, rows or other things that are counted.
+    Count,
+    /// A count that is compared with the others of its kind.
+    Paired,
+    /// A count that takes many words.
+    Involved,
+    /// Whole pixels.
+    Pixels,
+    /// 1/256 px.
+    Subpixels,
+    /// 1/65,536 of a square pixel.
+    Area,
+    /// 1/256.
+    Ratio,
+}
+
+/// The words of a quantity.
+#[derive(Clone, Debug)]
+pub(super) struct Name {
+    pub(super) unit: Unit,
+    /// Such as 'its column'; of a flag, what is said where it holds.
+    pub(super) noun: String,
+    /// What is said where it is 0, and where it is not; empty where the noun says it.
+    pub(super) zero: [String; 2],
+}
+
+/// A quantity that a pixel does not have, such as its place in a row without pixels: no test of it holds.
+pub(super) const NONE: i64 = i64::MIN;
+
+/// Takes the quantities in their order: their values, and their names where these are wanted. Names come in pieces, which
+/// are joined only for those who want them.
+#[derive(Default)]
+pub(super) struct Quantities {
+    pub(super) values: Vec<i64>,
+    pub(super) names: Option<Vec<Name>>,
+    /// Groups of quantities of a pixel that are left out: their values are not looked at.
+    pub(super) left_out: [bool; GROUPS],
+    /// How many quantities each group has.
+    pub(super) sizes: [usize; GROUPS],
+}
+
+/// Quantities of a pixel that are computed together.
+pub(super) const GROUPS: usize = 4;
+
+impl Quantities {
+    /// Computes a group, unless it is left out.
+    fn group(&mut self, number: usize, compute: impl FnOnce(&mut Self)) {
+        let start = self.values.len();
+        if self.left_out[number] {
+            self.values.resize(start + self.sizes[number], NONE);
+            return;
+        }
+        compute(self);
+        self.sizes[number] = self.values.len() - start;
+    }
+
+    fn put(&mut self, unit: Unit, value: i64, noun: &[&str], zero: [&str; 2]) {
+        self.values.push(value);
+        if let Some(names) = &mut self.names {
+            names.push(Name { unit, noun: noun.concat(), zero: zero.map(str::to_owned) });
+        }
+    }
+
+    fn flag(&mut self, value: bool, yes: &[&str], no: &str) {
+        self.put(Unit::Flag, value.into(), yes, [no, ""]);
+    }
+
+    fn number(&mut self, unit: Unit, value: i64, noun: &[&str]) {
+        self.put(unit, value, noun, ["", ""]);
+    }
+}
+
+const AXES: [&str; 2] = ["x", "y"];
+const ORDINALS: [&str; 3] = ["first", "second", "third"];
+const SIDES: [&str; 2] = ["width", "height"];
+
+/// The quantities of a question.
+pub(super) fn of_question(q: &Question, out: &mut Quantities) {
+    let (unit, one) = (q.unit(), q.one());
+    let corner = if q.is_line() { " end" } else { " corner" };
+    for axis in [0, 1] {
+        let (name, side) = (AXES[axis], i64::from(q.side[axis]));
+        out.number(Unit::Pixels, side, &["the ", SIDES[axis], " of the window"]);
+        for (point, ordinal) in q.points.iter().zip(ORDINALS) {
+            out.number(unit, point[axis], &[name, " of the ", ordinal, corner]);
+            let beyond = point[axis] - side * one;
+            let words = ["the ", SIDES[axis], " of the window"];
+            let noun = [&[name, " of the ", ordinal, corner, " less "], &words[..]].concat();
+            out.number(unit, beyond, &noun);
+        }
+        let [least, most] = q.range(axis);
+        out.number(unit, least, &["the smallest ", name]);
+        out.number(unit, most, &["the largest ", name]);
+        out.number(
+            unit,
+            most - side * one,
+            &["the largest ", name, " less the ", SIDES[axis], " of the window"],
+        );
+        out.number(unit, most - least, &["the ", SIDES[axis], " of the shape"]);
+        out.number(
+            Unit::Count,
+            q.fineness(axis),
+            &["the finest fraction of ", name, ", 1/n px, with n"],
+        );
+    }
+    let extent = q.extent();
+    out.number(unit, extent[0].max(extent[1]), &["the longer of width and height"]);
+    out.number(unit, extent[0].min(extent[1]), &["the shorter of width and height"]);
+    out.number(unit, extent[0] - extent[1], &["the width less the height"]);
+    let farthest = q.points.iter().flatten().map(|v| v.abs()).max().unwrap_or(0);
+    out.number(unit, farthest, &["the farthest coordinate"]);
+    let is_inside = (0..2).all(|axis| {
+        let [least, most] = q.range(axis);
+        least >= 0 && most <= i64::from(q.side[axis]) * one - i64::from(q.is_line())
+    });
+    out.flag(is_inside, &["it lies within the window"], "it leaves the window");
+    if q.is_line() { of_line(q, out) } else { of_triangle(q, out) }
+}
+
+fn of_line(q: &Question, out: &mut Quantities) {
+    let [dx, dy] = q.side_of(0, 1);
+    let (du, dv) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+    let is_steep = dy.abs() > dx.abs();
+    let major = if is_steep { dy } else { dx };
+    out.number(Unit::Pixels, dx, &["dx"]);
+    out.number(Unit::Pixels, dy, &["dy"]);
+    out.number(Unit::Pixels, du - 2 * dv, &["the longer less twice the shorter of |dx| and |dy|"]);
+    out.number(Unit::Area, 131_072 * dx * dy, &["dx dy"]);
+    out.flag(is_steep, &["it is steep"], "it is not steep");
+    out.flag(
+        major < 0,
+        &["it runs backwards along its longer axis"],
+        "it runs forwards along its longer axis",
+    );
+    out.flag(dx * dy < 0, &["x and y go opposite ways"], "x and y do not go opposite ways");
+    let reduced = du / gcd(du, dv).max(1);
+    out.flag(
+        dv > 0 && reduced % 2 == 0,
+        &["it passes halfway between pixels"],
+        "it passes nowhere halfway between pixels",
+    );
+    for (point, ordinal) in q.points.iter().zip(ORDINALS) {
+        let is_in = (0..2).all(|axis| (0..i64::from(q.side[axis])).contains(&point[axis]));
+        out.flag(
+            is_in,
+            &["its ", ordinal, " end is in the window"],
+            if ordinal == "first" {
+                "its first end is outside the window"
+            } else {
+                "its second end is outside the window"
+            },
+        );
+    }
+}
+
+/// The edges of a triangle by the numbers of their corners.
+pub(super) const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+fn of_triangle(q: &Question, out: &mut Quantities) {
+    let area = q.twice_area();
+    out.flag(area > 0, &["it is clockwise"], "it is not clockwise");
+    out.number(Unit::Area, area.abs(), &["its area"]);
+    let longest = EDGES.map(|[a, b]| length(q.side_of(a, b))).into_iter().max().unwrap_or(1);
+    out.number(Unit::Subpixels, area.abs() / longest.max(1), &["its smallest altitude"]);
+    for (edge, ordinal) in EDGES.iter().zip(ORDINALS) {
+        let [dx, dy] = q.side_of(edge[0], edge[1]);
+        out.number(Unit::Subpixels, dx, &["dx of the ", ordinal, " edge"]);
+        out.number(Unit::Subpixels, dy, &["dy of the ", ordinal, " edge"]);
+    }
+    let slopes = EDGES.map(|[a, b]| {
+        let [dx, dy] = q.side_of(a, b).map(i64::abs);
+        if dy == 0 { NONE } else { dx * 256 / dy }
+    });
+    let known = || slopes.iter().copied().filter(|slope| *slope != NONE);
+    out.number(Unit::Ratio, known().max().unwrap_or(NONE), &["the largest |dx|/|dy| of its edges"]);
+    out.number(
+        Unit::Ratio,
+        known().min().unwrap_or(NONE),
+        &["the smallest |dx|/|dy| of its edges"],
+    );
+    for axis in [0, 1] {
+        let of = |a: usize, b: usize| q.points[a][axis] == q.points[b][axis];
+        let straight = EDGES.iter().any(|[a, b]| of(*a, *b));
+        let word = ["upright", "level"][axis];
+        out.flag(
+            straight,
+            &["it has an ", word, " edge"],
+            ["it has no upright edge", "it has no level edge"][axis],
+        );
+    }
+    let [top, middle, bottom] = q.by_height();
+    out.number(Unit::Count, top as i64 + 1, &["the number of its top corner"]);
+    out.number(Unit::Count, bottom as i64 + 1, &["the number of its bottom corner"]);
+    let height = |a: usize, b: usize| q.points[b][1] - q.points[a][1];
+    out.number(Unit::Subpixels, height(top, middle), &["the height of its upper half"]);
+    out.number(Unit::Subpixels, height(middle, bottom), &["the height of its lower half"]);
+    let [to_middle, to_bottom] = [q.side_of(top, middle), q.side_of(top, bottom)];
+    let side = to_bottom[0] * to_middle[1] - to_bottom[1] * to_middle[0];
+    out.flag(
+        side > 0,
+        &["its middle corner is on the left"],
+        "its middle corner is not on the left",
+    );
+}
+
+/// What a model predicts of a question so far: its facts are those of its pixels.
+pub(super) struct Scene<'a> {
+    pub(super) question: &'a Question,
+    /// What is drawn within the window; beyond it, what would be.
+    pub(super) drawn: &'a Picture,
+    runs: Runs,
+    /// Where samples lie in their pixel, in subpixels.
+    sample: [i64; 2],
+    /// Twice the edge functions begin at these corners, turned so that inside is positive.
+    edges: Vec<Edge>,
+}
+
+/// Whether an edge with this direction faces somewhere.
+type Facing = fn([i64; 2]) -> bool;
+
+/// An edge with the inside on its positive side.
+struct Edge {
+    from: [i64; 2],
+    by: [i64; 2],
+    length: i64,
+}
+
+impl<'a> Scene<'a> {
+    pub(super) fn new(question: &'a Question, drawn: &'a Picture, sample: [i64; 2]) -> Self {
+        let turn = if question.is_line() { 0 } else { question.twice_area() };
+        let edges = EDGES.iter().filter(|_| turn != 0).map(|[a, b]| {
+            let (a, b) = if turn > 0 { (*a, *b) } else { (*b, *a) };
+            let by = question.side_of(a, b);
+            Edge { from: question.points[a], by, length: length(by).max(1) }
+        });
+        let edges = edges.collect();
+        Self { question, drawn, runs: Runs::of(drawn), sample, edges }
+    }
+
+    fn is_shown(&self, at: [i32; 2]) -> bool {
+        self.drawn.shows(at) && self.drawn.has(at)
+    }
+
+    /// The quantities of a pixel.
+    pub(super) fn of_pixel(&self, [x, y]: [i32; 2], out: &mut Quantities) {
+        let (column, row) = (i64::from(x), i64::from(y));
+        let [width, height] = self.drawn.side.map(i64::from);
+        out.number(Unit::Paired, column, &["its column"]);
+        out.number(Unit::Paired, row, &["its row"]);
+        out.put(
+            Unit::Paired,
+            width - 1 - column,
+            &["the number of columns to its right in the window"],
+            ["it is in the last column of the window", ""],
+        );
+        out.put(
+            Unit::Paired,
+            height - 1 - row,
+            &["the number of rows below it in the window"],
+            ["it is in the last row of the window", ""],
+        );
+        out.group(0, |out| self.places([x, y], out));
+        out.group(1, |out| self.neighbours([x, y], out));
+        out.group(2, |out| self.tiles([x, y], out));
+        out.group(3, |out| match self.question.is_line() {
+            true => self.along_the_line([column, row], out),
+            false => self.by_edges([column, row], out),
+        });
+    }
+
+    /// Its place in its row, its column and the shape.
+    fn places(&self, [x, y]: [i32; 2], out: &mut Quantities) {
+        let row = self.runs.row(y);
+        let column = self.runs.column(x);
+        let count = |value: Option<i32>| value.map_or(NONE, i64::from);
+        out.put(
+            Unit::Paired,
+            count(row.map(|r| x - r.first)),
+            &["the number of columns from the first pixel of its row"],
+            ["it is the first pixel of its row", "it is not the first pixel of its row"],
+        );
+        out.put(
+            Unit::Paired,
+            count(row.map(|r| r.last - x)),
+            &["the number of columns to the last pixel of its row"],
+            ["it is the last pixel of its row", "it is not the last pixel of its row"],
+        );
+        out.number(Unit::Paired, count(row.map(|r| r.count)), &["the number of pixels in its row"]);
+        out.put(
+            Unit::Paired,
+            count(column.map(|c| y - c.first)),
+            &["the number of rows from the first pixel of its column"],
+            ["it is the first pixel of its column", "it is not the first pixel of its column"],
+        );
+        out.put(
+            Unit::Paired,
+            count(column.map(|c| c.last - y)),
+            &["the number of rows to the last pixel of its column"],
+            ["it is the last pixel of its column", "it is not the last pixel of its column"],
+        );
+        out.number(
+            Unit::Paired,
+            count(column.map(|c| c.count)),
+            &["the number of pixels in its column"],
+        );
+        let (rows, columns) = (self.runs.of_rows, self.runs.of_columns);
+        let of = |value: i32| if rows.count == 0 { NONE } else { i64::from(value) };
+        out.put(
+            Unit::Paired,
+            of(y.wrapping_sub(rows.first)),
+            &["the number of rows from the first row of the shape"],
+            ["it is in the first row of the shape", "it is not in the first row of the shape"],
+        );
+        out.put(
+            Unit::Paired,
+            of(rows.last.wrapping_sub(y)),
+            &["the number of rows to the last row of the shape"],
+            ["it is in the last row of the shape", "it is not in the last row of the shape"],
+        );
+        out.put(
+            Unit::Paired,
+            of(x.wrapping_sub(columns.first)),
+            &["the number of columns from the first column of the shape"],
+            [
+                "it is in the first column of the shape",
+                "it is not in the first column of the shape",
+            ],
+        );
+        out.put(
+            Unit::Paired,
+            of(columns.last.wrapping_sub(x)),
+            &["the number of columns to the last column of the shape"],
+            ["it is in the last column of the shape", "it is not in the last column of the shape"],
+        );
+        out.number(Unit::Paired, i64::from(rows.count), &["the number of rows of the shape"]);
+        out.number(Unit::Paired, i64::from(columns.count), &["the number of columns of the shape"]);
+        // A loop by groups of pixels ends early where the row is no whole number of groups.
+        for (of, word) in [(2, "2"), (4, "4"), (8, "8"), (16, "16")] {
+            let length = count(row.map(|r| r.count / of * of));
+            out.number(
+                Unit::Paired,
+                length,
+                &["the number of pixels in its row, rounded down to a multiple of ", word],
+            );
+        }
+    }
+
+    fn neighbours(&self, [x, y]: [i32; 2], out: &mut Quantities) {
+        let beside = [
+            (
+                [-1, 0],
+                "left",
+                "its left neighbour is not drawn",
+                "its left neighbour is not in the shape, in the window or not",
+            ),
+            (
+                [1, 0],
+                "right",
+                "its right neighbour is not drawn",
+                "its right neighbour is not in the shape, in the window or not",
+            ),
+            (
+                [0, -1],
+                "upper",
+                "its upper neighbour is not drawn",
+                "its upper neighbour is not in the shape, in the window or not",
+            ),
+            (
+                [0, 1],
+                "lower",
+                "its lower neighbour is not drawn",
+                "its lower neighbour is not in the shape, in the window or not",
+            ),
+        ];
+        let mut shown = 0;
+        for ([dx, dy], word, no, not_whole) in beside {
+            let at = [x + dx, y + dy];
+            shown += i64::from(self.is_shown(at));
+            out.flag(self.is_shown(at), &["its ", word, " neighbour is drawn"], no);
+            out.flag(
+                self.drawn.has(at),
+                &["its ", word, " neighbour is in the shape, in the window or not"],
+                not_whole,
+            );
+        }
+        out.number(Unit::Count, shown, &["the number of its four neighbours that are drawn"]);
+    }
+
+    /// Its place among squares of pixels.
+    fn tiles(&self, [x, y]: [i32; 2], out: &mut Quantities) {
+        for (side, word) in [(2, "2"), (4, "4"), (8, "8"), (16, "16")] {
+            let [left, top] = [x, y].map(|v| v.div_euclid(side) * side);
+            let [right, below] =
+                [(0, left), (1, top)].map(|(axis, start)| start + side - self.drawn.side[axis]);
+            out.number(
+                Unit::Involved,
+                i64::from(right),
+                &[
+                    "the number of columns of its ",
+                    word,
+                    " px tile beyond the right side of the window",
+                ],
+            );
+            out.number(
+                Unit::Involved,
+                i64::from(below),
+                &["the number of rows of its ", word, " px tile beyond the bottom of the window"],
+            );
+            if side <= 4 {
+                let places = (0..side * side).map(|i| [left + i % side, top + i / side]);
+                let filled = places.filter(|at| self.is_shown(*at)).count();
+                out.number(
+                    Unit::Involved,
+                    filled as i64,
+                    &["the number of pixels drawn in its ", word, " px tile"],
+                );
+            }
+        }
+    }
+
+    /// Its place along a line and its distance from it.
+    fn along_the_line(&self, at: [i64; 2], out: &mut Quantities) {
+        let q = self.question;
+        let [dx, dy] = q.side_of(0, 1);
+        let axis = usize::from(dy.abs() > dx.abs());
+        let [from, to] = [q.points[0], q.points[1]];
+        out.put(
+            Unit::Paired,
+            (at[axis] - from[axis]).abs(),
+            &["the number of steps from the first end"],
+            ["it is the first end", "it is not the first end"],
+        );
+        out.put(
+            Unit::Paired,
+            (to[axis] - at[axis]).abs(),
+            &["the number of steps to the last end"],
+            ["it is the last end", "it is not the last end"],
+        );
+        out.number(
+            Unit::Paired,
+            (at[1 - axis] - from[1 - axis]).abs(),
+            &["the number of side steps from the first end"],
+        );
+        out.number(
+            Unit::Paired,
+            (to[1 - axis] - at[1 - axis]).abs(),
+            &["the number of side steps to the last end"],
+        );
+        let off = (at[1] - from[1]) * dx - (at[0] - from[0]) * dy;
+        let du = dx.abs().max(dy.abs());
+        let is_tie = du > 0 && 2 * off.abs() == du;
+        out.flag(
+            is_tie,
+            &["it is exactly half a pixel off the line"],
+            "it is not exactly half a pixel off the line",
+        );
+        out.number(
+            Unit::Ratio,
+            if du == 0 { 0 } else { off.abs().saturating_mul(256) / du },
+            &["its distance from the line in px"],
+        );
+        out.number(
+            Unit::Count,
+            off.signum(),
+            &["the side of the line that it lies on, -1, 0 or 1,"],
+        );
+    }
+
+    /// Its place among the edges and corners of a triangle.
+    fn by_edges(&self, [x, y]: [i64; 2], out: &mut Quantities) {
+        let q = self.question;
+        let at = [x * 256 + self.sample[0], y * 256 + self.sample[1]];
+        let edge = |e: &Edge| e.by[0] * (at[1] - e.from[1]) - e.by[1] * (at[0] - e.from[0]);
+        let all: Vec<i64> = self.edges.iter().map(edge).collect();
+        let is_inside = !all.is_empty() && all.iter().all(|e| *e >= 0);
+        let on = |i: usize| is_inside && all[i] == 0;
+        let is_on = (0..all.len()).any(on);
+        out.flag(
+            is_on,
+            &["its sample is exactly on an edge"],
+            "its sample is not exactly on an edge",
+        );
+        let faces: [(&str, &str, Facing); 4] = [
+            ("a left", "its sample is not exactly on a left edge", |by| by[1] < 0),
+            ("a right", "its sample is not exactly on a right edge", |by| by[1] > 0),
+            ("a level top", "its sample is not exactly on a level top edge", |by| {
+                by[1] == 0 && by[0] > 0
+            }),
+            ("a level bottom", "its sample is not exactly on a level bottom edge", |by| {
+                by[1] == 0 && by[0] < 0
+            }),
+        ];
+        for (word, no, is_one) in faces {
+            let on_one = (0..all.len()).any(|i| on(i) && is_one(self.edges[i].by));
+            out.flag(on_one, &["its sample is exactly on ", word, " edge"], no);
+        }
+        for (i, ordinal) in ORDINALS.iter().enumerate() {
+            let no = [
+                "its sample is not exactly on the first edge",
+                "its sample is not exactly on the second edge",
+                "its sample is not exactly on the third edge",
+            ][i];
+            out.flag(
+                i < all.len() && on(i),
+                &["its sample is exactly on the ", ordinal, " edge"],
+                no,
+            );
+        }
+        let distances = self.edges.iter().zip(&all).map(|(edge, e)| e.div_euclid(edge.length));
+        let nearest = distances.enumerate().min_by_key(|(_, d)| *d);
+        out.number(
+            Unit::Subpixels,
+            nearest.map_or(NONE, |(_, d)| d),
+            &["its distance from the nearest edge (below 0 outside)"],
+        );
+        out.number(
+            Unit::Count,
+            nearest.map_or(NONE, |(i, _)| i as i64 + 1),
+            &["the number of its nearest edge"],
+        );
+        let order = q.by_height();
+        for (corner, word) in order.into_iter().zip(["top", "middle", "bottom"]) {
+            let [cx, cy] = q.points[corner];
+            let zero = match word {
+                "top" => "it is in the row that holds the top corner",
+                "middle" => "it is in the row that holds the middle corner",
+                _ => "it is in the row that holds the bottom corner",
+            };
+            out.put(
+                Unit::Count,
+                y - cy.div_euclid(256),
+                &["the number of rows from the row that holds the ", word, " corner"],
+                [zero, ""],
+            );
+            out.number(
+                Unit::Count,
+                x - cx.div_euclid(256),
+                &["the number of columns from the column that holds the ", word, " corner"],
+            );
+        }
+        let middle = q.points[order[1]][1] - self.sample[1];
+        let start = -(-middle).div_euclid(256);
+        out.put(
+            Unit::Count,
+            y - start,
+            &["the number of rows from the first row below the middle corner"],
+            ["it is in the first row below the middle corner", ""],
+        );
+    }
+}
+
+/// The length of a vector, rounded down.
+fn length([dx, dy]: [i64; 2]) -> i64 {
+    // Below 2^32 a side, so that the root of an f64 is off by less than one.
+    ((dx as f64).powi(2) + (dy as f64).powi(2)).sqrt() as i64
+}
+
+pub(super) fn gcd(a: i64, b: i64) -> i64 {
+    if b == 0 { a.abs() } else { gcd(b, a % b) }
+}

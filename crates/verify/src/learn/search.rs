@@ -1,0 +1,406 @@
+//! The search for a model: pixel rules, guarded changes of the question, and one on another.
+
+use super::change::{self, Base, Nearness};
+use super::drawer::Drawer;
+use super::model::{Answered, Guarded, Model, Step, Vocabulary, Wrong};
+use super::picture::Picture;
+use super::quantity::{Quantities, Scene};
+use super::rule::{self, Conjunction, Table, Terms, all_hold};
+
+/// Answers that rules are learned from, wrong and right.
+const LEARNED_FROM: [usize; 2] = [90, 70];
+/// Answers that changed questions are ranked by.
+const RANKED_BY: usize = 36;
+/// Pixels of one answer that are looked at, of those that are not wrong.
+const MOST_OF_ONE: usize = 240;
+/// The most steps of a model.
+const MOST_STEPS: usize = 3;
+/// Questions that a pixel rule must explain, and that a guard must.
+const NEED: usize = 4;
+
+/// Everything that a search looks at.
+pub(super) struct Search<'a> {
+    pub(super) drawer: &'a dyn Drawer,
+    pub(super) vocabulary: &'a Vocabulary,
+    pub(super) answered: &'a [Answered],
+}
+
+/// A model with the share of wrong and of right answers that it predicts.
+struct Tried {
+    model: Model,
+    wrong: f64,
+    right: f64,
+}
+
+impl Tried {
+    fn score(&self) -> f64 {
+        0.75 * self.wrong + 0.25 * self.right - 0.012 * self.model.cost() as f64
+    }
+
+    fn is_whole(&self) -> bool {
+        self.wrong > 0.999 && self.right > 0.999
+    }
+}
+
+impl Search<'_> {
+    fn some(&self, wrong: bool, most: usize) -> Vec<&Answered> {
+        let is_small = |a: &&Answered| a.question.side[0] * a.question.side[1] < 900;
+        let all = self.answered.iter().filter(|a| a.is_wrong() == wrong);
+        let mut some: Vec<&Answered> = all.clone().filter(is_small).take(most).collect();
+        if some.len() < most / 4 {
+            some.extend(all.filter(|a| !is_small(a)).take(most / 4));
+        }
+        some
+    }
+
+    pub(super) fn fits(&self, model: &Model, a: &Answered) -> bool {
+        model.fits(a, self.drawer, self.vocabulary)
+    }
+
+    fn tried(&self, model: Model) -> Tried {
+        let share = |some: Vec<&Answered>| {
+            let fit = some.iter().filter(|a| self.fits(&model, a)).count();
+            fit as f64 / some.len().max(1) as f64
+        };
+        let (wrong, right) = (share(self.some(true, 150)), share(self.some(false, 100)));
+        Tried { model, wrong, right }
+    }
+
+    /// The best model that is found.
+    pub(super) fn explain(&self) -> Model {
+        // The simplest first: one short pixel rule, then one changed question.
+        let mut tried = vec![self.tried(Model::default())];
+        let first = self.candidates(&Model::default(), 2, 1).into_iter().next();
+        tried.extend(first.map(|step| self.tried(Model::default().with(step))));
+        if best(&tried).is_whole() {
+            return self.pruned(best(&tried).model.clone());
+        }
+        let ranked = self.ranked(&Model::default());
+        self.guard_bases(&ranked, &mut tried);
+        if best(&tried).is_whole() && best(&tried).model.cost() <= 5 {
+            return self.pruned(best(&tried).model.clone());
+        }
+        tried.push(self.tried(self.with_steps(&Model::default(), MOST_STEPS, 2)));
+        if !best(&tried).is_whole() {
+            self.add_bases(&mut tried);
+        }
+        if !best(&tried).is_whole() && !best(&tried).model.chain.is_empty() {
+            let model = best(&tried).model.clone();
+            tried.push(self.tried(self.with_steps(&model, 2, 1)));
+        }
+        if !best(&tried).is_whole() {
+            self.under_a_rule(&mut tried);
+        }
+        if !best(&tried).is_whole() {
+            for (_, base) in ranked.iter().take(2) {
+                let model = Model { chain: vec![always(base)], ..Model::default() };
+                tried.push(self.tried(self.with_steps(&model, 2, 1)));
+            }
+        }
+        self.pruned(best(&tried).model.clone())
+    }
+
+    /// Changed questions, the one that comes nearest to the wrong answers first; under the pixel rules of a model.
+    fn ranked(&self, under: &Model) -> Vec<(Nearness, Base)> {
+        let answers = self.some(true, RANKED_BY);
+        let is_line = answers.first().is_some_and(|a| a.question.is_line());
+        let mut bases = change::all(is_line, self.drawer.rules().len());
+        bases.extend(change::solved(is_line, &self.some(true, 120), self.drawer));
+        self.rank(bases, &answers, under)
+    }
+
+    fn rank(
+        &self,
+        bases: Vec<Base>,
+        answers: &[&Answered],
+        under: &Model,
+    ) -> Vec<(Nearness, Base)> {
+        let near = |base: &Base| match under.steps.is_empty() {
+            true => change::nearness(base, answers, self.drawer),
+            false => {
+                let model = Model { chain: vec![always(base)], steps: under.steps.clone() };
+                let fitting =
+                    |some: &[&Answered]| some.iter().filter(|a| self.fits(&model, a)).count();
+                let (first, rest) = answers.split_at(answers.len().min(4));
+                let exact = match fitting(first) {
+                    0 => 0,
+                    some => some + fitting(rest),
+                };
+                Nearness { exact, pixels: 0 }
+            }
+        };
+        let mut ranked: Vec<(Nearness, Base)> = bases.into_iter().map(|b| (near(&b), b)).collect();
+        ranked.sort_by(|(a, x), (b, y)| b.cmp(a).then(x.cost().cmp(&y.cost())));
+        ranked
+    }
+
+    fn guard_bases(&self, ranked: &[(Nearness, Base)], tried: &mut Vec<Tried>) {
+        for (near, base) in ranked.iter().take(6) {
+            if near.exact * 5 < RANKED_BY.min(self.some(true, RANKED_BY).len()) {
+                break;
+            }
+            let Some(model) = self.guarded(&Model::default(), base) else { continue };
+            tried.push(self.tried(model));
+            if tried.last().is_some_and(|t| t.is_whole() && t.model.cost() <= 4) {
+                break;
+            }
+        }
+    }
+
+    /// Other changed questions for what the best model does not predict.
+    fn add_bases(&self, tried: &mut Vec<Tried>) {
+        for _ in 0..MOST_STEPS - 1 {
+            let model = best(tried).model.clone();
+            let left: Vec<&Answered> = self
+                .some(true, 300)
+                .into_iter()
+                .filter(|a| !self.fits(&model, a))
+                .take(25)
+                .collect();
+            if left.len() < NEED || (model.chain.is_empty() && model.steps.is_empty()) {
+                return;
+            }
+            let bases = change::all(left[0].question.is_line(), self.drawer.rules().len());
+            let under = Model { steps: model.steps.clone(), ..Model::default() };
+            for (near, base) in self.rank(bases, &left, &under).into_iter().take(4) {
+                if near.exact * 5 >= left.len() {
+                    tried.extend(self.guarded(&model, &base).map(|model| self.tried(model)));
+                }
+            }
+        }
+    }
+
+    /// Takes the best rule that is nearly true, and looks for the changed question under it.
+    fn under_a_rule(&self, tried: &mut Vec<Tried>) {
+        for wrong in [Wrong::Missing, Wrong::Extra] {
+            if best(tried).is_whole() {
+                return;
+            }
+            let table = self.table(&Model::default(), wrong);
+            let terms = Terms { most: 2, need: 5, slack: 120, wanted: 1 };
+            let names = &self.vocabulary.names;
+            for found in rule::best(names, &table, terms) {
+                let under = Model::default().with(Step { wrong, facts: found.facts });
+                let answers: Vec<&Answered> = self
+                    .some(true, 60)
+                    .into_iter()
+                    .filter(|a| !self.fits(&under, a))
+                    .take(12)
+                    .collect();
+                if answers.len() < 3 {
+                    continue;
+                }
+                let bases = change::all(answers[0].question.is_line(), self.drawer.rules().len());
+                for (near, base) in self.rank(bases, &answers, &under).into_iter().take(3) {
+                    if near.exact * 3 > answers.len() {
+                        let start = Model { chain: vec![always(&base)], ..Model::default() };
+                        tried.push(self.tried(self.with_steps(&start, 2, 1)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the pixel rule that explains most, again and again, each by the facts of what is then predicted. The order of
+    /// rules matters: the best first ones are each followed to the end.
+    fn with_steps(&self, model: &Model, most: usize, beam: usize) -> Model {
+        let few = |wrong| self.some(wrong, 40);
+        let all = || [true, false].into_iter().flat_map(few);
+        let score = |model: &Model| {
+            let fit = |some: Vec<&Answered>| {
+                let all = some.len().max(1) as f64;
+                some.into_iter().filter(|a| self.fits(model, a)).count() as f64 / all
+            };
+            0.75 * fit(few(true)) + 0.25 * fit(few(false)) - 0.012 * model.cost() as f64
+        };
+        let mut done = vec![(score(model), model.clone())];
+        let mut alive = vec![model.clone()];
+        for _ in 0..most {
+            let mut grown = Vec::new();
+            for model in &alive {
+                let is_first = model.steps.is_empty();
+                let kept = if is_first { beam } else { 1 };
+                let candidates =
+                    self.candidates(model, 3, if is_first && beam > 1 { 2 } else { 1 });
+                grown.extend(candidates.into_iter().take(kept).map(|step| model.with(step)));
+            }
+            done.extend(grown.iter().map(|model| (score(model), model.clone())));
+            alive = grown;
+            if alive.iter().any(|model| all().all(|a| self.fits(model, a))) {
+                break;
+            }
+        }
+        let best = done.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a });
+        best.map_or_else(Model::default, |(_, model)| model)
+    }
+
+    /// The pixel rules that explain most of what a model leaves wrong.
+    fn candidates(&self, model: &Model, most: usize, wanted: usize) -> Vec<Step> {
+        let mut all = Vec::new();
+        for wrong in Wrong::ALL {
+            let table = self.table(model, wrong);
+            let terms = Terms { most, need: NEED, slack: 0, wanted };
+            if table.yes.len() >= NEED {
+                let found = rule::best(&self.vocabulary.names, &table, terms);
+                all.extend(found.into_iter().map(|f| (f.rows, Step { wrong, facts: f.facts })));
+            }
+        }
+        all.sort_by_key(|(rows, _)| std::cmp::Reverse(*rows));
+        all.into_iter().map(|(_, step)| step).collect()
+    }
+
+    /// The pixels that a model predicts wrongly in one way, and those that it predicts well and that could be.
+    fn table(&self, model: &Model, wrong: Wrong) -> Table {
+        let mut table = Table::default();
+        let some =
+            [true, false].map(|is_wrong| self.some(is_wrong, LEARNED_FROM[usize::from(!is_wrong)]));
+        for (group, a) in some.into_iter().flatten().enumerate() {
+            let Some(before) = model.predict(a, self.drawer, self.vocabulary) else { continue };
+            self.add_pixels(&mut table, group, a, &before, wrong);
+        }
+        table
+    }
+
+    fn add_pixels(
+        &self,
+        table: &mut Table,
+        group: usize,
+        a: &Answered,
+        before: &Picture,
+        wrong: Wrong,
+    ) {
+        let scene = Scene::new(&a.question, before, self.drawer.sample());
+        let may = |at: &[i32; 2]| wrong.may_befall(before.hits(*at));
+        let is_one = |at: &[i32; 2]| wrong.is_seen(a.drawn.hits(*at));
+        let (yes, no): (Vec<_>, Vec<_>) = before.pixels().filter(may).partition(is_one);
+        let row = |at: [i32; 2]| {
+            let mut row = Quantities { values: a.facts.clone(), ..Quantities::default() };
+            scene.of_pixel(at, &mut row);
+            row.values
+        };
+        let step = |len: usize| len.div_ceil(MOST_OF_ONE).max(1);
+        let number = yes.len().div_ceil(step(yes.len()));
+        table.groups.extend(std::iter::repeat_n(group, number));
+        table.yes.extend(yes.iter().step_by(step(yes.len())).map(|at| row(*at)));
+        // Those beside the shape tell more than those far away.
+        let is_near = |at: &[i32; 2]| {
+            let beside = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(|[x, y]| [at[0] + x, at[1] + y]);
+            beside.iter().any(|b| before.has(*b) || a.drawn.has(*b))
+        };
+        let (near, far): (Vec<_>, Vec<_>) = no.into_iter().partition(is_near);
+        for (pixels, most) in [(near, MOST_OF_ONE), (far, MOST_OF_ONE / 3)] {
+            let step = pixels.len().div_ceil(most).max(1);
+            table.no.extend(pixels.iter().step_by(step).map(|at| row(*at)));
+        }
+    }
+
+    /// A model with a base before its others: where it holds is learned from the answers that one of both predicts alone.
+    fn guarded(&self, model: &Model, base: &Base) -> Option<Model> {
+        let alone = Model { chain: vec![always(base)], steps: model.steps.clone() };
+        let mut table = Table::default();
+        for (number, a) in self.answered.iter().enumerate() {
+            match [self.fits(&alone, a), self.fits(model, a)] {
+                [true, false] => {
+                    table.yes.push(a.facts.clone());
+                    table.groups.push(number);
+                }
+                [false, true] => table.no.push(a.facts.clone()),
+                _ => {}
+            }
+        }
+        let with = |when| {
+            let mut more = model.clone();
+            more.chain.insert(0, Guarded { when, base: base.clone() });
+            more
+        };
+        match (table.yes.is_empty(), table.no.is_empty()) {
+            (true, _) => None,
+            (_, true) => Some(with(None)),
+            _ => self.guard(table).map(|guard| with(Some(guard))),
+        }
+    }
+
+    /// Up to three conjunctions of facts of the question that cover what they should.
+    fn guard(&self, mut table: Table) -> Option<Vec<Conjunction>> {
+        let names = &self.vocabulary.names[..self.vocabulary.of_question];
+        let mut guard = Vec::new();
+        while !table.yes.is_empty() && guard.len() < 3 {
+            let terms = Terms { most: 3, need: 2, slack: 0, wanted: 1 };
+            let Some(found) = rule::best(names, &table, terms).into_iter().next() else { break };
+            table.yes.retain(|row| !all_hold(&found.facts, row));
+            table.groups.truncate(table.yes.len());
+            guard.push(found.facts);
+        }
+        (!guard.is_empty()).then_some(guard)
+    }
+
+    /// Leaves out a base, a guard, a step or a fact wherever all that was predicted stays predicted.
+    pub(super) fn pruned(&self, mut model: Model) -> Model {
+        let some: Vec<&Answered> = self.answered.iter().take(300).collect();
+        let fitting = |model: &Model| some.iter().filter(|a| self.fits(model, a)).count();
+        let mut most = fitting(&model);
+        loop {
+            let mut shorter = shorter(&model);
+            shorter.sort_by_key(Model::cost);
+            let next = shorter.into_iter().find(|m| fitting(m) >= most);
+            match next {
+                Some(next) => {
+                    most = fitting(&next);
+                    model = next;
+                }
+                None => return model,
+            }
+        }
+    }
+}
+
+fn best(tried: &[Tried]) -> &Tried {
+    let better = |a, b: _| if Tried::score(b) > Tried::score(a) { b } else { a };
+    tried.iter().skip(1).fold(&tried[0], better)
+}
+
+fn always(base: &Base) -> Guarded {
+    Guarded { when: None, base: base.clone() }
+}
+
+/// All models that say one thing less.
+fn shorter(model: &Model) -> Vec<Model> {
+    let mut all = Vec::new();
+    for i in 0..model.chain.len() {
+        let mut less = model.clone();
+        less.chain.remove(i);
+        all.push(less);
+        let Some(when) = &model.chain[i].when else { continue };
+        let mut changed = |when: Option<Vec<Conjunction>>| {
+            let mut less = model.clone();
+            less.chain[i].when = when;
+            all.push(less);
+        };
+        changed(None);
+        for (j, conjunction) in when.iter().enumerate() {
+            if when.len() > 1 {
+                changed(Some(without(when, j)));
+            }
+            for k in (0..conjunction.len()).filter(|_| conjunction.len() > 1) {
+                let mut less = when.clone();
+                less[j].remove(k);
+                changed(Some(less));
+            }
+        }
+    }
+    for (i, step) in model.steps.iter().enumerate() {
+        all.push(Model { chain: model.chain.clone(), steps: without(&model.steps, i) });
+        for k in (0..step.facts.len()).filter(|_| step.facts.len() > 1) {
+            let mut less = model.clone();
+            less.steps[i].facts.remove(k);
+            all.push(less);
+        }
+    }
+    all
+}
+
+fn without<T: Clone>(all: &[T], i: usize) -> Vec<T> {
+    let mut less = all.to_vec();
+    less.remove(i);
+    less
+}
