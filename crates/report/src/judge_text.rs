@@ -266,13 +266,22 @@ fn dangers(verdict: &Verdict) -> Table {
 /// How much of all that could be asked was asked, and what was not.
 fn asked(verdict: &Verdict) -> Vec<String> {
     let mut notes = Vec::new();
-    for asked in asked::asked(verdict) {
-        notes.push(format!("asked of {}", asked.sentence()));
-        let never = asked.never.len();
-        if never > 0 {
+    for share in asked::asked(verdict) {
+        let [pairs, of_pairs] = [share.pairs, share.of_pairs].map(|n| thousands(n as u64));
+        let pairs = match share.pairs == share.of_pairs {
+            true => format!("all {pairs}"),
+            false => format!("{pairs} of {of_pairs}"),
+        };
+        let percent = 100 * share.triples / share.of_triples.max(1);
+        let triples = thousands(share.of_triples as u64);
+        notes.push(format!(
+            "asked of the family {}: {pairs} pairs and {percent}% of {triples} triples of facts",
+            share.family
+        ));
+        if let Some(first) = share.never.first() {
+            let count = share.never.len();
             notes.push(format!(
-                "  never, by what it declares: {never} classes of facts, as '{}'",
-                asked.never[0]
+                "  never, by what it declares: {count} classes of facts, as '{first}'"
             ));
         }
     }

@@ -16,7 +16,7 @@ pub struct DesignShare {
     pub cases: u64,
     /// Facts of a question.
     pub facts: usize,
-    /// Classes of all facts, without those that no case has.
+    /// Classes of all facts, without those of `never`.
     pub classes: usize,
     /// Pairs of classes that occur.
     pub pairs: usize,
@@ -26,7 +26,7 @@ pub struct DesignShare {
     pub triples: usize,
     /// Triples of those classes whose three pairs can occur. A few of them cannot occur themselves.
     pub of_triples: usize,
-    /// The classes that no case has, in words.
+    /// The classes that no case has within the limits, however many there are, in words.
     pub never: Vec<String>,
 }
 
@@ -45,7 +45,12 @@ impl DesignShare {
                 table.note(&classes);
             }
         }
-        let ([seen, never], [of_pairs, of_triples]) = possible(topic, &table);
+        // What the first block does not have is not asked in any number of cases.
+        let mut whole = Table::new(topic.count());
+        for case in (0..design::BLOCK).map(|index| design::case(topic, seed, index, limits)) {
+            whole.note(&topic.classes(&case, limits).unwrap_or_default());
+        }
+        let ([seen, never], [of_pairs, of_triples]) = possible(topic, &whole);
         let [pairs, triples] = table.counts();
         Self {
             family: topic.name,
@@ -59,37 +64,6 @@ impl DesignShare {
             never: never.into_iter().map(|class| topic.class_words(class)).collect(),
         }
     }
-
-    /// One sentence about it.
-    #[must_use]
-    pub fn sentence(&self) -> String {
-        let share = |some: usize, all: usize| match (100 * some).checked_div(all) {
-            Some(percent) if some < all => format!("{percent}% of {}", grouped(all)),
-            _ => format!("all {}", grouped(all)),
-        };
-        let pairs = match self.pairs == self.of_pairs {
-            true => format!("all {}", grouped(self.pairs)),
-            false => format!("{} of {}", grouped(self.pairs), grouped(self.of_pairs)),
-        };
-        format!(
-            "the family {}: {pairs} pairs and {} triples of facts",
-            self.family,
-            share(self.triples, self.of_triples)
-        )
-    }
-}
-
-/// A number with a comma after each three digits.
-fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
 }
 
 /// The classes that occur, the pairs of these that can occur, and the triples whose three pairs can.

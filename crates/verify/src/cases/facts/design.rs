@@ -373,6 +373,7 @@ mod tests {
     /// `RASTERPROOF_RENEW=1` writes what it has not found.
     #[test]
     #[ignore = "a minute"]
+    #[allow(clippy::disallowed_methods, reason = "it renews the data of this crate")]
     fn impossible_pairs_are_not_found() {
         let limits = Limits::default();
         for topic in &TOPICS {
