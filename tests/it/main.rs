@@ -14,6 +14,7 @@ mod convention;
 mod cost;
 mod course;
 mod delivery;
+mod designs;
 mod diagrams;
 mod exact;
 mod exhaust;

@@ -130,10 +130,10 @@ fn why_in_short(verdict: &Verdict) -> String {
     if verdict.failures.iter().any(|failure| failure.evidence.changes) {
         return ": its answers change from one time to the next".to_owned();
     }
-    let mistake = verdict.cause.iter().find_map(|Why { why, .. }| why.causes.first());
+    let mistake = verdict.cause.iter().find_map(|Why { why, .. }| why.does());
     let convention = verdict.more.recognised.as_ref().filter(|found| found.is_explained);
     match (mistake, convention) {
-        (Some(mistake), _) => format!(": it {}", mistake.does),
+        (Some(does), _) => format!(": it {does}"),
         (None, Some(found)) => format!(". {}", found.sentences.join(" ")),
         (None, None) => {
             let incidents = verdict.more.found.incidents.iter().map(|incident| &incident.what);
@@ -151,9 +151,9 @@ pub(super) fn why(verdict: &Verdict, property: &str) -> Option<String> {
     let row = verdict.families.iter().find(|row| row.name == property)?;
     let check = row.check?.of_its_cause();
     let of_it = verdict.cause.iter().filter(|why| why.check == check);
-    if let Some((of, mistake)) = of_it.filter_map(|of| Some((of, of.why.causes.first()?))).next() {
+    if let Some((of, does)) = of_it.filter_map(|of| Some((of, of.why.does()?))).next() {
         let who = if of.by.is_empty() { "it" } else { &of.by };
-        return Some(format!("{who} {}", mistake.does));
+        return Some(format!("{who} {does}"));
     }
     let is_explained = row.recognised_pixels > 0 && row.recognised.total() == 0;
     let convention = verdict.more.recognised.as_ref().filter(|_| is_explained);

@@ -10,8 +10,8 @@ use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_render::pipeline::multisample::SAMPLES;
+use rasterproof_verify::convention::RULES;
 use rasterproof_verify::convention::{Quantum, Rounding, Ties};
-use rasterproof_verify::mistakes::RULES;
 
 composed! {
     /// A mask of samples.

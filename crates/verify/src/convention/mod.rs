@@ -36,6 +36,10 @@ mod stepped;
 mod ties;
 mod upright;
 
+/// The fill rules that mistakes are looked for with.
+pub const RULES: [&str; 6] =
+    ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
+
 pub use bench::{Ask, Declarations, MOST_TO_LEARN, TriangleQuestion};
 pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
 pub(crate) use half_planes::facing;

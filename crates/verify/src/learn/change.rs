@@ -4,9 +4,9 @@
 //! solved for: tried from coarse to fine, by how near the pictures come to the answers.
 
 use super::drawer::Drawer;
-use super::model::Answered;
+use super::model::LearnedAnswer;
 use super::picture::Picture;
-use super::question::Question;
+use super::question::AnyQuestion;
 
 /// Which points are changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,7 +101,7 @@ impl How {
 }
 
 impl Change {
-    fn apply(self, q: &mut Question) {
+    fn apply(self, q: &mut AnyQuestion) {
         let one = q.one();
         match self {
             Self::Exchange => q.points.iter_mut().for_each(|point| point.reverse()),
@@ -129,7 +129,7 @@ impl Change {
 }
 
 impl Base {
-    pub(super) fn draw(&self, question: &Question, drawer: &dyn Drawer) -> Option<Picture> {
+    pub(super) fn draw(&self, question: &AnyQuestion, drawer: &dyn Drawer) -> Option<Picture> {
         let mut q = question.clone();
         self.changes.iter().for_each(|change| change.apply(&mut q));
         drawer.right(&q, self.rule)
@@ -199,7 +199,7 @@ const MOST_PIXELS: usize = 24;
 /// Answers after which a base is left that predicted none, and came nowhere near.
 const FIRST: usize = 12;
 
-pub(super) fn nearness(base: &Base, answers: &[&Answered], drawer: &dyn Drawer) -> Nearness {
+pub(super) fn nearness(base: &Base, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Nearness {
     let mut near = Nearness::default();
     for (number, a) in answers.iter().enumerate() {
         let missed = base.draw(&a.question, drawer).map_or(MOST_PIXELS, |p| p.differs(&a.drawn));
@@ -214,7 +214,7 @@ pub(super) fn nearness(base: &Base, answers: &[&Answered], drawer: &dyn Drawer) 
 }
 
 /// Offsets and scales that come nearest: tried in coarse steps, then in finer ones about the best so far.
-pub(super) fn solved(is_line: bool, answers: &[&Answered], drawer: &dyn Drawer) -> Vec<Base> {
+pub(super) fn solved(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Vec<Base> {
     let mut out = Vec::new();
     for how in [How::Add as fn(i64) -> How, How::Mirror, How::Scale] {
         let mut of_axes = Vec::new();

@@ -1,12 +1,11 @@
 //! Who answers and who knows the right answer: triangles and lines behind one trait.
 
 use super::picture::{MARGIN, Picture};
-use super::question::{Question, Room};
+use super::question::{AnyQuestion, Room};
 use crate::convention::{
     Ask, AskLine, Declarations, LineConvention, LineQuestion, LineRounding, LineTie, Mask, Mirror,
-    Shape, Ties, TriangleConvention, TriangleQuestion,
+    RULES, Shape, Ties, TriangleConvention, TriangleQuestion,
 };
-use crate::mistakes::RULES;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
@@ -14,9 +13,9 @@ use rasterproof_core::random::Rng;
 /// The program under judgement, with what it should draw.
 pub(super) trait Drawer {
     /// What a rule draws: the right one is number 0. Nothing where it says nothing.
-    fn right(&self, question: &Question, rule: usize) -> Option<Picture>;
+    fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture>;
     /// The answers; what is not answered is an empty picture.
-    fn ask(&mut self, questions: &[Question]) -> Vec<Picture>;
+    fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture>;
     /// How many questions may be asked.
     fn most_to_learn(&self) -> usize;
     /// Whether the answers come later, and all is asked again.
@@ -53,7 +52,7 @@ fn in_blocks(
     Some(picture)
 }
 
-fn window_of(question: &Question) -> PixelRect {
+fn window_of(question: &AnyQuestion) -> PixelRect {
     PixelRect::window(question.side[0] as u32, question.side[1] as u32)
 }
 
@@ -106,7 +105,7 @@ impl<'a> Triangles<'a> {
 }
 
 impl Drawer for Triangles<'_> {
-    fn right(&self, question: &Question, rule: usize) -> Option<Picture> {
+    fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture> {
         in_blocks(question.side, &|block, window| {
             let corner = |i: usize| {
                 let [x, y] = [0, 1].map(|axis| {
@@ -120,7 +119,7 @@ impl Drawer for Triangles<'_> {
         })
     }
 
-    fn ask(&mut self, questions: &[Question]) -> Vec<Picture> {
+    fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
         let asked: Vec<TriangleQuestion> = questions
             .iter()
             .map(|q| {
@@ -132,7 +131,7 @@ impl Drawer for Triangles<'_> {
             .collect();
         let answers = self.ask.ask(&asked);
         let most = if self.is_mask { 1 } else { 2 };
-        let picture = |(q, answer): (&Question, Option<Coverage>)| {
+        let picture = |(q, answer): (&AnyQuestion, Option<Coverage>)| {
             let mut picture = Picture::new(q.side);
             if let Some(answer) = answer.filter(|answer| answer.bounds() == window_of(q)) {
                 for at in picture.pixels() {
@@ -202,7 +201,7 @@ impl<'a> Lines<'a> {
 }
 
 impl Drawer for Lines<'_> {
-    fn right(&self, question: &Question, rule: usize) -> Option<Picture> {
+    fn right(&self, question: &AnyQuestion, rule: usize) -> Option<Picture> {
         in_blocks(question.side, &|block, window| {
             let ends = [0, 1].map(|i| {
                 [0, 1].map(|axis| {
@@ -218,7 +217,7 @@ impl Drawer for Lines<'_> {
         })
     }
 
-    fn ask(&mut self, questions: &[Question]) -> Vec<Picture> {
+    fn ask(&mut self, questions: &[AnyQuestion]) -> Vec<Picture> {
         let asked: Vec<LineQuestion> = questions
             .iter()
             .map(|q| {
@@ -228,7 +227,7 @@ impl Drawer for Lines<'_> {
             })
             .collect();
         let answers = self.ask.ask_lines(&asked);
-        let picture = |(q, answer): (&Question, Option<Vec<[i32; 2]>>)| {
+        let picture = |(q, answer): (&AnyQuestion, Option<Vec<[i32; 2]>>)| {
             let mut picture = Picture::new(q.side);
             let pixels = answer.unwrap_or_default();
             let shown: Vec<_> = pixels.into_iter().filter(|p| picture.shows(*p)).collect();

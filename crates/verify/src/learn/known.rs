@@ -1,6 +1,6 @@
 //! What is known where no model predicts every answer: when the program is wrong, where, and what is right beside it.
 
-use super::model::Answered;
+use super::model::LearnedAnswer;
 use super::rule::{self, Table, Terms, all_hold};
 use super::say;
 use super::search::Search;
@@ -45,7 +45,7 @@ fn when(search: &Search<'_>) -> Option<String> {
 fn nearest_right(search: &Search<'_>) -> Option<String> {
     let wrong =
         search.answered.iter().filter(|a| a.is_wrong()).min_by_key(|a| a.question.bulk())?;
-    let distance = |a: &&Answered| {
+    let distance = |a: &&LearnedAnswer| {
         let points = a.question.points.iter().flatten().zip(wrong.question.points.iter().flatten());
         let moved = points.filter(|(a, b)| a != b).count();
         let sides =

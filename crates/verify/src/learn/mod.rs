@@ -25,8 +25,8 @@ mod search;
 
 use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
 use drawer::{Drawer, Lines, Triangles};
-use model::{Answered, Model, Vocabulary, facts_of};
-use question::Question;
+use model::{LearnedAnswer, Model, Vocabulary, facts_of};
+use question::AnyQuestion;
 use rule::{Of, Test};
 use search::Search;
 
@@ -115,7 +115,7 @@ struct Learner<'a> {
     /// Questions that may still be asked.
     left: usize,
     vocabulary: Vocabulary,
-    answered: Vec<Answered>,
+    answered: Vec<LearnedAnswer>,
 }
 
 /// How many of some new answers a model predicts.
@@ -170,7 +170,7 @@ impl<'a> Learner<'a> {
         best.map(|(round, model)| self.learned(&round, &model))
     }
 
-    fn wrong(&self) -> impl Iterator<Item = &Answered> {
+    fn wrong(&self) -> impl Iterator<Item = &LearnedAnswer> {
         self.answered.iter().filter(|a| a.is_wrong())
     }
 
@@ -181,7 +181,7 @@ impl<'a> Learner<'a> {
     /// Asks for more until there are enough wrong answers; nothing where nobody waits for a conclusion.
     fn ask_first(&mut self) -> Option<()> {
         while self.answered.len() < MOST_FIRST && self.left > 0 {
-            let wrong: Vec<Question> = self.wrong().map(|a| a.question.clone()).collect();
+            let wrong: Vec<AnyQuestion> = self.wrong().map(|a| a.question.clone()).collect();
             if self.answered.len() >= FIRST && wrong.len() >= ENOUGH_WRONG {
                 break;
             }
@@ -192,7 +192,7 @@ impl<'a> Learner<'a> {
     }
 
     /// A new question, or one beside a given one.
-    fn question(&mut self, given: &[Question], is_beside: bool) -> Question {
+    fn question(&mut self, given: &[AnyQuestion], is_beside: bool) -> AnyQuestion {
         let room = self.drawer.room();
         if !is_beside || given.is_empty() {
             return room.question();
@@ -201,7 +201,7 @@ impl<'a> Learner<'a> {
         room.beside(&given[i])
     }
 
-    fn ask(&mut self, questions: Vec<Question>) -> Option<()> {
+    fn ask(&mut self, questions: Vec<AnyQuestion>) -> Option<()> {
         for questions in questions.chunks(AT_ONCE) {
             let questions = &questions[..questions.len().min(self.left)];
             self.left -= questions.len();
@@ -209,7 +209,7 @@ impl<'a> Learner<'a> {
             for (question, drawn) in questions.iter().zip(answers) {
                 let Some(right) = self.drawer.right(question, 0) else { continue };
                 let (question, facts) = (question.clone(), facts_of(question));
-                self.answered.push(Answered { question, facts, drawn, right });
+                self.answered.push(LearnedAnswer { question, facts, drawn, right });
             }
         }
         (!self.drawer.is_abandoned()).then_some(())
@@ -218,7 +218,7 @@ impl<'a> Learner<'a> {
     /// Asks new questions, questions beside wrong ones, and questions at the limits of a model.
     fn try_out(&mut self, model: &Model) -> Option<Round> {
         let before = self.answered.len();
-        let wrong: Vec<Question> = self.wrong().map(|a| a.question.clone()).collect();
+        let wrong: Vec<AnyQuestion> = self.wrong().map(|a| a.question.clone()).collect();
         // Questions beside others are alike: a limit that only these share is none. So the independent ones are counted apart.
         let mut independent = 0;
         for _ in 0..MOST_FRESH {
@@ -230,7 +230,7 @@ impl<'a> Learner<'a> {
                 break;
             }
         }
-        let mut questions: Vec<Question> = Vec::new();
+        let mut questions: Vec<AnyQuestion> = Vec::new();
         questions.extend((0..FRESH[1]).map(|_| self.question(&wrong, true)));
         questions.extend(self.at_limits(model));
         self.ask(questions)?;
@@ -247,7 +247,7 @@ impl<'a> Learner<'a> {
     }
 
     /// Questions near both sides of each limit of a fact of the question.
-    fn at_limits(&mut self, model: &Model) -> Vec<Question> {
+    fn at_limits(&mut self, model: &Model) -> Vec<AnyQuestion> {
         let mut questions = Vec::new();
         for fact in model.conjunctions().flatten() {
             let (Of::One(i), Test::AtMost(limit) | Test::AtLeast(limit)) = (fact.of, fact.test)
@@ -262,13 +262,13 @@ impl<'a> Learner<'a> {
     }
 
     /// The questions nearest to a limit, of many beside those that are nearest so far.
-    fn near_limit(&mut self, quantity: usize, limit: i64) -> Vec<Question> {
+    fn near_limit(&mut self, quantity: usize, limit: i64) -> Vec<AnyQuestion> {
         let distance = |facts: &[i64]| facts[quantity].saturating_sub(limit).saturating_abs();
         let mut nearest: Vec<usize> = (0..self.answered.len()).collect();
         nearest.sort_by_key(|&i| distance(&self.answered[i].facts));
-        let start: Vec<Question> =
+        let start: Vec<AnyQuestion> =
             nearest.iter().take(30).map(|&i| self.answered[i].question.clone()).collect();
-        let mut found: Vec<(i64, Question)> = Vec::new();
+        let mut found: Vec<(i64, AnyQuestion)> = Vec::new();
         for _ in 0..NEAR_TRIED {
             let question = self.question(&start, true);
             found.push((distance(&facts_of(&question)), question));

@@ -4,25 +4,25 @@ use super::change::Base;
 use super::drawer::Drawer;
 use super::picture::Picture;
 use super::quantity::{self, Name, Quantities, Scene};
-use super::question::Question;
+use super::question::AnyQuestion;
 use super::rule::{Conjunction, Fact, Of, all_hold};
 
 /// A question with its answer and the right one.
-pub(super) struct Answered {
-    pub(super) question: Question,
+pub(super) struct LearnedAnswer {
+    pub(super) question: AnyQuestion,
     pub(super) facts: Vec<i64>,
     pub(super) drawn: Picture,
     pub(super) right: Picture,
 }
 
-impl Answered {
+impl LearnedAnswer {
     pub(super) fn is_wrong(&self) -> bool {
         !self.drawn.is_as(&self.right)
     }
 }
 
 /// The quantities of a question.
-pub(super) fn facts_of(question: &Question) -> Vec<i64> {
+pub(super) fn facts_of(question: &AnyQuestion) -> Vec<i64> {
     let mut out = Quantities::default();
     quantity::of_question(question, &mut out);
     out.values
@@ -38,7 +38,7 @@ pub(super) struct Vocabulary {
 }
 
 impl Vocabulary {
-    pub(super) fn of(question: &Question) -> Self {
+    pub(super) fn of(question: &AnyQuestion) -> Self {
         let mut out = Quantities { names: Some(Vec::new()), ..Quantities::default() };
         quantity::of_question(question, &mut out);
         let of_question = out.values.len();
@@ -112,7 +112,7 @@ pub(super) struct Step {
 
 /// A changed question, and when it is the one that is drawn: where one of these conjunctions holds, or always.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Guarded {
+pub(super) struct GuardedStep {
     pub(super) when: Option<Vec<Conjunction>>,
     pub(super) base: Base,
 }
@@ -120,7 +120,7 @@ pub(super) struct Guarded {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Model {
     /// The first whose guard holds is drawn; the right picture where none does.
-    pub(super) chain: Vec<Guarded>,
+    pub(super) chain: Vec<GuardedStep>,
     pub(super) steps: Vec<Step>,
 }
 
@@ -128,7 +128,7 @@ impl Model {
     /// What it predicts, in the window and in its margin.
     pub(super) fn predict(
         &self,
-        a: &Answered,
+        a: &LearnedAnswer,
         drawer: &dyn Drawer,
         vocabulary: &Vocabulary,
     ) -> Option<Picture> {
@@ -139,7 +139,7 @@ impl Model {
         Some(drawn)
     }
 
-    fn start(&self, a: &Answered, drawer: &dyn Drawer) -> Option<Picture> {
+    fn start(&self, a: &LearnedAnswer, drawer: &dyn Drawer) -> Option<Picture> {
         let base = self.chain.iter().find(|guarded| guarded.holds(&a.facts));
         match base {
             Some(guarded) => guarded.base.draw(&a.question, drawer),
@@ -147,7 +147,12 @@ impl Model {
         }
     }
 
-    pub(super) fn fits(&self, a: &Answered, drawer: &dyn Drawer, vocabulary: &Vocabulary) -> bool {
+    pub(super) fn fits(
+        &self,
+        a: &LearnedAnswer,
+        drawer: &dyn Drawer,
+        vocabulary: &Vocabulary,
+    ) -> bool {
         self.predict(a, drawer, vocabulary).is_some_and(|picture| picture.is_as(&a.drawn))
     }
 
@@ -173,7 +178,7 @@ impl Model {
     }
 }
 
-impl Guarded {
+impl GuardedStep {
     fn holds(&self, facts: &[i64]) -> bool {
         self.when.as_ref().is_none_or(|when| when.iter().any(|all| all_hold(all, facts)))
     }
@@ -189,7 +194,7 @@ impl Step {
 
     fn apply(
         &self,
-        a: &Answered,
+        a: &LearnedAnswer,
         before: &Picture,
         drawer: &dyn Drawer,
         vocabulary: &Vocabulary,

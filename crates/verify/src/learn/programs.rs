@@ -2,7 +2,7 @@
 
 use super::drawer::{Drawer, Lines, Triangles};
 use super::picture::{Picture, Runs};
-use super::question::Question;
+use super::question::AnyQuestion;
 use super::{Learned, Learner, SEED};
 use crate::convention::{
     AskLine, Declarations, LineConvention, LineQuestion, TriangleConvention, TriangleQuestion,
@@ -10,12 +10,12 @@ use crate::convention::{
 use rasterproof_core::frame::Coverage;
 
 /// The right picture of a question by a rule: 0 is the right one.
-type Right<'a> = &'a dyn Fn(&Question, usize) -> Picture;
+type Right<'a> = &'a dyn Fn(&AnyQuestion, usize) -> Picture;
 /// What a wrong program draws.
-type Draw = fn(&Question, Right<'_>) -> Picture;
+type Draw = fn(&AnyQuestion, Right<'_>) -> Picture;
 
 /// Pixels of the right picture that are kept.
-fn keep(q: &Question, right: Right<'_>, is_kept: &dyn Fn(&Runs, [i32; 2]) -> bool) -> Picture {
+fn keep(q: &AnyQuestion, right: Right<'_>, is_kept: &dyn Fn(&Runs, [i32; 2]) -> bool) -> Picture {
     let before = right(q, 0);
     let runs = Runs::of(&before);
     let mut after = before.clone();
@@ -25,7 +25,7 @@ fn keep(q: &Question, right: Right<'_>, is_kept: &dyn Fn(&Runs, [i32; 2]) -> boo
 }
 
 /// The right picture of a question whose coordinates are changed.
-fn moved(q: &Question, right: Right<'_>, change: &dyn Fn(usize, i64) -> i64) -> Picture {
+fn moved(q: &AnyQuestion, right: Right<'_>, change: &dyn Fn(usize, i64) -> i64) -> Picture {
     let mut q = q.clone();
     for point in &mut q.points {
         *point = [0, 1].map(|axis| change(axis, point[axis]));
@@ -33,20 +33,22 @@ fn moved(q: &Question, right: Right<'_>, change: &dyn Fn(usize, i64) -> i64) -> 
     right(&q, 0)
 }
 
-fn empty(q: &Question) -> Picture {
+fn empty(q: &AnyQuestion) -> Picture {
     Picture::new(q.side)
 }
 
 /// What is learned of a rasterizer of triangles that draws so.
-pub(super) fn learn_triangles(draw: &dyn Fn(&Question, Right<'_>) -> Picture) -> Option<Learned> {
+pub(super) fn learn_triangles(
+    draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture,
+) -> Option<Learned> {
     let (known, expected) = (Declarations::default(), TriangleConvention::default());
     let mut nobody = |_: &[TriangleQuestion]| Vec::new();
     let oracle = Triangles::new(&mut nobody, &known, &expected, SEED).unwrap();
-    let right = |q: &Question, rule: usize| oracle.right(q, rule).unwrap();
+    let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
     let mut ask = |questions: &[TriangleQuestion]| -> Vec<Option<Coverage>> {
         let answer = |asked: &TriangleQuestion| {
             let points = asked.corners.map(|c| [c.x.into(), c.y.into()]).into();
-            let q = Question { points, side: [asked.window.x1, asked.window.y1] };
+            let q = AnyQuestion { points, side: [asked.window.x1, asked.window.y1] };
             let picture = draw(&q, &right);
             let mut coverage = Coverage::new(asked.window, 0);
             for at in picture.pixels() {
@@ -61,15 +63,15 @@ pub(super) fn learn_triangles(draw: &dyn Fn(&Question, Right<'_>) -> Picture) ->
 }
 
 /// What is learned of a line drawer that draws so.
-pub(super) fn learn_lines(draw: &dyn Fn(&Question, Right<'_>) -> Picture) -> Option<Learned> {
+pub(super) fn learn_lines(draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture) -> Option<Learned> {
     let (known, expected) = (Declarations::default(), LineConvention::default());
     let mut nobody = |_: &[LineQuestion]| Vec::new();
     let oracle = Lines::new(&mut nobody, &known, &expected, SEED);
-    let right = |q: &Question, rule: usize| oracle.right(q, rule).unwrap();
+    let right = |q: &AnyQuestion, rule: usize| oracle.right(q, rule).unwrap();
     let mut ask = |questions: &[LineQuestion]| -> Vec<Option<Vec<[i32; 2]>>> {
         let answer = |asked: &LineQuestion| {
             let points = asked.ends.map(|end| end.map(i64::from)).into();
-            let q = Question { points, side: [asked.window.x1, asked.window.y1] };
+            let q = AnyQuestion { points, side: [asked.window.x1, asked.window.y1] };
             let picture = draw(&q, &right);
             Some(picture.pixels().filter(|at| picture.has(*at)).collect())
         };

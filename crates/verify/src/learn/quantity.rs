@@ -1,7 +1,7 @@
 //! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
 
 use super::picture::{Picture, Runs};
-use super::question::Question;
+use super::question::AnyQuestion;
 
 /// How a quantity is tested and printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +85,7 @@ const ORDINALS: [&str; 3] = ["first", "second", "third"];
 const SIDES: [&str; 2] = ["width", "height"];
 
 /// The quantities of a question.
-pub(super) fn of_question(q: &Question, out: &mut Quantities) {
+pub(super) fn of_question(q: &AnyQuestion, out: &mut Quantities) {
     let (unit, one) = (q.unit(), q.one());
     let corner = if q.is_line() { " end" } else { " corner" };
     for axis in [0, 1] {
@@ -127,7 +127,7 @@ pub(super) fn of_question(q: &Question, out: &mut Quantities) {
     if q.is_line() { of_line(q, out) } else { of_triangle(q, out) }
 }
 
-fn of_line(q: &Question, out: &mut Quantities) {
+fn of_line(q: &AnyQuestion, out: &mut Quantities) {
     let [dx, dy] = q.side_of(0, 1);
     let (du, dv) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
     let is_steep = dy.abs() > dx.abs();
@@ -166,7 +166,7 @@ fn of_line(q: &Question, out: &mut Quantities) {
 /// The edges of a triangle by the numbers of their corners.
 pub(super) const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-fn of_triangle(q: &Question, out: &mut Quantities) {
+fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
     let area = q.twice_area();
     out.flag(area > 0, &["it is clockwise"], "it is not clockwise");
     out.number(Unit::Area, area.abs(), &["its area"]);
@@ -215,7 +215,7 @@ fn of_triangle(q: &Question, out: &mut Quantities) {
 
 /// What a model predicts of a question so far: its facts are those of its pixels.
 pub(super) struct Scene<'a> {
-    pub(super) question: &'a Question,
+    pub(super) question: &'a AnyQuestion,
     /// What is drawn within the window; beyond it, what would be.
     pub(super) drawn: &'a Picture,
     runs: Runs,
@@ -236,7 +236,7 @@ struct Edge {
 }
 
 impl<'a> Scene<'a> {
-    pub(super) fn new(question: &'a Question, drawn: &'a Picture, sample: [i64; 2]) -> Self {
+    pub(super) fn new(question: &'a AnyQuestion, drawn: &'a Picture, sample: [i64; 2]) -> Self {
         let turn = if question.is_line() { 0 } else { question.twice_area() };
         let edges = EDGES.iter().filter(|_| turn != 0).map(|[a, b]| {
             let (a, b) = if turn > 0 { (*a, *b) } else { (*b, *a) };

@@ -5,13 +5,13 @@ use rasterproof_core::random::Rng;
 
 /// A triangle, with corners in subpixels, or a line, with ends in pixels; and the window it is drawn in.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Question {
+pub(super) struct AnyQuestion {
     pub(super) points: Vec<[i64; 2]>,
     /// Width and height of the window.
     pub(super) side: [i32; 2],
 }
 
-impl Question {
+impl AnyQuestion {
     pub(super) fn is_line(&self) -> bool {
         self.points.len() == 2
     }
@@ -116,7 +116,7 @@ impl Room {
     }
 
     /// A question of a mixture: small and large windows, tiny, thin and level shapes, ties, and shapes that reach far.
-    pub(super) fn question(&mut self) -> Question {
+    pub(super) fn question(&mut self) -> AnyQuestion {
         let side = self.window();
         let near = [0, 0, 0, 2, 6, 30][self.rng.int(0, 5) as usize];
         let points = match (self.rng.chance(4), self.is_line) {
@@ -124,7 +124,7 @@ impl Room {
             (_, true) => self.line(side, near),
             (_, false) => self.triangle(side, near),
         };
-        self.fitted(Question { points, side })
+        self.fitted(AnyQuestion { points, side })
     }
 
     /// A point up to so many pixels beyond the window, on a grid of so many steps to a pixel.
@@ -204,7 +204,7 @@ impl Room {
     }
 
     /// The same on the grid and in the range that may be asked.
-    fn fitted(&self, mut q: Question) -> Question {
+    fn fitted(&self, mut q: AnyQuestion) -> AnyQuestion {
         let fit = |v: i64| (v.div_euclid(self.grain) * self.grain).clamp(-self.most, self.most);
         q.points.iter_mut().for_each(|point| *point = point.map(fit));
         if self.is_line {
@@ -215,7 +215,7 @@ impl Room {
     }
 
     /// A question that differs from another one in little.
-    pub(super) fn beside(&mut self, q: &Question) -> Question {
+    pub(super) fn beside(&mut self, q: &AnyQuestion) -> AnyQuestion {
         let mut q = q.clone();
         for _ in 0..self.rng.int(1, 2) {
             self.change(&mut q);
@@ -223,7 +223,7 @@ impl Room {
         self.fitted(q)
     }
 
-    fn change(&mut self, q: &mut Question) {
+    fn change(&mut self, q: &mut AnyQuestion) {
         match self.rng.int(0, 19) {
             kind @ 0..=5 => {
                 let axis = (kind % 2) as usize;

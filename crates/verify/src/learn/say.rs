@@ -2,7 +2,7 @@
 
 use super::change::{Change, How, Points, Toward};
 use super::drawer::Drawer;
-use super::model::{Guarded, Model, Step, Vocabulary, Wrong};
+use super::model::{GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::quantity::{Name, Unit};
 use super::rule::{Conjunction, Fact, Of, Test};
 
@@ -111,7 +111,7 @@ pub(super) fn sentences(
 }
 
 fn base(
-    guarded: &Guarded,
+    guarded: &GuardedStep,
     is_other: bool,
     is_line: bool,
     drawer: &dyn Drawer,

@@ -2,7 +2,7 @@
 
 use super::change::{self, Base, Nearness};
 use super::drawer::Drawer;
-use super::model::{Answered, Guarded, Model, Step, Vocabulary, Wrong};
+use super::model::{GuardedStep, LearnedAnswer, Model, Step, Vocabulary, Wrong};
 use super::picture::Picture;
 use super::quantity::{Quantities, Scene};
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
@@ -22,7 +22,7 @@ const NEED: usize = 4;
 pub(super) struct Search<'a> {
     pub(super) drawer: &'a dyn Drawer,
     pub(super) vocabulary: &'a Vocabulary,
-    pub(super) answered: &'a [Answered],
+    pub(super) answered: &'a [LearnedAnswer],
 }
 
 /// A model with the share of wrong and of right answers that it predicts.
@@ -43,22 +43,22 @@ impl Tried {
 }
 
 impl Search<'_> {
-    fn some(&self, wrong: bool, most: usize) -> Vec<&Answered> {
-        let is_small = |a: &&Answered| a.question.side[0] * a.question.side[1] < 900;
+    fn some(&self, wrong: bool, most: usize) -> Vec<&LearnedAnswer> {
+        let is_small = |a: &&LearnedAnswer| a.question.side[0] * a.question.side[1] < 900;
         let all = self.answered.iter().filter(|a| a.is_wrong() == wrong);
-        let mut some: Vec<&Answered> = all.clone().filter(is_small).take(most).collect();
+        let mut some: Vec<&LearnedAnswer> = all.clone().filter(is_small).take(most).collect();
         if some.len() < most / 4 {
             some.extend(all.filter(|a| !is_small(a)).take(most / 4));
         }
         some
     }
 
-    pub(super) fn fits(&self, model: &Model, a: &Answered) -> bool {
+    pub(super) fn fits(&self, model: &Model, a: &LearnedAnswer) -> bool {
         model.fits(a, self.drawer, self.vocabulary)
     }
 
     fn tried(&self, model: Model) -> Tried {
-        let share = |some: Vec<&Answered>| {
+        let share = |some: Vec<&LearnedAnswer>| {
             let fit = some.iter().filter(|a| self.fits(&model, a)).count();
             fit as f64 / some.len().max(1) as f64
         };
@@ -112,7 +112,7 @@ impl Search<'_> {
     fn rank(
         &self,
         bases: Vec<Base>,
-        answers: &[&Answered],
+        answers: &[&LearnedAnswer],
         under: &Model,
     ) -> Vec<(Nearness, Base)> {
         let near = |base: &Base| match under.steps.is_empty() {
@@ -120,7 +120,7 @@ impl Search<'_> {
             false => {
                 let model = Model { chain: vec![always(base)], steps: under.steps.clone() };
                 let fitting =
-                    |some: &[&Answered]| some.iter().filter(|a| self.fits(&model, a)).count();
+                    |some: &[&LearnedAnswer]| some.iter().filter(|a| self.fits(&model, a)).count();
                 let (first, rest) = answers.split_at(answers.len().min(4));
                 let exact = match fitting(first) {
                     0 => 0,
@@ -151,7 +151,7 @@ impl Search<'_> {
     fn add_bases(&self, tried: &mut Vec<Tried>) {
         for _ in 0..MOST_STEPS - 1 {
             let model = best(tried).model.clone();
-            let left: Vec<&Answered> = self
+            let left: Vec<&LearnedAnswer> = self
                 .some(true, 300)
                 .into_iter()
                 .filter(|a| !self.fits(&model, a))
@@ -181,7 +181,7 @@ impl Search<'_> {
             let names = &self.vocabulary.names;
             for found in rule::best(names, &table, terms) {
                 let under = Model::default().with(Step { wrong, facts: found.facts });
-                let answers: Vec<&Answered> = self
+                let answers: Vec<&LearnedAnswer> = self
                     .some(true, 60)
                     .into_iter()
                     .filter(|a| !self.fits(&under, a))
@@ -207,7 +207,7 @@ impl Search<'_> {
         let few = |wrong| self.some(wrong, 40);
         let all = || [true, false].into_iter().flat_map(few);
         let score = |model: &Model| {
-            let fit = |some: Vec<&Answered>| {
+            let fit = |some: Vec<&LearnedAnswer>| {
                 let all = some.len().max(1) as f64;
                 some.into_iter().filter(|a| self.fits(model, a)).count() as f64 / all
             };
@@ -265,7 +265,7 @@ impl Search<'_> {
         &self,
         table: &mut Table,
         group: usize,
-        a: &Answered,
+        a: &LearnedAnswer,
         before: &Picture,
         wrong: Wrong,
     ) {
@@ -310,7 +310,7 @@ impl Search<'_> {
         }
         let with = |when| {
             let mut more = model.clone();
-            more.chain.insert(0, Guarded { when, base: base.clone() });
+            more.chain.insert(0, GuardedStep { when, base: base.clone() });
             more
         };
         match (table.yes.is_empty(), table.no.is_empty()) {
@@ -336,7 +336,7 @@ impl Search<'_> {
 
     /// Leaves out a base, a guard, a step or a fact wherever all that was predicted stays predicted.
     pub(super) fn pruned(&self, mut model: Model) -> Model {
-        let some: Vec<&Answered> = self.answered.iter().take(300).collect();
+        let some: Vec<&LearnedAnswer> = self.answered.iter().take(300).collect();
         let fitting = |model: &Model| some.iter().filter(|a| self.fits(model, a)).count();
         let mut most = fitting(&model);
         loop {
@@ -359,8 +359,8 @@ fn best(tried: &[Tried]) -> &Tried {
     tried.iter().skip(1).fold(&tried[0], better)
 }
 
-fn always(base: &Base) -> Guarded {
-    Guarded { when: None, base: base.clone() }
+fn always(base: &Base) -> GuardedStep {
+    GuardedStep { when: None, base: base.clone() }
 }
 
 /// All models that say one thing less.

@@ -26,7 +26,7 @@ use std::fmt;
 
 use crate::convention::{
     Ask, AskLine, Confidence, Count, Declarations, Diagnosis, LineConvention, LineDiagnosis,
-    LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, Rounding, Shape, Ties,
+    LineQuestion, LineRounding, LineTie, Mask, Mirror, Quantum, RULES, Rounding, Shape, Ties,
     TriangleConvention, TriangleQuestion, Windings,
 };
 use crate::learn::{self, Learned};
@@ -43,7 +43,6 @@ pub use format::Format;
 #[doc(hidden)]
 pub use id::MistakeId;
 pub use thresholds::Threshold;
-pub use triangles::RULES;
 pub use weigh::{Hypothesis, chosen_by};
 
 /// An entry of a table.
@@ -184,6 +183,16 @@ impl Mistakes {
 
     fn is_learned(&self) -> bool {
         self.learned.as_ref().is_some_and(|learned| learned.is_certain)
+    }
+
+    /// What the program does, after 'it': the first mistake that explains it, or the first step of what was learned.
+    #[must_use]
+    pub fn does(&self) -> Option<&str> {
+        let learned = self.learned.as_ref().filter(|learned| learned.is_certain);
+        let step = learned.and_then(|learned| learned.does.first());
+        let learned = step.and_then(|step| step.strip_prefix("It "));
+        let known = self.causes.first().map(|cause| cause.does.as_str());
+        known.or(learned.map(|does| does.trim_end_matches('.')))
     }
 
     /// With what is learned where no mistake of the tables explains it.
@@ -838,7 +847,7 @@ fn bases(declared: &TriangleConvention, found: Option<&TriangleConvention>) -> V
         }
     };
     for ([x, y], place) in SAMPLES {
-        for rule in triangles::RULES {
+        for rule in RULES {
             let shape = Shape::Point { x, y };
             let Some(ties) = Ties::named(rule) else { continue };
             let said = [place.to_owned(), format!(" and follows the {rule} rule")];

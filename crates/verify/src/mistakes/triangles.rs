@@ -4,7 +4,7 @@ use super::cells;
 use super::fills::{self, Words};
 use super::scans::{self, Scan};
 use super::{Mistake, Parameters, border};
-use crate::convention::{Mask, Quantum, Rounding, Ties, TriangleConvention, Windings};
+use crate::convention::{Mask, Quantum, RULES, Rounding, Ties, TriangleConvention, Windings};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -1070,9 +1070,6 @@ pub(super) const TABLE: &[Mistake<Fill>] = &[
 
 /// Parameters of a rule by order of both windings; those of one follow.
 const OF_BOTH: i64 = 27 * ORDERS.len() as i64;
-/// The rules that mistakes are looked for with.
-pub const RULES: [&str; 6] =
-    ["top-left", "inclusive", "strict", "bottom-right", "top-right", "bottom-left"];
 const AREAS: [f64; 8] = [0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 const EPSILONS: [f64; 7] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 const PAIRS: [i64; 30] = {
