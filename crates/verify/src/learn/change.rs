@@ -3,8 +3,7 @@
 //! A change is a map of numbers, for some of the points and for one axis or both. The numbers in it, such as an offset, are
 //! solved for: tried from coarse to fine, by how near the pictures come to the answers.
 
-use super::drawer::Drawer;
-use super::model::LearnedAnswer;
+use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
 use super::question::AnyQuestion;
 

@@ -10,6 +10,20 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 
+/// A question with its answer and the right one.
+pub(super) struct LearnedAnswer {
+    pub(super) question: AnyQuestion,
+    pub(super) facts: Vec<i64>,
+    pub(super) drawn: Picture,
+    pub(super) right: Picture,
+}
+
+impl LearnedAnswer {
+    pub(super) fn is_wrong(&self) -> bool {
+        !self.drawn.is_as(&self.right)
+    }
+}
+
 /// The program under judgement, with what it should draw.
 pub(super) trait Drawer {
     /// What a rule draws: the right one is number 0. Nothing where it says nothing.

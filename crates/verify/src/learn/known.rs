@@ -1,6 +1,6 @@
 //! What is known where no model predicts every answer: when the program is wrong, where, and what is right beside it.
 
-use super::model::LearnedAnswer;
+use super::drawer::LearnedAnswer;
 use super::rule::{self, Table, Terms, all_hold};
 use super::say;
 use super::search::Search;

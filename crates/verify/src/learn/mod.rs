@@ -24,8 +24,9 @@ mod say;
 mod search;
 
 use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
+use drawer::LearnedAnswer;
 use drawer::{Drawer, Lines, Triangles};
-use model::{LearnedAnswer, Model, Vocabulary, facts_of};
+use model::{Model, Vocabulary, facts_of};
 use question::AnyQuestion;
 use rule::{Of, Test};
 use search::Search;

@@ -1,25 +1,11 @@
 //! An explanation as a value: changed questions with the questions that they hold for, then pixel rules, one on another.
 
 use super::change::Base;
-use super::drawer::Drawer;
+use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
 use super::quantity::{self, Name, Quantities, Scene};
 use super::question::AnyQuestion;
 use super::rule::{Conjunction, Fact, Of, all_hold};
-
-/// A question with its answer and the right one.
-pub(super) struct LearnedAnswer {
-    pub(super) question: AnyQuestion,
-    pub(super) facts: Vec<i64>,
-    pub(super) drawn: Picture,
-    pub(super) right: Picture,
-}
-
-impl LearnedAnswer {
-    pub(super) fn is_wrong(&self) -> bool {
-        !self.drawn.is_as(&self.right)
-    }
-}
 
 /// The quantities of a question.
 pub(super) fn facts_of(question: &AnyQuestion) -> Vec<i64> {

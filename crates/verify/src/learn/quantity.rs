@@ -1,28 +1,7 @@
 //! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
 
 use super::picture::{Picture, Runs};
-use super::question::AnyQuestion;
-
-/// How a quantity is tested and printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
-    /// 1 or 0.
-    Flag,
-    /// Pixels, rows or other things that are counted.
-    Count,
-    /// A count that is compared with the others of its kind.
-    Paired,
-    /// A count that takes many words.
-    Involved,
-    /// Whole pixels.
-    Pixels,
-    /// 1/256 px.
-    Subpixels,
-    /// 1/65,536 of a square pixel.
-    Area,
-    /// 1/256.
-    Ratio,
-}
+use super::question::{AnyQuestion, Unit, gcd};
 
 /// The words of a quantity.
 #[derive(Clone, Debug)]
@@ -563,8 +542,4 @@ impl<'a> Scene<'a> {
 fn length([dx, dy]: [i64; 2]) -> i64 {
     // Below 2^32 a side, so that the root of an f64 is off by less than one.
     ((dx as f64).powi(2) + (dy as f64).powi(2)).sqrt() as i64
-}
-
-pub(super) fn gcd(a: i64, b: i64) -> i64 {
-    if b == 0 { a.abs() } else { gcd(b, a % b) }
 }

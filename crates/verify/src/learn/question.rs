@@ -1,6 +1,5 @@
 //! Questions of either verb: what is asked first, beside another question, and at the border of a threshold.
 
-use super::quantity::{Unit, gcd};
 use rasterproof_core::random::Rng;
 
 /// A triangle, with corners in subpixels, or a line, with ends in pixels; and the window it is drawn in.
@@ -248,4 +247,30 @@ impl Room {
             }
         }
     }
+}
+
+/// How a quantity is tested and printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unit {
+    /// 1 or 0.
+    Flag,
+    /// Pixels, rows or other things that are counted.
+    Count,
+    /// A count that is compared with the others of its kind.
+    Paired,
+    /// A count that takes many words.
+    Involved,
+    /// Whole pixels.
+    Pixels,
+    /// 1/256 px.
+    Subpixels,
+    /// 1/65,536 of a square pixel.
+    Area,
+    /// 1/256.
+    Ratio,
+}
+
+/// The greatest number that divides both.
+pub(super) fn gcd(a: i64, b: i64) -> i64 {
+    if b == 0 { a.abs() } else { gcd(b, a % b) }
 }

@@ -5,7 +5,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::quantity::{NONE, Name, Unit};
+use super::quantity::{NONE, Name};
+use super::question::Unit;
 
 /// A quantity, or one compared with another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -3,7 +3,8 @@
 use super::change::{Change, How, Points, Toward};
 use super::drawer::Drawer;
 use super::model::{GuardedStep, Model, Step, Vocabulary, Wrong};
-use super::quantity::{Name, Unit};
+use super::quantity::Name;
+use super::question::Unit;
 use super::rule::{Conjunction, Fact, Of, Test};
 
 /// A number of a quantity, in px or px² where it is one.

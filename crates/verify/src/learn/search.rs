@@ -2,7 +2,8 @@
 
 use super::change::{self, Base, Nearness};
 use super::drawer::Drawer;
-use super::model::{GuardedStep, LearnedAnswer, Model, Step, Vocabulary, Wrong};
+use super::drawer::LearnedAnswer;
+use super::model::{GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::picture::Picture;
 use super::quantity::{Quantities, Scene};
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
