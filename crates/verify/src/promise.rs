@@ -253,11 +253,10 @@ impl Convention {
     /// A case of a family, put where the rasterizer draws.
     pub(super) fn case(&self, family: &Family, seed: u64, index: u64) -> Case {
         let mut case = family.case_within(seed, index, &self.limits(None));
-        if let Shape::Triangles { disjoint, .. } = &mut case.shape
-            && *self != Self::default()
-        {
-            // Rounding may have folded a mesh, and some rules draw pixels twice.
-            *disjoint = false;
+        // Rounding may have folded a mesh, and some rules draw pixels twice.
+        let is_folded = *self != Self::default();
+        if let Shape::Triangles { disjoint, .. } = &mut case.shape {
+            *disjoint &= !is_folded;
         }
         case
     }
