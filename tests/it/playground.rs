@@ -413,7 +413,10 @@ fn playground_is_where_chapters_lead() {
         let mut pages: Vec<_> = (1..=11).map(|n| format!("ch{n:02}")).collect();
         pages.push("games101".to_owned());
         let link = |page: String| {
-            let text = crate::pages::page(folder, &page);
+            // A chapter links it itself, or the page with its evidence does.
+            let evidence = format!("{folder}/{page}-evidence.md");
+            let evidence = std::fs::read_to_string(root().join(evidence)).unwrap_or_default();
+            let text = crate::pages::page(folder, &page) + &evidence;
             let found: Vec<_> = text
                 .split("](playground.md#scene=")
                 .skip(1)

@@ -87,7 +87,8 @@ fn values_lie_within_their_bound() {
             }
         }
         println!("{}: up to {largest:.3} of the bound", family.name);
-        let drawn = !["degenerate", "off-screen", "w-extreme"].contains(&family.name);
+        // Of the design only the pixels count: its values are 0.
+        let drawn = !["degenerate", "off-screen", "w-extreme", "design"].contains(&family.name);
         assert!(largest > 0.01 || !drawn, "{}: the bound is empty, {largest}", family.name);
     }
 }
