@@ -1,8 +1,8 @@
 //! Mistakes beside coverage: in values, in the four samples of a pixel, in which triangle is seen, and at the near plane.
 //!
-//! What a program does in such a stage is a value: [`depth::DepthTest`], [`samples::SampleMask`] or [`near::NearCut`], whose
+//! What a program does in such a stage is a value: `depth::DepthTest`, `samples::SampleMask` or `near::NearCut`, whose
 //! fields are right by default. One function predicts the answers of any value, and a mistake is one or two fields that are
-//! wrong, everywhere or in some places: [`search`] looks for those that predict every answer. To add a mistake, add a value to a
+//! wrong, everywhere or in some places: `search` looks for those that predict every answer. To add a mistake, add a value to a
 //! field, with its words.
 
 mod depth;
