@@ -466,8 +466,8 @@ fn list_facts(streams: &mut Streams<'_>) -> Status {
     let mut tables = Vec::new();
     for topic in &facts::TOPICS {
         let mut rows = Vec::new();
-        for fact in topic.facts() {
-            rows.push(Row::of(&[&fact.name, &fact.classes.join(" · ")]));
+        for fact in topic.facts {
+            rows.push(Row::of(&[&fact.name, &fact.classes().join(" · ")]));
         }
         let impossible = design::impossible(topic).len();
         let title = format!(

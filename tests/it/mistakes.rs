@@ -1603,7 +1603,8 @@ fn of_fill_in(
     };
     let known = Declarations { window_px, ..Declarations::default() };
     let found = diagnose(&mut ask, &known, 1);
-    mistakes::of_triangles(&mut ask, &known, Some(&found), &[])
+    let learn: mistakes::LearnTriangles = mistakes::learn_triangles;
+    mistakes::of_triangles(&mut ask, &known, Some(&found), &[], Some(learn))
 }
 
 fn of_stroke(

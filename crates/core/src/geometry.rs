@@ -73,6 +73,13 @@ pub fn sorted<T>(mut three: [T; 3], mut is_after: impl FnMut(&T, &T) -> bool) ->
     three
 }
 
+/// The greatest whole number that divides both, not negative; of 0 and 0 it is 0. Of the two sides of a line it says whether the
+/// line passes halfway between pixels.
+#[must_use]
+pub fn greatest_divisor(a: i64, b: i64) -> i64 {
+    if b == 0 { a.abs() } else { greatest_divisor(b, a % b) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,6 +105,12 @@ mod tests {
             [1, 1, 1, -1, -1, -1]
         );
         assert_eq!(twice_area(&corners), side * side);
+    }
+
+    #[test]
+    fn divisors_by_hand() {
+        let pairs = [(12, 18), (-12, 18), (18, -12), (7, 0), (0, -7), (0, 0), (5, 7)];
+        assert_eq!(pairs.map(|(a, b)| greatest_divisor(a, b)), [6, 6, 6, 7, 7, 0, 1]);
     }
 
     /// As the stable sort of the standard library, for all that three things can be.

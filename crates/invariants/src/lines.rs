@@ -6,6 +6,7 @@ use super::Outcome;
 use super::implementations::{Drawer, Implementations};
 use super::source::LineInput;
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::geometry::greatest_divisor;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, PixelPoint};
 use rasterproof_verify::cases::Line;
@@ -108,10 +109,6 @@ pub(super) fn one_per_step(subject: &Implementations, input: &LineInput) -> Outc
     })
 }
 
-fn gcd(a: i64, b: i64) -> i64 {
-    if b == 0 { a } else { gcd(b, a % b) }
-}
-
 /// 38: backwards, the same pixels. The control: rounding half away from the first end, whichever
 /// that is, gives another set exactly where the length over the common divisor is even.
 pub(super) fn reversal(subject: &Implementations, input: &LineInput) -> Outcome {
@@ -124,7 +121,7 @@ pub(super) fn reversal(subject: &Implementations, input: &LineInput) -> Outcome 
     // Height at step i from either end; the two differ in their ties only.
     let directed = |i: i64| (2 * dv * i + du) / (2 * du.max(1));
     let differs = (0..=du).any(|i| directed(i) != dv - directed(du - i));
-    let even = dv > 0 && (du / gcd(du, dv)) % 2 == 0;
+    let even = dv > 0 && (du / greatest_divisor(du, dv)) % 2 == 0;
     if differs != even {
         return Err(format!("the control on {du}, {dv}: differs {differs}, even {even}"));
     }

@@ -1,17 +1,17 @@
 //! What a program was asked, as the share of everything that a question can be.
 
+use super::Options;
 use super::adapt_case;
 use super::check::Check;
 use super::declared::Declared;
 use super::run::Row;
-use super::verdict::Verdict;
+use super::verdict::Particulars;
 use rasterproof_verify::cases::facts::{self, asked::DesignShare};
 
 /// The pairs and the triples of facts that the designs asked of a program, one entry for each design. Nothing where a single
 /// case was judged, not all cases were, or two programs are compared.
 #[must_use]
-pub fn asked(verdict: &Verdict) -> Vec<DesignShare> {
-    let Verdict { options, families, more, .. } = verdict;
+pub(super) fn asked(options: &Options, rows: &[Row], more: &Particulars) -> Vec<DesignShare> {
     let is_cut = more.found.out_of_time || more.found.gave_up;
     if options.only.is_some() || more.against.is_some() || is_cut {
         return Vec::new();
@@ -26,7 +26,7 @@ pub fn asked(verdict: &Verdict) -> Vec<DesignShare> {
         let is_judged = |row: &Row| {
             row.name == family.name || (is_of_values && row.check == Some(Check::Values))
         };
-        if families.iter().any(|row| is_judged(row) && !row.stopped) {
+        if rows.iter().any(|row| is_judged(row) && !row.stopped) {
             all.push(DesignShare::of(topic, options.seed, options.numbers(), &limits));
         }
     }

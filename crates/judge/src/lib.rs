@@ -13,7 +13,7 @@ pub mod adapt_case;
 mod after;
 pub mod against;
 pub mod ask;
-pub mod asked;
+mod asked;
 pub mod baseline;
 pub mod check;
 pub mod declared;

@@ -256,7 +256,9 @@ pub fn mistakes(
             Check::Coverage => {
                 let found = recognised.and_then(|found| found.triangles.as_ref());
                 let programs = programs(of_triangle);
-                ("triangles", mistakes::of_triangles(&mut bench, &known, found, &programs))
+                let learn: mistakes::LearnTriangles = mistakes::learn_triangles;
+                let why = mistakes::of_triangles(&mut bench, &known, found, &programs, Some(learn));
+                ("triangles", why)
             }
             Check::Line => {
                 let found = recognised.and_then(|found| found.lines.as_ref());

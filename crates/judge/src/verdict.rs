@@ -5,12 +5,14 @@ use std::time::Duration;
 use super::Options;
 use super::adapt_case;
 use super::ask::Complaints;
+use super::asked;
 use super::check::{Check, Counted};
 use super::declared::Declared;
 use super::failures::Failure;
 use super::recognise::{Said, Why};
 use super::run::{Row, RunFindings, Sides};
 use super::windings::Windings;
+use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::judge::{self, LeftOut};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -64,6 +66,8 @@ pub struct Particulars {
     /// What was not done, because the time was up.
     pub left_out: LeftOut,
     pub properties: Vec<Property>,
+    /// How much of all that could be asked the designs asked.
+    pub asked: Vec<DesignShare>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -123,6 +127,7 @@ pub fn verdict(
     let mut rows = std::mem::take(&mut of.found.rows);
     rows.sort_by_key(rank);
     of.properties = properties(&of, &rows);
+    of.asked = asked::asked(options, &rows, &of);
     Verdict { options: options.clone(), families: rows, failures, cause, more: of }
 }
 

@@ -3,7 +3,6 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use rasterproof_judge::asked;
 use rasterproof_judge::verdict::{Score, Scores as _, Verdict as Judgement};
 use rasterproof_registry::digest::DigestRow;
 use rasterproof_verify::cases::Kind;
@@ -89,7 +88,7 @@ pub fn judgement(
         },
         "known_failures": verdict.more.known, "agrees": verdict.agrees(), "windings": verdict.more.windings,
         "recognised": verdict.more.recognised, "score_as_declared": verdict.as_declared(),
-        "score_by_convention": verdict.by_convention(), "counts": counts.collect::<Vec<_>>(), "asked": asked::asked(verdict), "answers": verdict.more.found.answered,
+        "score_by_convention": verdict.by_convention(), "counts": counts.collect::<Vec<_>>(), "asked": verdict.more.asked, "answers": verdict.more.found.answered,
         "properties": verdict.more.properties, "rows": verdict.families, "failures": failures.collect::<Vec<_>>(),
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.more.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),

@@ -8,7 +8,6 @@ use super::words::{of_bound, same, thousands};
 use super::{page_cases, summary};
 use rasterproof_judge::against;
 use rasterproof_judge::ask::{Breach, Complaints};
-use rasterproof_judge::asked;
 use rasterproof_judge::check::{Check, Counted};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
@@ -266,7 +265,7 @@ fn dangers(verdict: &Verdict) -> Table {
 /// How much of all that could be asked was asked, and what was not.
 fn asked(verdict: &Verdict) -> Vec<String> {
     let mut notes = Vec::new();
-    for share in asked::asked(verdict) {
+    for share in &verdict.more.asked {
         let [pairs, of_pairs] = [share.pairs, share.of_pairs].map(|n| thousands(n as u64));
         let pairs = match share.pairs == share.of_pairs {
             true => format!("all {pairs}"),

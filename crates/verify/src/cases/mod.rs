@@ -197,6 +197,9 @@ impl Limits {
     /// kept within the limits. Ties stay ties where the grid holds the sample. A mesh may be folded by that.
     #[must_use]
     pub fn put(&self, mut case: Case) -> Case {
+        if *self == Self::default() {
+            return case;
+        }
         if let Some([width, height]) = self.window {
             case.window.x1 = case.window.x1.min(width as i32);
             case.window.y1 = case.window.y1.min(height as i32);

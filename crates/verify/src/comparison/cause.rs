@@ -6,7 +6,7 @@ use super::Convention;
 use crate::convention::{
     Ask, Confidence, Declarations, Diagnosis, LineDiagnosis, LineQuestion, TriangleQuestion,
 };
-use crate::mistakes::{self, Mistakes};
+use crate::mistakes::{self, LearnTriangles, Mistakes};
 use rasterproof_core::frame::Coverage;
 
 /// What was recognised, or that nothing was.
@@ -32,16 +32,23 @@ impl Cause {
         mut draw: impl FnMut(&TriangleQuestion) -> Option<Coverage>,
     ) -> Self {
         let mut ask = |questions: &[TriangleQuestion]| questions.iter().map(&mut draw).collect();
-        Self::by_asking(&mut ask, &Declarations::from(declared), declared)
+        let known = Declarations::from(declared);
+        Self::by_asking(&mut ask, &known, declared, Some(mistakes::learn_triangles))
     }
 
-    /// Asks whoever answers, in batches.
+    /// Asks whoever answers, in batches. Without `learn` nothing is learned where no known mistake explains it: where answers come
+    /// later and all is asked again, learning would take too long.
     #[doc(hidden)]
-    pub fn by_asking(ask: &mut dyn Ask, known: &Declarations, declared: &Convention) -> Self {
+    pub fn by_asking(
+        ask: &mut dyn Ask,
+        known: &Declarations,
+        declared: &Convention,
+        learn: Option<LearnTriangles>,
+    ) -> Self {
         let found = crate::convention::diagnose(ask, known, SEED);
         let cause =
             Self::of(found.confidence, &found.sentence(), Self::declaration(&found, declared));
-        cause.with(mistakes::of_triangles(ask, known, Some(&found), &[]))
+        cause.with(mistakes::of_triangles(ask, known, Some(&found), &[], learn))
     }
 
     /// Asks for about 1,100 lines in a small window.

@@ -8,7 +8,7 @@ use super::place::Place;
 use super::rule::{CornerRule, Ties, Windings};
 use super::shape::Shape;
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::geometry::twice_area;
+use rasterproof_core::geometry::{greatest_divisor, twice_area};
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
@@ -118,11 +118,6 @@ impl Compass {
     }
 }
 
-/// The greatest common divisor, not negative.
-fn gcd(a: i32, b: i32) -> i32 {
-    if b == 0 { a.abs() } else { gcd(b, a % b) }
-}
-
 const TRIES: usize = 4000;
 
 impl Bench<'_> {
@@ -199,7 +194,8 @@ impl Bench<'_> {
         };
         let (from, third) = (point(-700, 700), point(-1000, 1000));
         let ahead = [0, 1].map_array(|axis| pixel[axis] + at[axis] - from[axis]);
-        let times = unit / gcd(gcd(ahead[0], ahead[1]), unit);
+        let [x, y, step] = [ahead[0], ahead[1], unit].map_array(i64::from);
+        let times = unit / greatest_divisor(greatest_divisor(x, y), step) as i32;
         // Once more where that is the sample itself.
         let times = if times == 1 { 2 } else { times };
         let to = [0, 1].map_array(|axis| from[axis] + times * ahead[axis]);

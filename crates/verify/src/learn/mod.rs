@@ -90,8 +90,11 @@ const LEAST_WRONG: usize = 6;
 /// Questions that are asked at once, so that a slow program can be left in time.
 const AT_ONCE: usize = 100;
 
+/// Learns from a rasterizer of triangles, as [`of_triangles`] does.
+pub type LearnTriangles = fn(&mut dyn Ask, &Declarations, &TriangleConvention) -> Option<Learned>;
+
 /// Learns from a rasterizer of triangles; `expected` is what is right.
-pub(crate) fn of_triangles(
+pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
     expected: &TriangleConvention,

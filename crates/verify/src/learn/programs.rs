@@ -89,17 +89,13 @@ const TRIANGLES: [(&str, Draw); 15] = [
     }),
     ("samples on a level bottom edge are drawn", |q, right| {
         let mut picture = right(q, 0);
-        let mut lower = q.clone();
-        lower.points.iter_mut().for_each(|p| p[1] -= 1);
         let [_, bottom] = q.range(1);
         let is_flat = q.points.iter().filter(|p| p[1] == bottom).count() == 2;
-        let extra = right(&lower, 0);
         if is_flat && bottom.rem_euclid(256) == 128 {
             let y = (bottom.div_euclid(256)) as i32;
             let mut up = q.clone();
             up.points.iter_mut().filter(|p| p[1] == bottom).for_each(|p| p[1] += 1);
             let row = right(&up, 0);
-            let _ = extra;
             picture.all().filter(|at| at[1] == y && row.has(*at)).for_each(|at| picture.set(at, 1));
         }
         picture
@@ -192,7 +188,7 @@ const PAIRS: [(&str, Draw); 4] = [
     }),
 ];
 
-/// Not explained so far: each is predicted nearly, and said not to be enough.
+/// Not explained, or not in every run of a few seconds: what is found of them is not asserted.
 const NOT_YET: [&str; 5] = [
     "samples on a level bottom edge are drawn",
     "1024 px wide or 512 px high ones are dropped",

@@ -1,7 +1,8 @@
 //! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
 
 use super::picture::{Picture, Runs};
-use super::question::{AnyQuestion, Unit, gcd};
+use super::question::{AnyQuestion, Unit};
+use rasterproof_core::geometry::greatest_divisor;
 
 /// The words of a quantity.
 #[derive(Clone, Debug)]
@@ -122,7 +123,7 @@ fn of_line(q: &AnyQuestion, out: &mut Quantities) {
         "it runs forwards along its longer axis",
     );
     out.flag(dx * dy < 0, &["x and y go opposite ways"], "x and y do not go opposite ways");
-    let reduced = du / gcd(du, dv).max(1);
+    let reduced = du / greatest_divisor(du, dv).max(1);
     out.flag(
         dv > 0 && reduced % 2 == 0,
         &["it passes halfway between pixels"],

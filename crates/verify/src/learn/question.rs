@@ -1,5 +1,6 @@
 //! Questions of either verb: what is asked first, beside another question, and at the border of a threshold.
 
+use rasterproof_core::geometry::greatest_divisor;
 use rasterproof_core::random::Rng;
 
 /// A triangle, with corners in subpixels, or a line, with ends in pixels; and the window it is drawn in.
@@ -58,7 +59,8 @@ impl AnyQuestion {
 
     /// The smallest n such that all coordinates of an axis are multiples of 1/n px.
     pub(super) fn fineness(&self, axis: usize) -> i64 {
-        self.one() / self.points.iter().fold(self.one(), |g, point| gcd(g, point[axis]))
+        self.one()
+            / self.points.iter().fold(self.one(), |g, point| greatest_divisor(g, point[axis]))
     }
 
     /// How it is asked for, such as 'T 1 8 8 0 0 4.5 0 0 3'.
@@ -268,9 +270,4 @@ pub(super) enum Unit {
     Area,
     /// 1/256.
     Ratio,
-}
-
-/// The greatest number that divides both.
-pub(super) fn gcd(a: i64, b: i64) -> i64 {
-    if b == 0 { a.abs() } else { gcd(b, a % b) }
 }

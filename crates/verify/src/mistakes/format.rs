@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::values::{exponent, rounded};
+use super::values::rounded;
+use crate::cases::facts::exponent;
 use crate::convention::Rounding;
 
 /// The numbers that something is brought to before it is used further.

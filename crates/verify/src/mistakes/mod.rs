@@ -30,6 +30,7 @@ use crate::convention::{
     TriangleConvention, TriangleQuestion, Windings,
 };
 use crate::learn::{self, Learned};
+pub use crate::learn::{LearnTriangles, of_triangles as learn_triangles};
 use lines::Stroke;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
@@ -324,12 +325,14 @@ impl AnsweredQuestion<TriangleQuestion> {
 
 /// Asks a rasterizer of triangles that is wrong, and looks for its mistake. `found` is what its convention seems to be:
 /// where that is certain, answers are judged by it. Nothing where all answers are right. It asks for 1,200 triangles, and for
-/// more where few of these are wrong. Who gives no more answers ends it.
+/// more where few of these are wrong. Who gives no more answers ends it. Where no known mistake explains it, `learn` may ask on:
+/// [`learn_triangles`], or nothing.
 pub fn of_triangles(
     ask: &mut dyn Ask,
     known: &Declarations,
     found: Option<&Diagnosis>,
     programs: &[Program<'_, TriangleQuestion, Coverage>],
+    learn: Option<LearnTriangles>,
 ) -> Option<Mistakes> {
     let mut answered: Vec<AnsweredQuestion<TriangleQuestion>> = Vec::new();
     let is_certain = found.is_some_and(|f| f.confidence == Confidence::Certain);
@@ -402,7 +405,7 @@ pub fn of_triangles(
         }
     }
     let found = with_limits(why, answered.len(), limits)?;
-    Some(found.or_learned(|| learn::of_triangles(ask, known, expected)))
+    Some(found.or_learned(|| learn?(ask, known, expected)))
 }
 
 /// The mistake that explains answers about triangles.

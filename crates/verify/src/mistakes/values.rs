@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::{Explanation, Hypothesis, MistakeId, Mistakes, chosen_by, of_answers};
+use crate::cases::facts::exponent;
 use crate::cases::{self, Shape, Triangle};
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
@@ -514,12 +515,6 @@ pub fn rounded(v: f64, precision: i64) -> f64 {
             v + large - large
         }
     }
-}
-
-/// The power of two of the first digit of a number that is not tiny.
-#[must_use]
-pub fn exponent(v: f64) -> i32 {
-    (v.to_bits() >> 52 & 0x7ff) as i32 - 1023
 }
 
 fn mantissa(v: f64, bits: i32, cut: fn(f64) -> f64) -> f64 {

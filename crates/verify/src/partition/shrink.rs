@@ -2,6 +2,7 @@
 
 use super::families::Coordinates;
 use super::{Point, Polygon, key};
+use crate::cases::facts::exponent;
 use crate::cases::shrink::greedy;
 
 /// The smallest polygon reached from `polygon` for which `fails` holds, by removing contours, runs of vertices and digits.
@@ -55,7 +56,7 @@ fn candidates(polygon: &Polygon, coordinates: Coordinates) -> Vec<Polygon> {
         all.push(map(&|value, axis| value - [left, low][axis]));
         let largest = sorted.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
         // The exponent of a normal number is in its bits; of zero and of smaller numbers any will do.
-        let exponent = ((largest.to_bits() >> 52) as i32 - 1023).clamp(-1022, 1022);
+        let exponent = exponent(largest).clamp(-1022, 1022);
         for exponent in [exponent, 10, -10, 1, -1] {
             all.push(map(&|value, _| value * 2f64.powi(-exponent)));
         }

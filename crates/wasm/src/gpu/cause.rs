@@ -98,7 +98,7 @@ impl Cause {
                 window_px: (LAYOUT.cell as u32, LAYOUT.cell as u32),
                 ..Declarations::from(&declared)
             };
-            let found = comparison::Cause::by_asking(asked, &known, &declared);
+            let found = comparison::Cause::by_asking(asked, &known, &declared, None);
             if asked.waiting.is_empty() {
                 return Ok(json!({ "cause": found.headline(), "asked": asked.answered.len() }));
             }

@@ -55,7 +55,7 @@ impl DesignShare {
         Self {
             family: topic.name,
             cases,
-            facts: topic.starts().len(),
+            facts: topic.facts.len(),
             classes: seen.len(),
             pairs,
             of_pairs,
@@ -68,8 +68,8 @@ impl DesignShare {
 
 /// The classes that occur, the pairs of these that can occur, and the triples whose three pairs can.
 fn possible(topic: &Topic, table: &Table) -> ([Vec<u16>; 2], [usize; 2]) {
-    let (starts, all) = (topic.starts(), topic.count() as u16);
-    let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class)) - 1;
+    let facts = topic.facts_of_classes();
+    let all = facts.len() as u16;
     let occurs =
         |class: &u16| (0..all).any(|other| table.has(&[*class.min(&other), *class.max(&other)]));
     let (seen, never): (Vec<u16>, Vec<u16>) = (0..all).partition(occurs);
@@ -78,7 +78,8 @@ fn possible(topic: &Topic, table: &Table) -> ([Vec<u16>; 2], [usize; 2]) {
     let mut partners: Vec<Vec<u16>> = vec![Vec::new(); usize::from(all)];
     for &second in &seen {
         let can_occur = |first: &u16| {
-            fact_of(*first) != fact_of(second) && !impossible.contains(&[*first, second])
+            facts[usize::from(*first)] != facts[usize::from(second)]
+                && impossible.binary_search(&[*first, second]).is_err()
         };
         partners[usize::from(second)] =
             seen.iter().copied().filter(|first| *first < second && can_occur(first)).collect();

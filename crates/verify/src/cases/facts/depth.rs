@@ -7,13 +7,13 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
-use super::{Fact, Test, Topic, Unit, classes, fact, words};
+use super::{Read, Test, Topic, Unit, classes, exponent, fact, facts_of};
 use crate::cases::{Case, Shape, Triangle};
 
 /// Triangles before and behind each other.
 pub const TOPIC: Topic = Topic {
     name: "depth-design",
-    words: || words(&FACTS),
+    facts: &facts_of(&FACTS),
     measure: |case, _| Some(classes(&FACTS, &PileFacts::of_case(case)?)),
     impossible: include_str!("impossible/depth-design.txt"),
     draw,
@@ -29,7 +29,7 @@ const EXTENT: Test = Test::Steps(&[2 * PX, 8 * PX, 24 * PX]);
 const SOME: Test = Test::Choice(&["none", "some", "all"]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<PileFacts>; 18] = [
+const FACTS: [Read<PileFacts>; 18] = [
     fact("triangles", Unit::Count, |m| m.count, Test::Steps(&[2, 3, 5, 9, 17, 33, 64])),
     fact("triangles that cover one of 16 pixels", Unit::Count, |m| m.piled, PILED),
     fact("triangles whose boxes meet one block of 8 x 8 px", Unit::Count, |m| m.in_block, PILED),
@@ -142,7 +142,7 @@ impl PileFacts {
             cut: share(boxes.iter().filter(is_cut).count()),
             largest: extents.clone().max().unwrap_or(0),
             smallest: extents.min().unwrap_or(0),
-            closest: gaps.map(|gap| ((gap.to_bits() >> 52) as i64) - 1023).min().unwrap_or(0),
+            closest: gaps.map(|gap| i64::from(exponent(gap))).min().unwrap_or(0),
             ends: i64::from(has(0.0)) + 2 * i64::from(has(1.0)),
             leaves_open: boxes.iter().map(|of| leaves_open(of, window)).max().unwrap_or(0),
             last_is_nearest: i64::from(list.len() > 1 && means.iter().all(|mean| *mean >= last)),

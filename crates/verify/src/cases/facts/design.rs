@@ -9,7 +9,7 @@
 //! is looked for beside cases that have a part of it. Which pairs cannot occur was found by a search that was much longer, and is
 //! data ([`impossible`]).
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rasterproof_core::random::Rng;
@@ -64,7 +64,7 @@ struct Chooser<'a> {
     limits: &'a Limits,
     rng: Rng,
     effort: Effort,
-    impossible: BTreeSet<[u16; 2]>,
+    impossible: &'a [[u16; 2]],
     table: Table,
     /// Some cases of each class.
     examples: Vec<Vec<Candidate>>,
@@ -186,7 +186,7 @@ impl Chooser<'_> {
         let is_possible = |classes: &Wanted| {
             let mut pairs =
                 (1..classes.len()).flat_map(|at| (0..at).map(move |before| [before, at]));
-            pairs.all(|pair| !self.impossible.contains(&pair.map(|at| classes[at])))
+            pairs.all(|pair| self.impossible.binary_search(&pair.map(|at| classes[at])).is_err())
         };
         wanted.retain(|classes| !self.table.has(classes) && is_possible(classes));
         for last in (1..wanted.len()).rev() {
@@ -197,12 +197,11 @@ impl Chooser<'_> {
 
     /// The pairs of classes of two facts.
     fn all_pairs(&self) -> Vec<Wanted> {
-        let starts = self.topic.starts();
-        let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class));
+        let facts = self.topic.facts_of_classes();
         let mut pairs = Vec::new();
-        for second in 0..self.examples.len() as u16 {
-            for first in (0..second).filter(|first| fact_of(*first) != fact_of(second)) {
-                pairs.push(vec![first, second]);
+        for second in 0..facts.len() {
+            for first in (0..second).filter(|first| facts[*first] != facts[second]) {
+                pairs.push(vec![first as u16, second as u16]);
             }
         }
         pairs
@@ -234,8 +233,8 @@ impl Chooser<'_> {
 
 /// The pairs of classes that cannot occur, in ascending order: a long search has not found them.
 #[must_use]
-pub fn impossible(topic: &Topic) -> BTreeSet<[u16; 2]> {
-    let mut pairs = BTreeSet::new();
+pub fn impossible(topic: &Topic) -> Vec<[u16; 2]> {
+    let mut pairs = Vec::new();
     for line in topic.impossible.lines() {
         let mut numbers = line.split_ascii_whitespace().filter_map(|word| word.parse().ok());
         let Some(first) = numbers.next() else { continue };
@@ -252,7 +251,7 @@ pub fn block(topic: &Topic, seed: u64, number: u64, limits: &Limits) -> Vec<Case
 
 /// The cases of a block in which some pairs are not looked for.
 fn block_without(
-    impossible: &BTreeSet<[u16; 2]>,
+    impossible: &[[u16; 2]],
     topic: &Topic,
     [seed, number]: [u64; 2],
     limits: &Limits,
@@ -265,7 +264,7 @@ fn block_without(
         limits,
         rng: Rng::new(topic.name, seed, number),
         effort: Effort::of_block(number),
-        impossible: impossible.clone(),
+        impossible,
         table: Table::new(all),
         examples: vec![Vec::new(); all],
         wanted: VecDeque::new(),
@@ -294,7 +293,7 @@ struct Key {
 
 type KeptBlock = Arc<OnceLock<Vec<Case>>>;
 
-static BLOCKS: Mutex<VecDeque<(Key, KeptBlock)>> = Mutex::new(VecDeque::new());
+static BLOCKS: Mutex<Vec<(Key, KeptBlock)>> = Mutex::new(Vec::new());
 
 /// A case of the design of a topic. Its block is chosen once, and kept while others ask for cases of it.
 #[must_use]
@@ -313,9 +312,9 @@ fn kept_block(key: Key) -> KeptBlock {
         return Arc::clone(known);
     }
     let new = KeptBlock::default();
-    blocks.push_back((key, Arc::clone(&new)));
+    blocks.push((key, Arc::clone(&new)));
     if blocks.len() > KEPT {
-        blocks.pop_front();
+        blocks.remove(0);
     }
     new
 }
@@ -338,17 +337,18 @@ mod tests {
     }
 
     /// The pairs of classes of two facts that a table does not have.
-    fn missing(topic: &Topic, table: &Table) -> BTreeSet<[u16; 2]> {
-        let starts = topic.starts();
-        let fact_of = |class: u16| starts.partition_point(|start| *start <= usize::from(class)) - 1;
-        let mut missing = BTreeSet::new();
-        for second in 0..topic.count() as u16 {
-            for first in 0..second {
-                if fact_of(first) != fact_of(second) && !table.has(&[first, second]) {
-                    missing.insert([first, second]);
+    fn missing(topic: &Topic, table: &Table) -> Vec<[u16; 2]> {
+        let facts = topic.facts_of_classes();
+        let mut missing = Vec::new();
+        for second in 0..facts.len() {
+            for first in (0..second).filter(|first| facts[*first] != facts[second]) {
+                let pair = [first as u16, second as u16];
+                if !table.has(&pair) {
+                    missing.push(pair);
                 }
             }
         }
+        missing.sort_unstable();
         missing
     }
 
@@ -358,8 +358,7 @@ mod tests {
         for topic in &TOPICS {
             for seed in 1..=3 {
                 let table = table_of(topic, [(seed, 0)]);
-                let forgotten: Vec<_> =
-                    missing(topic, &table).difference(&impossible(topic)).copied().collect();
+                let forgotten = without(&missing(topic, &table), &impossible(topic));
                 let words = |[first, second]: &[u16; 2]| {
                     format!("{} & {}", topic.class_words(*first), topic.class_words(*second))
                 };
@@ -379,7 +378,7 @@ mod tests {
         for topic in &TOPICS {
             let mut table = Table::new(topic.count());
             for seed in 100..140 {
-                for case in block_without(&BTreeSet::new(), topic, [seed, 0], &limits) {
+                for case in block_without(&[], topic, [seed, 0], &limits) {
                     table.note(&topic.classes(&case, &limits).unwrap());
                 }
             }
@@ -388,14 +387,19 @@ mod tests {
                 let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/cases/facts/impossible");
                 std::fs::write(format!("{folder}/{}.txt", topic.name), listed(&missing)).unwrap();
             } else {
-                let found: Vec<_> = impossible(topic).difference(&missing).copied().collect();
+                let found = without(&impossible(topic), &missing);
                 assert!(found.is_empty(), "{}: {found:?} can occur", topic.name);
             }
         }
     }
 
+    /// The pairs of a list that another one does not have.
+    fn without(pairs: &[[u16; 2]], others: &[[u16; 2]]) -> Vec<[u16; 2]> {
+        pairs.iter().copied().filter(|pair| others.binary_search(pair).is_err()).collect()
+    }
+
     /// The text that `impossible` reads.
-    fn listed(pairs: &BTreeSet<[u16; 2]>) -> String {
+    fn listed(pairs: &[[u16; 2]]) -> String {
         let mut text = String::new();
         let mut line = None;
         for [first, second] in pairs {

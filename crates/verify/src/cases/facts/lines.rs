@@ -2,17 +2,21 @@
 
 use glam::DVec2;
 
+use rasterproof_core::geometry::greatest_divisor;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 
-use super::{Fact, Test, Topic, Unit, classes, draw_window, fact, words};
+use super::{
+    Read, Test, Topic, Unit, WINDOW_WAYS, classes, draw_window, fact, facts_of, saturated,
+    vary_window,
+};
 use crate::cases::{Case, Shape};
 
 /// Lines.
 pub const TOPIC: Topic = Topic {
     name: "line-design",
-    words: || words(&FACTS),
+    facts: &facts_of(&FACTS),
     measure: |case, _| Some(classes(&FACTS, &LineFacts::of_case(case)?)),
     impossible: include_str!("impossible/line-design.txt"),
     draw,
@@ -25,7 +29,7 @@ const LENGTH: Test = Test::Steps(&[1, 2, 9, 41, 257, 1 << 12, 1 << 15, 1 << 20])
 const PLACE: Test = Test::Steps(&[-(1 << 15), -256, 0, 1, 257, 1 << 15]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<LineFacts>; 20] = [
+const FACTS: [Read<LineFacts>; 20] = [
     fact("columns from its first to its second end", Unit::Count, |m| m.by[0], Test::Sign),
     fact("rows from its first to its second end", Unit::Count, |m| m.by[1], Test::Sign),
     fact(
@@ -112,7 +116,7 @@ impl LineFacts {
         };
         let [long, short] = [size[0].max(size[1]), size[0].min(size[1])];
         // Step k of `long` rises by k short / long. That is halfway somewhere if in lowest terms the denominator is even.
-        let divisor = greatest_divisor(long, short);
+        let divisor = greatest_divisor(long, short).max(1);
         let ties = i64::from(short > 0 && (long / divisor) % 2 == 0);
         Self {
             by,
@@ -129,13 +133,6 @@ impl LineFacts {
             on_border: ends.iter().filter(on_border).count() as i64,
         }
     }
-}
-
-fn greatest_divisor(mut a: i64, mut b: i64) -> i64 {
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a.max(1)
 }
 
 /// Pixels of a line in the window. Where it passes halfway between two pixels either may be counted.
@@ -233,11 +230,7 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
         let (at, axis) = (rng.int(0, 1) as usize, rng.int(0, 1) as usize);
         let sides = [window.width(), window.height()].map(i64::from);
         match rng.int(0, 11) {
-            0 => window = draw_window(rng),
-            1 => window.x1 = other.window.x1,
-            2 => window.y1 = other.window.y1,
-            3 if axis == 0 => window.x1 = (window.x1 + rng.coordinate(-2, 2)).max(1),
-            3 => window.y1 = (window.y1 + rng.coordinate(-2, 2)).max(1),
+            way @ 0..WINDOW_WAYS => vary_window(rng, &mut window, other.window, way, axis),
             4 => ends[at] = others[at],
             5 => ends[at][axis] = others[at][axis],
             6 => ends.swap(0, 1),
@@ -258,7 +251,6 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
 }
 
 fn case_of(window: PixelRect, ends: [[i64; 2]; 2]) -> Case {
-    let saturated = |v: i64| v.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
     let end = |[x, y]: [i64; 2]| LineEnd {
         pixel: PixelPoint::new(saturated(x), saturated(y)),
         depth: 0.0,

@@ -37,17 +37,6 @@ pub enum Unit {
     Doublings,
 }
 
-/// A whole number that a question has, read off what was measured of it.
-#[derive(Clone, Copy)]
-pub struct Quantity<M> {
-    /// Its name, as the subject of a sentence.
-    pub name: &'static str,
-    /// What it counts.
-    pub unit: Unit,
-    /// Its value.
-    pub of: fn(&M) -> i64,
-}
-
 /// How the values of a quantity are sorted into classes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Test {
@@ -131,48 +120,57 @@ fn shown(unit: Unit, value: i64) -> String {
     }
 }
 
-/// A quantity with a test.
-#[derive(Clone, Copy)]
-pub struct Fact<M> {
-    /// What is tested.
-    pub quantity: Quantity<M>,
-    /// How.
+/// A fact of a question in words: a whole number that the question has, and how its values are sorted into classes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fact {
+    /// The name of the number, as the subject of a sentence.
+    pub name: &'static str,
+    /// What it counts.
+    pub unit: Unit,
+    /// How it is tested.
     pub test: Test,
 }
 
+impl Fact {
+    /// Each class in words.
+    #[must_use]
+    pub fn classes(&self) -> Vec<String> {
+        (0..self.test.count()).map(|class| self.test.words(self.unit, class)).collect()
+    }
+}
+
+/// A fact with the number, read off what was measured of a question.
+#[derive(Clone, Copy)]
+struct Read<M> {
+    fact: Fact,
+    of: fn(&M) -> i64,
+}
+
 /// Shorthand of the tables of facts.
-const fn fact<M>(name: &'static str, unit: Unit, of: fn(&M) -> i64, test: Test) -> Fact<M> {
-    Fact { quantity: Quantity { name, unit, of }, test }
+const fn fact<M>(name: &'static str, unit: Unit, of: fn(&M) -> i64, test: Test) -> Read<M> {
+    Read { fact: Fact { name, unit, test }, of }
+}
+
+/// The facts of a table without what reads them.
+const fn facts_of<M, const N: usize>(table: &[Read<M>; N]) -> [Fact; N] {
+    let mut facts = [table[0].fact; N];
+    let mut at = 1;
+    while at < N {
+        facts[at] = table[at].fact;
+        at += 1;
+    }
+    facts
 }
 
 /// The classes of what was measured. Those of all facts of a table are numbered one after the other.
-fn classes<M>(facts: &[Fact<M>], measured: &M) -> Vec<u16> {
+fn classes<M>(table: &[Read<M>], measured: &M) -> Vec<u16> {
     let mut start = 0;
-    let mut classes = Vec::with_capacity(facts.len());
-    for Fact { quantity, test } in facts {
-        classes.push((start + test.class((quantity.of)(measured))) as u16);
-        start += test.count();
+    let mut classes = Vec::with_capacity(table.len());
+    for Read { fact, of } in table {
+        classes.push((start + fact.test.class(of(measured))) as u16);
+        start += fact.test.count();
     }
     classes
-}
-
-/// A fact in words: its name and those of its classes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FactWords {
-    /// The name of the quantity.
-    pub name: &'static str,
-    /// Each class.
-    pub classes: Vec<String>,
-}
-
-/// A table of facts in words.
-fn words<M>(facts: &[Fact<M>]) -> Vec<FactWords> {
-    let mut all = Vec::new();
-    for Fact { quantity, test } in facts {
-        let classes = (0..test.count()).map(|class| test.words(quantity.unit, class)).collect();
-        all.push(FactWords { name: quantity.name, classes });
-    }
-    all
 }
 
 /// A kind of question: what can be measured of it, and how such questions are drawn.
@@ -180,7 +178,8 @@ fn words<M>(facts: &[Fact<M>]) -> Vec<FactWords> {
 pub struct Topic {
     /// Its name: that of the family whose cases the design chooses.
     pub name: &'static str,
-    words: fn() -> Vec<FactWords>,
+    /// Its facts.
+    pub facts: &'static [Fact],
     measure: fn(&Case, &Limits) -> Option<Vec<u16>>,
     /// The pairs of classes that cannot occur: on each line the number of a class, and those of others.
     impossible: &'static str,
@@ -191,28 +190,32 @@ pub struct Topic {
 }
 
 impl Topic {
-    /// Its facts, in words.
-    #[must_use]
-    pub fn facts(&self) -> Vec<FactWords> {
-        (self.words)()
-    }
-
     /// The number of the first class of each fact: all classes are numbered one after the other.
     #[must_use]
     pub fn starts(&self) -> Vec<usize> {
         let mut starts = Vec::new();
         let mut next = 0;
-        for fact in self.facts() {
+        for fact in self.facts {
             starts.push(next);
-            next += fact.classes.len();
+            next += fact.test.count();
         }
         starts
+    }
+
+    /// For each class the number of its fact.
+    #[must_use]
+    pub fn facts_of_classes(&self) -> Vec<usize> {
+        let mut facts = Vec::new();
+        for (number, fact) in self.facts.iter().enumerate() {
+            facts.extend(std::iter::repeat_n(number, fact.test.count()));
+        }
+        facts
     }
 
     /// How many classes there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.facts().iter().map(|fact| fact.classes.len()).sum()
+        self.facts.iter().map(|fact| fact.test.count()).sum()
     }
 
     /// The class of each fact of a question, for a rasterizer with limits; nothing where the case is of another kind.
@@ -225,11 +228,12 @@ impl Topic {
     #[must_use]
     pub fn class_words(&self, class: u16) -> String {
         let mut rest = usize::from(class);
-        for fact in self.facts() {
-            if let Some(words) = fact.classes.get(rest) {
-                return format!("{}: {words}", fact.name);
+        for fact in self.facts {
+            let count = fact.test.count();
+            if rest < count {
+                return format!("{}: {}", fact.name, fact.test.words(fact.unit, rest));
             }
-            rest -= fact.classes.len();
+            rest -= count;
         }
         String::new()
     }
@@ -264,4 +268,28 @@ fn draw_window(rng: &mut Rng) -> PixelRect {
         _ => {}
     }
     PixelRect::window(width as u32, height as u32)
+}
+
+/// The ways to change a window, counted from 0.
+const WINDOW_WAYS: i64 = 4;
+
+/// Changes a window in one of these ways: drawn anew, a side of another one, a side a little longer or shorter.
+fn vary_window(rng: &mut Rng, window: &mut PixelRect, other: PixelRect, way: i64, axis: usize) {
+    match (way, axis) {
+        (0, _) => *window = draw_window(rng),
+        (1, _) => window.x1 = other.x1,
+        (2, _) => window.y1 = other.y1,
+        (_, 0) => window.x1 = (window.x1 + rng.coordinate(-2, 2)).max(1),
+        _ => window.y1 = (window.y1 + rng.coordinate(-2, 2)).max(1),
+    }
+}
+
+/// The coordinate nearest to a number.
+fn saturated(v: i64) -> i32 {
+    v.clamp(i32::MIN.into(), i32::MAX.into()) as i32
+}
+
+/// The power of two of the first digit of a number that is not tiny, from its bits: the same on every machine.
+pub(crate) fn exponent(v: f64) -> i32 {
+    (v.to_bits() >> 52 & 0x7ff) as i32 - 1023
 }

@@ -6,14 +6,14 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
-use super::{Fact, Test, Topic, Unit, classes, fact, words};
+use super::{Read, Test, Topic, Unit, classes, fact, facts_of};
 use crate::cases::clip::clip_corners;
 use crate::cases::{Case, Limits, Shape};
 
 /// Triangles of clip space.
 pub const TOPIC: Topic = Topic {
     name: "near-design",
-    words: || words(&FACTS),
+    facts: &facts_of(&FACTS),
     measure: |case, _: &Limits| Some(classes(&FACTS, &ClipFacts::of_case(case)?)),
     impossible: include_str!("impossible/near-design.txt"),
     draw,
@@ -25,7 +25,7 @@ const SIZE: Test = Test::Steps(&[1, 64, 1024]);
 const SOME: Test = Test::Choice(&["of no corner", "of some corners", "of all"]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<ClipFacts>; 17] = [
+const FACTS: [Read<ClipFacts>; 17] = [
     fact("the first corner and the plane z = -w", Unit::Count, |m| m.sides[0] + 1, SIDE),
     fact("the second corner and the plane z = -w", Unit::Count, |m| m.sides[1] + 1, SIDE),
     fact("the third corner and the plane z = -w", Unit::Count, |m| m.sides[2] + 1, SIDE),

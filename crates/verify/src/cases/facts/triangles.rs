@@ -1,12 +1,16 @@
 //! Facts of a question about one triangle: its place, its form, its edges and its window.
 
+use rasterproof_core::geometry::{sorted, twice_area};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
 use glam::DVec2;
 
-use super::{Fact, Test, Topic, Unit, classes, draw_window, fact, words};
+use super::{
+    Read, Test, Topic, Unit, WINDOW_WAYS, classes, draw_window, fact, facts_of, saturated,
+    vary_window,
+};
 use crate::cases::{Case, Limits, Shape};
 
 /// One pixel, in steps of the lattice.
@@ -17,7 +21,7 @@ const SQUARE_PX: i64 = 2 * PX * PX;
 /// Triangles that are filled.
 pub const TOPIC: Topic = Topic {
     name: "design",
-    words: || words(&FACTS),
+    facts: &facts_of(&FACTS),
     measure: |case, limits| Some(classes(&FACTS, &TriangleFacts::of_case(case, limits)?)),
     impossible: include_str!("impossible/design.txt"),
     draw,
@@ -34,7 +38,7 @@ const SLOPE: Test = Test::Steps(&[0, 4, 8, 12, 15]);
 const BITS: Test = Test::Steps(&[1, 2, 5]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<TriangleFacts>; 27] = [
+const FACTS: [Read<TriangleFacts>; 27] = [
     fact("its winding", Unit::Count, |m| m.turn + 1, WINDING),
     fact(
         "its uppermost corner",
@@ -172,7 +176,7 @@ impl TriangleFacts {
         let centred = |v: i32, axis: usize| i64::from(v) + i64::from(HALF_PIXEL - sample[axis]);
         let points = corners.map(|p| [centred(p.x, 0), centred(p.y, 1)]);
         let [a, b, c] = points;
-        let area = cross(a, b, c);
+        let area = twice_area(corners);
         let low = [0, 1].map(|axis| a[axis].min(b[axis]).min(c[axis]));
         let high = [0, 1].map(|axis| a[axis].max(b[axis]).max(c[axis]));
         let near = [window.x0, window.y0].map(|px| i64::from(px) * PX);
@@ -212,7 +216,7 @@ impl TriangleFacts {
         };
         measured.level = aligned_edge(&points, 1, low[1], high[1]);
         measured.upright = aligned_edge(&points, 0, low[0], high[0]);
-        measured.middle = middle_side(&points);
+        measured.middle = middle_side(corners);
         measured.count_samples(&points, window, (low, high));
         measured
     }
@@ -283,12 +287,6 @@ impl TriangleFacts {
     }
 }
 
-/// Twice the signed area.
-fn cross(a: Point, b: Point, c: Point) -> i128 {
-    let difference = |p: Point, axis: usize| i128::from(p[axis] - a[axis]);
-    difference(b, 0) * difference(c, 1) - difference(b, 1) * difference(c, 0)
-}
-
 /// The corner above all others; 3 where two are equally high.
 fn uppermost(points: &[Point; 3]) -> i64 {
     let least = points.iter().map(|p| p[1]).min().unwrap_or(0);
@@ -313,16 +311,14 @@ fn aligned_edge(points: &[Point; 3], axis: usize, low: i64, high: i64) -> i64 {
 }
 
 /// On which side of the long edge the middle corner lies, by height: 0 on it, 1 left, 2 right, 3 at the height of another.
-fn middle_side(points: &[Point; 3]) -> i64 {
-    let mut sorted = *points;
-    sorted.sort_unstable_by_key(|p| p[1]);
-    let [a, b, c] = sorted;
-    if a[1] == b[1] || b[1] == c[1] {
+fn middle_side(corners: &Corners) -> i64 {
+    let [a, b, c] = sorted(*corners, |p, q| p.y > q.y);
+    if a.y == b.y || b.y == c.y {
         return 3;
     }
-    match cross(a, c, b) {
+    match twice_area(&[a, c, b]).signum() {
         0 => 0,
-        area if area > 0 => 1,
+        1 => 1,
         _ => 2,
     }
 }
@@ -361,13 +357,8 @@ fn plain(corners: Corners) -> ScreenTriangle<DVec2> {
     ScreenTriangle { vertices: corners.map(vertex) }
 }
 
-/// A number of the lattice from 64 bits.
-fn saturated(v: i64) -> i32 {
-    v.clamp(i32::MIN.into(), i32::MAX.into()) as i32
-}
-
 /// A coordinate along a side of so many pixels, in one of the ways in which cases are hard.
-pub(super) fn draw_coordinate(rng: &mut Rng, side_px: i64, reach: i64) -> i64 {
+fn draw_coordinate(rng: &mut Rng, side_px: i64, reach: i64) -> i64 {
     let half = i64::from(HALF_PIXEL);
     match rng.int(0, 8) {
         // On a column of samples or beside one.
@@ -390,7 +381,7 @@ pub(super) fn draw_coordinate(rng: &mut Rng, side_px: i64, reach: i64) -> i64 {
 }
 
 /// How far a case reaches beyond its window.
-pub(super) fn draw_reach(rng: &mut Rng) -> i64 {
+fn draw_reach(rng: &mut Rng) -> i64 {
     PX << rng.int(1, 22)
 }
 
@@ -469,39 +460,23 @@ fn adjust(rng: &mut Rng, points: &mut [Point; 3], sides: [i64; 2]) {
     }
 }
 
-/// Changes one thing of a triangle: a coordinate, a corner, the window, the place or the size of it all.
+/// Changes a few things of a triangle: a coordinate, a corner, the window, the place or the size of it all.
 pub(super) fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
-    let mut window = one.window;
     let of = |case: &Case| case.triangles()[0].corners().map(|p| [i64::from(p.x), i64::from(p.y)]);
+    let mut window = one.window;
     let (mut points, others) = (of(one), of(other));
-    vary_points(rng, &mut window, &mut points, (other.window, others));
-    case_of(window, points)
-}
-
-/// See [`vary`].
-pub(super) fn vary_points(
-    rng: &mut Rng,
-    window: &mut PixelRect,
-    points: &mut [Point; 3],
-    (other_window, others): (PixelRect, [Point; 3]),
-) {
-    let sides = |window: &PixelRect| [window.width(), window.height()].map(i64::from);
     for _ in 0..rng.int(1, 3) {
         let (at, axis) = (rng.int(0, 2) as usize, rng.int(0, 1) as usize);
+        let sides = [window.width(), window.height()].map(i64::from);
         match rng.int(0, 14) {
-            0 => *window = draw_window(rng),
-            1 => window.x1 = other_window.x1,
-            2 => window.y1 = other_window.y1,
-            // A side of the window a little longer or shorter.
-            3 if axis == 0 => window.x1 = (window.x1 + rng.coordinate(-2, 2)).max(1),
-            3 => window.y1 = (window.y1 + rng.coordinate(-2, 2)).max(1),
+            way @ 0..WINDOW_WAYS => vary_window(rng, &mut window, other.window, way, axis),
             4 => points[at] = others[at],
             5 => points[at][axis] = others[at][axis],
             6 => points.iter_mut().zip(&others).for_each(|(p, other)| p[axis] = other[axis]),
             7 => points.swap(at, rng.int(0, 2) as usize),
             8 => {
                 let reach = draw_reach(rng);
-                points[at][axis] = draw_coordinate(rng, sides(window)[axis], reach);
+                points[at][axis] = draw_coordinate(rng, sides[axis], reach);
             }
             9 => points[at][axis] = points[(at + 1) % 3][axis] + rng.int(-1, 1),
             10 => points[at][axis] += rng.int(-3, 3) << (8 * rng.int(0, 1)),
@@ -522,13 +497,8 @@ pub(super) fn vary_points(
                 let by = rng.int(-20, 20) << rng.int(8, 26);
                 points.iter_mut().for_each(|p| p[axis] += by);
             }
-            _ => {
-                let mut changed = *points;
-                adjust(rng, &mut changed, sides(window));
-                *points = changed;
-            }
+            _ => adjust(rng, &mut points, sides),
         }
     }
-    // Moves add up.
-    points.iter_mut().flatten().for_each(|v| *v = saturated(*v).into());
+    case_of(window, points)
 }

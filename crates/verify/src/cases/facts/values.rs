@@ -6,13 +6,13 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::ScreenVertex;
 
-use super::{Fact, Test, Topic, Unit, classes, fact, triangles, words};
+use super::{Read, Test, Topic, Unit, classes, exponent, fact, facts_of, triangles};
 use crate::cases::{Case, Limits, Shape, Triangle};
 
 /// Values of triangles.
 pub const TOPIC: Topic = Topic {
     name: "w-design",
-    words: || words(&FACTS),
+    facts: &facts_of(&FACTS),
     measure: |case, limits| Some(classes(&FACTS, &ValueFacts::of_case(case, limits)?)),
     impossible: include_str!("impossible/w-design.txt"),
     draw,
@@ -26,7 +26,7 @@ const KINDS: Test =
 const SIZE: Test = Test::Steps(&[-8, 0, 8]);
 
 /// The facts that the design covers.
-pub(super) const FACTS: [Fact<ValueFacts>; 16] = [
+const FACTS: [Read<ValueFacts>; 16] = [
     fact("its winding", Unit::Count, |m| m.form.turn + 1, triangles::WINDING),
     fact("its width", Unit::Subpixels, |m| m.form.size[0], EXTENT),
     fact("its height", Unit::Subpixels, |m| m.form.size[1], EXTENT),
@@ -108,8 +108,8 @@ impl ValueFacts {
         ];
         Some(Self {
             form,
-            w_ratio: if least == most { -1 } else { exponent(most / least).max(0) },
-            w_least: exponent(least),
+            w_ratio: if least == most { -1 } else { exponent(most / least).max(0).into() },
+            w_least: exponent(least).into(),
             w_largest,
             depth: match depths {
                 [a, b, c] if a != b || b != c => 2,
@@ -119,14 +119,9 @@ impl ValueFacts {
             kinds: attributes.each_ref().map(kind),
             sizes: attributes
                 .each_ref()
-                .map(|[a, b, c]| exponent(a.abs().max(b.abs()).max(c.abs()))),
+                .map(|[a, b, c]| i64::from(exponent(a.abs().max(b.abs()).max(c.abs())))),
         })
     }
-}
-
-/// The exponent of a number as a power of two, from its bits: the same on every machine.
-fn exponent(value: f64) -> i64 {
-    ((value.abs().to_bits() >> 52) as i64) - 1023
 }
 
 /// Which signs an attribute has.
