@@ -5,19 +5,16 @@ use super::adapt_case;
 use super::check::Check;
 use super::declared::Declared;
 use super::run::Row;
-use super::verdict::Particulars;
 use rasterproof_verify::cases::facts::{self, asked::DesignShare};
 
-/// The pairs and the triples of facts that the designs asked of a program, one entry for each design. Nothing where a single
-/// case was judged, not all cases were, or two programs are compared.
+/// The pairs and the triples of facts that the designs asked of a program, one entry for each design. `declared` restricts
+/// what can be asked. Nothing where a single case was judged.
 #[must_use]
-pub(super) fn asked(options: &Options, rows: &[Row], more: &Particulars) -> Vec<DesignShare> {
-    let is_cut = more.found.out_of_time || more.found.gave_up;
-    if options.only.is_some() || more.against.is_some() || is_cut {
+pub(super) fn asked(options: &Options, rows: &[Row], declared: &Declared) -> Vec<DesignShare> {
+    if options.only.is_some() {
         return Vec::new();
     }
-    let declared = Declared { reach: more.reach, side: more.side, ..more.declared.clone() };
-    let limits = adapt_case::limits(&declared);
+    let limits = adapt_case::limits(declared);
     let mut all = Vec::new();
     for family in adapt_case::families(&options.families) {
         let Some(topic) = family.design() else { continue };

@@ -127,7 +127,12 @@ pub fn verdict(
     let mut rows = std::mem::take(&mut of.found.rows);
     rows.sort_by_key(rank);
     of.properties = properties(&of, &rows);
-    of.asked = asked::asked(options, &rows, &of);
+    // Of two programs, and where not all cases were judged, nothing is said of what was asked.
+    let is_cut = of.found.out_of_time || of.found.gave_up;
+    if of.against.is_none() && !is_cut {
+        let declared = Declared { reach: of.reach, side: of.side, ..of.declared.clone() };
+        of.asked = asked::asked(options, &rows, &declared);
+    }
     Verdict { options: options.clone(), families: rows, failures, cause, more: of }
 }
 
