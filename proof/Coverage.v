@@ -1,4 +1,4 @@
-(** What it means for a sample to belong to a triangle, as crates/verify/src/oracle/coverage.rs says and as
+(** What it means for a sample to belong to a triangle, as crates/oracle/src/coverage.rs says and as
     crates/core/src/raster/edge_function.rs says, and that the two are one. *)
 From Coq Require Import ZArith Lia Bool.
 Open Scope Z_scope.
@@ -6,7 +6,7 @@ Open Scope Z_scope.
 (** A position in subpixels, y down. *)
 Record point := Pt { X : Z; Y : Z }.
 
-(** ** The specification: parity of crossings to the left of the nudged sample (crates/verify/src/oracle). *)
+(** ** The specification: parity of crossings to the left of the nudged sample (crates/oracle/src). *)
 
 (** An end point lies above the nudged sample (x + eps, y + eps^2). *)
 Definition above (p : point) (y : Z) : bool := Y p <=? y.

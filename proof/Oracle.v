@@ -1,4 +1,4 @@
-(** The oracle (crates/verify/src/oracle/coverage.rs), loop by loop: the box around the corners, the edges that
+(** The oracle (crates/oracle/src/coverage.rs), loop by loop: the box around the corners, the edges that
     cross a row, and the runs of samples with an odd number of them to the left. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid EdgeFunction.

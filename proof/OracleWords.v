@@ -1,4 +1,4 @@
-(** The oracle in the words of its code (crates/verify/src/oracle/coverage.rs): products of 64 bits while the corners
+(** The oracle in the words of its code (crates/oracle/src/coverage.rs): products of 64 bits while the corners
     are near the origin, of 128 bits where they are not. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid EdgeFunction WordWidth Words ScanlineWords EdgeFunctionWords Oracle.

@@ -12,7 +12,7 @@ use rasterproof_core::triangle::{
     FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, Span, check_value, refused_number,
 };
 use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
-use rasterproof_render::scene::named;
+use rasterproof_registry::named;
 use rasterproof_verify::cases::named::{Input, plain_line, plain_triangle};
 use rasterproof_verify::cases::{self, Case, Line, Shape, Triangle};
 

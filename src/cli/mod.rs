@@ -443,7 +443,8 @@ fn list(streams: &mut Streams<'_>) -> Status {
     let speaking = speaking.map(|entry| (entry.name, entry.about));
     let families = cases::families().map(|f| (f.name, f.about));
     let off_grid = cases::unsnapped::FAMILIES.iter().map(|f| (f.name, f.about));
-    let named = scene::named::named().into_iter().map(|case| (case.name, case.about));
+    let named =
+        rasterproof_registry::named::named().into_iter().map(|case| (case.name, case.about));
     let faults = rasterproof_faults::planted::all();
     let scenes = scene::chapters::entries().map(|entry| (entry.name, entry.about));
     #[allow(unused_mut, reason = "with devices there are more")]

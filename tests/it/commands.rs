@@ -19,7 +19,7 @@ fn examples_fit_eighty_columns() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn inspect_explains_named_cases() {
-    for named in rasterproof_render::scene::named::named() {
+    for named in rasterproof_registry::named::named() {
         let out = check(["inspect", named.name], 0).out;
         assert!(out.starts_with(&format!("✓ {}: ", named.name)), "{out}");
     }

@@ -25,7 +25,7 @@ use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, LineEngine};
-use rasterproof_render::scene::named::{find, named};
+use rasterproof_registry::named::{find, named};
 use rasterproof_report::panels;
 use rasterproof_report::picture;
 use rasterproof_verify::cases::named::{Input, NamedCase};

@@ -2,7 +2,7 @@
 //! are stated, in `src/lib.rs` and in the table of `docs/ARCHITECTURE.md`, in both languages.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::pages::{files, read, root};
 
@@ -54,12 +54,13 @@ fn file(module: &str) -> Option<PathBuf> {
         Some(rest) => format!("comparison{rest}"),
         None => module.to_owned(),
     };
-    let at = |src: &str| {
-        let path = Path::new(src).join(module.replace("::", "/"));
-        [path.join("mod.rs"), path.with_extension("rs")]
-    };
-    let mut files = ["crates/core/src", "crates/verify/src"].into_iter().flat_map(at);
-    let found = files.find(|file| root().join(file).exists());
+    // `oracle` is a whole crate, `oracle::values` a module of it.
+    let path = module.replace("::", "/");
+    let of_oracle = path.replacen("oracle", "crates/oracle/src", 1);
+    let paths = [format!("crates/core/src/{path}"), format!("crates/verify/src/{path}"), of_oracle];
+    let files =
+        paths.iter().flat_map(|path| [".rs", "/mod.rs", "/lib.rs"].map(|end| path.clone() + end));
+    let found = files.map(PathBuf::from).find(|file| root().join(file).exists());
     Some(found.unwrap_or_else(|| panic!("no module {module}")))
 }
 
@@ -118,8 +119,9 @@ fn surface_reads_attributes() {
 /// Whoever calls a library wants to match an error, so it is a type of its own and not a text.
 #[test]
 fn surface_has_no_text_for_an_error() {
-    for path in
-        ["crates/core/src", "crates/verify/src"].map(|src| files(&root().join(src), ".rs")).concat()
+    for path in ["core", "oracle", "verify"]
+        .map(|name| files(&root().join("crates").join(name).join("src"), ".rs"))
+        .concat()
     {
         assert!(!has_text_for_an_error(&read(&path)), "{}", path.display());
     }

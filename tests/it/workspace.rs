@@ -57,7 +57,7 @@ fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
 fn what_is_published_carries_its_description_and_licence() {
     for package in packages() {
         let name = package["name"].as_str().unwrap();
-        if !["rasterproof-core", "rasterproof-verify"].contains(&name) {
+        if !["rasterproof-core", "rasterproof-oracle", "rasterproof-verify"].contains(&name) {
             continue;
         }
         for what in ["keywords", "categories"] {
@@ -137,14 +137,14 @@ fn what_is_compared_is_independent() {
         ("crates/core/src/raster/edge_function", &["scanline"]),
         ("crates/core/src/line/dda", &["bresenham"]),
         ("crates/core/src/line/bresenham", &["dda"]),
-        ("crates/verify/src/oracle", &["scanline", "edge_function", "dda", "bresenham"]),
+        ("crates/oracle/src", &["scanline", "edge_function", "dda", "bresenham"]),
         // What all other code computes of corners.
         ("crates/core/src/raster", &["geometry"]),
         ("crates/core/src/line", &["geometry"]),
-        ("crates/verify/src/oracle", &["geometry"]),
+        ("crates/oracle/src", &["geometry"]),
         // Only the edge function decides signs by the crate `robust`.
         ("crates/core/src/raster/scanline_exact", &["orient2d"]),
-        ("crates/verify/src/oracle/rational", &["orient2d"]),
+        ("crates/oracle/src/rational", &["orient2d"]),
     ];
     let mut looked_at = 0;
     for path in source_folders().iter().flat_map(|folder| files(&root().join(folder), ".rs")) {

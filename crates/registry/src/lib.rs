@@ -8,6 +8,7 @@ pub mod digest;
 pub mod engines;
 #[cfg(feature = "host")]
 pub mod fixtures;
+pub mod named;
 #[cfg(feature = "host")]
 pub mod published_check;
 #[cfg(feature = "host")]

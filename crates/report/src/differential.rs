@@ -8,7 +8,7 @@ use super::html::Outcome;
 use super::table::{self, Column, Mark, Row, Table};
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::SubpixelPoint;
-use rasterproof_render::scene::named;
+use rasterproof_registry::named;
 use rasterproof_verify::cases::Kind;
 use rasterproof_verify::cases::named::Input;
 use rasterproof_verify::comparison::{FamilyReport, PairReport, Tally, Verdict};

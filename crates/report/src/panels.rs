@@ -374,7 +374,7 @@ fn pixels(PixelRect { x0, y0, x1, y1 }: PixelRect) -> impl Iterator<Item = (i32,
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasterproof_render::scene::named::find;
+    use rasterproof_registry::named::find;
     use rasterproof_verify::cases::named::Input;
 
     /// A named case, two engines of which the second lacks a pixel.

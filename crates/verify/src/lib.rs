@@ -208,14 +208,13 @@ pub mod judge;
 mod learn;
 #[doc(hidden)]
 pub mod mistakes;
-pub mod oracle;
 pub mod partition;
 mod promise;
 // So that whoever judges needs this crate alone.
 #[doc(inline)]
 pub use rasterproof_core::{contract, frame, grid, triangle};
-#[doc(hidden)]
-pub mod source_text;
+#[doc(inline)]
+pub use rasterproof_oracle as oracle;
 #[doc(hidden)]
 pub mod specification;
 

@@ -25,8 +25,8 @@ use rasterproof_core::geometry::{sorted, twice_area};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::{Corners, Fragment};
-use rasterproof_verify::oracle::Oracle;
-use rasterproof_verify::oracle::values::ExactTriangle;
+use rasterproof_oracle::Oracle;
+use rasterproof_oracle::values::ExactTriangle;
 
 /// A sample of a target: a pixel of one of its planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

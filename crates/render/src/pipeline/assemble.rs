@@ -308,7 +308,7 @@ mod tests {
     use super::*;
     use rasterproof_core::contract::Rasterize as _;
     use rasterproof_core::frame::Coverage;
-    use rasterproof_verify::oracle::Oracle;
+    use rasterproof_oracle::Oracle;
 
     fn vertex(x: f64, y: f64, z: f64, w: f64) -> ClipVertex<glam::DVec2> {
         ClipVertex { position: DVec4::new(x, y, z, w), varying: glam::DVec2::ZERO }

@@ -145,7 +145,7 @@ impl Veil {
     /// How much fog there is between the depths of three corners.
     ///
     /// A depth in the triangle lies between those of the corners, and an engine's is off by at most
-    /// 2^-53 (12 D + 2 M) with D, M <= 1 ([`rasterproof_verify::comparison::tolerance`]), far less than the
+    /// 2^-53 (12 D + 2 M) with D, M <= 1 (`comparison::tolerance` of the crate `verify`), far less than the
     /// margin of 2^-44. Distance and share grow with the depth, or fall with it, and the margin is also more
     /// than what rounding may change that by. So every share lies between those of the two ends. Below
     /// `LEAST` no channel moves; above 1 - LEAST each one becomes the fog's.

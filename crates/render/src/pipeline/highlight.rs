@@ -116,7 +116,7 @@ impl Highlight {
     /// length 1, |n| >= n . u, which is at least its minimum at the corners, L. So n . h <= H <= t L <= t |n|
     /// where H <= t L, for t >= 0; and [`Self::at`] is 0 there with t = `least`. Here u is the direction of
     /// the sum. An engine returns a mean with an error of at most 2^-53 (15 D + 2 M) in each component
-    /// ([`rasterproof_verify::comparison::tolerance`]), and three such errors, those of H, L and of `at`
+    /// (`comparison::tolerance` of the crate `verify`), and three such errors, those of H, L and of `at`
     /// are all below 2^-48 times the largest component; the margin is 2^-40 times the sum of all.
     #[must_use]
     pub fn is_dark_between(&self, normals: [DVec3; 3]) -> bool {

@@ -476,7 +476,7 @@ impl Texture {
     /// beyond the borders too; all of them where a coordinate is far out.
     ///
     /// An engine's coordinate is off by at most 2^-53 (15 D + 2 M)
-    /// ([`rasterproof_verify::comparison::tolerance`]), and it is rounded three times before a texel is chosen,
+    /// (`comparison::tolerance` of the crate `verify`), and it is rounded three times before a texel is chosen,
     /// all together less than the margin.
     pub(super) fn texels_between(&self, uv: [DVec2; 3]) -> [[i64; 2]; 2] {
         let ends = |[a, b, c]: [f64; 3], subtexels: f64| {

@@ -6,7 +6,6 @@ pub mod chapters;
 pub mod effects;
 mod entry;
 pub mod meshes;
-pub mod named;
 pub mod random;
 pub mod shapes;
 pub mod textures;

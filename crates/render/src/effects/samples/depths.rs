@@ -35,7 +35,7 @@ impl DepthPlane {
     /// numbers below 2^46, so exact. Each t has a difference, a quotient and a product; the sums
     /// round twice. With u = 2^-53 that is below 3 u (|t1| + |t2|) + 2 u (|z0| + |t1| + |t2|), and a
     /// rasterizer's depth at a covered sample is within u (12 D + 2 M) of the exact plane
-    /// ([`rasterproof_verify::comparison::tolerance`] derives 12 D + 2 M and 7 D + M), where D, M <= 1. Together less
+    /// (`comparison::tolerance` of the crate `verify` derives 12 D + 2 M and 7 D + M), where D, M <= 1. Together less
     /// than 64 u (1 + |t1| + |t2|); outside of the triangle the t may be large.
     pub const ERROR: f64 = 64.0 * (f64::EPSILON / 2.0);
 

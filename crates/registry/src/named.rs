@@ -5,11 +5,11 @@
 
 use glam::{DVec2, DVec4};
 
-use crate::pipeline::assemble::{Assembler, Cull};
-use crate::pipeline::counters::Counters;
-use crate::pipeline::multisample::{SAMPLES, onto_centre};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_render::pipeline::assemble::{Assembler, Cull};
+use rasterproof_render::pipeline::counters::Counters;
+use rasterproof_render::pipeline::multisample::{SAMPLES, onto_centre};
 use rasterproof_verify::cases::named::{Input, NamedCase, plain_triangle};
 use rasterproof_verify::cases::{self, Case, Shape, Triangle};
 

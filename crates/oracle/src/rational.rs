@@ -228,7 +228,7 @@ mod tests {
     }
 
     /// The square with corners on centres 0.5 and 4.5, split on its diagonal, as in
-    /// [`coverage`](crate::oracle::coverage): the top row and the left column belong.
+    /// [`coverage`](crate::coverage): the top row and the left column belong.
     #[test]
     fn top_left_by_hand() {
         let [a, b, c, d] = [[0.5, 0.5], [4.5, 0.5], [4.5, 4.5], [0.5, 4.5]];

@@ -37,7 +37,8 @@ impl Dyadic {
 }
 
 /// A finite number as a mantissa, odd or zero, and an exponent of two.
-pub(crate) fn take_apart(value: f64) -> (i64, i32) {
+#[doc(hidden)]
+pub fn take_apart(value: f64) -> (i64, i32) {
     assert!(value.is_finite(), "{value} has no exact value");
     let bits = value.to_bits();
     let field = ((bits >> 52) & 0x7ff) as i32;

@@ -20,6 +20,8 @@ pub mod pixels;
 pub mod rational;
 #[doc(hidden)]
 pub mod segments;
+#[doc(hidden)]
+pub mod source_text;
 pub mod values;
 
 use rasterproof_core::arrays::MapArray as _;
