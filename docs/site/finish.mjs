@@ -1,5 +1,6 @@
-// What mdBook does not do: formulas and code are rendered here instead of in the reader's browser, links to files of the
-// repository lead to pages that show them, and the Chinese book can be searched.
+// What mdBook does not do: formulas, code and the first view of live figures are rendered here instead of in the reader's
+// browser, links to files of the repository lead to pages that show them, both books lead to each other heading by heading,
+// lessons are found before what is to be looked up, and the Chinese book can be searched.
 //
 // node finish.mjs SITE STAGE TOOLS: the folder with both books, the Markdown they were made of, and node_modules.
 import { execFileSync } from 'node:child_process';
@@ -149,10 +150,36 @@ function formula(page, tex, displayMode) {
   }
 }
 
+// Live figures ask a question first. It stands in the page, so that it is seen before the engines are loaded.
+const modulePath = 'target/rasterproof/playground.wasm';
+const engines = fs.existsSync(modulePath) && (await WebAssembly.instantiate(fs.readFileSync(modulePath))).instance.exports;
+
+/** What the engines answer; question and answer are JSON. */
+function ask(question) {
+  const text = new TextEncoder().encode(JSON.stringify(question));
+  const at = engines.room(text.length);
+  new Uint8Array(engines.memory.buffer, at, text.length).set(text);
+  const length = engines.answer();
+  return JSON.parse(new TextDecoder().decode(new Uint8Array(engines.memory.buffer, engines.text(), length)));
+}
+
+/** The beginning of a live figure with its first answer on a light and on a dark page. */
+function withFirstAnswer(page, book, start, name, open) {
+  if (!engines) return start;
+  const of = (isDark) => ask({ ask: 'figure', name, language: book, at: [], is_answered: Boolean(open), is_dark: isDark });
+  const first = { light: of(false), dark: of(true) };
+  if (first.light.error) wrong.push(`${page}: the figure ${name}: ${first.light.error}`);
+  return `${start}<script type="application/json">${JSON.stringify(first).replace(/</g, '\\u003c')}</script>`;
+}
+
+/** The names by which links reach the headings of a text, in their order. */
+const headings = (text) => [...text.matchAll(/<h[1-6] id="([^"]*)"/g)].map(([, id]) => id);
+
 /**
  * What is above a chapter. mdBook opens and closes the contents by a label, which a keyboard does not reach and which may
  * have none of the attributes that mdBook's script sets. It stays for readers without scripts, and all others get a button.
- * The bar and the search are landmarks, the help is a dialog, and the last two have names.
+ * The bar and the search are landmarks, the help is a dialog, and the last two have names. The first stop of the keyboard
+ * leads past all that to the text.
  */
 function reachable(head) {
   const [label, attributes, icon] = head.match(/<label id="mdbook-sidebar-toggle"([^>]*)>([^]*?)<\/label>/);
@@ -161,17 +188,23 @@ function reachable(head) {
 <noscript><label for="mdbook-sidebar-toggle-anchor"${others}>${icon}</label></noscript>`);
   const [bar, search, field] = ['<div id="mdbook-menu-bar" ', '<div id="mdbook-search-wrapper" ', '<input type="search" '];
   const help = once(button, '<div id="mdbook-help-popup">', '<div id="mdbook-help-popup" role="dialog" aria-label="Keyboard shortcuts">');
-  return once(once(once(help, bar, `${bar}role="banner" `), search, `${search}role="search" `), field, `${field}aria-label="Search this book ..." `);
+  const named = once(once(once(help, bar, `${bar}role="banner" `), search, `${search}role="search" `), field, `${field}aria-label="Search this book ..." `);
+  return once(named.replace(/<body[^>]*>/, '$&\n<a class="to-the-text" href="#text">Skip to the text</a>'), '<main>', '<main id="text" tabindex="-1">');
 }
 
-/** The text of a chapter, finished. */
-function finished(book, page, place, main) {
+/** The text of a chapter, finished; `others` are the headings of the same chapter in the other language. */
+function finished(book, page, place, main, others) {
   const away = (where) => path.posix.relative(path.posix.dirname(place), where);
   let pictures = 0;
   // A break between two lines would be seen as a space, which Chinese does not have.
   const joined = main.split(/(<pre[^]*?<\/pre>)/).map((part, at) =>
     at % 2 ? part : part.replace(/(?<=[\u3000-\u9fff\uff00-\uffef])\n(?=[\u3000-\u9fff\uff00-\uffef])/g, '')).join('');
+  const own = headings(main);
+  const hasCounterparts = own.length === others.length;
   return joined
+    .replace(/<h([1-6]) id="([^"]*)"/g, (whole, level, id) =>
+      hasCounterparts ? `${whole} data-other="${others[own.indexOf(id)]}"` : whole)
+    .replace(/<rp-figure scene="([^"]*)"( open="")?>/g, (start, name, open) => withFirstAnswer(page, book, start, name, open))
     .replace(/<pre><code class="language-math">([^<]*)<\/code><\/pre>/g, (_, tex) => formula(page, tex, true))
     .replace(/\$<code>([^<]*)<\/code>\$/g, (_, tex) => formula(page, tex, false))
     .replace(/<code class="language-(\w+)([^"]*)">([^<]*)<\/code>/g, (whole, language, others, code) =>
@@ -186,7 +219,9 @@ function finished(book, page, place, main) {
       }
       pictures += 1;
       return `${around ?? ''}<img src="${away(placeOf(file))}"${sizeOf(file)}${pictures > 1 ? ' loading="lazy"' : ''}`;
-    });
+    })
+    // A picture that stands alone leads to itself, as large as it is.
+    .replace(/<p>(<img src="([^"]+)"[^>]*>)<\/p>/g, '<p><a class="picture" href="$2">$1</a></p>');
 }
 
 // The style of formulas, with the one kind of fonts that every browser of the last ten years loads.
@@ -197,22 +232,31 @@ for (const font of fs.readdirSync(path.join(dist, 'fonts')).filter((name) => nam
   fs.copyFileSync(path.join(dist, 'fonts', font), path.join(site, 'katex/fonts', font));
 }
 
+// What is above the text of each chapter, the text, and what is below, by the place of the chapter in the site.
+const parts = {};
+const chaptersOf = {};
 for (const book of ['en', 'zh']) {
-  const chapters = fs.readdirSync(path.join(stage, book), { recursive: true }).filter((name) => name.endsWith('.md') && name !== 'SUMMARY.md');
-  for (const chapter of chapters) {
+  chaptersOf[book] = fs.readdirSync(path.join(stage, book), { recursive: true }).filter((name) => name.endsWith('.md') && name !== 'SUMMARY.md');
+  for (const chapter of chaptersOf[book]) {
     const place = `${book}/${chapter.replace(/\.md$/, '.html')}`;
-    if (!fs.existsSync(path.join(site, place))) {
-      wrong.push(`${chapter} is missing in the SUMMARY.md of the book ${book}`);
-      continue;
-    }
+    if (fs.existsSync(path.join(site, place))) parts[place] = read(path.join(site, place)).split(/(?<=<main>)|(?=<\/main>)/);
+    else wrong.push(`${chapter} is missing in the SUMMARY.md of the book ${book}`);
+  }
+}
+for (const book of ['en', 'zh']) {
+  for (const chapter of chaptersOf[book]) {
+    const place = `${book}/${chapter.replace(/\.md$/, '.html')}`;
+    if (!parts[place]) continue;
     const docs = book === 'en' ? 'docs' : 'docs/zh';
     const page = fs.existsSync(path.join(docs, chapter)) ? `${docs}/${chapter}` : chapter;
     const before = formulas;
-    const [head, main, foot] = read(path.join(site, place)).split(/(?<=<main>)|(?=<\/main>)/);
-    const text = finished(book, page, place, main);
+    const [head, main, foot] = parts[place];
+    const [, otherMain] = parts[place.replace(/^../, book === 'en' ? 'zh' : 'en')] ?? ['', ''];
+    const text = finished(book, page, place, main, headings(otherMain));
     const away = (where) => path.posix.relative(path.posix.dirname(place), where);
     let more = formulas > before ? `<link rel="stylesheet" href="${away('katex/katex.css')}">\n` : '';
-    if (text.includes('<rp-figure')) more += `<script defer src="${away('try/figure.js')}"></script>\n`;
+    // Before the text is read, so that no figure is shown first as its still picture.
+    if (text.includes('<rp-figure')) more += `<script src="${away('try/figure.js')}"></script>\n`;
     write(path.join(site, place), reachable(head).replace('</head>', `${more}</head>`) + text + foot);
   }
 }
@@ -237,6 +281,24 @@ for (const file of shown) {
   } else {
     filePage(file);
   }
+}
+
+// What is found in a lesson comes before what is found in a page to look up, and the history of the project comes last: the
+// parts of the summary stand in this order.
+const WEIGHTS = [4, 7, 1.5, 1.2, 1, 0.5, 0.5, 0.1];
+for (const book of ['en', 'zh']) {
+  const [summary, ...inParts] = read(path.join(stage, book, 'SUMMARY.md')).split(/^# /m).slice(1);
+  const weights = {};
+  [summary, ...inParts].forEach((part, at) => {
+    for (const [, page] of part.matchAll(/\]\(([^)]*)\.md\)/g)) weights[`${page}.html`] = WEIGHTS[at] ?? WEIGHTS.at(-1);
+  });
+  if (inParts.length + 1 !== WEIGHTS.length) wrong.push(`the SUMMARY.md of the book ${book} has ${inParts.length} parts; WEIGHTS needs one more number than that`);
+  const file = path.join(site, book, asset(book, /^searcher-.*\.js$/));
+  const search = 'const results = searchindex.search(searchterm, search_options);';
+  write(file, once(read(file), search, `${search}
+        const weights = ${JSON.stringify(weights)};
+        for (const result of results) result.score *= weights[doc_urls[result.ref].split('#')[0]] ?? 1;
+        results.sort((a, b) => b.score - a.score);`));
 }
 
 // mdBook splits texts at spaces, which Chinese does not have. Here a word of the Chinese index is two characters that stand
@@ -330,6 +392,49 @@ location.replace((language.startsWith('zh') ? 'zh' : 'en') + '/index.html');
 <h1>rasterproof</h1>
 <p><a href="en/index.html">rasterproof in English</a> · <a href="zh/index.html" lang="zh-CN">rasterproof 中文</a></p>
 </main>
+</body>
+</html>
+`);
+
+// A server shows this page for an address that leads nowhere. It may stand below any folder, so its script looks for the
+// folder of a book in the address, and offers the page whose name is most like the one that was asked for.
+const pageNames = chaptersOf.en.map((chapter) => chapter.replace(/\.md$/, ''));
+write(path.join(site, '404.html'), `<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>No such page - rasterproof</title>
+<link rel="icon" href="data:,">
+<style>body { font-family: sans-serif; max-width: 40em; margin: 3em auto; padding: 0 1em; line-height: 1.5; }</style>
+</head>
+<body>
+<main>
+<h1>There is no page at this address</h1>
+<p lang="zh-CN">这个地址没有网页。</p>
+<p id="near" hidden>Perhaps this one: <a></a></p>
+<p><a class="to-book" href="en/index.html">rasterproof in English</a> · <a class="to-book" href="zh/index.html" lang="zh-CN">rasterproof 中文</a></p>
+</main>
+<script>
+const NAMES = ${JSON.stringify(pageNames)};
+const [, root, book, asked] = location.pathname.match(/^(.*?[/])(?:(en|zh)[/])?([^/]*)$/) ?? [];
+for (const link of document.querySelectorAll('.to-book')) link.href = root + link.getAttribute('href');
+// Pairs of letters that two names share.
+const pairs = (name) => new Set(Array.from(name, (_, i) => name.slice(i, i + 2)).filter((pair) => pair.length === 2));
+const likeness = (a, b) => {
+  const [left, right] = [pairs(a), pairs(b)];
+  return [...left].filter((pair) => right.has(pair)).length / Math.max(1, left.size + right.size);
+};
+const name = decodeURIComponent(asked ?? '').toLowerCase().replace(/[.](html|md)$/, '');
+const [best] = NAMES.map((page) => [likeness(page.toLowerCase(), name), page]).sort((a, b) => b[0] - a[0]);
+if (best[0] > 0.25) {
+  const near = document.getElementById('near');
+  near.hidden = false;
+  near.lastElementChild.textContent = best[1];
+  near.lastElementChild.href = root + (book ?? 'en') + '/' + best[1] + '.html';
+}
+</script>
 </body>
 </html>
 `);

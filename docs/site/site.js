@@ -1,8 +1,9 @@
-// The switch of languages stays on the page, and what mdBook itself says is in the language of the book. The keyboard reaches
+// The switch of languages stays at the heading that is read, and what mdBook itself says is in the language of the book. The keyboard reaches
 // the contents, and whatever scrolls.
 'use strict';
 
 const ZH = {
+  'Skip to the text': '跳到正文',
   'Toggle Table of Contents': '打开或收起目录',
   'Table of contents': '目录',
   'Change theme': '换主题',
@@ -31,6 +32,12 @@ document.querySelector('.right-buttons')?.append(links);
 for (const link of links.querySelectorAll('[rel=alternate]')) {
   const page = links.dataset.page.replace(/\.md$/, '.html');
   link.href = link.getAttribute('href').replace(/index\.html$/, page);
+  const address = link.href;
+  link.addEventListener('click', () => {
+    // The last heading above the upper third of the window.
+    const read = [...document.querySelectorAll('main [data-other]')].filter((heading) => heading.getBoundingClientRect().top < innerHeight / 3).at(-1);
+    link.href = read && read.tagName !== 'H1' ? `${address}#${read.dataset.other}` : address;
+  });
 }
 
 // Pages of both languages lead back to the book that was read.
@@ -39,6 +46,15 @@ try { localStorage.setItem('rasterproof-language', document.documentElement.lang
 // mdBook's script, which has run before, shows the contents at a click, but leaves the switch to a label.
 document.getElementById('mdbook-sidebar-toggle').addEventListener('click', () => {
   document.getElementById('mdbook-sidebar-toggle-anchor').click();
+});
+
+// Escape closes the contents.
+document.addEventListener('keydown', ({ key }) => {
+  const contents = document.getElementById('mdbook-sidebar');
+  if (key !== 'Escape' || !contents.contains(document.activeElement)) return;
+  const button = document.getElementById('mdbook-sidebar-toggle');
+  button.click();
+  button.focus();
 });
 
 const isChinese = document.documentElement.lang.startsWith('zh');
@@ -65,7 +81,7 @@ if (isChinese) {
       if (text) element.setAttribute(name, text);
     }
   }
-  for (const element of document.querySelectorAll('.theme, .mdbook-help-title')) {
+  for (const element of document.querySelectorAll('.theme, .mdbook-help-title, .to-the-text')) {
     element.textContent = ZH[element.textContent] ?? element.textContent;
   }
 }

@@ -119,7 +119,8 @@ pub(super) fn show(
 /// Writes the page of a command and the index of its folder, and says on standard error where it is.
 pub(super) fn write_page(page: &Output, report: Report, streams: &mut Streams<'_>) {
     let folder = page.path.parent().unwrap_or(Path::new(""));
-    let report = Report { docs: docs_from(folder), ..report };
+    let has_playground = folder.join("playground.html").is_file();
+    let report = Report { docs: docs_from(folder), has_playground, ..report };
     if !streams.save(page, html::page(&report).as_bytes()) {
         return;
     }

@@ -14,12 +14,14 @@ use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, invariant, program, study, usage, write_picture};
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
-use rasterproof_report::html::{Excerpt, Report};
+use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::{differential, json, page_cases, picture, summary};
 use rasterproof_teaching::case_view;
 use rasterproof_verify::cases::{self, Case, Kind, Shape};
-use rasterproof_verify::comparison::{self, FamilyReport, Options, PairReport, Shard, Verdict};
+use rasterproof_verify::comparison::{
+    self, Cause, FamilyReport, Options, PairReport, Shard, Verdict,
+};
 use rasterproof_verify::judge::ascii;
 
 /// `verify` with its name, which can also judge the engines on a model.
@@ -273,13 +275,20 @@ impl Run<'_> {
             let hint = "every family as a table: add --table".to_owned();
             first_screen.push(Table::of_notes("", self.closest().chain([hint]).collect()));
         }
+        let cause =
+            verdict.failures.first().and_then(|first| judged.cause(&first.evidence.pair[0]));
         let repeat = |family: &str, index: u64| self.repeat(family, index);
         let cases = is_page.then(|| page_cases::of_verdict(verdict, judged, repeat));
         Report {
-            title: "Verdict of rasterproof".to_owned(),
+            title: format!(
+                "Verdict of rasterproof: {}",
+                if agrees { "agrees" } else { "disagrees" }
+            ),
             about: format!("rasterproof {version}, seed {seed}{shard}"),
-            outcome: Some(differential::outcome(verdict)),
-            excerpts: Vec::from_iter(verdict.failures.first().map(|first| self.excerpt(first))),
+            outcome: Some(self.outcome(cause.as_ref())),
+            excerpts: Vec::from_iter(
+                verdict.failures.first().map(|first| self.excerpt(first, cause.as_ref())),
+            ),
             command: self.repeat_all().line(),
             repeat: self.repeat_all().without_output().line(),
             first_screen,
@@ -290,8 +299,19 @@ impl Run<'_> {
         }
     }
 
-    /// The smallest failure with its pixels.
-    fn excerpt(&self, failure: &comparison::Failure) -> Excerpt {
+    /// The verdict; where the cause is known, it says which engine is wrong and why.
+    fn outcome(&self, cause: Option<&Cause>) -> Outcome {
+        let mut outcome = differential::outcome(&self.verdict);
+        if let (Some(first), Some(cause)) =
+            (self.verdict.failures.first(), cause.filter(|cause| cause.is_known))
+        {
+            outcome.answer = format!("{} is not right. {}", first.evidence.pair[0], cause.sentence);
+        }
+        outcome
+    }
+
+    /// The smallest failure with its pixels, and that no cause was recognised, where that is so.
+    fn excerpt(&self, failure: &comparison::Failure, cause: Option<&Cause>) -> Excerpt {
         let shown = case_view::draw(&failure.case, &self.judged);
         let engine = &failure.evidence.pair[0];
         let grid = shown.judged_blocks(engine).map_or(String::new(), |blocks| {
@@ -300,7 +320,7 @@ impl Run<'_> {
         Excerpt {
             title: failure.to_string(),
             grid,
-            notes: Vec::from_iter(self.judged.cause(engine).map(|cause| cause.headline())),
+            notes: Vec::from_iter(cause.filter(|cause| !cause.is_known).map(Cause::headline)),
             places: vec![
                 ("repeat with", self.repeat(failure.family, failure.index)),
                 ("explain it", self.explain(failure)),

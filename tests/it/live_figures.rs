@@ -49,6 +49,15 @@ fn live_figures_stand_on_their_pages() {
             renewal.is(&path, &[parts[0], &block, after].concat());
         }
     }
+    // The first page shows one of them again, with its answer.
+    for (folder, language) in [("docs", Language::En), ("docs/zh", Language::Zh)] {
+        let first = find("shared-edge").unwrap().block(language).unwrap();
+        let open = first.replacen("\">", "\" open>", 1);
+        assert!(
+            read(format!("{folder}/index.md")).contains(&open),
+            "{folder}/index.md has no {open}"
+        );
+    }
     // No picture is left over, and every chapter has two figures.
     let pictures = fs::read_dir(root().join("docs/figures/live")).unwrap().count();
     assert_eq!(pictures, ALL.len());
@@ -135,7 +144,7 @@ fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
         "<!doctype html><html lang={language}><meta charset=utf-8><title>figures</title>\
          <meta name=viewport content='width=device-width'>\
          <style>body {{ background: #fff; color: #000; font: 16px/1.5 sans-serif; margin: 8px }}</style>\
-         <body data-ready><p style='height: 1200px'>above</p>{}<script src=figure.js></script>\
+         <body data-ready><p style='height: 3000px'>above</p>{}<script src=figure.js></script>\
          <script>const arrows = []; // those that reach the page, where a book turns its pages by them
          addEventListener('keydown', (event) => {{ if (event.key.startsWith('Arrow')) arrows.push(event.key); }});</script>",
         figures.join("\n")
@@ -451,7 +460,7 @@ fn live_figures_show_what_the_oracle_draws() {
     let Some(mut browser) = Browser::start("figures") else { return };
     browser.prefer("prefers-color-scheme", "light");
     browser.open(&page, "");
-    // The engines are loaded once, when a figure comes into view.
+    // The engines are loaded once, a screen before a figure comes into view.
     let loaded = "document.querySelectorAll('script[src$=\"engines.js\"]').length";
     assert_eq!(browser.eval(loaded), 0);
     // What the page sends to the engines can be changed on the way, to plant faults.

@@ -392,10 +392,23 @@ fn blink_and_modes(browser: &mut Browser, page: &Path) {
         assert!(![a.as_str(), b.as_str()].contains(&browser.picture().as_str()) || panels == 1);
     }
     browser.press("2");
+    // Without a playground beside the page no link leads there.
+    let links =
+        "['#case-playground', '#no-playground'].map(id => document.querySelector(id).hidden)";
+    assert_eq!(browser.eval(links), json!([true, false]));
     let half = browser.picture();
     assert!(half != a && half != b, "a slider shows a part of both");
     browser.press("b");
     assert_eq!(browser.eval("document.querySelector('#stage').dataset.mode"), json!("blink"));
+    // What was zoomed to in one panel does not spread over four.
+    browser.open(page, "#case-T2");
+    for _ in 0..6 {
+        browser.eval("document.querySelector('#zoom-in').click()");
+    }
+    browser.press("3");
+    let inside = "[...document.querySelectorAll('.port')].every(p => p.getBoundingClientRect().right <= innerWidth)
+        && document.querySelectorAll('.port').length === 3";
+    browser.wait_for(inside);
     // Side by side the oracle is beside two others, and never there twice.
     browser.open(page, "#case-T2&mode=side&a=games101-strict&b=sysu-inclusive");
     let heads =

@@ -391,10 +391,15 @@ fn playground_opens_cases_of_the_report() {
         ("T2 --window 0,0,300x20", "state.triangles.length === 2 && shown.length === 2"),
     ] {
         let folder = folder("playground-report-inspect");
+        // A page leads to the playground only where that lies beside it.
+        let pages = folder.join("target/rasterproof");
+        std::fs::create_dir_all(&pages).unwrap();
+        std::fs::write(pages.join("playground.html"), "").unwrap();
         let mut program = shared().command(format!("inspect --report {words}"));
         let status = u8::from(words.contains("--plant"));
         Run::of(program.current_dir(&folder)).has(status);
         browser.open(&folder.join("target/rasterproof/inspect.html"), "");
+        assert_eq!(browser.eval("document.querySelector('#case-playground').hidden"), false);
         let link =
             browser.eval("document.querySelector('#case-playground a').getAttribute('href')");
         let fragment = link.as_str().unwrap().strip_prefix("playground.html").unwrap().to_owned();

@@ -206,6 +206,10 @@ fn a_finding_is_shown(browser: &mut Browser, page: &std::path::Path) {
     );
     browser
         .eval("document.querySelector('[data-api=webgl2] [data-check=coverage] button').click()");
+    // The headline names the check, and the keyboard is where the case is.
+    assert_eq!(browser.text("[data-api=webgl2] .verdict"), "coverage: 1 check breaks a promise.");
+    let focused = browser.eval("document.activeElement.textContent");
+    assert_eq!(focused, "WebGL 2, coverage: The smallest case that was found");
     let report = browser.text("#report");
     for part in [
         "Renderer: ANGLE",
@@ -283,5 +287,14 @@ fn what_is_refused_is_said(browser: &mut Browser, page: &std::path::Path) {
         let refused = usize::from(name == "webgpu");
         assert_eq!(rows[refused], json!({}), "{takes}");
         assert_eq!(rows[1 - refused]["coverage"][0], "equal", "{takes}");
+        assert!(!browser.text("#results").contains("Nothing could be judged"), "{takes}");
     }
+    // With neither interface the page says what to do.
+    browser.open(page, "#lang=en");
+    browser.eval(
+        "(HTMLCanvasElement.prototype.getContext = () => null,
+            Object.defineProperty(Navigator.prototype, 'gpu', { value: undefined }), null)",
+    );
+    rows(browser, None, &options);
+    assert!(browser.text("#results").contains("Turn on hardware acceleration"));
 }

@@ -1,9 +1,11 @@
 'use strict';
 // Live figures: <rp-figure scene="NAME"> around a still picture with its caption. The compiled engines draw and judge
 // (crates/wasm/src/figures); this script inserts what they answer and passes on what the reader does. They are
-// loaded with the first figure that becomes visible, from engines.js beside this script, which calls
+// loaded before the first figure comes into view, from engines.js beside this script, which calls
 // rasterproofEngines with the module in base64: so it works from disk, too. data-playground on the script's own
-// element names the page of the playground, if that is not playground.html beside it.
+// element names the page of the playground, if that is not playground.html beside it. A <script type="application/json">
+// inside a figure holds their first answer on a light and on a dark page: with it the question is there before the engines are.
+// A figure that is `open` begins with its answer.
 (() => {
   const WORDS = {
     en: {
@@ -91,13 +93,14 @@
     return matchMedia('(prefers-color-scheme: dark)').matches;
   }
 
+  // A screen before it is seen.
   const watching = new IntersectionObserver((entries) => {
     for (const { isIntersecting, target } of entries) {
       if (!isIntersecting) continue;
       watching.unobserve(target);
       target.begin();
     }
-  });
+  }, { rootMargin: '100% 0px' });
   const live = new Set();
   const redraw = () => { for (const figure of live) figure.draw(); };
   new MutationObserver(redraw).observe(document.documentElement, { attributes: true, attributeFilter: ['class', 'data-theme', 'style'] });
@@ -123,31 +126,61 @@
       this.attachShadow({ mode: 'open' }).append(make('style', { textContent: STYLE }), this.figure, this.still);
       this.stage.append(this.picture);
       this.at = [];
-      this.isAnswered = false;
+      this.isAnswered = this.hasAttribute('open');
       watching.observe(this);
+      if (this.takeFirst() || document.readyState !== 'loading') return;
+      // The page is still being read, and what is inside the figure comes behind its beginning.
+      const reading = new MutationObserver(() => { if (this.takeFirst()) reading.disconnect(); });
+      reading.observe(this, { childList: true });
     }
 
+    /** Shows the first answer that the page holds; whether it holds one. */
+    takeFirst() {
+      const first = this.querySelector('script[type="application/json"]');
+      if (!first) return false;
+      this.first = JSON.parse(first.textContent);
+      live.add(this);
+      this.begun();
+      return true;
+    }
+
+    /** Loads the engines; whether they are there. */
     async begin() {
       try {
-        this.exports = await engines();
+        this.exports ??= await engines();
         live.add(this);
-        this.draw();
-        this.invite();
+        if (this.first) this.draw();
+        else this.begun();
+        return true;
       } catch (error) {
         live.delete(this);
         console.warn(`rp-figure ${this.getAttribute('scene')}: ${error?.message ?? 'engines.js could not be loaded'}`);
         this.figure.replaceChildren(make('p', { className: 'hint', textContent: this.words.lost }));
         this.still.hidden = false;
+        return false;
       }
     }
 
-    /** Draws the figure for where its grips are; the answer holds what the engines make of that. */
+    /** Draws the beginning. */
+    begun() {
+      this.draw();
+      if (this.isAnswered) this.answered('');
+      else this.invite();
+    }
+
+    /** What the engines make of where the grips are, or, as long as they are not there, have made of the beginning. */
+    answer(isDark) {
+      if (!this.exports) return this.first[isDark ? 'dark' : 'light'];
+      return ask(this.exports, {
+        ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: isDark,
+      });
+    }
+
+    /** Draws the figure for where its grips are. */
     draw() {
       const dark = isDark(this);
       this.toggleAttribute('data-dark', dark);
-      const answer = ask(this.exports, {
-        ask: 'figure', name: this.getAttribute('scene'), language: this.language, at: this.at, is_answered: this.isAnswered, is_dark: dark,
-      });
+      const answer = this.answer(dark);
       if (answer.error) throw new Error(answer.error);
       this.now = answer;
       this.at = answer.at;
@@ -243,21 +276,28 @@
       buttons[next].focus();
     }
 
-    judgePixels(buttons) {
+    async judgePixels(buttons) {
       const { right, cells } = this.now.predict;
       const marked = buttons.map((button) => button.getAttribute('aria-pressed') === 'true');
       const wrong = marked.filter((mark, i) => mark && !right[i]).length;
       const missed = marked.filter((mark, i) => !mark && right[i]).length;
       const says = [wrong && this.words.wrong(wrong), missed && this.words.missed(missed)].filter(Boolean).join(', ');
-      this.reveal(says ? `${says}.` : this.words.right);
+      await this.reveal(says ? `${says}.` : this.words.right);
       this.stage.append(...cells.flatMap((cell, i) => (marked[i] ? [this.cover(make('div', { className: right[i] ? 'mark' : 'mark no' }), cell)] : [])));
     }
 
     /** Shows the answer with what is said about the prediction; from now on the grips can be dragged. */
-    reveal(verdict) {
-      this.clear();
+    async reveal(verdict) {
+      if (!this.exports && !await this.begin()) return;
       this.isAnswered = true;
       this.draw();
+      this.answered(verdict);
+      this.controls.lastElementChild.focus({ preventScroll: true });
+    }
+
+    /** What stands below the answer. */
+    answered(verdict) {
+      this.clear();
       this.verdict.textContent = verdict;
       const names = this.now.grips.map((grip) => grip.name).join(this.language === 'zh' ? '、' : ', ');
       this.hint.textContent = `${this.words.drag}${names}${this.language === 'zh' ? '。' : '.'}`;
@@ -270,7 +310,6 @@
         this.stage.querySelector('button')?.focus();
       });
       this.controls.append(again);
-      again.focus({ preventScroll: true });
     }
 
     placeGrip(grip, i) {
@@ -314,6 +353,7 @@
     }
 
     move(i, value) {
+      if (!this.exports) return;
       this.at = this.at.map((old, k) => (k === i ? value : old));
       for (const mark of this.stage.querySelectorAll('.mark')) mark.remove();
       this.verdict.textContent = '';

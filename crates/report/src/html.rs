@@ -61,6 +61,8 @@ pub struct Report {
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
+    /// Whether the playground lies beside the page.
+    pub has_playground: bool,
 }
 
 /// The answer to a question that a command is called for.
@@ -241,7 +243,10 @@ pub fn page(report: &Report) -> String {
     let frames = report.frames.iter().filter_map(|view| kept(&view.name, json(view)));
     let frames = frames.collect::<Vec<_>>().join(",");
     let docs = json(&report.docs);
-    let data = format!("{{\"docs\":{docs},\"cases\":[{cases}],\"frames\":[{frames}]}}");
+    let playground = report.has_playground;
+    let data = format!(
+        "{{\"docs\":{docs},\"playground\":{playground},\"cases\":[{cases}],\"frames\":[{frames}]}}"
+    );
     let run = command(&report.command) + &notes(&report.notes, &left_out);
     let sections = [("Plots", figures), ("Summary", tables), ("Texts", diffs), ("Run", run)];
     let has_cases = !cases.is_empty() || !frames.is_empty();

@@ -19,13 +19,13 @@ macro_rules! dangers {
 }
 
 pub const DANGERS: &[Danger] = dangers![
-    "corners anywhere", "docs/ch02.md":
+    "corners anywhere", "docs/ch02-edge-functions.md":
         "uniform";
-    "ties on edges", "docs/ch02.md":
+    "ties on edges", "docs/ch02-edge-functions.md":
         "half-integer", "flat", "near-tie";
-    "shared edges", "docs/ch02.md":
+    "shared edges", "docs/ch02-edge-functions.md":
         "rectangle", "fan", "strip";
-    "thin, tiny and flat ones", "docs/ch02.md":
+    "thin, tiny and flat ones", "docs/ch02-edge-functions.md":
         "sliver", "near-horizontal", "near-vertical", "tiny", "degenerate";
     "window and domain", "docs/ch01.md":
         "partly-off", "off-screen", "huge", "far";

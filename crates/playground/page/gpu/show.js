@@ -19,12 +19,22 @@ function drawProgress() {
 
 /** The worst word of a result's rows. */
 const worst = (result) => Object.values(result.rows).reduce((most, { word: is }) => Math.max(most, WORST.indexOf(is)), 0);
-const number = (result, is) => Object.values(result.rows).filter((row) => row.word === is).length;
+const checksThat = (result, is) => Object.keys(WORDS.en.checks).filter((check) => result.rows[check]?.word === is);
 
 function summary(result) {
   if (Object.keys(result.rows).length === 0) return null;
-  const says = [word('allPromised'), word('someFree')(number(result, 'allowed')), word('someBroken')(number(result, 'outside'))][worst(result)];
+  const broken = checksThat(result, 'outside');
+  const names = broken.map((check) => word('checks')[check]);
+  const says = [word('allPromised'), word('someFree')(checksThat(result, 'allowed').length), word('someBroken')(broken.length, names)][worst(result)];
   return make('p', { className: `verdict ${WORST[worst(result)]}` }, says);
+}
+
+/** Shows a case, and takes the keyboard and the eye there. */
+function show(index, check) {
+  state.shown = [index, check];
+  drawAll();
+  $('finding').scrollIntoView();
+  $('finding').querySelector('h2').focus({ preventScroll: true });
 }
 
 /** What a rule asks for: its own words where they are at hand, and ours. */
@@ -37,7 +47,7 @@ function row(result, index, check) {
   const { word: is, tally, facts } = result.rows[check];
   const rule = ruleOf(result.name, check);
   const view = result.views[check];
-  const show = view && make('button', { type: 'button', onclick: () => { state.shown = [index, check]; drawAll(); $('finding').scrollIntoView(); } }, word('show'));
+  const show = view && make('button', { type: 'button', onclick: () => show(index, check) }, word('show'));
   return make('tr', { attr: { 'data-check': check } },
     make('th', { scope: 'row' }, word('checks')[check]),
     make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
@@ -197,7 +207,7 @@ function drawFinding() {
   const link = address(result.name, check, view.subject);
   const text = report(result, check, view);
   fill(section,
-    make('h2', {}, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : 'example')}`),
+    make('h2', { tabIndex: -1 }, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : view.marks.length ? 'example' : 'alike')}`),
     ...pairs, make('p', { className: 'quiet' }, word('legend')(check)),
     ...view.marks.filter(({ note }) => note).slice(0, 4).map(({ x, y, note }) => make('p', {}, `${x}, ${y}: ${note}`)),
     make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),
@@ -216,7 +226,9 @@ function drawAll() {
   const verdict = { equal: 'passes', allowed: 'differs', outside: 'fails' }[one?.verdict];
   $('one').hidden = !one;
   fill($('one'), one ? word('repeats') : '', one?.error ? make('p', { className: 'outside' }, `${word('badCase')} ${one.error}`) : null, verdict ? make('p', { className: one.verdict }, word(verdict)) : null, verdict && one.check === 'lattice' ? make('p', {}, word('latticeOne')(one.facts.finest)) : null);
-  fill($('results'), ...(one ? [] : (state.results ?? []).map(resultOf)));
+  const results = one ? [] : state.results ?? [];
+  const isRefused = !state.running && results.length > 0 && results.every((result) => result.refused);
+  fill($('results'), isRefused ? make('p', { className: 'note' }, word('advice')) : null, ...results.map(resultOf));
   drawProgress();
   drawFinding();
 }

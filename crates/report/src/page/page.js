@@ -1011,7 +1011,8 @@
   const pairChanged = () => {
     $('#pick-a').value = String(state.a);
     $('#pick-b').value = String(state.b);
-    $('#case-playground').hidden = !state.item.isCase;
+    $('#case-playground').hidden = !(state.item.isCase && data.playground);
+    $('#no-playground').hidden = !state.item.isCase || data.playground;
     if (state.item.isCase) $('#case-playground a').href = `playground.html#${new URLSearchParams(playgroundWords(state.item))}`;
     layOut();
     describePair();
@@ -1037,7 +1038,14 @@
     }
   };
 
+  // What was zoomed to in one arrangement of panels does not fit into another: all is seen again.
+  const fit = () => {
+    state.zoom = null;
+    resize();
+  };
+
   const setMode = (mode) => {
+    if ((mode === 'side') !== (state.mode === 'side')) state.zoom = null;
     state.mode = mode;
     all('#modes input').forEach((input) => { input.checked = input.value === mode; });
     state.phase = 'A';
@@ -1397,7 +1405,7 @@
     $('#opacity').addEventListener('input', paint);
     $('#zoom-in').addEventListener('click', () => zoomBy(1));
     $('#zoom-out').addEventListener('click', () => zoomBy(-1));
-    $('#zoom-fit').addEventListener('click', () => { state.zoom = null; resize(); });
+    $('#zoom-fit').addEventListener('click', fit);
     $('#whole').addEventListener('click', () => { state.whole = !state.whole; state.zoom = null; resize(); });
     $('#download').addEventListener('click', download);
     $('#previous').addEventListener('click', () => step(-1));
@@ -1406,7 +1414,7 @@
     $('#stage').addEventListener('keydown', keyInStage);
     document.addEventListener('keydown', keyAnywhere);
     window.addEventListener('hashchange', (event) => follow(event.newURL));
-    window.addEventListener('resize', resize);
+    window.addEventListener('resize', fit);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readPalette(); legend(); paint(); });
     stillness.addEventListener('change', () => { if (stillness.matches) setPaused(true); });
     setInterval(() => {

@@ -280,10 +280,31 @@ pub fn find(name: &str) -> Result<&'static Figure, String> {
     found.ok_or_else(|| format!("no figure is called {name}"))
 }
 
+/// A text with values in the places of their names: `{n}`, or `{n:pixel:pixels}` where a word follows the number. A name
+/// without a value stays, as do other braces.
 fn fill(text: &str, values: &[(&str, String)]) -> String {
-    values
-        .iter()
-        .fold(text.to_owned(), |text, (name, value)| text.replace(&format!("{{{name}}}"), value))
+    let mut filled = String::new();
+    for piece in text.split_inclusive('}') {
+        match filled_place(piece, values) {
+            Some(piece) => filled += &piece,
+            None => filled += piece,
+        }
+    }
+    filled
+}
+
+/// A piece of text that ends with a place for a value, with that value; nothing where it ends otherwise.
+fn filled_place(piece: &str, values: &[(&str, String)]) -> Option<String> {
+    let (before, place) = piece.strip_suffix('}')?.rsplit_once('{')?;
+    let mut parts = place.split(':');
+    let name = parts.next()?;
+    let (_, value) = values.iter().find(|(of, _)| *of == name)?;
+    // The word for one comes before that for many.
+    let word = if value == "1" { parts.next() } else { parts.nth(1) };
+    Some(match word {
+        Some(word) => format!("{before}{value} {word}"),
+        None => format!("{before}{value}"),
+    })
 }
 
 /// A number with at most so many decimals.
@@ -321,4 +342,17 @@ fn with_triangles<const N: usize>(
     let triangle = |t: &[[f64; N]; 3]| t.iter().map(corner).collect::<Vec<_>>().join("_");
     let all: Vec<_> = triangles.iter().map(triangle).collect();
     Some(format!("#scene={scene}&t={}{more}", all.join(";")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_follow_their_numbers() {
+        let values = |n: &str| vec![("n", n.to_owned()), ("x", "2.5".to_owned())];
+        let text = "At {n:pixel:pixels} of {x}, {lost}. .on{fill:{x}}.";
+        assert_eq!(fill(text, &values("1")), "At 1 pixel of 2.5, {lost}. .on{fill:2.5}.");
+        assert_eq!(fill(text, &values("0")), "At 0 pixels of 2.5, {lost}. .on{fill:2.5}.");
+    }
 }
