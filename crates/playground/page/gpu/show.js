@@ -30,7 +30,7 @@ function summary(result) {
 }
 
 /** Shows a case, and takes the keyboard and the eye there. */
-function show(index, check) {
+function showCase(index, check) {
   state.shown = [index, check];
   drawAll();
   $('finding').scrollIntoView();
@@ -47,7 +47,7 @@ function row(result, index, check) {
   const { word: is, tally, facts } = result.rows[check];
   const rule = ruleOf(result.name, check);
   const view = result.views[check];
-  const show = view && make('button', { type: 'button', onclick: () => show(index, check) }, word('show'));
+  const show = view && make('button', { type: 'button', onclick: () => showCase(index, check) }, word('show'));
   return make('tr', { attr: { 'data-check': check } },
     make('th', { scope: 'row' }, word('checks')[check]),
     make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
