@@ -171,6 +171,16 @@ fn your_gpu_is_judged_by_both_interfaces() {
     assert_eq!(faint, right);
     let notes = browser.eval("state.results.map(r => r.notes.some(([key]) => key === 'uneven'))");
     assert_eq!(notes, json!([true, true]));
+    // Each check is named before the run, and its address makes it alone.
+    browser.open(&page, "#lang=en");
+    let checks = "[...document.querySelectorAll('#checks a')].map(a => a.hash)";
+    let checks: Vec<String> = serde_json::from_value(browser.eval(checks)).unwrap();
+    assert_eq!(checks.len(), 12, "{checks:?}");
+    assert!(checks.contains(&"#check=lines&lang=en".to_owned()));
+    browser.open(&page, "#check=lines&lang=en");
+    browser.wait_for("document.body.dataset.done !== undefined");
+    let judged = browser.eval("state.results.map(result => Object.keys(result.rows))");
+    assert_eq!(judged, json!([["lines"], ["lines"]]));
     a_finding_is_shown(&mut browser, &page);
     what_is_refused_is_said(&mut browser, &page);
 }

@@ -67,8 +67,8 @@ async function causeOf(api, title) {
 
 const breathe = () => new Promise((done) => { setTimeout(done, 0); });
 
-/** Judges one interface into a result; draws the page as it goes. A test may ask for some batches alone, on a lattice that it knows. */
-async function judgeApi(name, { only, bits = null, shrinks = true }) {
+/** Judges one interface into a result; draws the page as it goes. An address may ask for one check alone, a test for some batches on a lattice that it knows. */
+async function judgeApi(name, { check: alone = null, only, bits = null, shrinks = true }) {
   const result = { name, rows: {}, views: {}, notes: [], triangles: 0 };
   state.results.push(result);
   const open = async () => {
@@ -84,7 +84,10 @@ async function judgeApi(name, { only, bits = null, shrinks = true }) {
   Object.assign(result, { renderer: api.renderer, isSoftware: api.isSoftware, apart: api.apart });
   result.notes.push(...api.notes);
   const plan = must(ask({ ask: 'gpu-plan' }));
-  const batches = plan.batches.filter(({ check, number: n }) => !only || only.some(([c, i]) => c === check && i === n));
+  const batches = plan.batches.filter(({ check, number: n }) => (
+    (!alone || check === alone) && (!only || only.some(([c, i]) => c === check && i === n))));
+  // The lattice on which the other checks put their cases is a check of its own.
+  if (alone && api.bits === null) api.bits = (await judged(api, { check: 'lattice', number: 0 })).facts.bits;
   const start = performance.now();
   let losses = 0;
   readBack.uneven = 0;

@@ -216,6 +216,12 @@ function drawFinding() {
     make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report', tabIndex: 0 }, text), ...copying(text)));
 }
 
+/** The checks, each with the address that makes it alone. */
+function listOfChecks() {
+  const link = (check) => make('li', {}, make('a', { href: `#${new URLSearchParams({ check, lang: state.lang })}` }, word('checks')[check]));
+  return [make('p', {}, word('alone')), make('ul', {}, ...Object.keys(WORDS.en.checks).map(link))];
+}
+
 function drawAll() {
   document.documentElement.lang = state.lang === 'zh' ? 'zh-CN' : 'en';
   for (const element of document.querySelectorAll('[data-word]')) element.textContent = word(element.dataset.word);
@@ -226,6 +232,8 @@ function drawAll() {
   const verdict = { equal: 'passes', allowed: 'differs', outside: 'fails' }[one?.verdict];
   $('one').hidden = !one;
   fill($('one'), one ? word('repeats') : '', one?.error ? make('p', { className: 'outside' }, `${word('badCase')} ${one.error}`) : null, verdict ? make('p', { className: one.verdict }, word(verdict)) : null, verdict && one.check === 'lattice' ? make('p', {}, word('latticeOne')(one.facts.finest)) : null);
+  const isBegin = !one && !state.running && !state.results?.length;
+  fill($('checks'), isBegin ? listOfChecks() : null);
   const results = one ? [] : state.results ?? [];
   const isRefused = !state.running && results.length > 0 && results.every((result) => result.refused);
   fill($('results'), isRefused ? make('p', { className: 'note' }, word('advice')) : null, ...results.map(resultOf));
@@ -242,7 +250,10 @@ function restore() {
   const [name, check, text] = ['interface', 'check', 'case'].map((key) => words.get(key));
   state.progress = { text: word('starting'), part: 0 };
   drawAll();
-  if (text === null) return;
+  if (text === null) {
+    if (Object.hasOwn(WORDS.en.checks, check ?? '')) judgeAll({ check, names: Object.hasOwn(APIS, name ?? '') ? [name] : undefined });
+    return;
+  }
   try {
     if (!Object.hasOwn(APIS, name ?? '') || !Object.hasOwn(WORDS.en.checks, check ?? '')) throw new Error(`${name}, ${check}`);
     judgeOne({ name, check, subject: JSON.parse(text) });
