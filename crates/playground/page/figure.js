@@ -137,7 +137,8 @@
     /** Shows the first answer that the page holds; whether it holds one. */
     takeFirst() {
       const first = this.querySelector('script[type="application/json"]');
-      if (!first) return false;
+      // A page that is being read may hold only the beginning of it.
+      if (!first || (!first.nextSibling && document.readyState === 'loading')) return false;
       this.first = JSON.parse(first.textContent);
       live.add(this);
       this.begun();
