@@ -93,7 +93,7 @@ impl Enumeration for Lines {
             Source::file("src/grid.rs", source_text::GRID),
             Source::file("src/line/dda.rs", source_text::DDA),
             Source::file("src/line/bresenham.rs", source_text::BRESENHAM),
-            Source::file("src/oracle/pixels.rs", rasterproof_verify::oracle::source_text::PIXELS),
+            Source::file("src/oracle/pixels.rs", rasterproof_verify::source_text::ORACLE_PIXELS),
             Source::file("src/exhaust/lines.rs", include_str!("lines.rs")),
         ]
     }

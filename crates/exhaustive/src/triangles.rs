@@ -148,7 +148,7 @@ impl Enumeration for Triangles {
             },
             Source::file(
                 "src/oracle/coverage.rs",
-                rasterproof_verify::oracle::source_text::COVERAGE,
+                rasterproof_verify::source_text::ORACLE_COVERAGE,
             ),
             Source::file("src/exhaust/triangles.rs", include_str!("triangles.rs")),
         ]

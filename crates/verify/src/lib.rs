@@ -215,6 +215,11 @@ mod promise;
 pub use rasterproof_core::{contract, frame, grid, triangle};
 #[doc(inline)]
 pub use rasterproof_oracle as oracle;
+/// The text of the oracle's files under the names that the code of a certificate has for them.
+#[doc(hidden)]
+pub mod source_text {
+    pub use crate::oracle::source_text::{COVERAGE as ORACLE_COVERAGE, PIXELS as ORACLE_PIXELS};
+}
 #[doc(hidden)]
 pub mod specification;
 
