@@ -14,8 +14,6 @@ struct Words {
     /// No convention explains it, and a mistake does.
     by_mistake: &'static str,
     mistake: &'static str,
-    /// Before what is said of the convention, where a mistake explains more.
-    besides: &'static str,
     unscored: &'static str,
     unanswered: &'static str,
     kinds: [&'static str; 2],
@@ -33,7 +31,6 @@ const ENGLISH: Words = Words {
     unexplained: "unexplained",
     by_mistake: "a mistake",
     mistake: "By mistake it ",
-    besides: "As a convention",
     unscored: "Left out",
     unanswered: "Requests refused, and not answered",
     kinds: ["Triangles", "Lines"],
@@ -53,7 +50,6 @@ const CHINESE: Words = Words {
     unexplained: "未能解释",
     by_mistake: "已知的错误",
     mistake: "它错在：",
-    besides: "作为约定",
     unscored: "未计入",
     unanswered: "被拒绝的请求与没有回答的请求",
     kinds: ["三角形", "直线"],
@@ -110,16 +106,12 @@ fn one(out: &mut String, row: &Ranked, words: &Words) {
             format!("{gap}{}{}{stop}", words.mistake, (words.say)(does))
         });
         if !kind.sentence.is_empty() {
-            let said = (words.say)(&kind.sentence);
-            // What is known comes before what no convention explains.
-            let all = match kind.by_convention {
-                None if !mistake.is_empty() => {
-                    let besides = words.besides;
-                    format!("{}{gap}{besides}{colon}{said}", mistake.trim_start())
-                }
-                _ => format!("{said}{left_out}{mistake}"),
+            // A mistake that is known explains more than the nearest of the conventions that do not.
+            let said = match kind.by_convention {
+                None if !mistake.is_empty() => mistake.trim_start().to_owned(),
+                _ => (words.say)(&kind.sentence) + &left_out + &mistake,
             };
-            let _ = writeln!(out, "  - {about}{colon}{all}");
+            let _ = writeln!(out, "  - {about}{colon}{said}");
         }
     }
     if refused + died > 0 {
