@@ -1,5 +1,6 @@
 //! The league as tables of a page, in English and in Chinese.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::phrases;
@@ -14,6 +15,8 @@ struct Words {
     /// No convention explains it, and a mistake does.
     by_mistake: &'static str,
     mistake: &'static str,
+    /// Before the name of an earlier library that does the same.
+    as_first: &'static str,
     unscored: &'static str,
     unanswered: &'static str,
     kinds: [&'static str; 2],
@@ -31,6 +34,7 @@ const ENGLISH: Words = Words {
     unexplained: "unexplained",
     by_mistake: "a mistake",
     mistake: "By mistake it ",
+    as_first: "as",
     unscored: "Left out",
     unanswered: "Requests refused, and not answered",
     kinds: ["Triangles", "Lines"],
@@ -50,6 +54,7 @@ const CHINESE: Words = Words {
     unexplained: "未能解释",
     by_mistake: "已知的错误",
     mistake: "它错在：",
+    as_first: "同",
     unscored: "未计入",
     unanswered: "被拒绝的请求与没有回答的请求",
     kinds: ["三角形", "直线"],
@@ -83,12 +88,18 @@ pub fn tables(league: &League, chinese: bool) -> String {
         );
     }
     out.push('\n');
-    league.rows.iter().for_each(|row| one(&mut out, row, words));
+    let mut said = BTreeMap::new();
+    league.rows.iter().for_each(|row| one(&mut out, row, words, &mut said));
     out
 }
 
-/// How a library was called, and what it does.
-fn one(out: &mut String, row: &Ranked, words: &Words) {
+/// How a library was called, and what it does. Where an earlier one does the same, as `said` holds it, its name is enough.
+fn one<'a>(
+    out: &mut String,
+    row: &'a Ranked,
+    words: &Words,
+    said: &mut BTreeMap<String, &'a str>,
+) {
     let Ranked { name, call, unanswered: [refused, died], .. } = row;
     let [colon, stop] = words.marks;
     let call = (words.say)(call);
@@ -107,11 +118,16 @@ fn one(out: &mut String, row: &Ranked, words: &Words) {
         });
         if !kind.sentence.is_empty() {
             // A mistake that is known explains more than the nearest of the conventions that do not.
-            let said = match kind.by_convention {
+            let does = match kind.by_convention {
                 None if !mistake.is_empty() => mistake.trim_start().to_owned(),
                 _ => (words.say)(&kind.sentence) + &left_out + &mistake,
             };
-            let _ = writeln!(out, "  - {about}{colon}{said}");
+            let line = format!("{about}{colon}{does}");
+            let _ = match said.get(&line) {
+                Some(first) => writeln!(out, "  - {about}{colon}{} {first}{stop}", words.as_first),
+                None => writeln!(out, "  - {line}"),
+            };
+            said.entry(line).or_insert(name);
         }
     }
     if refused + died > 0 {
