@@ -554,7 +554,11 @@ fn docs_name_what_exists() {
 fn every_file_of_tests_says_what_it_tests() {
     for path in files(&root().join("tests/it"), ".rs") {
         let text = read(&path);
-        assert!(text.starts_with("//! ") && text.lines().next().unwrap().len() > 40, "{}", path.display());
+        assert!(
+            text.starts_with("//! ") && text.lines().next().unwrap().len() > 40,
+            "{}",
+            path.display()
+        );
     }
 }
 

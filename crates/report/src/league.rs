@@ -94,12 +94,7 @@ pub fn tables(league: &League, chinese: bool) -> String {
 }
 
 /// How a library was called, and what it does. Where an earlier one does the same, as `said` holds it, its name is enough.
-fn one<'a>(
-    out: &mut String,
-    row: &'a Ranked,
-    words: &Words,
-    said: &mut BTreeMap<String, &'a str>,
-) {
+fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap<String, &'a str>) {
     let Ranked { name, call, unanswered: [refused, died], .. } = row;
     let [colon, stop] = words.marks;
     let call = (words.say)(call);
