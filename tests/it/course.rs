@@ -239,6 +239,35 @@ fn course_solutions_pass() {
     assert_eq!(out.lines().filter(|line| line.ends_with("  12")).count(), solved, "{out}");
 }
 
+/// The rows of stage 2c in Python and C++ take the place of the signs of a solution, and pass its steps about triangles.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn course_rows_of_the_page_pass() {
+    for (language, tool, ending, first, next) in [
+        ("python", "python3", "py", "def triangle(", "def values("),
+        ("cpp", "c++", "cpp", "static void triangle(", "static void values("),
+    ] {
+        if !has(tool) {
+            continue;
+        }
+        let folder = Folder::new(&format!("course-rows-{language}"));
+        course(&folder, ["start", "--solution", "--language", language], 0);
+        let path = folder.join(format!("starter.{ending}"));
+        let solved = fs::read_to_string(&path).unwrap();
+        let rows = crate::pages::read(format!("docs/own/02c-scanline.{ending}"));
+        let (from, to) = (solved.find(first).unwrap(), solved.find(next).unwrap());
+        fs::write(&path, format!("{}{rows}\n\n{}", &solved[..from], &solved[to..])).unwrap();
+        for step in ["edge-function", "top-left", "fans", "scanline", "clipping"] {
+            course(&folder, ["check", step, "--cases", "16"], 0);
+        }
+        // One column further, and it fails.
+        let wrong = rows.replace("128 *", "127 *");
+        assert_ne!(wrong, rows);
+        fs::write(&path, format!("{}{wrong}\n\n{}", &solved[..from], &solved[to..])).unwrap();
+        course(&folder, ["check", "top-left", "--cases", "16"], 1);
+    }
+}
+
 /// What the solution in Rust takes from the companion program is there, word for word.
 #[test]
 fn course_solution_is_the_companions() {
