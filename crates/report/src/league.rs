@@ -115,7 +115,7 @@ fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap
             // A mistake that is known explains more than the nearest of the conventions that do not.
             let does = match kind.by_convention {
                 None if !mistake.is_empty() => mistake.trim_start().to_owned(),
-                _ => (words.say)(&kind.sentence) + &left_out + &mistake,
+                _ => (words.say)(&beyond_the_table(&kind.sentence)) + &left_out + &mistake,
             };
             let line = format!("{about}{colon}{does}");
             let _ = match said.get(&line) {
@@ -128,6 +128,13 @@ fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap
     if refused + died > 0 {
         let _ = writeln!(out, "  - {}{colon}{refused}, {died}{stop}", words.unanswered);
     }
+}
+
+/// A convention without the share of lines that are the same from either end, of which the table has the rest.
+fn beyond_the_table(sentence: &str) -> String {
+    let is_in_table = |one: &&str| one.ends_with("of its lines are the same from either end.");
+    let kept: String = sentence.split_inclusive(". ").filter(|one| !is_in_table(one)).collect();
+    kept.trim_end().to_owned()
 }
 
 /// Wrong pixels in a million, as declared and by the convention.
