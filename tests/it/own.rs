@@ -44,7 +44,8 @@ stages! {
 
 #[test]
 fn own_stages_draw_their_pictures() {
-    let stages: [(&str, fn() -> RgbImage); 12] = [
+    type DrawStage = fn() -> RgbImage;
+    let stages: [(&str, DrawStage); 12] = [
         ("1", stage1::stage1),
         ("2a", stage2a::stage2a),
         ("2b", stage2b::stage2b),
