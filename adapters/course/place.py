@@ -3,20 +3,20 @@
 
 # ---- YOUR PLACE: six functions, empty as they stand ----
 
-# To be judged with attributes, too, let it be clip, of corners (x, y, z, w, a) then (step 11).
+# To be judged with attributes, too, let it be clip, of corners (x, y, z, w, a) then (step 7).
 clip_attributes = None
 
 
 def line(x0, y0, x1, y1, width, height, set_pixel):
-    """Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 to 3)."""
+    """Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 and 2a)."""
 
 
 def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
-    """Corners in pixels, y down; set_pixel(x, y) for every pixel drawn (steps 4 to 7, and 11)."""
+    """Corners in pixels, y down; set_pixel(x, y) for every pixel drawn (steps 2b, 2c and 7)."""
 
 
 def values(corners, width, height, set_pixel):
-    """Three corners (x, y, z, w, a, b); set_pixel(x, y, z, a, b) for every pixel drawn (steps 8 to 11)."""
+    """Three corners (x, y, z, w, a, b); set_pixel(x, y, z, a, b) for every pixel drawn (steps 3 to 7)."""
 
 
 def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
@@ -24,10 +24,10 @@ def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
 
 
 def depth(triangles, width, height, set_pixel):
-    """Triangles of three corners (x, y, z); set_pixel(x, y, t) once where triangle t is nearest (step 10)."""
+    """Triangles of three corners (x, y, z); set_pixel(x, y, t) once where triangle t is nearest (step 6)."""
 
 
 def clip(corners):
-    """Three corners (x, y, z, w) of clip space; the corners of what z >= -w leaves of them (step 11)."""
+    """Three corners (x, y, z, w) of clip space; the corners of what z >= -w leaves of them (step 7)."""
     return []
 

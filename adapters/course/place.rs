@@ -5,10 +5,10 @@ const VALUES: Option<Values> = Some(values);
 const SAMPLES: Option<Samples> = Some(samples);
 const DEPTH: Option<Depth> = Some(depth);
 const CLIP: Option<Clip<4>> = Some(clip);
-/// To be judged with attributes, too, let it be a function of corners x, y, z, w, a (step 11).
+/// To be judged with attributes, too, let it be a function of corners x, y, z, w, a (step 7).
 const CLIP_ATTRIBUTES: Option<Clip<5>> = None;
 
-/// Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 to 3).
+/// Whole pixels from one to another, both drawn, in drawing order, and nothing outside the window (steps 1 and 2a).
 fn line(
     from: (i32, i32),
     to: (i32, i32),
@@ -18,7 +18,7 @@ fn line(
 ) {
 }
 
-/// Corners in pixels, y down; set_pixel(x, y) for every pixel drawn (steps 4 to 7, and 11).
+/// Corners in pixels, y down; set_pixel(x, y) for every pixel drawn (steps 2b, 2c and 7).
 fn triangle(
     corners: [(f64, f64); 3],
     width: i32,
@@ -27,7 +27,7 @@ fn triangle(
 ) {
 }
 
-/// Corners are x, y, z, w, a, b; set_pixel(x, y, [z, a, b]) for every pixel drawn (steps 8 to 11).
+/// Corners are x, y, z, w, a, b; set_pixel(x, y, [z, a, b]) for every pixel drawn (steps 3 to 7).
 fn values(
     corners: [[f64; 6]; 3],
     width: i32,
@@ -45,7 +45,7 @@ fn samples(
 ) {
 }
 
-/// Triangles of three corners x, y, z; set_pixel(x, y, t) once where triangle t is nearest (step 10).
+/// Triangles of three corners x, y, z; set_pixel(x, y, t) once where triangle t is nearest (step 6).
 fn depth(
     triangles: &[[[f64; 3]; 3]],
     width: i32,
@@ -54,7 +54,7 @@ fn depth(
 ) {
 }
 
-/// Three corners x, y, z, w of clip space; the corners of what z >= -w leaves of them (step 11).
+/// Three corners x, y, z, w of clip space; the corners of what z >= -w leaves of them (step 7).
 fn clip(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
     Vec::new()
 }

@@ -5,7 +5,7 @@
 
 typedef __int128 wide;
 
-// A position in whole subpixels of 1/256 (step 5).
+// A position in whole subpixels of 1/256 (step 2b.1).
 struct Grid { long long x, y; };
 
 static Grid grid(double x, double y) { return {std::llround(x * 256), std::llround(y * 256)}; }
@@ -14,7 +14,7 @@ static wide edge(Grid a, Grid b, Grid p) {
     return wide(b.x - a.x) * (p.y - a.y) - wide(b.y - a.y) * (p.x - a.x);
 }
 
-// Whether a sample on the edge from a to b is drawn: on top and left edges (step 6).
+// Whether a sample on the edge from a to b is drawn: on top and left edges (step 2b.2).
 static bool owns(Grid a, Grid b) { return b.y < a.y || (b.y == a.y && b.x > a.x); }
 
 // The weights of three corners at a point; false where the point is not drawn.

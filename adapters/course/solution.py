@@ -6,12 +6,12 @@ def edge(a, b, p):
 
 
 def owns(a, b):
-    """Whether a sample on the edge from a to b is drawn: on top and left edges (step 6)."""
+    """Whether a sample on the edge from a to b is drawn: on top and left edges (step 2b.2)."""
     return b[1] < a[1] or b[1] == a[1] and b[0] > a[0]
 
 
 def grid(p):
-    """A corner in whole subpixels of 1/256 (step 5)."""
+    """A corner in whole subpixels of 1/256 (step 2b.1)."""
     return round(p[0] * 256), round(p[1] * 256)
 
 

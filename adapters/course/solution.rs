@@ -1,6 +1,6 @@
 // The course, solved. What the companion program of docs/own.md has too is between the two marks, as it is there.
 
-// ---- from docs/own: 03-triangles.rs, 04-values.rs, 06-perspective.rs ----
+// ---- from docs/own: 02b-triangles.rs, 03-values.rs, 05-perspective.rs ----
 
 /// Corners lie on a grid of 256 steps to a pixel.
 const STEPS: i64 = 256;

@@ -192,12 +192,26 @@ function reachable(head) {
   return once(named.replace(/<body[^>]*>/, '$&\n<a class="to-the-text" href="#text">Skip to the text</a>'), '<main>', '<main id="text" tabindex="-1">');
 }
 
+/**
+ * Code that a page has in several languages, as a block and folded ones behind it, becomes tabs: a browser opens one of the
+ * folded blocks that share a name.
+ */
+function inTabs(main) {
+  let count = 0;
+  const printed = /(<pre><code class="language-rust(?:(?!<\/pre>)[^])*<\/pre>)\s*<!-- end of code -->\s*((?:<details><summary>(?:Python|C\+\+)<\/summary>[^]*?<\/details>\s*)+)/g;
+  return main.replace(printed, (_, rust, others) => {
+    count += 1;
+    const named = others.replaceAll('<details>', `<details name="code-${count}">`);
+    return `<div class="tabs">\n<details name="code-${count}" open><summary>Rust</summary>\n${rust}\n</details>\n${named}</div>\n`;
+  });
+}
+
 /** The text of a chapter, finished; `others` are the headings of the same chapter in the other language. */
 function finished(book, page, place, main, others) {
   const away = (where) => path.posix.relative(path.posix.dirname(place), where);
   let pictures = 0;
   // A break between two lines would be seen as a space, which Chinese does not have.
-  const joined = main.split(/(<pre[^]*?<\/pre>)/).map((part, at) =>
+  const joined = inTabs(main).split(/(<pre[^]*?<\/pre>)/).map((part, at) =>
     at % 2 ? part : part.replace(/(?<=[\u3000-\u9fff\uff00-\uffef])\n(?=[\u3000-\u9fff\uff00-\uffef])/g, '')).join('');
   const own = headings(main);
   const hasCounterparts = own.length === others.length;

@@ -88,7 +88,7 @@ struct ShowArguments {
     /// Where course.toml is
     #[arg(long, value_name = "DIR", default_value = ".")]
     dir: PathBuf,
-    /// Draw this model instead, by the values of the program (steps 8 to 11)
+    /// Draw this model instead, by the values of the program (steps 3 to 7)
     #[arg(long, value_name = "FILE", conflicts_with = "step")]
     model: Option<PathBuf>,
     /// Size of the cube's and the model's picture in pixels
@@ -169,8 +169,7 @@ fn read_progress(dir: &Path, command: &[String], verb: &str) -> Result<Progress,
 /// The step of a word; `others` are further words that were possible.
 fn find_step(word: &str, others: &str) -> Result<&'static Step, InputError> {
     course::find(word).ok_or_else(|| {
-        let names: Vec<_> = STEPS.iter().map(|step| &*step.name).collect();
-        usage(format!("no step is called '{word}'; there are {}{others}", names.join(", ")))
+        usage(format!("no step is called '{word}'; there are {}{others}", course::known()))
     })
 }
 

@@ -16,9 +16,9 @@ use super::progress::Progress;
 use super::{Status, Streams, exit, usage};
 use rasterproof_judge::text::printable;
 use rasterproof_program::{group, output};
-use rasterproof_teaching::course::STEPS;
 use rasterproof_teaching::course::grade::{self, FoundSubmission, Grade, Submission, Terms};
 use rasterproof_teaching::course::sandbox::Bounds;
+use rasterproof_teaching::course::{self, STEPS};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
@@ -129,7 +129,9 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     group::end_groups_on_ctrl_c();
     let is_table = arguments.format == Format::Text && arguments.folder.is_some();
     if is_table {
-        streams.output.write_all(grade::row("submission", |at| at + 1, &"points").as_bytes())?;
+        streams.output.write_all(
+            grade::row("submission", |at| course::number(&STEPS[at]), &"points").as_bytes(),
+        )?;
     }
     let mut grades = Vec::new();
     let shown = Progress::new(streams.progress, "submissions", Some(submissions.len() as u64));

@@ -13,7 +13,7 @@ use rasterproof_teaching::quiz::ask::{self, Quiz};
 #[derive(clap::Args, Debug)]
 #[command(after_help = super::help!("quiz"))]
 pub struct QuizArguments {
-    /// The chapter: 2, or the name of its page, ch02-scanline or effects [default: all of them]
+    /// The chapter: 5 or 2b, or the name of its page, effects [default: all of them]
     chapter: Option<String>,
     /// Ask in another order, which this number decides
     #[arg(long, value_name = "N")]

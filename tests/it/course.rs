@@ -39,10 +39,10 @@ const JUDGED: [(&str, &str, &str); 12] = [
     ("pixel", "dda", "line-misses-end"),
     ("dda", "dda", "line-four-connected"),
     ("bresenham", "bresenham", "line-directed-ties"),
-    ("scanline", "scanline", "drops-first-row"),
     ("edge-function", "edge-function", "rejects-thin"),
     ("top-left", "edge-function", "bottom-right-rule"),
     ("fans", "scanline", "exclusive-edges"),
+    ("scanline", "scanline", "drops-first-row"),
     ("values", "scanline", "swapped-weights"),
     ("perspective", "edge-function", "affine-attributes"),
     ("depth", "scanline", "perspective-depth"),
@@ -166,7 +166,7 @@ fn course_sees_the_window_in_step_1() {
     let path = folder.join("starter.py");
     let empty = fs::read_to_string(&path).unwrap();
     let written = |body: &str| {
-        let place = "nothing outside the window (steps 1 to 3).\"\"\"\n";
+        let place = "nothing outside the window (steps 1 and 2a).\"\"\"\n";
         assert!(empty.contains(place));
         fs::write(&path, empty.replace(place, &format!("{place}    {body}\n"))).unwrap();
     };
@@ -239,10 +239,39 @@ fn course_solutions_pass() {
     assert_eq!(out.lines().filter(|line| line.ends_with("  12")).count(), solved, "{out}");
 }
 
+/// The rows of stage 2c in Python and C++ take the place of the signs of a solution, and pass its steps about triangles.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn course_rows_of_the_page_pass() {
+    for (language, tool, ending, first, next) in [
+        ("python", "python3", "py", "def triangle(", "def values("),
+        ("cpp", "c++", "cpp", "static void triangle(", "static void values("),
+    ] {
+        if !has(tool) {
+            continue;
+        }
+        let folder = Folder::new(&format!("course-rows-{language}"));
+        course(&folder, ["start", "--solution", "--language", language], 0);
+        let path = folder.join(format!("starter.{ending}"));
+        let solved = fs::read_to_string(&path).unwrap();
+        let rows = crate::pages::read(format!("docs/own/02c-scanline.{ending}"));
+        let (from, to) = (solved.find(first).unwrap(), solved.find(next).unwrap());
+        fs::write(&path, format!("{}{rows}\n\n{}", &solved[..from], &solved[to..])).unwrap();
+        for step in ["edge-function", "top-left", "fans", "scanline", "clipping"] {
+            course(&folder, ["check", step, "--cases", "16"], 0);
+        }
+        // One column further, and it fails.
+        let wrong = rows.replace("128 *", "127 *");
+        assert_ne!(wrong, rows);
+        fs::write(&path, format!("{}{wrong}\n\n{}", &solved[..from], &solved[to..])).unwrap();
+        course(&folder, ["check", "top-left", "--cases", "16"], 1);
+    }
+}
+
 /// What the solution in Rust takes from the companion program is there, word for word.
 #[test]
 fn course_solution_is_the_companions() {
-    let own = ["03-triangles", "04-values", "06-perspective"]
+    let own = ["02b-triangles", "03-values", "05-perspective"]
         .map(|name| crate::pages::read(format!("docs/own/{name}.rs")).replace("pub fn", "fn"));
     let own = own.concat();
     let solution = include_str!("../../adapters/course/solution.rs");

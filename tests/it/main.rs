@@ -68,6 +68,7 @@ mod site;
 mod snapshots;
 mod specimens;
 mod speed;
+mod spine;
 mod steps;
 mod study;
 mod subjects;

@@ -19,8 +19,8 @@ const BEGIN: &str = "<!-- code ";
 const END: &str = "<!-- end of code -->";
 
 /// The lines of an item, without the comments and attributes before it, moved to the left margin. It ends
-/// with the first line that closes it at its own indentation.
-fn item(source: &str, name: &str) -> Option<String> {
+/// with the first line that closes it at its own indentation; where nothing closes an item, as in Python, before the next line there.
+fn item(source: &str, name: &str, is_closed: bool) -> Option<String> {
     let begins = |line: &str| {
         let line = line.trim_start();
         let line = ["pub(crate) ", "pub(super) ", "pub "]
@@ -32,12 +32,23 @@ fn item(source: &str, name: &str) -> Option<String> {
     let lines: Vec<_> = source.lines().collect();
     let first = lines.iter().position(|line| begins(line))?;
     let indent = lines[first].len() - lines[first].trim_start().len();
+    let is_there =
+        |line: &&str| !line.trim().is_empty() && line.len() - line.trim_start().len() == indent;
     let is_last = |line: &&str| {
         let end = line.get(indent..).unwrap_or("");
-        line.len() - line.trim_start().len() == indent
-            && (end.starts_with('}') || end.starts_with(']') || end.ends_with(';'))
+        is_there(line)
+            && (end.starts_with('}')
+                || end.ends_with('}')
+                || end.starts_with(']')
+                || end.ends_with(';'))
     };
-    let count = lines[first..].iter().position(is_last)? + 1;
+    let count = if is_closed {
+        lines[first..].iter().position(is_last)? + 1
+    } else {
+        let after = lines[first + 1..].iter().position(is_there);
+        let end = after.map_or(lines.len(), |at| first + 1 + at);
+        lines[first..end].iter().rposition(|line| !line.trim().is_empty())? + 1
+    };
     let moved = lines[first..first + count].iter().map(|line| line.get(indent..).unwrap_or(""));
     Some(moved.collect::<Vec<_>>().join("\n"))
 }
@@ -47,8 +58,9 @@ fn code(mark: &str) -> Result<String, String> {
     let (path, names) = mark.split_once(' ').map_or((mark, None), |(path, n)| (path, Some(n)));
     let source = fs::read_to_string(root().join(path)).map_err(|error| error.to_string())?;
     let whole = source.trim_end().to_owned();
+    let is_closed = !path.ends_with(".py");
     names.into_iter().flat_map(|names| names.split(" > ")).try_fold(whole, |source, name| {
-        item(&source, name).ok_or_else(|| format!("no line begins with '{name}'"))
+        item(&source, name, is_closed).ok_or_else(|| format!("no line begins with '{name}'"))
     })
 }
 
@@ -62,7 +74,13 @@ fn renewed(page: &str) -> Result<String, String> {
             return Err(format!("{mark}: another code begins before its end"));
         }
         let code = code(mark).map_err(|cause| format!("{mark}: {cause}"))?;
-        out += &format!("{before}{BEGIN}{mark} -->\n\n```rust,ignore\n{code}\n```\n\n{END}");
+        let path = mark.split(' ').next().unwrap_or("");
+        let language = match path.rsplit('.').next() {
+            Some("py") => "python",
+            Some("cpp") => "cpp",
+            _ => "rust,ignore",
+        };
+        out += &format!("{before}{BEGIN}{mark} -->\n\n```{language}\n{code}\n```\n\n{END}");
         rest = after;
     }
     if rest.contains(END) {

@@ -5,6 +5,7 @@ use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Language, Right};
 
 use crate::pages::{Renewal, read};
 use crate::program::{Run, shared};
+use crate::spine::ending;
 
 /// What a page says about its exercises: everything from the heading on.
 fn exercises(page: &str, language: Language) -> &str {
@@ -38,7 +39,8 @@ fn quiz_pages_say_what_is_computed() {
             let path = format!("{folder}/{}.md", chapter.page);
             let page = read(&path);
             let kept = page[..page.len() - exercises(&page, language).len()].trim_end();
-            renewal.is(&path, &format!("{kept}\n\n{}", section(chapter, language)));
+            let ending = ending(folder, &chapter.page);
+            renewal.is(&path, &format!("{kept}\n\n{}{ending}", section(chapter, language)));
         }
     }
     renewal.check("quiz_pages");

@@ -1,7 +1,7 @@
 //! The page of the twelve steps: its answers are those of the engines, its formulas with numbers are right, and each
 //! section is short.
 
-use rasterproof_teaching::course::STEPS;
+use rasterproof_teaching::course::{self, STEPS};
 
 use crate::pages::page;
 use crate::protocol::ask;
@@ -107,8 +107,8 @@ fn step_pages_are_what_the_engines_say() {
 fn steps_are_short() {
     let text = page("docs", "steps");
     let sections: Vec<_> = text.split("\n## ").skip(1).collect();
-    for (number, step) in (1..).zip(STEPS.iter()) {
-        let section = sections[number - 1];
+    for (step, section) in STEPS.iter().zip(sections) {
+        let number = course::number(step);
         let heading = format!("Step {number}: {}\n", step.title);
         assert!(section.starts_with(&heading), "{heading}{section}");
         let words = section.split_whitespace().count();
@@ -118,5 +118,21 @@ fn steps_are_short() {
         {
             assert!(section.contains(part), "step {number} lacks {part}");
         }
+    }
+}
+
+/// The table of the course has each step by its number and name, and nothing else.
+#[test]
+fn steps_are_in_the_table_of_the_course() {
+    for folder in ["docs", "docs/zh"] {
+        let text = page(folder, "course");
+        let listed = text.lines().filter_map(|line| {
+            let cells: Vec<_> = line.split('|').map(str::trim).collect();
+            (cells.len() == 6).then(|| (cells[1].to_owned(), cells[2].trim_matches('`').to_owned()))
+        });
+        let listed: Vec<_> = listed.skip(2).collect();
+        let steps: Vec<_> =
+            STEPS.iter().map(|step| (course::number(step), step.name.clone())).collect();
+        assert_eq!(listed, steps, "{folder}");
     }
 }

@@ -2,26 +2,9 @@
 //! explains the word. What is in a link is free, since the link leads to the explanation; so is what is in the box
 //! about the book, in code and in the generated exercises. What a lesson need not say is on its page of evidence.
 
-use crate::pages::page;
+use rasterproof_teaching::spine::CHAPTERS;
 
-/// The chapters in the order in which they are read.
-const ORDER: [&str; 15] = [
-    "ch01",
-    "ch02",
-    "ch02-edge-functions",
-    "ch02-scanline",
-    "ch03",
-    "ch04",
-    "ch05",
-    "ch06",
-    "ch07",
-    "ch08",
-    "ch09",
-    "ch10",
-    "ch11",
-    "samples",
-    "textures",
-];
+use crate::pages::page;
 
 /// A folder of pages, the column of its words in the glossary, and where the main text of a chapter ends.
 const LANGUAGES: [(&str, usize, &str); 2] =
@@ -37,7 +20,7 @@ fn words(glossary: &str, column: usize) -> Vec<(String, usize)> {
         let cells: Vec<_> = row.split(" | ").collect();
         let (Some(cell), Some(page)) = (cells.get(column - 1), cells.get(4)) else { continue };
         let page = page.split("](").nth(1).and_then(|link| link.split(".md").next());
-        let place = page.and_then(|page| ORDER.iter().position(|chapter| *chapter == page));
+        let place = page.and_then(|page| CHAPTERS.iter().position(|(chapter, _)| *chapter == page));
         let Some(place) = place.filter(|_| cell.contains("**")) else { continue };
         let named = cell.replace("**", "");
         let named = named.split([',', '，']).map(|word| word.trim().to_lowercase());
@@ -87,7 +70,7 @@ fn contains(text: &str, word: &str) -> bool {
 fn early(text: &str, place: usize, words: &[(String, usize)]) -> Vec<String> {
     let later = words.iter().filter(|(_, explained)| *explained > place);
     let used = later.filter(|(word, _)| contains(text, word));
-    used.map(|(word, explained)| format!("'{word}', which {} explains", ORDER[*explained]))
+    used.map(|(word, explained)| format!("'{word}', which {} explains", CHAPTERS[*explained].0))
         .collect()
 }
 
@@ -97,7 +80,7 @@ fn terms_are_used_after_they_are_explained() {
     for (folder, column, end) in LANGUAGES {
         let words = words(&page(folder, "glossary"), column);
         assert!(words.len() > 40, "{folder}: only {} words", words.len());
-        for (place, chapter) in ORDER.iter().enumerate() {
+        for (place, (chapter, _)) in CHAPTERS.iter().enumerate() {
             let text = main_text(&page(folder, chapter), end);
             assert!(text.len() > 1000, "{folder}/{chapter}.md has no main text");
             let early = early(&text, place, &words).into_iter();
@@ -132,7 +115,7 @@ fn lesson_words(page: &str) -> usize {
 
 #[test]
 fn terms_of_a_lesson_are_few() {
-    for chapter in ORDER {
+    for (chapter, _) in CHAPTERS {
         let words = lesson_words(&page("docs", chapter));
         assert!((1000..=MOST_WORDS).contains(&words), "docs/{chapter}.md has {words} words");
     }
@@ -143,7 +126,7 @@ fn terms_of_a_lesson_are_few() {
 /// A lesson ends with four exercises, two of them hard, each with its answer and the hard ones with hints.
 #[test]
 fn terms_are_exercised() {
-    for chapter in ORDER {
+    for (chapter, _) in CHAPTERS {
         let text = page("docs", chapter);
         let lesson = text.split("\n## Predict").next().unwrap_or("");
         let (_, exercises) = lesson.split_once("\n## Try it yourself").unwrap_or_default();

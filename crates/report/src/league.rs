@@ -1,5 +1,6 @@
 //! The league as tables of a page, in English and in Chinese.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::phrases;
@@ -14,8 +15,8 @@ struct Words {
     /// No convention explains it, and a mistake does.
     by_mistake: &'static str,
     mistake: &'static str,
-    /// Before what is said of the convention, where a mistake explains more.
-    besides: &'static str,
+    /// Before the name of an earlier library that does the same.
+    as_first: &'static str,
     unscored: &'static str,
     unanswered: &'static str,
     kinds: [&'static str; 2],
@@ -33,7 +34,7 @@ const ENGLISH: Words = Words {
     unexplained: "unexplained",
     by_mistake: "a mistake",
     mistake: "By mistake it ",
-    besides: "As a convention",
+    as_first: "as",
     unscored: "Left out",
     unanswered: "Requests refused, and not answered",
     kinds: ["Triangles", "Lines"],
@@ -53,7 +54,7 @@ const CHINESE: Words = Words {
     unexplained: "未能解释",
     by_mistake: "已知的错误",
     mistake: "它错在：",
-    besides: "作为约定",
+    as_first: "同",
     unscored: "未计入",
     unanswered: "被拒绝的请求与没有回答的请求",
     kinds: ["三角形", "直线"],
@@ -87,12 +88,13 @@ pub fn tables(league: &League, chinese: bool) -> String {
         );
     }
     out.push('\n');
-    league.rows.iter().for_each(|row| one(&mut out, row, words));
+    let mut said = BTreeMap::new();
+    league.rows.iter().for_each(|row| one(&mut out, row, words, &mut said));
     out
 }
 
-/// How a library was called, and what it does.
-fn one(out: &mut String, row: &Ranked, words: &Words) {
+/// How a library was called, and what it does. Where an earlier one does the same, as `said` holds it, its name is enough.
+fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap<String, &'a str>) {
     let Ranked { name, call, unanswered: [refused, died], .. } = row;
     let [colon, stop] = words.marks;
     let call = (words.say)(call);
@@ -110,21 +112,29 @@ fn one(out: &mut String, row: &Ranked, words: &Words) {
             format!("{gap}{}{}{stop}", words.mistake, (words.say)(does))
         });
         if !kind.sentence.is_empty() {
-            let said = (words.say)(&kind.sentence);
-            // What is known comes before what no convention explains.
-            let all = match kind.by_convention {
-                None if !mistake.is_empty() => {
-                    let besides = words.besides;
-                    format!("{}{gap}{besides}{colon}{said}", mistake.trim_start())
-                }
-                _ => format!("{said}{left_out}{mistake}"),
+            // A mistake that is known explains more than the nearest of the conventions that do not.
+            let does = match kind.by_convention {
+                None if !mistake.is_empty() => mistake.trim_start().to_owned(),
+                _ => (words.say)(&beyond_the_table(&kind.sentence)) + &left_out + &mistake,
             };
-            let _ = writeln!(out, "  - {about}{colon}{all}");
+            let line = format!("{about}{colon}{does}");
+            let _ = match said.get(&line) {
+                Some(first) => writeln!(out, "  - {about}{colon}{} {first}{stop}", words.as_first),
+                None => writeln!(out, "  - {line}"),
+            };
+            said.entry(line).or_insert(name);
         }
     }
     if refused + died > 0 {
         let _ = writeln!(out, "  - {}{colon}{refused}, {died}{stop}", words.unanswered);
     }
+}
+
+/// A convention without the share of lines that are the same from either end, of which the table has the rest.
+fn beyond_the_table(sentence: &str) -> String {
+    let is_in_table = |one: &&str| one.ends_with("of its lines are the same from either end.");
+    let kept: String = sentence.split_inclusive(". ").filter(|one| !is_in_table(one)).collect();
+    kept.trim_end().to_owned()
 }
 
 /// Wrong pixels in a million, as declared and by the convention.

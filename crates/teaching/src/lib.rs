@@ -1,9 +1,10 @@
 //! For people who learn and teach: the twelve steps of the [`course`], the [`quiz`], whose answers the engines
 //! compute, the published faults as [`specimens`], and why a pixel
-//! is covered, which [`explain`] says step by step.
+//! is covered, which [`explain`] says step by step. What belongs to a chapter has its number, by the [`spine`].
 
 pub mod case_view;
 pub mod course;
 pub mod explain;
 pub mod quiz;
 pub mod specimens;
+pub mod spine;

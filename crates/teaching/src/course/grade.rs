@@ -186,7 +186,7 @@ pub fn read(json: &[u8]) -> Option<Grade> {
 
 /// A row of the table of submissions by steps, as it is printed when it is known.
 pub fn row<T: Display>(name: &str, of_step: impl Fn(usize) -> T, points: &dyn Display) -> String {
-    let columns = format!("~name 40{} | >~points 7", " | >~step 3".repeat(STEPS.len()));
+    let columns = format!("~name 28{} | >~points 7", " | >~step 4".repeat(STEPS.len()));
     let steps: Vec<_> = (0..STEPS.len()).map(of_step).collect();
     let mut cells: Vec<&dyn Display> = vec![&name];
     cells.extend(steps.iter().map(|step| step as &dyn Display));

@@ -25,6 +25,7 @@ use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::line_has_tie;
 
+use crate::spine;
 use progress::Progress;
 
 #[derive(Debug, Deserialize)]
@@ -39,6 +40,13 @@ pub struct Step {
     pub hints: [String; 3],
     #[serde(rename = "exercise")]
     pub exercises: Vec<Exercise>,
+}
+
+impl Step {
+    /// The page of its chapter, as the spine names it.
+    fn chapter(&self) -> &str {
+        self.page.trim_start_matches("docs/").trim_end_matches(".md")
+    }
 }
 
 impl PartialEq for Step {
@@ -118,15 +126,25 @@ fn outside(case: Case) -> Option<Case> {
     adapt_case::leaves_window(&case).then_some(case)
 }
 
-/// The step of a name, or of a number from 1.
+/// The step of a name or a number.
 pub fn find(word: &str) -> Option<&'static Step> {
-    let number = word.parse::<usize>().ok();
-    let is_it = |(at, step): &(usize, &Step)| step.name == word || number == Some(at + 1);
-    STEPS.iter().enumerate().find(is_it).map(|(_, step)| step)
+    STEPS.iter().find(|step| step.name == word || number(step) == word)
 }
 
-pub fn number(step: &Step) -> usize {
-    STEPS.iter().position(|other| other.name == step.name).map_or(0, |at| at + 1)
+/// The number of its chapter, with its place among the steps of that chapter where there are several: `5`, `2a.1`.
+pub fn number(step: &Step) -> String {
+    let chapter = spine::number(step.chapter()).unwrap_or_default();
+    let of_chapter: Vec<_> = STEPS.iter().filter(|other| other.page == step.page).collect();
+    match of_chapter.iter().position(|other| *other == step) {
+        Some(at) if of_chapter.len() > 1 => format!("{chapter}.{}", at + 1),
+        _ => chapter.to_owned(),
+    }
+}
+
+/// All steps, each as its number and name, for a message.
+pub fn known() -> String {
+    let named = STEPS.iter().map(|step| format!("{} {}", number(step), step.name));
+    named.collect::<Vec<_>>().join(", ")
 }
 
 /// The steps as a table; those passed are marked where the progress is known.
@@ -145,7 +163,7 @@ pub fn listed(progress: Option<&Progress>) -> Report {
         let (number, families) = (number(step), families.join(", "));
         Row::of(&[&mark, &number, &step.name, &page, &step.judged, &families])
     };
-    let columns = "~state 1 | >~number 2 | ~step 14 | ~page 1 | what is judged | :families";
+    let columns = "~state 1 | >~number 4 | ~step 14 | ~page 1 | what is judged | :families";
     let (next, marks) = match progress {
         Some(_) => ("check", " (+ passed, > current)"),
         None => ("start --language python mine", ""),
@@ -196,8 +214,25 @@ mod tests {
 
     #[test]
     fn steps_are_found() {
-        assert_eq!(find("1").map(|s| &*s.name), Some("pixel"));
-        assert_eq!(find("samples").map(number), Some(12));
-        assert!(find("0").is_none() && find("13").is_none() && find("").is_none());
+        let of = |word| find(word).map(|step| &*step.name);
+        assert_eq!(
+            (of("1"), of("2a.2"), of("2c")),
+            (Some("pixel"), Some("bresenham"), Some("scanline"))
+        );
+        assert_eq!((of("5"), of("samples")), (Some("perspective"), Some("samples")));
+        // A chapter of several steps, chapters of none, and what is no number.
+        assert!(["2", "2a", "2b.4", "4", "9", "0", ""].iter().all(|word| find(word).is_none()));
+    }
+
+    /// The steps come in the order of the chapters, and no two have one number.
+    #[test]
+    fn steps_follow_the_chapters() {
+        let place = |step: &Step| {
+            spine::CHAPTERS.iter().position(|(page, _)| *page == step.chapter()).unwrap()
+        };
+        assert!(STEPS.is_sorted_by_key(place));
+        let numbers: Vec<_> = STEPS.iter().map(number).collect();
+        let right = ["1", "2a.1", "2a.2", "2b.1", "2b.2", "2b.3", "2c", "3", "5", "6", "7", "12"];
+        assert_eq!(numbers, right);
     }
 }

@@ -341,7 +341,7 @@ pub fn step(program: &mut dyn Subject, step: &Step) -> Vec<ProgramPicture> {
         ],
         "depth" => &[
             ("triangles that go through one another", |s| s.pair()),
-            ("z as brightness, on the floor of step 9", |s| {
+            ("z as brightness, on the floor of step 5", |s| {
                 s.values(WIDTH, HEIGHT, floor(true), |f| DVec3::splat(f.depth))
             }),
         ],

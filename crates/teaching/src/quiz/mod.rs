@@ -48,6 +48,8 @@ use rasterproof_core::random::Rng;
 use rasterproof_verify::judge::ascii;
 use serde::Deserialize;
 
+use crate::spine;
+
 pub type Text = [String; 2];
 
 /// Computes the answer of an exercise from its choices.
@@ -143,7 +145,7 @@ impl Exercise {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chapter {
-    /// The page's file under `docs/`, without its ending; `ch02` is also called `2`.
+    /// The page's file under `docs/`, without its ending; `ch02` is also called `2a`.
     pub page: String,
     pub title: Text,
     #[serde(rename = "exercise")]
@@ -195,15 +197,9 @@ fn chapters() -> Vec<Chapter> {
 }
 
 impl Chapter {
-    /// The digits of its number, where it is the first page of a chapter: `02` of `ch02`.
-    fn digits(&self) -> Option<&str> {
-        let digits = self.page.strip_prefix("ch")?;
-        digits.bytes().all(|b| b.is_ascii_digit()).then_some(digits)
-    }
-
-    /// What one calls it on the command line: `2` for `ch02`.
+    /// What one calls it on the command line: the number of its chapter, `2a` for `ch02`, or the name of its page.
     pub fn word(&self) -> &str {
-        self.digits().map_or(&self.page, |digits| digits.trim_start_matches('0'))
+        spine::number(&self.page).unwrap_or(&self.page)
     }
 
     /// The name of the module that has its functions.
@@ -211,20 +207,20 @@ impl Chapter {
         self.page.replace('-', "_")
     }
 
-    /// What it is called in a sentence: `chapter 2`, or the name of its page.
+    /// What it is called in a sentence: `chapter 2a`, or the name of its page.
     pub fn name(&self, language: Language) -> String {
-        match (self.digits().is_some(), language) {
-            (true, Language::English) => format!("chapter {}", self.word()),
-            (true, Language::Chinese) => format!("第 {} 章", self.word()),
-            (false, _) => self.page.clone(),
+        match (spine::number(&self.page), language) {
+            (Some(number), Language::English) => format!("chapter {number}"),
+            (Some(number), Language::Chinese) => format!("第 {number} 章"),
+            (None, _) => self.page.clone(),
         }
     }
 }
 
-/// The chapter of that name: `2`, `02`, `ch02`, or the name of a page.
+/// The chapter of that name: `5`, `ch05`, or the name of a page. `2` is the first part of chapter 2.
 pub fn chapter(word: &str) -> Option<&'static Chapter> {
-    let bare = word.strip_prefix("ch").unwrap_or(word).trim_start_matches('0');
-    CHAPTERS.iter().find(|chapter| chapter.page == word || chapter.word() == bare)
+    let word = if word == "2" { "2a" } else { word };
+    CHAPTERS.iter().find(|chapter| chapter.page == word || chapter.word() == word)
 }
 
 /// The numbers 0..count in an order that the seed decides.
@@ -243,14 +239,15 @@ mod tests {
 
     #[test]
     fn chapters_by_any_of_their_names() {
-        for word in ["2", "02", "ch02"] {
+        for word in ["2", "2a", "ch02"] {
             assert_eq!(chapter(word).unwrap().page, "ch02");
         }
         let scanline = chapter("ch02-scanline").unwrap();
         assert_eq!(
             (scanline.word(), scanline.name(Language::English)),
-            ("ch02-scanline", "ch02-scanline".to_owned())
+            ("2c", "chapter 2c".to_owned())
         );
+        assert_eq!(chapter("2c").unwrap().page, "ch02-scanline");
         assert!(["", "0", "12", "ch", "two"].iter().all(|word| chapter(word).is_none()));
     }
 

@@ -20,7 +20,7 @@ impl Canvas {
 }
 
 /// Two triangles that pass through each other. Depth is linear in the window, so it needs no 1/w.
-pub fn stage7() -> RgbImage {
+pub fn stage6() -> RgbImage {
     let mut canvas = Canvas::new();
     let triangles = [
         ([[10, 20], [150, 60], [10, 100]], [0.2, 0.8, 0.2], [0.9, 0.5, 0.2]),

@@ -32,7 +32,7 @@ fn cube_corner(number: usize) -> [f64; 3] {
 }
 
 /// The twelve edges of a cube, straight ahead.
-pub fn stage5() -> RgbImage {
+pub fn stage4() -> RgbImage {
     let mut picture = empty();
     let pixel = |number| {
         let [x, y, z] = cube_corner(number);

@@ -16,7 +16,7 @@ fn checker([u, v]: [f64; 2]) -> [f64; 3] {
 }
 
 /// A floor of two triangles.
-pub fn stage6() -> RgbImage {
+pub fn stage5() -> RgbImage {
     let mut picture = empty();
     let floor = [[-3.0, -1.0, 2.5], [3.0, -1.0, 2.5], [3.0, -1.0, 12.0], [-3.0, -1.0, 12.0]];
     let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

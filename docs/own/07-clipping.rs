@@ -34,7 +34,7 @@ fn clip_near(polygon: &[Vertex]) -> Vec<Vertex> {
 }
 
 /// The outline of a floor that begins behind the eye, as far as it can be seen.
-pub fn stage8() -> RgbImage {
+pub fn stage7() -> RgbImage {
     let mut picture = empty();
     let floor = [[-0.6, -0.4, -4.0], [-0.6, -0.4, 12.0], [0.6, -0.4, 12.0], [0.6, -0.4, -4.0]];
     let polygon = clip_near(&floor.map(|[x, y, z]| Vertex {

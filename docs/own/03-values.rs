@@ -14,7 +14,7 @@ fn colour(channels: [f64; 3]) -> Rgb<u8> {
 }
 
 /// A triangle with a red, a green and a blue corner.
-pub fn stage4() -> RgbImage {
+pub fn stage3() -> RgbImage {
     let mut picture = empty();
     let corners = [[80, 8], [150, 110], [10, 110]].map(|corner| corner.map(|px| px * STEPS));
     let colours = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -24,7 +24,7 @@ pub fn line(from: [i64; 2], to: [i64; 2], mut plot: impl FnMut(i64, i64)) {
 }
 
 /// A star of sixteen lines.
-pub fn stage2() -> RgbImage {
+pub fn stage2a() -> RgbImage {
     let mut picture = empty();
     for (dx, dy) in [(50, 0), (46, 19), (35, 35), (19, 46)] {
         for [x, y] in [[dx, dy], [-dy, dx], [-dx, -dy], [dy, -dx]] {

@@ -44,21 +44,29 @@ pub fn cover(
     }
 }
 
-/// A fan of twelve triangles around a point. A pixel that two of them cover would be white.
-pub fn stage3() -> RgbImage {
-    let mut picture = empty();
+/// Triangle i of a fan of twelve around a point, and its colour.
+fn blade(i: usize) -> ([[i64; 2]; 3], Rgb<u8>) {
     let rim = |i: usize| {
         let angle = i as f64 * std::f64::consts::TAU / 12.0;
         let place = |centre: f64, part: f64| ((centre + 50.0 * part) * STEPS as f64).round() as i64;
         [place(80.5, angle.cos()), place(60.5, angle.sin())]
     };
     let centre = [80 * STEPS + STEPS / 2, 60 * STEPS + STEPS / 2];
-    for i in 0..12 {
-        let colour = Rgb([60 + 15 * i as u8, 220 - 15 * i as u8, 90 + 60 * (i as u8 % 2)]);
-        cover([centre, rim(i), rim(i + 1)], [0, 0, WIDTH, HEIGHT], |x, y, _| {
-            let is_second = *picture.get_pixel(x as u32, y as u32) != BACKGROUND;
-            set(&mut picture, x, y, if is_second { Rgb([255; 3]) } else { colour });
-        });
+    let colour = Rgb([60 + 15 * i as u8, 220 - 15 * i as u8, 90 + 60 * (i as u8 % 2)]);
+    ([centre, rim(i), rim(i + 1)], colour)
+}
+
+/// Sets a pixel, white if it was set before.
+fn set_once(picture: &mut RgbImage, x: i64, y: i64, colour: Rgb<u8>) {
+    let is_second = *picture.get_pixel(x as u32, y as u32) != BACKGROUND;
+    set(picture, x, y, if is_second { Rgb([255; 3]) } else { colour });
+}
+
+/// A fan of twelve triangles. A pixel that two of them cover would be white.
+pub fn stage2b() -> RgbImage {
+    let mut picture = empty();
+    for (corners, colour) in (0..12).map(blade) {
+        cover(corners, [0, 0, WIDTH, HEIGHT], |x, y, _| set_once(&mut picture, x, y, colour));
     }
     picture
 }

@@ -1,0 +1,150 @@
+//! One spine: the lesson, the stage, the steps and the quiz of a chapter have one number, and each lesson ends with a line that
+//! leads to the others.
+
+use rasterproof_teaching::course::{self, STEPS, Step};
+use rasterproof_teaching::quiz::{self, page::HEADINGS};
+use rasterproof_teaching::spine::{self, CHAPTERS};
+
+use crate::pages::{Renewal, page, read, root};
+
+/// The words of the last line of a lesson.
+struct Words {
+    folder: &'static str,
+    go_on: &'static str,
+    /// Before the number of a stage and after it, in a heading of the page of stages.
+    stage: [&'static str; 2],
+    step: [&'static str; 2],
+    no_stage: &'static str,
+    no_step: &'static str,
+    no_quiz: &'static str,
+    quiz: &'static str,
+    evidence: [&'static str; 2],
+}
+
+const ENGLISH: Words = Words {
+    folder: "docs",
+    go_on: "**Go on:** ",
+    stage: ["Stage ", ": "],
+    step: ["Step ", ": "],
+    no_stage: "no stage",
+    no_step: "no step",
+    no_quiz: "no quiz",
+    quiz: "quiz",
+    evidence: ["evidence", "no evidence of its own"],
+};
+
+const CHINESE: Words = Words {
+    folder: "docs/zh",
+    go_on: "**接着：** ",
+    stage: ["阶段 ", "："],
+    step: ["第 ", " 步："],
+    no_stage: "没有阶段",
+    no_step: "没有步",
+    no_quiz: "没有测验",
+    quiz: "测验",
+    evidence: ["依据", "没有单独的依据"],
+};
+
+/// Where a browser finds a heading: small letters, hyphens for spaces, no punctuation.
+fn anchor(heading: &str) -> String {
+    let small = heading.to_lowercase();
+    let kept = small.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
+/// A link to the heading of a page that begins with this number, shown as the number.
+fn link(words: &Words, to: &str, [before, after]: [&str; 2], number: &str) -> Option<String> {
+    let text = page(words.folder, to);
+    let begin = format!("## {before}{number}{after}");
+    let heading = text.lines().find(|line| line.starts_with(&begin))?.trim_start_matches("## ");
+    Some(format!("[{}]({to}.md#{})", number, anchor(heading)))
+}
+
+/// The last line of a lesson: its stage, how its steps are checked, its quiz and its evidence.
+fn last_line(words: &Words, chapter: &str) -> String {
+    let number = spine::number(chapter).expect("it is a chapter");
+    let stage = link(words, "own", words.stage, number).map_or(words.no_stage.to_owned(), |link| {
+        format!("{}{link}", words.stage[0].to_lowercase())
+    });
+    let is_own = |step: &&Step| step.page == format!("docs/{chapter}.md");
+    let steps: Vec<_> = STEPS.iter().filter(is_own).map(course::number).collect();
+    let links = steps.iter().map(|step| link(words, "steps", words.step, step).expect("a heading"));
+    let links = links.collect::<Vec<_>>().join(", ");
+    let check =
+        if steps.is_empty() { words.no_step.to_owned() } else { format!("`course check` {links}") };
+    let exercises = HEADINGS[usize::from(words.folder == CHINESE.folder)].trim_start_matches("## ");
+    let quiz = match quiz::chapter(number) {
+        Some(_) => format!("[{} {number}](#{})", words.quiz, anchor(exercises)),
+        None => words.no_quiz.to_owned(),
+    };
+    let [evidence, none] = words.evidence;
+    let path = format!("{chapter}-evidence.md");
+    let evidence = if root().join("docs").join(&path).exists() {
+        format!("[{evidence}]({path})")
+    } else {
+        none.to_owned()
+    };
+    format!("{}{stage} · {check} · {quiz} · {evidence}", words.go_on)
+}
+
+/// A page without the line that leads on, if it has one.
+fn without_last_line(page: &str) -> &str {
+    let marks = [ENGLISH.go_on, CHINESE.go_on];
+    marks
+        .iter()
+        .find_map(|mark| page.split_once(mark))
+        .map_or(page, |(before, _)| before)
+        .trim_end()
+}
+
+/// The line that ends a page, where it is that of a chapter; nothing else ends with one.
+pub fn ending(folder: &str, chapter: &str) -> String {
+    let words = if folder == CHINESE.folder { &CHINESE } else { &ENGLISH };
+    match spine::number(chapter) {
+        Some(_) => format!("\n{}\n", last_line(words, chapter)),
+        None => String::new(),
+    }
+}
+
+/// `RASTERPROOF_RENEW=1 cargo test --test it spine` writes the lines.
+#[test]
+fn spine_leads_on_from_lessons_without_a_quiz() {
+    let mut renewal = Renewal::default();
+    for folder in [ENGLISH.folder, CHINESE.folder] {
+        // The test of a quiz writes the line behind it, so that no two tests write one page.
+        for (chapter, _) in
+            CHAPTERS.into_iter().filter(|(_, number)| quiz::chapter(number).is_none())
+        {
+            let path = format!("{folder}/{chapter}.md");
+            let page = read(&path);
+            let lesson = without_last_line(&page);
+            renewal.is(&path, &format!("{lesson}\n{}", ending(folder, chapter)));
+        }
+    }
+    renewal.check("spine");
+}
+
+/// What has a number has that of a chapter: stages and steps.
+#[test]
+fn spine_numbers_everything() {
+    for words in [&ENGLISH, &CHINESE] {
+        for (page_of, [before, after]) in [("own", words.stage), ("steps", words.step)] {
+            let text = page(words.folder, page_of);
+            let headings =
+                text.lines().filter_map(|line| line.strip_prefix("## ")?.strip_prefix(before));
+            let numbers: Vec<_> = headings.map(|rest| rest.split(after).next().unwrap()).collect();
+            let place = |number: &&str| {
+                let chapter = number.split('.').next();
+                CHAPTERS.iter().position(|(_, of)| Some(*of) == chapter)
+            };
+            assert!(numbers.len() >= 12, "{page_of}: {numbers:?}");
+            assert!(numbers.iter().all(|number| place(number).is_some()), "{page_of}: {numbers:?}");
+            assert!(numbers.is_sorted_by_key(place), "{page_of}: {numbers:?}");
+        }
+        for (chapter, number) in CHAPTERS {
+            let text = page(words.folder, chapter);
+            let title = text.lines().next().unwrap();
+            assert!(title.contains(&format!(" {number}")), "{title}");
+        }
+    }
+}
