@@ -1,5 +1,6 @@
 //! `rasterproof render`: a scene or a model to a picture, by either rasterizer or by both.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -12,7 +13,7 @@ use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, Shown, as_file, print, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, SceneArguments};
+use super::view::{Maker, SceneArguments, VIEW_OPTIONS};
 use super::{InputError, Status, Streams, ends_in, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::Drawer;
@@ -29,8 +30,8 @@ use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::{json, picture};
 use rasterproof_study::bounds::Purpose;
 use rasterproof_study::report::drawing::{
-    self, Data, Drawing, ROUNDING, ROUNDING_IN_TILES, add_to_page, by_rounding, compare,
-    is_plan_alone, leaves_open, names, notes, outcome, rounding, times_text,
+    self, Data, Drawing, ROUNDING, ROUNDING_IN_TILES, add_to_page, compare, is_plan_alone,
+    leaves_open, names, notes, outcome, rounding, snapped, times_text, undecided_and_broken,
 };
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
@@ -122,8 +123,8 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let mut drawings = draw(arguments, scene, &progress)?;
     let picture = picture::png(&picture::of_frame(&drawings[0].rendered.picture));
     let comparison = compare(scene, &drawings, arguments.plan.is_some())?;
-    let by_rounding =
-        (!arguments.wireframe).then(|| by_rounding(scene, &drawings[0].target)).transpose()?;
+    let looked = || undecided_and_broken(scene, &drawings[0].target);
+    let looked = (!arguments.wireframe).then(looked).transpose()?;
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
     // What a plan changes in both frames alike is no difference between them.
@@ -143,9 +144,19 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
         let Rendered { counters, plan, .. } = &drawings[0].rendered;
         let (scene, engines, times) = (&scene.name, names(&drawings), &times);
-        let (comparison, by_rounding) = (&comparison, &by_rounding);
-        data =
-            json::value(&Data { scene, engines, times, counters, plan, comparison, by_rounding });
+        let (comparison, looked) = (&comparison, looked.as_ref());
+        let (by_rounding, by_snapping) =
+            (looked.map(|(found, _)| found), looked.map(|(_, found)| found));
+        data = json::value(&Data {
+            scene,
+            engines,
+            times,
+            counters,
+            plan,
+            comparison,
+            by_rounding,
+            by_snapping,
+        });
     }
     let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
     if picture::is_plain(drawings[0].rendered.picture.rows().flat_map(|(_, row)| row)) {
@@ -153,7 +164,12 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         let why = Some(&maker.model.why_empty).filter(|why| !why.is_empty());
         notes.extend(why.map(|why| format!("the cause is that {why}")));
     }
-    notes.extend(by_rounding.and_then(|found| rounding(found, ROUNDING)));
+    if let Some((by_rounding, by_snapping)) = looked {
+        notes.extend(rounding(by_rounding, ROUNDING));
+        let word = what.source().map_or_else(OsString::from, OsString::from);
+        let study = typed.as_command("study", word, &VIEW_OPTIONS).line();
+        notes.extend(snapped(by_snapping, &study));
+    }
     let difference_in = difference_in.map(printable_path);
     let outcome = outcome(&drawings, comparison.as_ref(), difference_in);
     let about = format!("{}: {}", scene.name, scene.about);

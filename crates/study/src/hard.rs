@@ -25,7 +25,7 @@ use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 
 use crate::effects::differing;
 use crate::face_of;
-use crate::shape::{Edge, SLIVER, Shape};
+use crate::shape::{Edge, Gap, SLIVER, Shape};
 use crate::snapping;
 use crate::ties::{Class, Classes, Surfaces, TiedPair, blends};
 use crate::view::{NOTHING, Piece, Sampled, pieces};
@@ -54,6 +54,7 @@ rasterproof_core::named! {
         Crack = "cracks by snapping",
         Fold = "folds by snapping",
         Turned = "triangles turned by snapping",
+        Near = "corners that nearly meet",
     }
 }
 
@@ -71,7 +72,9 @@ impl Kind {
             Self::Overlap => {
                 "faces in one plane: rounding decides who is seen, hatching and flicker"
             }
-            Self::TJunction => "a corner within the edge of another face: pixels of background",
+            Self::TJunction => {
+                "a corner within the edge of another face: these pixels show the background"
+            }
             Self::Gap => "seams of other corners on either side: one sees through in these pixels",
             Self::Border => "edges of one face: a hole, or the inside seen from behind",
             Self::Crowded => "no inside and outside there: culling and shadow volumes fail",
@@ -85,9 +88,12 @@ impl Kind {
                 "lost between snapped corners: split a long edge where a corner lies on it"
             }
             Self::Fold => {
-                "hit more often once snapped: split edges at corners, merge thin triangles"
+                "hit too often once snapped, wrong where it blends: split edges, merge thin triangles"
             }
             Self::Turned => "thinner than 1/256 px, turned over or flattened: culled, or reversed",
+            Self::Near => {
+                "no one corner for those who compare bits: weld them, or borders are open"
+            }
         }
     }
 
@@ -418,12 +424,16 @@ impl Search<'_> {
     fn lines(&mut self, shape: &Shape) {
         let most = shape.crowded.first().map_or(0, |edge| edge.triangles.len());
         let crowded = format!("the most crowded one has {most}");
+        let near = format!("at most {:.1e} apart", shape.near_apart);
         let place = Place::new(self.scene, self.sampled.size);
         for (kind, edges, note) in [
             (Kind::TJunction, &shape.t_junctions, String::new()),
             (Kind::Border, &shape.borders, String::new()),
             (Kind::Crowded, &shape.crowded, crowded),
+            (Kind::Near, &shape.near, near),
         ] {
+            // Of places with two corners or more, the pixels of what lies between edges there are counted.
+            let is_a_place = [Kind::TJunction, Kind::Near].contains(&kind);
             let mut noted = Noted::new(kind);
             for edge in edges {
                 let mut in_view = false;
@@ -434,7 +444,8 @@ impl Search<'_> {
                             .filter_map(|[dx, dy]| self.seen_at.get(f.x_px + dx, f.y_px + dy));
                         if seen.any(|triangle| edge.triangles.contains(&triangle)) {
                             in_view = true;
-                            self.touched.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] |= kind.bit();
+                            let bit = if is_a_place { 0 } else { kind.bit() };
+                            self.touched.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] |= bit;
                         }
                     });
                 }
@@ -444,9 +455,30 @@ impl Search<'_> {
         }
     }
 
-    /// Notes gaps, which are seen in the pixels that closing them would cover: each is closed by triangles around its first
-    /// corner, and a sample lies within where an odd number of them covers it.
+    /// Notes gaps, and marks the pixels of what lies between edges at other hard cases.
     fn gaps(&mut self, shape: &Shape, target: &Target) -> Result<(), BadScene> {
+        self.see_through((Kind::TJunction, &shape.at_t_junctions), target)?;
+        self.see_through((Kind::Near, &shape.at_near), target)?;
+        let in_view = self.see_through((Kind::Gap, &shape.gaps), target)?;
+        let mut noted = Noted::new(Kind::Gap);
+        for (gap, in_view) in shape.gaps.iter().zip(in_view) {
+            noted.add(&mut self.marks, &gap.triangles, in_view);
+        }
+        self.note(noted, String::new());
+        Ok(())
+    }
+
+    /// Marks the pixels that closing gaps would cover, and says which gaps have some: each is closed by triangles around its first
+    /// corner, and a sample lies within where an odd number of them covers it.
+    fn see_through(
+        &mut self,
+        (kind, gaps): (Kind, &[Gap]),
+        target: &Target,
+    ) -> Result<Vec<bool>, BadScene> {
+        let mut in_view = vec![false; gaps.len()];
+        if gaps.is_empty() {
+            return Ok(in_view);
+        }
         let corner = |position| Corner {
             position,
             colour: DVec3::ONE,
@@ -455,7 +487,7 @@ impl Search<'_> {
         };
         let mut positions = Vec::new();
         let (mut triangles, mut of) = (Vec::new(), Vec::new());
-        for (number, gap) in shape.gaps.iter().enumerate() {
+        for (number, gap) in gaps.iter().enumerate() {
             let first = positions.len() as u32;
             positions.extend_from_slice(&gap.polygon);
             for last in first + 2..positions.len() as u32 {
@@ -468,7 +500,6 @@ impl Search<'_> {
         let model = Place::new(self.scene, self.sampled.size).model;
         closing.items = vec![Item { model, ..Item::new(mesh, Material::default()) }];
         let closing = Sampled::of(&closing, target)?;
-        let mut in_view = vec![false; shape.gaps.len()];
         for (surfaces, pieces) in self.surfaces.iter().zip(&closing.planes) {
             let of_piece = |piece: &Piece| of[piece.face as usize];
             for gap in pieces.chunk_by(|a, b| of_piece(a) == of_piece(b)) {
@@ -488,17 +519,12 @@ impl Search<'_> {
                     if same.len() % 2 == 1 && same.iter().all(|(_, is_open)| *is_open) {
                         in_view[of_piece(&gap[0])] = true;
                         let [x, y] = self.sampled.pixel(same[0].0);
-                        self.touched.span_mut(y, x, x + 1)[0] |= Kind::Gap.bit();
+                        self.touched.span_mut(y, x, x + 1)[0] |= kind.bit();
                     }
                 }
             }
         }
-        let mut noted = Noted::new(Kind::Gap);
-        for (gap, in_view) in shape.gaps.iter().zip(in_view) {
-            noted.add(&mut self.marks, &gap.triangles, in_view);
-        }
-        self.note(noted, String::new());
-        Ok(())
+        Ok(in_view)
     }
 
     /// Pixels with a sample on an edge of a piece after snapping; seen where the piece is not hidden.
@@ -524,21 +550,17 @@ impl Search<'_> {
     fn broken(&mut self) {
         let mut all = [(Kind::Crack, true), (Kind::Fold, false)]
             .map(|(kind, is_crack)| (Noted::new(kind), is_crack, None));
-        let planes = self.sampled.planes.iter().zip(&self.sampled.lost);
-        for (surfaces, (pieces, lost)) in self.surfaces.iter().zip(planes) {
-            for broken in snapping::broken(self.scene, (pieces, lost), self.sampled.window) {
+        for (surfaces, lost) in self.surfaces.iter().zip(&self.sampled.lost) {
+            for broken in snapping::broken(self.scene, surfaces, lost) {
                 let pixel @ [x, y] = self.sampled.pixel(broken.sample);
-                let is_seen = broken.pieces.iter().any(|piece| {
-                    surfaces.before(piece, broken.sample).is_none_or(|[by, off]| by <= off)
-                });
                 let faces: Vec<u32> = broken.pieces.iter().map(|piece| piece.face).collect();
                 let Some((noted, _, first)) =
                     all.iter_mut().find(|(_, is_crack, _)| *is_crack == broken.is_crack)
                 else {
                     continue;
                 };
-                noted.add(&mut self.marks, &faces, is_seen);
-                if is_seen {
+                noted.add(&mut self.marks, &faces, broken.is_seen);
+                if broken.is_seen {
                     self.touched.span_mut(y, x, x + 1)[0] |= noted.kind.bit();
                     first.get_or_insert((pixel, faces));
                 }
@@ -643,11 +665,18 @@ impl Search<'_> {
         let format = std::mem::replace(&mut target.format, DepthFormat::F64);
         let exact = differs(&scene, &other, target);
         target.format = format;
-        let equal = exact?.iter().filter(|pixel| left.binary_search(pixel).is_ok()).count();
-        let in_format = left.len() - equal;
+        let equal = exact?.into_iter().filter(|pixel| left.binary_search(pixel).is_ok());
+        // What snapping folds is no fault of the model.
+        let is_fold = |&(x, y): &(i32, i32)| {
+            self.touched.get(x, y).is_some_and(|bits| bits & Kind::Fold.bit() != 0)
+        };
+        let (folds, equal): (Vec<_>, Vec<_>) = equal.partition(is_fold);
+        let (folds, equal) = (folds.len(), equal.len());
+        let in_format = left.len() - equal - folds;
         let name = format.name();
         let causes = [
             (blending, "by blending: --layers mixes by depth".to_owned()),
+            (folds, "where snapping folds a surface: see folds by snapping".to_owned()),
             (equal, "by equal depths: faces in one place, to be mended in the model".to_owned()),
             (
                 in_format,

@@ -10,7 +10,7 @@ pub mod memory;
 pub mod report;
 pub mod savings;
 mod shape;
-mod snapping;
+pub mod snapping;
 pub mod ties;
 pub mod view;
 mod winding;

@@ -13,12 +13,10 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::geometry::sorted;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::opacity::AlphaMode;
-use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::{Item, Scene};
 
-use crate::view::{NOTHING, Piece, each_plane};
+use crate::view::{NOTHING, Piece};
 
 /// How it is decided which surface is seen at a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -110,8 +108,8 @@ impl DepthPlane {
 
 /// The pieces of a plane of samples, and the nearest one of those that hide what is behind them.
 pub(crate) struct Surfaces<'a> {
-    pieces: &'a [Piece],
-    window: PixelRect,
+    pub pieces: &'a [Piece],
+    pub window: PixelRect,
     planes: Vec<Option<DepthPlane>>,
     /// Whether a piece blends, so that it hides nothing.
     blends: Vec<bool>,
@@ -203,26 +201,19 @@ impl<'a> Surfaces<'a> {
     }
 }
 
-/// How it is decided at the samples of each pixel of a picture which surface is seen. One plane of samples after the other
-/// is held.
-pub fn classify(scene: &Scene, target: &Target) -> Result<Classes, BadScene> {
-    let scale = target.antialias().scale() as i32;
-    let mut classes = Classes::new(target.size());
-    each_plane(scene, target, &mut |pieces| {
-        let surfaces = Surfaces::of(scene, pieces, target.bounds());
-        surfaces.seen(&mut |sample, [piece, front], class| {
-            let pixel = sample.map_array(|at| at.div_euclid(scale));
-            let triangles = [front, piece].map_array(|one| pieces[one as usize].face);
-            classes.add(TiedPair { pixel, triangles }, class);
-        });
-    })?;
-    Ok(classes.counted())
-}
-
 impl Classes {
     pub(crate) fn new(size: PixelRect) -> Self {
         let map = Frame::new(size, Class::Empty);
         Self { map, decided: 0, by_order: 0, by_rounding: 0, equal: 0, first: None }
+    }
+
+    /// Adds what is seen at the samples of a plane, `scale` of which are a pixel in x and in y.
+    pub(crate) fn look(&mut self, surfaces: &Surfaces<'_>, scale: i32) {
+        surfaces.seen(&mut |sample, [piece, front], class| {
+            let pixel = sample.map_array(|at| at.div_euclid(scale));
+            let triangles = [front, piece].map_array(|one| surfaces.pieces[one as usize].face);
+            self.add(TiedPair { pixel, triangles }, class);
+        });
     }
 
     /// Adds what is seen at a sample.
@@ -252,9 +243,8 @@ impl Classes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::pieces;
     use glam::{DMat4, DVec2, DVec3};
-    use rasterproof_render::pipeline::depth::DepthFormat;
-    use rasterproof_render::pipeline::target::Antialias;
     use rasterproof_render::pipeline::transform::perspective;
     use rasterproof_render::scene::{Corner, Material, Mesh};
 
@@ -282,8 +272,11 @@ mod tests {
         let mut scene = Scene::new("two", "", perspective(0.7, 1.0, 1.0, 10.0).unwrap());
         scene.view = DMat4::IDENTITY;
         scene.items = vec![square(false, 0.0), second];
-        let target = Target::new(200, 200, Antialias::None, DepthFormat::Unorm32).unwrap();
-        classify(&scene, &target).unwrap()
+        let size = PixelRect::window(200, 200);
+        let pieces = pieces(&scene, size).unwrap();
+        let mut classes = Classes::new(size);
+        classes.look(&Surfaces::of(&scene, &pieces, size), 1);
+        classes.counted()
     }
 
     /// In one plane depths are equal, whatever the diagonals, and rounding decides unless it is the same triangles twice;

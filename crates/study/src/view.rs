@@ -224,25 +224,29 @@ impl Sampled {
     }
 }
 
-/// Calls `see` with the pieces at each plane of samples of a picture, as [`Sampled`] has them, one plane after the other.
+/// Calls `see` with the pieces at each plane of samples of a picture and those that are lost, as [`Sampled`] has them, one plane after
+/// the other.
 pub(crate) fn each_plane(
     scene: &Scene,
     target: &Target,
-    see: &mut dyn FnMut(&[Piece]),
+    see: &mut dyn FnMut(&[Piece], &[Piece]),
 ) -> Result<(), BadScene> {
     if target.antialias() != Antialias::Multisample4 {
-        see(&pieces(scene, target.bounds())?);
+        let (pieces, lost) = pieces_and_lost(scene, target.bounds())?;
+        see(&pieces, &lost);
         return Ok(());
     }
     for sample in SAMPLES {
         // Made anew for each plane, since two lists of millions of pieces do not fit beside each other.
-        let mut pieces = pieces(scene, target.size())?;
-        pieces.retain_mut(|piece| {
-            let moved = moved(piece, sample);
-            *piece = moved.unwrap_or(*piece);
-            moved.is_some()
-        });
-        see(&pieces);
+        let (mut pieces, mut lost) = pieces_and_lost(scene, target.size())?;
+        for list in [&mut pieces, &mut lost] {
+            list.retain_mut(|piece| {
+                let moved = moved(piece, sample);
+                *piece = moved.unwrap_or(*piece);
+                moved.is_some()
+            });
+        }
+        see(&pieces, &lost);
     }
     Ok(())
 }

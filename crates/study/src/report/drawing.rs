@@ -18,11 +18,11 @@ use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
 use rasterproof_report::table::{Row, Table};
-use rasterproof_report::words::thousands;
+use rasterproof_report::words::{self, thousands};
 use rasterproof_tiles::frames::HandedOver;
 
 use super::plan;
-use crate::ties::classify;
+use crate::snapping::{self, BySnapping};
 
 /// A frame of one rasterizer, with what was found of its plan.
 pub struct Drawing {
@@ -48,7 +48,8 @@ pub struct Data<'a> {
     pub counters: &'a Counters,
     pub plan: &'a Plan,
     pub comparison: &'a Option<Comparison>,
-    pub by_rounding: &'a Option<ByRounding>,
+    pub by_rounding: Option<&'a ByRounding>,
+    pub by_snapping: Option<&'a BySnapping>,
 }
 
 pub fn names(drawings: &[Drawing]) -> Vec<&'static str> {
@@ -94,17 +95,37 @@ pub fn compare(
     Ok(Some(comparison))
 }
 
-/// Pixels in which rounding alone decides which surface is seen, as `study` counts them.
-pub fn by_rounding(
+/// Pixels in which rounding alone decides which surface is seen, and those that snapping breaks, as `study` counts them.
+pub fn undecided_and_broken(
     scene: &Scene,
     target: &Target,
-) -> Result<ByRounding, Box<dyn Error + Send + Sync>> {
+) -> Result<(ByRounding, BySnapping), Box<dyn Error + Send + Sync>> {
     if scene.hidden == Hidden::Painter {
-        return Ok(ByRounding::default());
+        return Ok(Default::default());
     }
-    let classes = classify(scene, target)?;
+    let (classes, by_snapping) = snapping::look(scene, target)?;
     let first = classes.first.map(|pair| pair.pixel.into());
-    Ok(ByRounding { pixels: classes.by_rounding, first })
+    Ok((ByRounding { pixels: classes.by_rounding, first }, by_snapping))
+}
+
+/// What snapping breaks in words, a line each, and the command that names faces and cures.
+pub fn snapped(found: BySnapping, study: &str) -> Vec<String> {
+    let kinds = [
+        (found.cracks, found.first_crack, "in cracks, which show what is behind a surface"),
+        (found.folds, found.first_fold, "in folds, where a surface is drawn too often"),
+    ];
+    let line = |(count, first, what): (u64, Option<[i32; 2]>, &str)| {
+        let [x, y] = first?;
+        let pixels = words::count(count, "pixel", "pixels");
+        Some(format!(
+            "SNAPPING: {pixels} {what} once its corners are moved to 1/256 px; the first is at {x}, {y}"
+        ))
+    };
+    let mut lines: Vec<String> = kinds.into_iter().filter_map(line).collect();
+    if !lines.is_empty() {
+        lines.push(format!("the faces there, and what mends them: {study}"));
+    }
+    lines
 }
 
 /// What decides which surface is seen, and how far it reaches, in words: for every rasterizer, and for tiles.
