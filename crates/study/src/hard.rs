@@ -25,6 +25,7 @@ use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 
 use crate::effects::differing;
 use crate::face_of;
+use crate::grid::Value;
 use crate::shape::{Edge, Gap, SLIVER, Shape};
 use crate::snapping;
 use crate::ties::{Class, Classes, Surfaces, TiedPair, blends};
@@ -90,7 +91,9 @@ impl Kind {
             Self::Fold => {
                 "hit too often once snapped, wrong where it blends: split edges, merge thin triangles"
             }
-            Self::Turned => "thinner than 1/256 px, turned over or flattened: culled, or reversed",
+            Self::Turned => {
+                "thinner than a step of the grid, turned over or flattened: culled, or reversed"
+            }
             Self::Near => {
                 "no one corner for those who compare bits: weld them, or borders are open"
             }
@@ -122,6 +125,31 @@ pub struct HardCase {
     pub triangles: Vec<u32>,
 }
 
+/// What corners on a grid change at most in the values of a picture; nothing where no value changes.
+#[derive(Clone, Copy, Debug, Default, serde::Serialize)]
+pub struct Shift {
+    pub depth: Option<Shifted>,
+    /// In texels of the texture of the face.
+    pub texels: Option<Shifted>,
+}
+
+/// A value that corners on a grid change, by how much and where.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct Shifted {
+    pub by: f64,
+    pub pixel: [i32; 2],
+    /// The triangle that is seen there, from 0 in drawing order.
+    pub triangle: u32,
+}
+
+impl Shifted {
+    fn keep(largest: &mut Option<Self>, other: Self) {
+        if other.by > largest.map_or(0.0, |largest| largest.by) {
+            *largest = Some(other);
+        }
+    }
+}
+
 /// The hard cases of a scene, and what else was found on the way.
 #[derive(Clone, Debug)]
 pub struct HardCases {
@@ -134,6 +162,8 @@ pub struct HardCases {
     pub classes: Classes,
     /// For each triangle of the scene which kinds it is of, as bits.
     marks: Vec<u32>,
+    /// What corners on the grid move of the values that are seen.
+    pub shift: Shift,
     /// The smallest and the largest w in the window.
     pub w: Option<[f64; 2]>,
     /// Pixels that change when positions are rounded to f32.
@@ -204,15 +234,16 @@ pub fn find(
         search.samples_on_edges();
         search.broken();
         search.turned();
+        let shift = search.shift();
         search.wide_w();
         search.far_textures();
         let picture = draw(scene, target)?;
         search.drawing_order(&picture, target)?;
         let f32_pixels = search.single_precision(&picture, target)?;
-        Ok((classes, picture, f32_pixels))
+        Ok((classes, picture, f32_pixels, shift))
     };
     let (shape, drawn) = parallel::join(|| Shape::of(scene, origins), drawn);
-    let (classes, picture, f32_pixels) = drawn?;
+    let (classes, picture, f32_pixels, shift) = drawn?;
     search.triangles(&shape, origins);
     search.pairs(&shape, origins);
     search.lines(&shape);
@@ -227,7 +258,17 @@ pub fn find(
     let w = (!pieces.is_empty())
         .then(|| [all_w().fold(f64::MAX, f64::min), all_w().fold(0.0, f64::max)]);
     let is_cut_short = shape.is_cut_short;
-    Ok(HardCases { cases: found, touched, picture, classes, marks, w, f32_pixels, is_cut_short })
+    Ok(HardCases {
+        cases: found,
+        touched,
+        picture,
+        classes,
+        marks,
+        shift,
+        w,
+        f32_pixels,
+        is_cut_short,
+    })
 }
 
 fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
@@ -551,7 +592,7 @@ impl Search<'_> {
         let mut all = [(Kind::Crack, true), (Kind::Fold, false)]
             .map(|(kind, is_crack)| (Noted::new(kind), is_crack, None));
         for (surfaces, lost) in self.surfaces.iter().zip(&self.sampled.lost) {
-            for broken in snapping::broken(self.scene, surfaces, lost) {
+            for broken in snapping::broken(self.scene, surfaces, lost, self.sampled.grid) {
                 let pixel @ [x, y] = self.sampled.pixel(broken.sample);
                 let faces: Vec<u32> = broken.pieces.iter().map(|piece| piece.face).collect();
                 let Some((noted, _, first)) =
@@ -582,7 +623,7 @@ impl Search<'_> {
         let mut flat = 0;
         let (pieces, lost) = (self.sampled.at_centres(), self.sampled.lost_at_centres());
         for piece in pieces.iter().chain(lost) {
-            let change = piece.change();
+            let change = piece.change(self.sampled.grid);
             if change != Change::None {
                 flat += u64::from(change == Change::Flat);
                 noted.add(&mut self.marks, &[piece.face], self.is_seen[piece.face as usize]);
@@ -590,6 +631,42 @@ impl Search<'_> {
         }
         let note = format!("{} turned over, {flat} flattened", noted.count - flat);
         self.note(noted, note);
+    }
+
+    /// By how much values at samples differ from those of the same faces with corners as they are given.
+    fn shift(&self) -> Shift {
+        let mut shift = Shift::default();
+        for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
+            let window = self.sampled.window;
+            for (y, x) in
+                (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (y, x)))
+            {
+                let Some(piece) = surfaces.front([x, y]).map(|front| &pieces[front as usize])
+                else {
+                    continue;
+                };
+                let centre = [x, y].map_array(|at| f64::from(at) + 0.5);
+                let value = |corners| Value::at(centre, &piece.triangle, corners);
+                let (Some(given), Some(snapped)) =
+                    (value(piece.px), value(self.sampled.grid.place(piece.px)))
+                else {
+                    continue;
+                };
+                let seen =
+                    Shifted { pixel: self.sampled.pixel([x, y]), triangle: piece.face, by: 0.0 };
+                Shifted::keep(
+                    &mut shift.depth,
+                    Shifted { by: (snapped.depth - given.depth).abs(), ..seen },
+                );
+                let texture = &self.scene.items[piece.item as usize].material.texture;
+                if let Some((width, height)) = texture.as_ref().map(|texture| texture.size()) {
+                    let uv = (snapped.varying - given.varying).abs();
+                    let by = (uv.x * f64::from(width)).max(uv.y * f64::from(height));
+                    Shifted::keep(&mut shift.texels, Shifted { by, ..seen });
+                }
+            }
+        }
+        shift
     }
 
     fn wide_w(&mut self) {

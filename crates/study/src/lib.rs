@@ -5,6 +5,7 @@ pub mod bounds;
 pub mod cost;
 pub mod effects;
 pub mod facing;
+pub mod grid;
 pub mod hard;
 pub mod memory;
 pub mod report;

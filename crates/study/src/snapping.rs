@@ -3,7 +3,7 @@
 //!
 //! Two exact engines count how many pieces cover each sample: one with the corners as they are given, one with the snapped ones. Where the
 //! counts differ, an outline of the model may just have moved across the sample, which is no fault. A corner moves by at most half a step
-//! of the grid, 1/512 px in x and in y. The eight points of a square around the sample, [`RING`] px from it, therefore tell: an outline that can
+//! of the grid in x and in y. The eight points of a square around the sample, [`RING`] steps from it, therefore tell: an outline that can
 //! reach the sample runs between them, so that not all of them are covered equally often. Where they are, the sample lies inside a
 //! surface, and a crack or a fold is what snapping made there.
 //!
@@ -12,10 +12,9 @@
 //! consists of pieces that are turned over and their neighbours.
 
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
+use rasterproof_core::contract::RasterizeExact as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::triangle::Span;
 use rasterproof_render::effects::render::BadScene;
@@ -23,13 +22,14 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::Scene;
 
+use crate::grid::CornerGrid;
 use crate::ties::{Classes, Surfaces};
 use crate::view::{Piece, each_plane};
 use crate::winding::{Change, area};
 
-/// How far the points around a sample are from it in x and in y: more than 1/512 px, and no multiple of a step of the grid, so that edges
-/// on the grid seldom run through them.
-const RING: f64 = 1.0 / 300.0;
+/// How far the points around a sample are from it in x and in y, in steps of the grid: more than half of one, which is how far a corner
+/// moves, and no multiple of one, so that edges on the grid seldom run through them.
+const RING: f64 = 256.0 / 300.0;
 
 /// The points around a sample, from -1 to 1.
 const AROUND: [[f64; 2]; 8] = [
@@ -69,18 +69,21 @@ pub(crate) fn broken<'a>(
     scene: &Scene,
     surfaces: &Surfaces<'a>,
     lost: &'a [Piece],
+    grid: CornerGrid,
 ) -> Vec<BrokenSample<'a>> {
+    let Some(step) = grid.step_px() else { return Vec::new() };
+    let ring = RING * step;
     let Surfaces { pieces, window, .. } = *surfaces;
     let is_culled = |piece: &Piece| scene.items[piece.item as usize].cull != Cull::None;
     // What culling would remove if nothing was snapped is drawn, and not part of the surface as given.
-    let is_given = |piece: &Piece| !is_culled(piece) || piece.change() != Change::Over;
+    let is_given = |piece: &Piece| !is_culled(piece) || piece.change(grid) != Change::Over;
     // By how many pieces more a sample is covered once they are snapped.
     let mut more = Frame::new(window, 0i32);
     let mut count = |piece: &Piece, is_given: bool, is_snapped: bool| {
-        let samples = samples_near(piece).intersect(&window);
+        let samples = samples_near(piece, ring).intersect(&window);
         let Some(corners) = piece.free().filter(|_| !samples.is_empty()) else { return };
         // Of corners on the grid, which snapping leaves, both counts are the same.
-        if is_given && is_snapped && corners == piece.corners().into() {
+        if is_given && is_snapped && corners.px() == grid.place(piece.px) {
             return;
         }
         let mut add = |span: Span, by: i32| {
@@ -92,7 +95,7 @@ pub(crate) fn broken<'a>(
             ScanlineExact.cover_exact(&corners, samples, |span| add(span, -1));
         }
         if is_snapped {
-            Scanline.cover(piece.corners(), samples, |span| add(span, 1));
+            grid.cover(piece, samples, &mut |span| add(span, 1));
         }
     };
     for piece in pieces {
@@ -112,13 +115,13 @@ pub(crate) fn broken<'a>(
         }
     }
     for piece in pieces.iter().filter(|piece| is_given(piece)).chain(lost) {
-        near(&mut candidates, piece, |candidate| look_around(candidate, piece));
+        near(&mut candidates, piece, |candidate| look_around(candidate, piece, ring));
     }
     for piece in pieces {
         near(&mut candidates, piece, |candidate| {
             let [x, y] = candidate.sample;
             let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
-            Scanline.cover(piece.corners(), pixel, |_| candidate.snapped_here.push(piece));
+            grid.cover(piece, pixel, &mut |_| candidate.snapped_here.push(piece));
         });
     }
     let mut broken = Vec::new();
@@ -128,7 +131,7 @@ pub(crate) fn broken<'a>(
         let is_inside = given > 0 && around.iter().all(|count| *count == given);
         let is_crack = snapped < given;
         let is_known = |piece: &&Piece| {
-            piece.change() == Change::Over
+            piece.change(grid) == Change::Over
                 || given_here.iter().any(|given| std::ptr::eq(*given, *piece))
         };
         if !is_inside || snapped == given || !is_crack && !snapped_here.iter().all(is_known) {
@@ -154,14 +157,20 @@ pub struct BySnapping {
 
 /// What decides the pixels of a scene as a target shows it: which of them snapping breaks, and [`Classes`]. One plane of samples after
 /// the other is held.
-pub fn look(scene: &Scene, target: &Target) -> Result<(Classes, BySnapping), BadScene> {
+pub fn look(
+    scene: &Scene,
+    target: &Target,
+    grid: CornerGrid,
+) -> Result<(Classes, BySnapping), BadScene> {
     let scale = target.antialias().scale() as i32;
     let mut classes = Classes::new(target.size());
     let mut pixels = [Vec::new(), Vec::new()];
-    each_plane(scene, target, &mut |pieces, lost| {
+    each_plane(scene, target, grid, &mut |pieces, lost| {
         let surfaces = Surfaces::of(scene, pieces, target.bounds());
         classes.look(&surfaces, scale);
-        for broken in broken(scene, &surfaces, lost).into_iter().filter(|broken| broken.is_seen) {
+        for broken in
+            broken(scene, &surfaces, lost, grid).into_iter().filter(|broken| broken.is_seen)
+        {
             let [x, y] = broken.sample.map_array(|at| at.div_euclid(scale));
             pixels[usize::from(broken.is_crack)].push([y, x]);
         }
@@ -182,11 +191,11 @@ pub fn look(scene: &Scene, target: &Target) -> Result<(Classes, BySnapping), Bad
 }
 
 /// The pixels whose samples a piece may cover as it is given or snapped.
-fn samples_near(piece: &Piece) -> PixelRect {
+fn samples_near(piece: &Piece, ring: f64) -> PixelRect {
     let [a, b, c] = piece.px;
     let ends = |i: usize| {
         let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
-        [(least - 0.5 - RING).ceil() as i32, (most - 0.5 + RING).floor() as i32 + 1]
+        [(least - 0.5 - ring).ceil() as i32, (most - 0.5 + ring).floor() as i32 + 1]
     };
     let ([x0, x1], [y0, y1]) = (ends(0), ends(1));
     PixelRect { x0, y0, x1, y1 }
@@ -218,7 +227,7 @@ fn near<'a>(
 }
 
 /// Counts the points around a sample that a piece covers as it is given.
-fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece) {
+fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece, ring: f64) {
     let Some(around) = &mut candidate.around else { return };
     let [a, b, c] = piece.px;
     let sign = area(piece.px).signum();
@@ -228,7 +237,7 @@ fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece) {
     let mut is_here = false;
     for (count, by) in around.iter_mut().zip(AROUND) {
         let [x, y] = candidate.sample.map_array(|at| f64::from(at) + 0.5);
-        let point = [x + by[0] * RING, y + by[1] * RING];
+        let point = [x + by[0] * ring, y + by[1] * ring];
         let sides = [[a, b, point], [b, c, point], [c, a, point]].map_array(|of| area(of) * sign);
         if sides.iter().any(|side| *side < 0.0) {
             continue;

@@ -56,7 +56,7 @@ pub struct TiedPair {
 }
 
 /// A depth over the window, before corners are snapped.
-struct DepthPlane {
+pub(crate) struct DepthPlane {
     from: [f64; 3],
     slope: [f64; 2],
     /// The same with every term positive, times what the terms may be off.
@@ -75,7 +75,7 @@ impl DepthPlane {
     /// In units of u, as for the choices of interpolation: with k the cancellation of the area, a slope is off by
     /// (7 + 3 k) times its terms, and the sum by twice the depth of the corner. What the vertex stage is off moves the
     /// depth by that of a corner, and by the slope times that of a position.
-    fn of(piece: &Piece) -> Option<Self> {
+    pub fn of(piece: &Piece) -> Option<Self> {
         let [a, b, c] = piece.px;
         let [z, z1, z2] = piece.triangle.vertices.map(|vertex| vertex.depth);
         let (p, q) = ((b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1]));
@@ -97,7 +97,7 @@ impl DepthPlane {
     }
 
     /// The depth at a pixel centre, what it may be off, and what it may be off once corners are snapped.
-    fn at(&self, x_px: i32, y_px: i32) -> [f64; 3] {
+    pub fn at(&self, x_px: i32, y_px: i32) -> [f64; 3] {
         let [x, y, z] = self.from;
         let (dx, dy) = (f64::from(x_px) + 0.5 - x, f64::from(y_px) + 0.5 - y);
         let off = self.off + self.terms[0] * dx.abs() + self.terms[1] * dy.abs();
@@ -155,6 +155,12 @@ impl<'a> Surfaces<'a> {
                 }
             });
         }
+    }
+
+    /// The number of the piece that is seen at a sample and hides what is behind it.
+    pub fn front(&self, [x, y]: [i32; 2]) -> Option<u32> {
+        let (_, front) = self.nearest.get(x, y).unwrap_or(NONE);
+        (front != NOTHING).then_some(front)
     }
 
     /// How far what is seen at a sample lies in front of a piece of this or another scene, and by how much either may be
