@@ -56,7 +56,7 @@ pub struct BrokenPixel {
 /// What snapping breaks in a mesh.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Broken {
+pub struct SnappingDamage {
     /// Pixels that fewer triangles cover, from the top left.
     pub cracks: Vec<BrokenPixel>,
     /// Pixels that more triangles cover, from the top left.
@@ -65,7 +65,7 @@ pub struct Broken {
     pub turned: Vec<usize>,
 }
 
-impl Broken {
+impl SnappingDamage {
     /// Whether no pixel is lost or covered too often.
     #[must_use]
     pub fn is_whole(&self) -> bool {
@@ -126,7 +126,7 @@ pub fn broken(
     given: &[Triangle],
     snapped: &[Triangle],
     window: PixelRect,
-) -> Result<Broken, BadMesh> {
+) -> Result<SnappingDamage, BadMesh> {
     if given.len() != snapped.len() {
         return Err(BadMesh::Lengths([given.len(), snapped.len()]));
     }
@@ -135,7 +135,7 @@ pub fn broken(
     for (before, after) in given.as_flattened().iter().zip(snapped.as_flattened()) {
         reach = reach.max((before[0] - after[0]).abs()).max((before[1] - after[1]).abs());
     }
-    let mut found = Broken::default();
+    let mut found = SnappingDamage::default();
     for (y, row) in before.rows() {
         for ((x, before), after) in (window.x0..).zip(row).zip(after.row(y)) {
             if before == after {
@@ -271,7 +271,7 @@ mod tests {
             hits(mesh, window).unwrap().rows().flat_map(|(_, row)| row.to_vec()).sum::<usize>()
         };
         assert_ne!(all(&mesh), all(&snapped));
-        assert_eq!(broken(&mesh, &snapped, window).unwrap(), Broken::default());
+        assert_eq!(broken(&mesh, &snapped, window).unwrap(), SnappingDamage::default());
     }
 
     #[test]
