@@ -263,7 +263,7 @@ mod tests {
     /// A square whose outline moves across samples is whole.
     #[test]
     fn an_outline_that_moves_is_no_crack() {
-        let [o, e, r, s] = [[0.502, 0.502], [3.498, 0.502], [3.498, 3.498], [0.502, 3.498]];
+        let [o, e, r, s] = [[0.498, 0.498], [3.502, 0.498], [3.502, 3.502], [0.498, 3.502]];
         let mesh = [[o, e, r], [o, r, s]];
         let snapped = on_grid(&mesh, 4.0);
         let window = PixelRect::window(4, 4);

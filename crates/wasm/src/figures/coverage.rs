@@ -111,7 +111,7 @@ pub(super) fn snapped_crack(given: &FigureInput<'_>) -> Result<LiveFigure, Strin
     let (o, e, r, s) = ([0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]);
     let triangles = [[o, r, s], [o, e, q], [e, r, q]];
     let (drawing, [holes, twice]) =
-        snapped_mesh(given, &triangles, (q, "Q"), &format!("{} bits", given.at[1][0]))?;
+        snapped_mesh(given, &triangles, (q, "Q"), &format!("1/{} px", 2f64.powf(given.at[1][0])))?;
     Ok(LiveFigure {
         drawing,
         predict: Predict::Number(holes as f64, 0),
@@ -136,7 +136,7 @@ pub(super) fn snapped_fold(given: &FigureInput<'_>) -> Result<LiveFigure, String
     let placed = snapped(&on_grid(&triangles, given.at[1][0]))?;
     let turned = placed.iter().filter(|corners| twice_area(corners) <= 0).count();
     let (drawing, [holes, twice]) =
-        snapped_mesh(given, &triangles, (m, "M"), &format!("{} bits", given.at[1][0]))?;
+        snapped_mesh(given, &triangles, (m, "M"), &format!("1/{} px", 2f64.powf(given.at[1][0])))?;
     Ok(LiveFigure {
         drawing,
         predict: Predict::Number(twice as f64, 0),
