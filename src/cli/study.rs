@@ -149,13 +149,14 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         Err(path) => ["cost", "verify", "plan"]
             .map(|name| typed.as_command(name, path, &VIEW_OPTIONS).line()),
     };
+    let rounds = match effort {
+        Effort::Once => 1,
+        Effort::Quick => 3,
+        Effort::Usual => 5,
+    };
     // What takes time for a plot alone is left out where none is drawn.
     let grids = match page.is_some() || arguments.all {
-        true => grid::prices(
-            &studied.scene,
-            target.bounds(),
-            if effort == Effort::Usual { 5 } else { 1 },
-        )?,
+        true => grid::prices(&studied.scene, target.bounds(), rounds)?,
         false => Vec::new(),
     };
     let found = report::StudyFindings {

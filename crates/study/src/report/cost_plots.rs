@@ -98,11 +98,7 @@ pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
 
 /// Pixels that change against time, a dot for each grid and a panel for each engine.
 pub fn pareto_of_grids(prices: &[GridPrice], in_row: usize) -> Drawing {
-    let times: [(&str, fn(&GridPrice) -> f64); 2] = [
-        ("scanline", |price| price.scanline_ms),
-        ("edge function", |price| price.edge_function_ms),
-    ];
-    let panels = times.map(|(engine, time)| {
+    let panel = |engine: &str, time: &dyn Fn(&GridPrice) -> f64| {
         let dot = |price: &GridPrice| Dot {
             label: price.bits.map_or("unsnapped".to_owned(), |bits| format!("{bits} bits")),
             time: time(price),
@@ -120,10 +116,14 @@ pub fn pareto_of_grids(prices: &[GridPrice], in_row: usize) -> Drawing {
             snapping: None,
             dots: prices.iter().map(dot).collect(),
         }
-    });
+    };
+    let panels = vec![
+        panel("scanline", &|price| price.scanline_ms),
+        panel("edge function", &|price| price.edge_function_ms),
+    ];
     let legend = "each dot a grid: bits below the pixel; shelf: no pixel changes here\n\
                   up to 8 bits by whole numbers, beyond by the exact engines";
-    drawn("Pixels that the grid changes, against time", legend, panels.into(), in_row)
+    drawn("Pixels that the grid changes, against time", legend, panels, in_row)
 }
 
 /// A bar: its share of the longest, its colour, and what stands behind it.

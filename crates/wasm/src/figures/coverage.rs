@@ -67,9 +67,14 @@ pub(super) fn snap_to_even(given: &FigureInput<'_>) -> Result<LiveFigure, String
     })
 }
 
-/// The corners of triangles on a grid of so many bits below the pixel, at most as many as the engines have.
-fn on_grid(triangles: &[[Point; 3]], bits: f64) -> Vec<[Point; 3]> {
-    let steps = 2f64.powi(bits as i32);
+/// Steps of a grid in a pixel, by the position of the grip that says how many bits it has.
+fn steps(bits: Point) -> u32 {
+    1 << bits[0] as u32
+}
+
+/// The corners of triangles on a grid of at most as many bits as that of the engines.
+fn on_grid(triangles: &[[Point; 3]], bits: Point) -> Vec<[Point; 3]> {
+    let steps = f64::from(steps(bits));
     let place = |point: Point| point.map(|v| (v * steps).round_ties_even() / steps);
     triangles.iter().map(|corners| corners.map(place)).collect()
 }
@@ -82,7 +87,7 @@ fn snapped_mesh(
     says: &str,
 ) -> Result<(Drawing, [usize; 2]), String> {
     let panel = Panel::middle(9, 5, 38.0, 10.0);
-    let placed = on_grid(triangles, given.at[1][0]);
+    let placed = on_grid(triangles, given.at[1]);
     let hits = cover(given.fill, &snapped(&placed)?, panel.window);
     let mut drawing = Drawing::new(panel.bottom() + 46.0, given.is_answered);
     drawing.hits(&panel, &hits, &Coverage::new(panel.window, 1));
@@ -111,14 +116,14 @@ pub(super) fn snapped_crack(given: &FigureInput<'_>) -> Result<LiveFigure, Strin
     let (o, e, r, s) = ([0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]);
     let triangles = [[o, r, s], [o, e, q], [e, r, q]];
     let (drawing, [holes, twice]) =
-        snapped_mesh(given, &triangles, (q, "Q"), &format!("1/{} px", 2f64.powf(given.at[1][0])))?;
+        snapped_mesh(given, &triangles, (q, "Q"), &format!("1/{} px", steps(given.at[1])))?;
     Ok(LiveFigure {
         drawing,
         predict: Predict::Number(holes as f64, 0),
         values: vec![
             ("qx", number(q[0], 4)),
             ("qy", number(q[1], 4)),
-            ("steps", number(2f64.powf(given.at[1][0]), 0)),
+            ("steps", steps(given.at[1]).to_string()),
             ("holes", holes.to_string()),
             ("twice", twice.to_string()),
         ],
@@ -133,15 +138,15 @@ pub(super) fn snapped_fold(given: &FigureInput<'_>) -> Result<LiveFigure, String
     let (m, n) = ([x, x * 5.0 / 9.0 - 0.01], [6.4, 6.4 * 5.0 / 9.0 + 0.01]);
     let (o, e, r, s) = ([0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]);
     let triangles = [[o, e, m], [e, r, m], [o, m, n], [m, r, n], [o, n, s], [n, r, s]];
-    let placed = snapped(&on_grid(&triangles, given.at[1][0]))?;
+    let placed = snapped(&on_grid(&triangles, given.at[1]))?;
     let turned = placed.iter().filter(|corners| twice_area(corners) <= 0).count();
     let (drawing, [holes, twice]) =
-        snapped_mesh(given, &triangles, (m, "M"), &format!("1/{} px", 2f64.powf(given.at[1][0])))?;
+        snapped_mesh(given, &triangles, (m, "M"), &format!("1/{} px", steps(given.at[1])))?;
     Ok(LiveFigure {
         drawing,
         predict: Predict::Number(twice as f64, 0),
         values: vec![
-            ("steps", number(2f64.powf(given.at[1][0]), 0)),
+            ("steps", steps(given.at[1]).to_string()),
             ("holes", holes.to_string()),
             ("twice", twice.to_string()),
             ("turned", turned.to_string()),
