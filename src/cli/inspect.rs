@@ -24,7 +24,7 @@ use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::{page_cases, picture, words as in_words};
-use rasterproof_study::grid::CornerGrid;
+use rasterproof_study::corner_grid::CornerGrid;
 use rasterproof_teaching::{case_view, explain};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};

@@ -29,7 +29,8 @@ use rasterproof_report::frame_comparison::{self, Comparison, Times};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::{json, picture};
 use rasterproof_study::bounds::Purpose;
-use rasterproof_study::grid::{self, Cells, CornerGrid};
+use rasterproof_study::corner_grid::CornerGrid;
+use rasterproof_study::grid::{self, Cells};
 use rasterproof_study::report::drawing::{
     self, ByGrid, Data, Drawing, ROUNDING, ROUNDING_IN_TILES, add_to_page, compare, grid_notes,
     is_plan_alone, leaves_open, names, notes, outcome, rounding, snapped, times_text,

@@ -30,8 +30,8 @@ use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
 use rasterproof_report::words::count;
 use rasterproof_study::bounds::{FrameSize, Purpose};
+use rasterproof_study::corner_grid::CornerGrid;
 use rasterproof_study::facing;
-use rasterproof_study::grid::CornerGrid;
 
 #[derive(clap::Args, Debug)]
 pub struct SceneArguments {

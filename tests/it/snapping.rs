@@ -8,7 +8,8 @@ use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters;
 use rasterproof_report::frame_comparison;
-use rasterproof_study::grid::{Cells, CornerGrid, cells};
+use rasterproof_study::corner_grid::CornerGrid;
+use rasterproof_study::grid::{Cells, cells};
 use serde_json::Value;
 
 use crate::model_cases::{FOLDER, case};

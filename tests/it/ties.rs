@@ -14,7 +14,7 @@ use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::perspective;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene, chapters};
 use rasterproof_report::frame_comparison::{self, Comparison};
-use rasterproof_study::grid::CornerGrid;
+use rasterproof_study::corner_grid::CornerGrid;
 use rasterproof_study::snapping::look;
 use rayon::prelude::*;
 

@@ -2,6 +2,7 @@
 //! for. It prints nothing.
 
 pub mod bounds;
+pub mod corner_grid;
 pub mod cost;
 pub mod effects;
 pub mod facing;

@@ -22,7 +22,7 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::Scene;
 
-use crate::grid::CornerGrid;
+use crate::corner_grid::CornerGrid;
 use crate::ties::{Classes, Surfaces};
 use crate::view::{Piece, each_plane};
 use crate::winding::{Change, area};
@@ -95,7 +95,7 @@ pub(crate) fn broken<'a>(
             ScanlineExact.cover_exact(&corners, samples, |span| add(span, -1));
         }
         if is_snapped {
-            grid.cover(piece, samples, &mut |span| add(span, 1));
+            grid.cover(piece.px, samples, &mut |span| add(span, 1));
         }
     };
     for piece in pieces {
@@ -121,7 +121,7 @@ pub(crate) fn broken<'a>(
         near(&mut candidates, piece, |candidate| {
             let [x, y] = candidate.sample;
             let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
-            grid.cover(piece, pixel, &mut |_| candidate.snapped_here.push(piece));
+            grid.cover(piece.px, pixel, &mut |_| candidate.snapped_here.push(piece));
         });
     }
     let mut broken = Vec::new();

@@ -16,7 +16,7 @@ use rasterproof_render::pipeline::multisample::{self, SAMPLES};
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::{Corner, Scene};
 
-use crate::grid::CornerGrid;
+use crate::corner_grid::CornerGrid;
 use crate::winding::{self, Change};
 
 /// What clipping leaves of a triangle, or a part of it.

@@ -23,7 +23,7 @@ use rasterproof_report::words::{self, thousands};
 use rasterproof_tiles::frames::HandedOver;
 
 use super::plan;
-use crate::grid::CornerGrid;
+use crate::corner_grid::CornerGrid;
 use crate::snapping::{self, BySnapping};
 
 /// A frame of one rasterizer, with what was found of its plan.

@@ -11,7 +11,7 @@ use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::words::{count, thousands};
 
 use super::Places;
-use crate::grid::CornerGrid;
+use crate::corner_grid::CornerGrid;
 use crate::hard::{self, HardCases, Kind};
 use crate::view::{Piece, Sampled};
 use crate::{faces, triangle_of};
