@@ -247,7 +247,7 @@ impl Shape {
         in_gaps
     }
 
-    /// Finds vertices at borders that are at most a grain apart and no corners of one triangle. For each vertex the first one of
+    /// Finds vertices at borders that are at most a grain apart and no corners of one triangle, nor of two faces on each other. For each vertex the first one of
     /// those that it nearly meets, or itself; nothing where there are none.
     fn find_near(
         &mut self,
@@ -287,8 +287,26 @@ impl Shape {
         let mut met: Vec<u32> = (0..points.len() as u32).collect();
         // In this order, the vertex that the first of a pair meets is known.
         for [a, b] in near {
-            self.near_apart = self.near_apart.max(points[a as usize].distance(points[b as usize]));
             met[b as usize] = met[b as usize].min(met[a as usize]);
+        }
+        // Two sheets on each other do not meet at a seam: what would make two faces one stays apart.
+        let mut merged = Vec::new();
+        for Triangle { vertices, .. } in triangles {
+            let mut of = vertices.map_array(|v| met[v as usize]);
+            of.sort_unstable();
+            merged.push((of, *vertices));
+        }
+        merged.sort_unstable();
+        let mut is_apart = vec![false; points.len()];
+        for same in merged.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+            same.iter().flat_map(|(_, of)| of).for_each(|v| is_apart[*v as usize] = true);
+        }
+        for vertex in 0..met.len() {
+            if is_apart[vertex] || is_apart[met[vertex] as usize] {
+                met[vertex] = vertex as u32;
+            }
+            let apart = points[vertex].distance(points[met[vertex] as usize]);
+            self.near_apart = self.near_apart.max(apart);
         }
         self.list_near(points, border, &met);
         (!self.near.is_empty()).then_some(met)
