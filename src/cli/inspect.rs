@@ -11,7 +11,7 @@ use super::inspect_case::{
 };
 use super::page::{PageArguments, Shown, as_file, print, show};
 use super::typed::Typed;
-use super::view::ViewArguments;
+use super::view::{GRID_OPTIONS, GridArguments, ViewArguments};
 use super::{InputError, Status, Streams, ends_in, exit, program, study, usage, write_picture};
 use rasterproof_core::contract::Decisions;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -24,6 +24,7 @@ use rasterproof_registry::published_check::specimen_coverage;
 use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Mark, Row, Table};
 use rasterproof_report::{page_cases, picture, words as in_words};
+use rasterproof_study::corner_grid::CornerGrid;
 use rasterproof_teaching::{case_view, explain};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
@@ -52,6 +53,8 @@ pub struct InspectArguments {
     pixel: Option<PixelPoint>,
     #[command(flatten)]
     view: ViewArguments,
+    #[command(flatten)]
+    grid: GridArguments,
     #[command(flatten)]
     page: PageArguments,
     /// The picture [default: inspect.png in the folder of --out]
@@ -102,8 +105,12 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     let mut report = Report { command: command.line(), ..Report::default() };
     let found = match face {
         Some(face) => {
-            let exact = arguments.case.exact;
-            let (said, found) = study::face(face, &arguments.view, (command, exact), streams)?;
+            // Those who do not snap draw corners that are put on another grid, or on none.
+            let grid = arguments.grid.grid();
+            let exact = arguments.case.exact || grid != CornerGrid::USUAL;
+            let grid = if arguments.case.exact { CornerGrid::Unsnapped } else { grid };
+            let (said, found) =
+                study::face(face, (&arguments.view, grid), (command, exact), streams)?;
             files::check(named.iter().copied())?;
             about.extend(said);
             match found {
@@ -119,6 +126,11 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         }
         None => {
             study::refuse_view(command)?;
+            if let Some(option) = command.given(&GRID_OPTIONS) {
+                return Err(usage(format!(
+                    "--{option} is for faces of models: name FILE#NUMBER; corners that are typed are not snapped with --exact"
+                )));
+            }
             find(&arguments.case)?
         }
     };

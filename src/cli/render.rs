@@ -1,5 +1,6 @@
 //! `rasterproof render`: a scene or a model to a picture, by either rasterizer or by both.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -12,7 +13,7 @@ use super::files::{self, Output, Use, written};
 use super::page::{PageArguments, Shown, as_file, print, show, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, SceneArguments};
+use super::view::{GridArguments, Maker, SceneArguments, view_and_grid};
 use super::{InputError, Status, Streams, ends_in, exit, usage};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::Drawer;
@@ -28,9 +29,12 @@ use rasterproof_report::frame_comparison::{self, Comparison, Times};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::{json, picture};
 use rasterproof_study::bounds::Purpose;
+use rasterproof_study::corner_grid::CornerGrid;
+use rasterproof_study::grid::{self, Cells};
 use rasterproof_study::report::drawing::{
-    self, Data, Drawing, ROUNDING, ROUNDING_IN_TILES, add_to_page, by_rounding, compare,
-    is_plan_alone, leaves_open, names, notes, outcome, rounding, times_text,
+    self, ByGrid, Data, Drawing, ROUNDING, ROUNDING_IN_TILES, add_to_page, compare, grid_notes,
+    is_plan_alone, leaves_open, names, notes, outcome, rounding, snapped, times_text,
+    undecided_and_broken,
 };
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Division};
@@ -40,6 +44,8 @@ use rasterproof_tiles::frames::{self, Division};
 pub struct RenderArguments {
     #[command(flatten)]
     what: SceneArguments,
+    #[command(flatten)]
+    grid: GridArguments,
     /// The rasterizer, or both to compare them; tiles are fast, exact in coverage alone
     #[arg(long, value_enum, default_value_t = DrawnBy::Both)]
     engine: DrawnBy,
@@ -89,12 +95,20 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     // replaces something is seen when it is.
     let difference =
         arguments.page.place.output_in(Path::new(""), output.path.with_extension("difference.png"));
+    let by_grid =
+        arguments.page.place.output_in(Path::new(""), output.path.with_extension("grid.png"));
+    let grid = arguments.grid.grid();
     let page = arguments.page.page("render.html");
     let files = [
         what.source().err().map(|path| ("the model", path, Use::Reads)),
         arguments.plan.as_deref().map(|path| ("--plan", path, Use::Reads)),
         Some(written("--output", &output)),
         Some(("the picture of differences", &difference.path, Use::Writes(Over::Updated))),
+        (grid != CornerGrid::USUAL).then_some((
+            "the picture of what the grid changes",
+            &by_grid.path,
+            Use::Writes(Over::Updated),
+        )),
         as_file(&page),
     ];
     let files: Vec<_> = files.into_iter().flatten().collect();
@@ -103,9 +117,10 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         DrawnBy::Both => Purpose::Compared,
         DrawnBy::Scanline | DrawnBy::EdgeFunction | DrawnBy::Tiles => Purpose::Drawn,
     };
-    let maker = what.maker(typed, purpose, streams)?;
+    let mut maker = what.maker(typed, purpose, streams)?;
     // A model names files of its own.
     files::check(files.iter().copied())?;
+    let usual = on_grid((arguments, typed), &mut maker)?;
     let drawers = if arguments.engine == DrawnBy::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
@@ -121,9 +136,15 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     }
     let mut drawings = draw(arguments, scene, &progress)?;
     let picture = picture::png(&picture::of_frame(&drawings[0].rendered.picture));
-    let comparison = compare(scene, &drawings, arguments.plan.is_some())?;
-    let by_rounding =
-        (!arguments.wireframe).then(|| by_rounding(scene, &drawings[0].target)).transpose()?;
+    let mut comparison = compare(scene, &drawings, arguments.plan.is_some())?;
+    let as_given = usual.as_ref().map_or(scene, |usual| &usual.scene);
+    let looked = || undecided_and_broken(as_given, &drawings[0].target, grid);
+    let looked = (!arguments.wireframe).then(looked).transpose()?;
+    let changed = usual.as_ref().map(|usual| usual.changed(&drawings[0])).transpose()?;
+    if let (Some(usual), Some(comparison)) = (&usual, &mut comparison) {
+        // What one exact engine covers on this grid and the other does not is wrong by one of them.
+        comparison.wrong_pixels += usual.disagreeing;
+    }
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.path.as_path());
     // What a plan changes in both frames alike is no difference between them.
@@ -143,17 +164,40 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         drawings[0].rendered.plan.scene = Some(SceneDigest::of(scene));
         let Rendered { counters, plan, .. } = &drawings[0].rendered;
         let (scene, engines, times) = (&scene.name, names(&drawings), &times);
-        let (comparison, by_rounding) = (&comparison, &by_rounding);
-        data =
-            json::value(&Data { scene, engines, times, counters, plan, comparison, by_rounding });
+        let (comparison, looked) = (&comparison, looked.as_ref());
+        let (by_rounding, by_snapping) =
+            (looked.map(|(found, _)| found), looked.map(|(_, found)| found));
+        data = json::value(&Data {
+            scene,
+            engines,
+            times,
+            counters,
+            plan,
+            comparison,
+            by_rounding,
+            by_snapping,
+            grid: changed.as_ref(),
+        });
     }
     let mut notes = notes(scene, &drawings, &times, comparison.as_ref(), [drawn_in, difference_in]);
-    if picture::is_plain(drawings[0].rendered.picture.rows().flat_map(|(_, row)| row)) {
+    let mut colours = drawings[0].rendered.picture.rows().flat_map(|(_, row)| row);
+    if colours.all(|colour| *colour == scene.background) {
         notes.push("EMPTY: nothing of it is seen; the picture is background alone".to_owned());
         let why = Some(&maker.model.why_empty).filter(|why| !why.is_empty());
         notes.extend(why.map(|why| format!("the cause is that {why}")));
     }
-    notes.extend(by_rounding.and_then(|found| rounding(found, ROUNDING)));
+    if let Some((by_rounding, by_snapping)) = looked {
+        notes.extend(rounding(by_rounding, ROUNDING));
+        let word = what.source().map_or_else(OsString::from, OsString::from);
+        let study = typed.as_command("study", word, &view_and_grid()).line();
+        notes.extend(snapped(by_snapping, grid, &study));
+    }
+    if let Some(changed) = &changed {
+        let picture = picture::png(&picture::of_frame(&changed.picture));
+        let is_drawn = changed.pixels > 0 && streams.save(&by_grid, &picture);
+        let place = is_drawn.then(|| printable_path(&by_grid.path));
+        notes.extend(grid_notes(changed, grid, place));
+    }
     let difference_in = difference_in.map(printable_path);
     let outcome = outcome(&drawings, comparison.as_ref(), difference_in);
     let about = format!("{}: {}", scene.name, scene.about);
@@ -165,6 +209,49 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         write_page(&page, report, streams);
     }
     Ok(status)
+}
+
+/// Puts the corners of what is drawn on the grid that was asked for; what was to be drawn before, where that is not the usual one.
+fn on_grid(
+    (arguments, typed): (&RenderArguments, &Typed),
+    maker: &mut Maker,
+) -> Result<Option<UsualGrid>, InputError> {
+    let grid = arguments.grid.grid();
+    if grid == CornerGrid::USUAL {
+        return Ok(None);
+    }
+    // Lines join whole pixels, a plan is made for the triangles of a scene, and a full turn is many scenes.
+    if let Some(option) = typed.given(&["wireframe", "plan", "spin", "map"]) {
+        return Err(usage(format!("--{option} is not for corners {grid}: leave one of them out")));
+    }
+    if arguments.what.view.aa == Antialias::Multisample4 {
+        return Err(usage(format!(
+            "--aa msaa4 has no samples for corners {grid}: choose ssaa2, or leave it out"
+        )));
+    }
+    let target = arguments.what.view.target()?;
+    let Cells { scene, disagreeing } =
+        grid::cells(&maker.scene, target.bounds(), grid).map_err(usage)?;
+    let scene = std::mem::replace(&mut maker.scene, scene);
+    Ok(Some(UsualGrid { scene, disagreeing, target }))
+}
+
+/// A scene as it is drawn on the usual grid.
+struct UsualGrid {
+    scene: Scene,
+    /// Pixels that the exact engines do not agree about on the other grid.
+    disagreeing: u64,
+    target: Target,
+}
+
+impl UsualGrid {
+    /// What the other grid changes in the first drawing.
+    fn changed(&self, drawing: &Drawing) -> Result<ByGrid, InputError> {
+        let mut target = self.target.clone();
+        let effects = Effects::PLANNED;
+        let usual = Drawer::Scanline.render(&self.scene, &effects, &mut target).map_err(usage)?;
+        Ok(ByGrid::between((&usual.picture, &target), drawing))
+    }
 }
 
 /// A plan from a file: the plan alone, or all that `plan --json` writes.

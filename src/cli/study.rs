@@ -8,9 +8,11 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
+use rasterproof_study::corner_grid::CornerGrid;
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::effects;
 use rasterproof_study::faces;
+use rasterproof_study::grid;
 use rasterproof_study::report::around::Around;
 use rasterproof_study::report::studied::Studied;
 use rasterproof_study::report::{self as report, costs, engines, json};
@@ -20,7 +22,9 @@ use super::inspect_case::{self, InspectedCase};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::view::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
+use super::view::{
+    GridArguments, Maker, SceneArguments, VIEW_OPTIONS, ViewArguments, view_and_grid,
+};
 use super::{InputError, Status, Streams, exit, usage};
 use rasterproof_study::bounds::Purpose;
 
@@ -28,6 +32,8 @@ use rasterproof_study::bounds::Purpose;
 pub struct StudyArguments {
     #[command(flatten)]
     what: SceneArguments,
+    #[command(flatten)]
+    grid: GridArguments,
     #[command(flatten)]
     page: PageArguments,
     /// Fewer rounds and smaller samples for the times
@@ -68,8 +74,9 @@ fn studied<'a>(
     maker: &'a Maker,
     scene: Scene,
     view: &ViewArguments,
+    grid: CornerGrid,
 ) -> Result<Studied<'a>, InputError> {
-    Studied::new(scene, &maker.model.origins, &mut view.target()?)
+    Studied::new(scene, &maker.model.origins, &mut view.target()?, grid)
 }
 
 /// What a scene costs, with a bar while it is measured.
@@ -95,7 +102,7 @@ pub(super) fn cost(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Measured, streams)?;
-    let studied = studied(&maker, maker.scene.clone(), view)?;
+    let studied = studied(&maker, maker.scene.clone(), view, CornerGrid::USUAL)?;
     let groups = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
@@ -111,7 +118,7 @@ pub(super) fn cost(
 fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
     let mut word = OsString::from(path);
     word.push(format!("#{face}"));
-    typed.as_command("inspect", word, &VIEW_OPTIONS).line()
+    typed.as_command("inspect", word, &view_and_grid()).line()
 }
 
 pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
@@ -124,7 +131,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);
     }
-    let studied = studied(&maker, maker.scene.clone(), &what.view)?;
+    let studied = studied(&maker, maker.scene.clone(), &what.view, arguments.grid.grid())?;
     let effort = arguments.once.effort(arguments.quick);
     let groups = measure(&studied, &what.view, effort, streams.progress)?;
     let mut target = what.view.target()?;
@@ -143,8 +150,19 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         Err(path) => ["cost", "verify", "plan"]
             .map(|name| typed.as_command(name, path, &VIEW_OPTIONS).line()),
     };
+    let rounds = match effort {
+        Effort::Once => 1,
+        Effort::Quick => 3,
+        Effort::Usual => 5,
+    };
+    // What takes time for a plot alone is left out where none is drawn.
+    let grids = match page.is_some() || arguments.all {
+        true => grid::prices(&studied.scene, target.bounds(), rounds)?,
+        false => Vec::new(),
+    };
     let found = report::StudyFindings {
         hard: &studied.hard,
+        grids: &grids,
         needs: &needs,
         costs: &groups,
         not_drawn: &maker.model.not_drawn,
@@ -170,7 +188,7 @@ fn all_around(
     let mut around = Around::default();
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
-        let studied = studied(maker, maker.turned(turn), view)?;
+        let studied = studied(maker, maker.turned(turn), view, arguments.grid.grid())?;
         let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
         around.add(360.0 * turn, &studied.hard, &groups);
         progress.done(1);
@@ -196,7 +214,7 @@ pub(super) fn verify(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = studied(&maker, maker.scene.clone(), view)?;
+    let studied = studied(&maker, maker.scene.clone(), view, CornerGrid::USUAL)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     let (report, agrees) = engines::report(&studied, &subject, judged, printable_path(path));
@@ -205,16 +223,16 @@ pub(super) fn verify(
 }
 
 /// The face of a model that the words of `inspect` name: FILE#NUMBER. What is known of it, a line each, and its pieces as a
-/// case; nothing where it is not in the window.
+/// case, for those who do not snap with corners on the grid; nothing where it is not in the window.
 pub(super) fn face(
     (path, word): (&Path, &str),
-    view: &ViewArguments,
+    (view, grid): (&ViewArguments, CornerGrid),
     (typed, is_exact): (&Typed, bool),
     streams: &mut Streams<'_>,
 ) -> Result<(Vec<String>, Option<InspectedCase>), InputError> {
     let shown = printable_path(path);
     let maker = view.maker(path, Purpose::Judged, streams)?;
-    let studied = studied(&maker, maker.scene.clone(), view)?;
+    let studied = studied(&maker, maker.scene.clone(), view, grid)?;
     let Some((first, known, pieces)) = word.parse().ok().and_then(|face| studied.face(face)) else {
         let last = faces(&studied.scene, studied.origins).max().unwrap_or(0);
         let word = printable(word);
@@ -231,7 +249,8 @@ pub(super) fn face(
     }
     let mut corners = Vec::new();
     for piece in pieces {
-        for ((vertex, [x, y]), w) in piece.triangle.vertices.iter().zip(piece.px).zip(piece.w) {
+        let px = if is_exact { grid.place(piece.px) } else { piece.px };
+        for ((vertex, [x, y]), w) in piece.triangle.vertices.iter().zip(px).zip(piece.w) {
             corners.push(match is_exact {
                 true => format!("{x:?},{y:?}"),
                 false => format!("{x:?},{y:?},{w:?},{:?}", vertex.depth),

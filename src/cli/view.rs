@@ -30,6 +30,7 @@ use rasterproof_render::scene::Shadows;
 use rasterproof_render::scene::{Scene, Shading, chapters};
 use rasterproof_report::words::count;
 use rasterproof_study::bounds::{FrameSize, Purpose};
+use rasterproof_study::corner_grid::CornerGrid;
 use rasterproof_study::facing;
 
 #[derive(clap::Args, Debug)]
@@ -49,6 +50,37 @@ pub(super) static VIEW_OPTIONS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let view = ViewArguments::augment_args(clap::Command::new("view"));
     view.get_arguments().filter_map(|option| option.get_long().map(str::to_owned)).collect()
 });
+
+/// The names of the options of [`GridArguments`].
+pub(super) const GRID_OPTIONS: [&str; 2] = ["subpixel-bits", "unsnapped"];
+
+/// Where corners are put.
+#[derive(clap::Args, Debug)]
+pub struct GridArguments {
+    /// Put corners on a grid of so many bits below the pixel [default: 8]
+    #[arg(long, value_name = "BITS", value_parser = super::one_of(BITS))]
+    subpixel_bits: Option<u32>,
+    /// Leave corners as they are, on no grid
+    #[arg(long, conflicts_with = "subpixel_bits")]
+    unsnapped: bool,
+}
+
+const BITS: [(&str, u32); 4] = [("4", 4), ("8", 8), ("12", 12), ("16", 16)];
+
+impl GridArguments {
+    pub(super) fn grid(&self) -> CornerGrid {
+        match self.subpixel_bits {
+            _ if self.unsnapped => CornerGrid::Unsnapped,
+            Some(bits) => CornerGrid::Bits(bits),
+            None => CornerGrid::USUAL,
+        }
+    }
+}
+
+/// The options that a command about a view has in common with one on the same grid.
+pub(super) fn view_and_grid() -> Vec<String> {
+    VIEW_OPTIONS.iter().cloned().chain(GRID_OPTIONS.map(str::to_owned)).collect()
+}
 
 /// Those of them that say how scenes are drawn, too.
 const OF_SCENES: [&str; 4] = ["size", "aa", "cull", "depth"];

@@ -65,6 +65,7 @@ mod same_message;
 mod scenes;
 mod schema;
 mod site;
+mod snapping;
 mod snapshots;
 mod specimens;
 mod speed;

@@ -14,7 +14,8 @@ use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::perspective;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene, chapters};
 use rasterproof_report::frame_comparison::{self, Comparison};
-use rasterproof_study::ties::classify;
+use rasterproof_study::corner_grid::CornerGrid;
+use rasterproof_study::snapping::look;
 use rayon::prelude::*;
 
 use crate::pages::{page, root};
@@ -370,7 +371,7 @@ fn covered(picture: &Frame<Colour>) -> u64 {
 /// Pixels that rounding decides: by snapping alone, which every rasterizer does, and in tiles.
 fn by_rounding(scene: &Scene, antialias: Antialias) -> [u64; 2] {
     let target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
-    let classes = classify(scene, &target).unwrap();
+    let (classes, _) = look(scene, &target, CornerGrid::USUAL).unwrap();
     assert_eq!(classes.first.is_some(), classes.by_rounding > 0);
     let tiles = TiedPieces::new(scene, &target).unwrap().by_planes_in_f32();
     assert_eq!(tiles.first.is_some(), tiles.pixels > 0);

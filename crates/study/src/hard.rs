@@ -25,7 +25,8 @@ use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 
 use crate::effects::differing;
 use crate::face_of;
-use crate::shape::{Edge, SLIVER, Shape};
+use crate::grid::Value;
+use crate::shape::{Edge, Gap, SLIVER, Shape};
 use crate::snapping;
 use crate::ties::{Class, Classes, Surfaces, TiedPair, blends};
 use crate::view::{NOTHING, Piece, Sampled, pieces};
@@ -54,6 +55,7 @@ rasterproof_core::named! {
         Crack = "cracks by snapping",
         Fold = "folds by snapping",
         Turned = "triangles turned by snapping",
+        Near = "corners that nearly meet",
     }
 }
 
@@ -71,7 +73,9 @@ impl Kind {
             Self::Overlap => {
                 "faces in one plane: rounding decides who is seen, hatching and flicker"
             }
-            Self::TJunction => "a corner within the edge of another face: pixels of background",
+            Self::TJunction => {
+                "a corner within the edge of another face: these pixels show the background"
+            }
             Self::Gap => "seams of other corners on either side: one sees through in these pixels",
             Self::Border => "edges of one face: a hole, or the inside seen from behind",
             Self::Crowded => "no inside and outside there: culling and shadow volumes fail",
@@ -85,9 +89,14 @@ impl Kind {
                 "lost between snapped corners: split a long edge where a corner lies on it"
             }
             Self::Fold => {
-                "hit more often once snapped: split edges at corners, merge thin triangles"
+                "hit too often once snapped, wrong where it blends: split edges, merge thin triangles"
             }
-            Self::Turned => "thinner than 1/256 px, turned over or flattened: culled, or reversed",
+            Self::Turned => {
+                "thinner than a step of the grid, turned over or flattened: culled, or reversed"
+            }
+            Self::Near => {
+                "no one corner for those who compare bits: weld them, or borders are open"
+            }
         }
     }
 
@@ -116,6 +125,31 @@ pub struct HardCase {
     pub triangles: Vec<u32>,
 }
 
+/// What corners on a grid change at most in the values of a picture; nothing where no value changes.
+#[derive(Clone, Copy, Debug, Default, serde::Serialize)]
+pub struct Shift {
+    pub depth: Option<Shifted>,
+    /// In texels of the texture of the face.
+    pub texels: Option<Shifted>,
+}
+
+/// A value that corners on a grid change, by how much and where.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct Shifted {
+    pub by: f64,
+    pub pixel: [i32; 2],
+    /// The triangle that is seen there, from 0 in drawing order.
+    pub triangle: u32,
+}
+
+impl Shifted {
+    fn keep(largest: &mut Option<Self>, other: Self) {
+        if other.by > largest.map_or(0.0, |largest| largest.by) {
+            *largest = Some(other);
+        }
+    }
+}
+
 /// The hard cases of a scene, and what else was found on the way.
 #[derive(Clone, Debug)]
 pub struct HardCases {
@@ -128,6 +162,8 @@ pub struct HardCases {
     pub classes: Classes,
     /// For each triangle of the scene which kinds it is of, as bits.
     marks: Vec<u32>,
+    /// What corners on the grid move of the values that are seen.
+    pub shift: Shift,
     /// The smallest and the largest w in the window.
     pub w: Option<[f64; 2]>,
     /// Pixels that change when positions are rounded to f32.
@@ -198,15 +234,16 @@ pub fn find(
         search.samples_on_edges();
         search.broken();
         search.turned();
+        let shift = search.shift();
         search.wide_w();
         search.far_textures();
         let picture = draw(scene, target)?;
         search.drawing_order(&picture, target)?;
         let f32_pixels = search.single_precision(&picture, target)?;
-        Ok((classes, picture, f32_pixels))
+        Ok((classes, picture, f32_pixels, shift))
     };
     let (shape, drawn) = parallel::join(|| Shape::of(scene, origins), drawn);
-    let (classes, picture, f32_pixels) = drawn?;
+    let (classes, picture, f32_pixels, shift) = drawn?;
     search.triangles(&shape, origins);
     search.pairs(&shape, origins);
     search.lines(&shape);
@@ -221,7 +258,17 @@ pub fn find(
     let w = (!pieces.is_empty())
         .then(|| [all_w().fold(f64::MAX, f64::min), all_w().fold(0.0, f64::max)]);
     let is_cut_short = shape.is_cut_short;
-    Ok(HardCases { cases: found, touched, picture, classes, marks, w, f32_pixels, is_cut_short })
+    Ok(HardCases {
+        cases: found,
+        touched,
+        picture,
+        classes,
+        marks,
+        shift,
+        w,
+        f32_pixels,
+        is_cut_short,
+    })
 }
 
 fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
@@ -418,12 +465,16 @@ impl Search<'_> {
     fn lines(&mut self, shape: &Shape) {
         let most = shape.crowded.first().map_or(0, |edge| edge.triangles.len());
         let crowded = format!("the most crowded one has {most}");
+        let near = format!("at most {:.1e} apart", shape.near_apart);
         let place = Place::new(self.scene, self.sampled.size);
         for (kind, edges, note) in [
             (Kind::TJunction, &shape.t_junctions, String::new()),
             (Kind::Border, &shape.borders, String::new()),
             (Kind::Crowded, &shape.crowded, crowded),
+            (Kind::Near, &shape.near, near),
         ] {
+            // Of places with two corners or more, the pixels of what lies between edges there are counted.
+            let is_a_place = [Kind::TJunction, Kind::Near].contains(&kind);
             let mut noted = Noted::new(kind);
             for edge in edges {
                 let mut in_view = false;
@@ -434,7 +485,8 @@ impl Search<'_> {
                             .filter_map(|[dx, dy]| self.seen_at.get(f.x_px + dx, f.y_px + dy));
                         if seen.any(|triangle| edge.triangles.contains(&triangle)) {
                             in_view = true;
-                            self.touched.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] |= kind.bit();
+                            let bit = if is_a_place { 0 } else { kind.bit() };
+                            self.touched.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] |= bit;
                         }
                     });
                 }
@@ -444,9 +496,30 @@ impl Search<'_> {
         }
     }
 
-    /// Notes gaps, which are seen in the pixels that closing them would cover: each is closed by triangles around its first
-    /// corner, and a sample lies within where an odd number of them covers it.
+    /// Notes gaps, and marks the pixels of what lies between edges at other hard cases.
     fn gaps(&mut self, shape: &Shape, target: &Target) -> Result<(), BadScene> {
+        self.see_through((Kind::TJunction, &shape.at_t_junctions), target)?;
+        self.see_through((Kind::Near, &shape.at_near), target)?;
+        let in_view = self.see_through((Kind::Gap, &shape.gaps), target)?;
+        let mut noted = Noted::new(Kind::Gap);
+        for (gap, in_view) in shape.gaps.iter().zip(in_view) {
+            noted.add(&mut self.marks, &gap.triangles, in_view);
+        }
+        self.note(noted, String::new());
+        Ok(())
+    }
+
+    /// Marks the pixels that closing gaps would cover, and says which gaps have some: each is closed by triangles around its first
+    /// corner, and a sample lies within where an odd number of them covers it.
+    fn see_through(
+        &mut self,
+        (kind, gaps): (Kind, &[Gap]),
+        target: &Target,
+    ) -> Result<Vec<bool>, BadScene> {
+        let mut in_view = vec![false; gaps.len()];
+        if gaps.is_empty() {
+            return Ok(in_view);
+        }
         let corner = |position| Corner {
             position,
             colour: DVec3::ONE,
@@ -455,7 +528,7 @@ impl Search<'_> {
         };
         let mut positions = Vec::new();
         let (mut triangles, mut of) = (Vec::new(), Vec::new());
-        for (number, gap) in shape.gaps.iter().enumerate() {
+        for (number, gap) in gaps.iter().enumerate() {
             let first = positions.len() as u32;
             positions.extend_from_slice(&gap.polygon);
             for last in first + 2..positions.len() as u32 {
@@ -468,7 +541,6 @@ impl Search<'_> {
         let model = Place::new(self.scene, self.sampled.size).model;
         closing.items = vec![Item { model, ..Item::new(mesh, Material::default()) }];
         let closing = Sampled::of(&closing, target)?;
-        let mut in_view = vec![false; shape.gaps.len()];
         for (surfaces, pieces) in self.surfaces.iter().zip(&closing.planes) {
             let of_piece = |piece: &Piece| of[piece.face as usize];
             for gap in pieces.chunk_by(|a, b| of_piece(a) == of_piece(b)) {
@@ -488,17 +560,12 @@ impl Search<'_> {
                     if same.len() % 2 == 1 && same.iter().all(|(_, is_open)| *is_open) {
                         in_view[of_piece(&gap[0])] = true;
                         let [x, y] = self.sampled.pixel(same[0].0);
-                        self.touched.span_mut(y, x, x + 1)[0] |= Kind::Gap.bit();
+                        self.touched.span_mut(y, x, x + 1)[0] |= kind.bit();
                     }
                 }
             }
         }
-        let mut noted = Noted::new(Kind::Gap);
-        for (gap, in_view) in shape.gaps.iter().zip(in_view) {
-            noted.add(&mut self.marks, &gap.triangles, in_view);
-        }
-        self.note(noted, String::new());
-        Ok(())
+        Ok(in_view)
     }
 
     /// Pixels with a sample on an edge of a piece after snapping; seen where the piece is not hidden.
@@ -524,21 +591,17 @@ impl Search<'_> {
     fn broken(&mut self) {
         let mut all = [(Kind::Crack, true), (Kind::Fold, false)]
             .map(|(kind, is_crack)| (Noted::new(kind), is_crack, None));
-        let planes = self.sampled.planes.iter().zip(&self.sampled.lost);
-        for (surfaces, (pieces, lost)) in self.surfaces.iter().zip(planes) {
-            for broken in snapping::broken(self.scene, (pieces, lost), self.sampled.window) {
+        for (surfaces, lost) in self.surfaces.iter().zip(&self.sampled.lost) {
+            for broken in snapping::broken(self.scene, surfaces, lost, self.sampled.grid) {
                 let pixel @ [x, y] = self.sampled.pixel(broken.sample);
-                let is_seen = broken.pieces.iter().any(|piece| {
-                    surfaces.before(piece, broken.sample).is_none_or(|[by, off]| by <= off)
-                });
                 let faces: Vec<u32> = broken.pieces.iter().map(|piece| piece.face).collect();
                 let Some((noted, _, first)) =
                     all.iter_mut().find(|(_, is_crack, _)| *is_crack == broken.is_crack)
                 else {
                     continue;
                 };
-                noted.add(&mut self.marks, &faces, is_seen);
-                if is_seen {
+                noted.add(&mut self.marks, &faces, broken.is_seen);
+                if broken.is_seen {
                     self.touched.span_mut(y, x, x + 1)[0] |= noted.kind.bit();
                     first.get_or_insert((pixel, faces));
                 }
@@ -560,7 +623,7 @@ impl Search<'_> {
         let mut flat = 0;
         let (pieces, lost) = (self.sampled.at_centres(), self.sampled.lost_at_centres());
         for piece in pieces.iter().chain(lost) {
-            let change = piece.change();
+            let change = piece.change(self.sampled.grid);
             if change != Change::None {
                 flat += u64::from(change == Change::Flat);
                 noted.add(&mut self.marks, &[piece.face], self.is_seen[piece.face as usize]);
@@ -568,6 +631,42 @@ impl Search<'_> {
         }
         let note = format!("{} turned over, {flat} flattened", noted.count - flat);
         self.note(noted, note);
+    }
+
+    /// By how much values at samples differ from those of the same faces with corners as they are given.
+    fn shift(&self) -> Shift {
+        let mut shift = Shift::default();
+        for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
+            let window = self.sampled.window;
+            for (y, x) in
+                (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (y, x)))
+            {
+                let Some(piece) = surfaces.front([x, y]).map(|front| &pieces[front as usize])
+                else {
+                    continue;
+                };
+                let centre = [x, y].map_array(|at| f64::from(at) + 0.5);
+                let value = |corners| Value::at(centre, &piece.triangle, corners);
+                let (Some(given), Some(snapped)) =
+                    (value(piece.px), value(self.sampled.grid.place(piece.px)))
+                else {
+                    continue;
+                };
+                let seen =
+                    Shifted { pixel: self.sampled.pixel([x, y]), triangle: piece.face, by: 0.0 };
+                Shifted::keep(
+                    &mut shift.depth,
+                    Shifted { by: (snapped.depth - given.depth).abs(), ..seen },
+                );
+                let texture = &self.scene.items[piece.item as usize].material.texture;
+                if let Some((width, height)) = texture.as_ref().map(|texture| texture.size()) {
+                    let uv = (snapped.varying - given.varying).abs();
+                    let by = (uv.x * f64::from(width)).max(uv.y * f64::from(height));
+                    Shifted::keep(&mut shift.texels, Shifted { by, ..seen });
+                }
+            }
+        }
+        shift
     }
 
     fn wide_w(&mut self) {
@@ -643,11 +742,18 @@ impl Search<'_> {
         let format = std::mem::replace(&mut target.format, DepthFormat::F64);
         let exact = differs(&scene, &other, target);
         target.format = format;
-        let equal = exact?.iter().filter(|pixel| left.binary_search(pixel).is_ok()).count();
-        let in_format = left.len() - equal;
+        let equal = exact?.into_iter().filter(|pixel| left.binary_search(pixel).is_ok());
+        // What snapping folds is no fault of the model.
+        let is_fold = |&(x, y): &(i32, i32)| {
+            self.touched.get(x, y).is_some_and(|bits| bits & Kind::Fold.bit() != 0)
+        };
+        let (folds, equal): (Vec<_>, Vec<_>) = equal.partition(is_fold);
+        let (folds, equal) = (folds.len(), equal.len());
+        let in_format = left.len() - equal - folds;
         let name = format.name();
         let causes = [
             (blending, "by blending: --layers mixes by depth".to_owned()),
+            (folds, "where snapping folds a surface: see folds by snapping".to_owned()),
             (equal, "by equal depths: faces in one place, to be mended in the model".to_owned()),
             (
                 in_format,

@@ -2,15 +2,17 @@
 //! for. It prints nothing.
 
 pub mod bounds;
+pub mod corner_grid;
 pub mod cost;
 pub mod effects;
 pub mod facing;
+pub mod grid;
 pub mod hard;
 pub mod memory;
 pub mod report;
 pub mod savings;
 mod shape;
-mod snapping;
+pub mod snapping;
 pub mod ties;
 pub mod view;
 mod winding;

@@ -64,6 +64,14 @@ pub(crate) struct Shape {
     pub crowded: Vec<Edge>,
     /// Vertices in the middle of the edge of another face, with that face.
     pub t_junctions: Vec<Edge>,
+    /// What lies between such an edge and the vertices on it.
+    pub at_t_junctions: Vec<Gap>,
+    /// Places where vertices nearly meet, with the faces of borders there.
+    pub near: Vec<Edge>,
+    /// What lies between borders whose ends nearly meet.
+    pub at_near: Vec<Gap>,
+    /// How far apart vertices are at most that nearly meet.
+    pub near_apart: f64,
     pub gaps: Vec<Gap>,
     /// Pairs of faces, the later one first, sorted.
     pub overlaps: Vec<[u32; 2]>,
@@ -112,7 +120,14 @@ impl Shape {
         };
         triangles.retain(|triangle| !is_later(triangle));
         let size = size(&points);
-        let border = shape.edges(&points, &triangles);
+        let mut border = shape.edges(&points, &triangles);
+        if let Some(met) = shape.find_near(&points, (&triangles, &border), GRAIN * size) {
+            // With these corners merged, borders are those that are open still.
+            for triangle in &mut triangles {
+                triangle.vertices = triangle.vertices.map_array(|v| met[v as usize]);
+            }
+            border = shape.edges(&points, &triangles);
+        }
         shape.find_t_junctions(&points, &border, GRAIN * size);
         let in_gaps = shape.find_gaps(&points, (&triangles, &border), GRAIN * size);
         let rest = border.iter().filter(|(ends, _)| in_gaps.binary_search(ends).is_err());
@@ -162,6 +177,7 @@ impl Shape {
             }
         }
         edges.sort_unstable();
+        self.crowded.clear();
         let mut border = Vec::new();
         for same in edges.chunk_by(|a, b| a.0 == b.0) {
             // Where a face was cut, its triangles have the edge twice.
@@ -231,6 +247,107 @@ impl Shape {
         in_gaps
     }
 
+    /// Finds vertices at borders that are at most a grain apart and no corners of one triangle, nor of two faces on each other. For each vertex the first one of
+    /// those that it nearly meets, or itself; nothing where there are none.
+    fn find_near(
+        &mut self,
+        points: &[DVec3],
+        (triangles, border): (&[Triangle], &[Border]),
+        grain: f64,
+    ) -> Option<Vec<u32>> {
+        let mut vertices: Vec<u32> = border.iter().flat_map(|(ends, _)| *ends).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let boxes: Vec<Box> =
+            vertices.iter().map(|&v| Box::around(&[points[v as usize]], grain / 2.0)).collect();
+        let mut near: Vec<[u32; 2]> = Vec::new();
+        let is_whole = pairs(&boxes, &mut |i, j| {
+            let pair = [vertices[i], vertices[j]];
+            let [a, b] = pair.map_array(|v| points[v as usize]);
+            if a.distance(b) <= grain {
+                near.push(pair);
+            }
+            near.len() < MOST_FOUND
+        });
+        self.is_cut_short |= !is_whole;
+        if near.is_empty() {
+            return None;
+        }
+        near.sort_unstable();
+        // A side this short is a side all the same.
+        let mut sides = Vec::new();
+        for Triangle { vertices: [a, b, c], .. } in triangles {
+            for [a, b] in [[a, b], [b, c], [c, a]] {
+                let side = [*a.min(b), *a.max(b)];
+                sides.extend(near.binary_search(&side).is_ok().then_some(side));
+            }
+        }
+        sides.sort_unstable();
+        near.retain(|pair| sides.binary_search(pair).is_err());
+        let mut met: Vec<u32> = (0..points.len() as u32).collect();
+        // In this order, the vertex that the first of a pair meets is known.
+        for [a, b] in near {
+            met[b as usize] = met[b as usize].min(met[a as usize]);
+        }
+        // Two sheets on each other do not meet at a seam: what would make two faces one stays apart.
+        let mut merged = Vec::new();
+        for Triangle { vertices, .. } in triangles {
+            let mut of = vertices.map_array(|v| met[v as usize]);
+            of.sort_unstable();
+            merged.push((of, *vertices));
+        }
+        merged.sort_unstable();
+        let mut is_apart = vec![false; points.len()];
+        for same in merged.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+            same.iter().flat_map(|(_, of)| of).for_each(|v| is_apart[*v as usize] = true);
+        }
+        for vertex in 0..met.len() {
+            if is_apart[vertex] || is_apart[met[vertex] as usize] {
+                met[vertex] = vertex as u32;
+            }
+            let apart = points[vertex].distance(points[met[vertex] as usize]);
+            self.near_apart = self.near_apart.max(apart);
+        }
+        self.list_near(points, border, &met);
+        (!self.near.is_empty()).then_some(met)
+    }
+
+    /// Lists the places where vertices of borders nearly meet, and what lies between borders there.
+    fn list_near(&mut self, points: &[DVec3], border: &[Border], met: &[u32]) {
+        let mut is_met = vec![false; points.len()];
+        for (vertex, first) in met.iter().enumerate() {
+            is_met[*first as usize] |= vertex != *first as usize;
+        }
+        let mut at: Vec<(u32, u32)> = Vec::new();
+        let mut sides = Vec::new();
+        for &([a, b], triangle) in border {
+            let [of_a, of_b] = [a, b].map_array(|v| met[v as usize]);
+            for place in [of_a, of_b].into_iter().filter(|place| is_met[*place as usize]) {
+                at.push((place, triangle));
+            }
+            sides.push(if of_a < of_b {
+                ([of_a, of_b], [a, b], triangle)
+            } else {
+                ([of_b, of_a], [b, a], triangle)
+            });
+        }
+        at.sort_unstable();
+        at.dedup();
+        for of_place in at.chunk_by(|a, b| a.0 == b.0) {
+            let triangles = of_place.iter().map(|(_, triangle)| *triangle).collect();
+            self.near.push(edge(points, [of_place[0].0; 2], triangles));
+        }
+        self.near.sort_by_key(|edge| edge.triangles[0]);
+        sides.sort_unstable();
+        for same in sides.chunk_by(|a, b| a.0 == b.0) {
+            for pair in same.windows(2) {
+                let ((_, [a, b], one), (_, [c, d], other)) = (pair[0], pair[1]);
+                let polygon = [a, b, d, c].map_array(|v| points[v as usize]).to_vec();
+                self.at_near.push(Gap { polygon, triangles: vec![one, other] });
+            }
+        }
+    }
+
     /// Vertices at a border that lie within the edge of a border.
     fn find_t_junctions(&mut self, points: &[DVec3], border: &[Border], grain: f64) {
         let mut vertices: Vec<u32> = border.iter().flat_map(|(ends, _)| *ends).collect();
@@ -241,6 +358,7 @@ impl Shape {
         let boxes: Vec<Box> = edges
             .chain(vertices.iter().map(|&v| Box::around(&[points[v as usize]], 0.0)))
             .collect();
+        let mut on_edges: Vec<(usize, f64, DVec3)> = Vec::new();
         let is_whole = pairs(&boxes, &mut |i, j| {
             let (edge, vertex) = (i.min(j), i.max(j));
             if edge >= border.len() || vertex < border.len() {
@@ -253,11 +371,19 @@ impl Shape {
             if away <= grain && place > grain && place < length - grain {
                 let triangles = vec![border[edge].1];
                 self.t_junctions.push(Edge { ends: [point, point], triangles });
+                on_edges.push((edge, place, point));
             }
             self.t_junctions.len() < MOST_FOUND
         });
         self.is_cut_short |= !is_whole;
         self.t_junctions.sort_by_key(|edge| edge.triangles[0]);
+        on_edges.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for of_edge in on_edges.chunk_by(|a, b| a.0 == b.0) {
+            let number = of_edge[0].0;
+            let mut polygon = ends(number).to_vec();
+            polygon.splice(1..1, of_edge.iter().map(|(.., point)| *point));
+            self.at_t_junctions.push(Gap { polygon, triangles: vec![border[number].1] });
+        }
     }
 
     /// Pairs of faces in one plane that cover a part of it together.

@@ -3,7 +3,7 @@
 //!
 //! Two exact engines count how many pieces cover each sample: one with the corners as they are given, one with the snapped ones. Where the
 //! counts differ, an outline of the model may just have moved across the sample, which is no fault. A corner moves by at most half a step
-//! of the grid, 1/512 px in x and in y. The eight points of a square around the sample, [`RING`] px from it, therefore tell: an outline that can
+//! of the grid in x and in y. The eight points of a square around the sample, [`RING`] steps from it, therefore tell: an outline that can
 //! reach the sample runs between them, so that not all of them are covered equally often. Where they are, the sample lies inside a
 //! surface, and a crack or a fold is what snapping made there.
 //!
@@ -12,20 +12,24 @@
 //! consists of pieces that are turned over and their neighbours.
 
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
+use rasterproof_core::contract::RasterizeExact as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
+use rasterproof_core::triangle::Span;
+use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::Scene;
 
-use crate::view::Piece;
+use crate::corner_grid::CornerGrid;
+use crate::ties::{Classes, Surfaces};
+use crate::view::{Piece, each_plane};
 use crate::winding::{Change, area};
 
-/// How far the points around a sample are from it in x and in y: more than 1/512 px, and no multiple of a step of the grid, so that edges
-/// on the grid seldom run through them.
-const RING: f64 = 1.0 / 300.0;
+/// How far the points around a sample are from it in x and in y, in steps of the grid: more than half of one, which is how far a corner
+/// moves, and no multiple of one, so that edges on the grid seldom run through them.
+const RING: f64 = 256.0 / 300.0;
 
 /// The points around a sample, from -1 to 1.
 const AROUND: [[f64; 2]; 8] = [
@@ -44,6 +48,8 @@ pub(crate) struct BrokenSample<'a> {
     pub sample: [i32; 2],
     /// Whether fewer pieces cover it than before, else more.
     pub is_crack: bool,
+    /// Whether nothing lies in front that hides it.
+    pub is_seen: bool,
     /// The pieces around it as given for a crack, those that cover it for a fold.
     pub pieces: Vec<&'a Piece>,
 }
@@ -51,76 +57,148 @@ pub(crate) struct BrokenSample<'a> {
 /// What is known of a sample whose counts differ.
 struct Candidate<'a> {
     sample: [i32; 2],
-    snapped: u32,
     /// How many pieces cover each point around it as they are given; nothing once doubles could not tell.
     around: Option<[u32; AROUND.len()]>,
     given_here: Vec<&'a Piece>,
     snapped_here: Vec<&'a Piece>,
 }
 
-/// The samples that snapping broke, from the top left. `lost` are the pieces that culling removes only since snapping has turned them over.
+/// The samples of a plane that snapping broke, from the top left. `lost` are the pieces that culling removes only since snapping has
+/// turned them over.
 pub(crate) fn broken<'a>(
     scene: &Scene,
-    (pieces, lost): (&'a [Piece], &'a [Piece]),
-    window: PixelRect,
+    surfaces: &Surfaces<'a>,
+    lost: &'a [Piece],
+    grid: CornerGrid,
 ) -> Vec<BrokenSample<'a>> {
+    let Some(step) = grid.step_px() else { return Vec::new() };
+    let ring = RING * step;
+    let Surfaces { pieces, window, .. } = *surfaces;
     let is_culled = |piece: &Piece| scene.items[piece.item as usize].cull != Cull::None;
     // What culling would remove if nothing was snapped is drawn, and not part of the surface as given.
-    let is_given = |piece: &Piece| !is_culled(piece) || piece.change() != Change::Over;
-    let given = || pieces.iter().filter(|piece| is_given(piece)).chain(lost);
-    let mut counts = Frame::new(window, [0u32; 2]);
-    for piece in given() {
-        let Some(corners) = piece.free() else { continue };
-        ScanlineExact.cover_exact(&corners, window, |span| {
-            for [given, _] in counts.span_mut(span.y_px, span.x0_px, span.x1_px) {
-                *given += 1;
+    let is_given = |piece: &Piece| !is_culled(piece) || piece.change(grid) != Change::Over;
+    // By how many pieces more a sample is covered once they are snapped.
+    let mut more = Frame::new(window, 0i32);
+    let mut count = |piece: &Piece, is_given: bool, is_snapped: bool| {
+        let samples = samples_near(piece, ring).intersect(&window);
+        let Some(corners) = piece.free().filter(|_| !samples.is_empty()) else { return };
+        // Of corners on the grid, which snapping leaves, both counts are the same.
+        if is_given && is_snapped && corners.px() == grid.place(piece.px) {
+            return;
+        }
+        let mut add = |span: Span, by: i32| {
+            for more in more.span_mut(span.y_px, span.x0_px, span.x1_px) {
+                *more += by;
             }
-        });
+        };
+        if is_given {
+            ScanlineExact.cover_exact(&corners, samples, |span| add(span, -1));
+        }
+        if is_snapped {
+            grid.cover(piece.px, samples, &mut |span| add(span, 1));
+        }
+    };
+    for piece in pieces {
+        count(piece, is_given(piece), true);
     }
-    for piece in pieces.iter().filter(|piece| piece.free().is_some()) {
-        Scanline.cover(piece.corners(), window, |span| {
-            for [_, snapped] in counts.span_mut(span.y_px, span.x0_px, span.x1_px) {
-                *snapped += 1;
-            }
-        });
+    for piece in lost {
+        count(piece, true, false);
     }
     let mut candidates = Vec::new();
-    for (y, row) in counts.rows() {
-        for (x, [given, snapped]) in (window.x0..).zip(row) {
-            if given != snapped {
-                let (sample, snapped) = ([x, y], *snapped);
-                let around = Some([0; AROUND.len()]);
+    for (y, row) in more.rows() {
+        for (x, more) in (window.x0..).zip(row) {
+            if *more != 0 {
+                let (sample, around) = ([x, y], Some([0; AROUND.len()]));
                 let (given_here, snapped_here) = (Vec::new(), Vec::new());
-                candidates.push(Candidate { sample, snapped, around, given_here, snapped_here });
+                candidates.push(Candidate { sample, around, given_here, snapped_here });
             }
         }
     }
-    for piece in given() {
-        near(&mut candidates, piece, |candidate| look_around(candidate, piece));
+    for piece in pieces.iter().filter(|piece| is_given(piece)).chain(lost) {
+        near(&mut candidates, piece, |candidate| look_around(candidate, piece, ring));
     }
     for piece in pieces {
         near(&mut candidates, piece, |candidate| {
             let [x, y] = candidate.sample;
             let pixel = PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 };
-            Scanline.cover(piece.corners(), pixel, |_| candidate.snapped_here.push(piece));
+            grid.cover(piece.px, pixel, &mut |_| candidate.snapped_here.push(piece));
         });
     }
-    let broken = |candidate: Candidate<'a>| {
-        let Candidate { sample, snapped, around, given_here, snapped_here } = candidate;
-        let around = around?;
-        let is_inside = around[0] > 0 && around.iter().all(|count| *count == around[0]);
-        let is_crack = snapped < around[0];
+    let mut broken = Vec::new();
+    for Candidate { sample, around, given_here, snapped_here } in candidates {
+        let Some(around) = around else { continue };
+        let (given, snapped) = (around[0], snapped_here.len() as u32);
+        let is_inside = given > 0 && around.iter().all(|count| *count == given);
+        let is_crack = snapped < given;
         let is_known = |piece: &&Piece| {
-            piece.change() == Change::Over
+            piece.change(grid) == Change::Over
                 || given_here.iter().any(|given| std::ptr::eq(*given, *piece))
         };
-        if !is_crack && !snapped_here.iter().all(is_known) {
-            return None;
+        if !is_inside || snapped == given || !is_crack && !snapped_here.iter().all(is_known) {
+            continue;
         }
         let pieces = if is_crack { given_here } else { snapped_here };
-        (is_inside && snapped != around[0]).then_some(BrokenSample { sample, is_crack, pieces })
+        let is_before =
+            |piece: &&Piece| surfaces.before(piece, sample).is_none_or(|[by, off]| by <= off);
+        let is_seen = pieces.iter().any(is_before);
+        broken.push(BrokenSample { sample, is_crack, is_seen, pieces });
+    }
+    broken
+}
+
+/// Pixels that lie in cracks and folds by snapping and are seen, with the first of each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct BySnapping {
+    pub cracks: u64,
+    pub folds: u64,
+    pub first_crack: Option<[i32; 2]>,
+    pub first_fold: Option<[i32; 2]>,
+}
+
+/// What decides the pixels of a scene as a target shows it: which of them snapping breaks, and [`Classes`]. One plane of samples after
+/// the other is held.
+pub fn look(
+    scene: &Scene,
+    target: &Target,
+    grid: CornerGrid,
+) -> Result<(Classes, BySnapping), BadScene> {
+    let scale = target.antialias().scale() as i32;
+    let mut classes = Classes::new(target.size());
+    let mut pixels = [Vec::new(), Vec::new()];
+    each_plane(scene, target, grid, &mut |pieces, lost| {
+        let surfaces = Surfaces::of(scene, pieces, target.bounds());
+        classes.look(&surfaces, scale);
+        for broken in
+            broken(scene, &surfaces, lost, grid).into_iter().filter(|broken| broken.is_seen)
+        {
+            let [x, y] = broken.sample.map_array(|at| at.div_euclid(scale));
+            pixels[usize::from(broken.is_crack)].push([y, x]);
+        }
+    })?;
+    for pixels in &mut pixels {
+        pixels.sort_unstable();
+        pixels.dedup();
+    }
+    let [folds, cracks] = &pixels;
+    let first = |pixels: &[[i32; 2]]| pixels.first().map(|[y, x]| [*x, *y]);
+    let by_snapping = BySnapping {
+        cracks: cracks.len() as u64,
+        folds: folds.len() as u64,
+        first_crack: first(cracks),
+        first_fold: first(folds),
     };
-    candidates.into_iter().filter_map(broken).collect()
+    Ok((classes.counted(), by_snapping))
+}
+
+/// The pixels whose samples a piece may cover as it is given or snapped.
+fn samples_near(piece: &Piece, ring: f64) -> PixelRect {
+    let [a, b, c] = piece.px;
+    let ends = |i: usize| {
+        let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+        [(least - 0.5 - ring).ceil() as i32, (most - 0.5 + ring).floor() as i32 + 1]
+    };
+    let ([x0, x1], [y0, y1]) = (ends(0), ends(1));
+    PixelRect { x0, y0, x1, y1 }
 }
 
 /// Calls `visit` with each candidate in or beside the box of a piece.
@@ -149,7 +227,7 @@ fn near<'a>(
 }
 
 /// Counts the points around a sample that a piece covers as it is given.
-fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece) {
+fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece, ring: f64) {
     let Some(around) = &mut candidate.around else { return };
     let [a, b, c] = piece.px;
     let sign = area(piece.px).signum();
@@ -159,7 +237,7 @@ fn look_around<'a>(candidate: &mut Candidate<'a>, piece: &'a Piece) {
     let mut is_here = false;
     for (count, by) in around.iter_mut().zip(AROUND) {
         let [x, y] = candidate.sample.map_array(|at| f64::from(at) + 0.5);
-        let point = [x + by[0] * RING, y + by[1] * RING];
+        let point = [x + by[0] * ring, y + by[1] * ring];
         let sides = [[a, b, point], [b, c, point], [c, a, point]].map_array(|of| area(of) * sign);
         if sides.iter().any(|side| *side < 0.0) {
             continue;

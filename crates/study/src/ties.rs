@@ -13,12 +13,10 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::geometry::sorted;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::opacity::AlphaMode;
-use rasterproof_render::pipeline::target::Target;
 use rasterproof_render::scene::{Item, Scene};
 
-use crate::view::{NOTHING, Piece, each_plane};
+use crate::view::{NOTHING, Piece};
 
 /// How it is decided which surface is seen at a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,7 +56,7 @@ pub struct TiedPair {
 }
 
 /// A depth over the window, before corners are snapped.
-struct DepthPlane {
+pub(crate) struct DepthPlane {
     from: [f64; 3],
     slope: [f64; 2],
     /// The same with every term positive, times what the terms may be off.
@@ -77,7 +75,7 @@ impl DepthPlane {
     /// In units of u, as for the choices of interpolation: with k the cancellation of the area, a slope is off by
     /// (7 + 3 k) times its terms, and the sum by twice the depth of the corner. What the vertex stage is off moves the
     /// depth by that of a corner, and by the slope times that of a position.
-    fn of(piece: &Piece) -> Option<Self> {
+    pub fn of(piece: &Piece) -> Option<Self> {
         let [a, b, c] = piece.px;
         let [z, z1, z2] = piece.triangle.vertices.map(|vertex| vertex.depth);
         let (p, q) = ((b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1]));
@@ -99,7 +97,7 @@ impl DepthPlane {
     }
 
     /// The depth at a pixel centre, what it may be off, and what it may be off once corners are snapped.
-    fn at(&self, x_px: i32, y_px: i32) -> [f64; 3] {
+    pub fn at(&self, x_px: i32, y_px: i32) -> [f64; 3] {
         let [x, y, z] = self.from;
         let (dx, dy) = (f64::from(x_px) + 0.5 - x, f64::from(y_px) + 0.5 - y);
         let off = self.off + self.terms[0] * dx.abs() + self.terms[1] * dy.abs();
@@ -110,8 +108,8 @@ impl DepthPlane {
 
 /// The pieces of a plane of samples, and the nearest one of those that hide what is behind them.
 pub(crate) struct Surfaces<'a> {
-    pieces: &'a [Piece],
-    window: PixelRect,
+    pub pieces: &'a [Piece],
+    pub window: PixelRect,
     planes: Vec<Option<DepthPlane>>,
     /// Whether a piece blends, so that it hides nothing.
     blends: Vec<bool>,
@@ -159,6 +157,12 @@ impl<'a> Surfaces<'a> {
         }
     }
 
+    /// The number of the piece that is seen at a sample and hides what is behind it.
+    pub fn front(&self, [x, y]: [i32; 2]) -> Option<u32> {
+        let (_, front) = self.nearest.get(x, y).unwrap_or(NONE);
+        (front != NOTHING).then_some(front)
+    }
+
     /// How far what is seen at a sample lies in front of a piece of this or another scene, and by how much either may be
     /// off once corners are snapped; nothing where nothing is seen, or the piece has no plane.
     pub fn before(&self, piece: &Piece, [x, y]: [i32; 2]) -> Option<[f64; 2]> {
@@ -203,26 +207,19 @@ impl<'a> Surfaces<'a> {
     }
 }
 
-/// How it is decided at the samples of each pixel of a picture which surface is seen. One plane of samples after the other
-/// is held.
-pub fn classify(scene: &Scene, target: &Target) -> Result<Classes, BadScene> {
-    let scale = target.antialias().scale() as i32;
-    let mut classes = Classes::new(target.size());
-    each_plane(scene, target, &mut |pieces| {
-        let surfaces = Surfaces::of(scene, pieces, target.bounds());
-        surfaces.seen(&mut |sample, [piece, front], class| {
-            let pixel = sample.map_array(|at| at.div_euclid(scale));
-            let triangles = [front, piece].map_array(|one| pieces[one as usize].face);
-            classes.add(TiedPair { pixel, triangles }, class);
-        });
-    })?;
-    Ok(classes.counted())
-}
-
 impl Classes {
     pub(crate) fn new(size: PixelRect) -> Self {
         let map = Frame::new(size, Class::Empty);
         Self { map, decided: 0, by_order: 0, by_rounding: 0, equal: 0, first: None }
+    }
+
+    /// Adds what is seen at the samples of a plane, `scale` of which are a pixel in x and in y.
+    pub(crate) fn look(&mut self, surfaces: &Surfaces<'_>, scale: i32) {
+        surfaces.seen(&mut |sample, [piece, front], class| {
+            let pixel = sample.map_array(|at| at.div_euclid(scale));
+            let triangles = [front, piece].map_array(|one| surfaces.pieces[one as usize].face);
+            self.add(TiedPair { pixel, triangles }, class);
+        });
     }
 
     /// Adds what is seen at a sample.
@@ -252,9 +249,8 @@ impl Classes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::pieces;
     use glam::{DMat4, DVec2, DVec3};
-    use rasterproof_render::pipeline::depth::DepthFormat;
-    use rasterproof_render::pipeline::target::Antialias;
     use rasterproof_render::pipeline::transform::perspective;
     use rasterproof_render::scene::{Corner, Material, Mesh};
 
@@ -282,8 +278,11 @@ mod tests {
         let mut scene = Scene::new("two", "", perspective(0.7, 1.0, 1.0, 10.0).unwrap());
         scene.view = DMat4::IDENTITY;
         scene.items = vec![square(false, 0.0), second];
-        let target = Target::new(200, 200, Antialias::None, DepthFormat::Unorm32).unwrap();
-        classify(&scene, &target).unwrap()
+        let size = PixelRect::window(200, 200);
+        let pieces = pieces(&scene, size).unwrap();
+        let mut classes = Classes::new(size);
+        classes.look(&Surfaces::of(&scene, &pieces, size), 1);
+        classes.counted()
     }
 
     /// In one plane depths are equal, whatever the diagonals, and rounding decides unless it is the same triangles twice;

@@ -6,7 +6,7 @@ use rasterproof_core::contract::Interpolate as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_core::triangle::{Corners, FreeCorners, ScreenTriangle, ScreenVertex};
+use rasterproof_core::triangle::{Corners, FreeCorners, ScreenTriangle, ScreenVertex, Varying};
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::{Viewport, check_vertex};
@@ -14,8 +14,9 @@ use rasterproof_render::pipeline::clip::{clip, outcode};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::multisample::{self, SAMPLES};
 use rasterproof_render::pipeline::target::{Antialias, Target};
-use rasterproof_render::scene::Scene;
+use rasterproof_render::scene::{Corner, Scene};
 
+use crate::corner_grid::CornerGrid;
 use crate::winding::{self, Change};
 
 /// What clipping leaves of a triangle, or a part of it.
@@ -48,9 +49,9 @@ impl Piece {
         ScreenTriangle { vertices }
     }
 
-    /// What snapping does to it.
-    pub(crate) fn change(&self) -> Change {
-        winding::change(self.px, self.px_error, self.corners())
+    /// What putting its corners on a grid does to it.
+    pub(crate) fn change(&self, grid: CornerGrid) -> Change {
+        winding::change(self.px, self.px_error, grid.winding(self.px))
     }
 
     /// The corners as they are; none beyond the domain of the engines.
@@ -61,64 +62,96 @@ impl Piece {
 
 /// The pieces of a scene in drawing order, culled as the scene asks.
 pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> {
-    Ok(pieces_and_lost(scene, window)?.0)
+    Ok(pieces_and_lost(scene, window, CornerGrid::USUAL)?.0)
 }
 
-/// The pieces of a scene, and those that culling removes only since snapping has turned them over.
-fn pieces_and_lost(scene: &Scene, window: PixelRect) -> Result<(Vec<Piece>, Vec<Piece>), BadScene> {
+/// The pieces of a scene, and those that culling removes only since their corners on the grid have turned them over.
+pub(crate) fn pieces_and_lost(
+    scene: &Scene,
+    window: PixelRect,
+    grid: CornerGrid,
+) -> Result<(Vec<Piece>, Vec<Piece>), BadScene> {
     let (width, height) = (f64::from(window.width()), f64::from(window.height()));
-    let viewport = Viewport::new(window);
     let mut pieces = Vec::with_capacity(scene.triangles());
     let mut lost = Vec::new();
-    let mut face = 0;
     for (index, item) in scene.items.iter().enumerate() {
-        let points = clip_points(scene, index)?;
         let sums = absolute(scene, index);
-        for item_triangle in item.mesh.triangles.iter() {
-            face += 1;
-            let vertices = item_triangle.map_array(|corner| ClipVertex {
-                position: points[corner.position as usize],
-                varying: corner.uv,
-            });
-            let [a, b, c] = vertices.map_array(|vertex| outcode(&vertex));
-            if a & b & c != 0 {
-                continue;
+        each_cut(scene, index, window, |corner, _| corner.uv, &mut |cut: Cut<'_, DVec2>| {
+            let positions = cut.corners.map_array(|c| item.mesh.positions[c.position as usize]);
+            let most = positions.map_array(|position| sums * position.abs().extend(1.0));
+            let [a, b, c] = most;
+            let least_w = cut.w[0].min(cut.w[1]).min(cut.w[2]);
+            let off = MOST_OFF * a.max(b).max(c) / least_w;
+            // Within the window |x|, |y| and |z| are at most w; half of that is the side of the window.
+            let px_error = (off.x.max(off.y) + off.w) * width.max(height) / 2.0;
+            let depth_error = (off.z + off.w) / 2.0;
+            let Cut { face, px, w, triangle, .. } = cut;
+            let number = index as u32;
+            let piece = Piece { face, item: number, px, w, px_error, depth_error, triangle };
+            if !grid.is_removed(item.cull, px) {
+                pieces.push(piece);
+            } else if piece.change(grid) == Change::Over {
+                lost.push(piece);
             }
-            let (polygon, _) = clip(&vertices, a | b | c);
-            let mut placed = polygon.vertices().filter_map(|vertex| {
-                let DVec4 { x, y, w, .. } = vertex.position;
-                let px = [(x / w + 1.0) / 2.0 * width, (1.0 - y / w) / 2.0 * height];
-                Some((px, w, viewport.place(vertex).ok()?))
-            });
-            let (Some(first), Some(mut previous)) = (placed.next(), placed.next()) else {
-                continue;
-            };
-            for next in placed {
-                let corners = [first, previous, next];
-                previous = next;
-                let triangle = ScreenTriangle { vertices: corners.map_array(|(.., v)| v) };
-                let (px, w) = (corners.map_array(|(px, ..)| px), corners.map_array(|(_, w, _)| w));
-                let is_removed = item.cull.removes(triangle.corners());
-                let positions =
-                    item_triangle.map_array(|c| item.mesh.positions[c.position as usize]);
-                let most = positions.map_array(|position| sums * position.abs().extend(1.0));
-                let [a, b, c] = most;
-                let least_w = w[0].min(w[1]).min(w[2]);
-                let off = MOST_OFF * a.max(b).max(c) / least_w;
-                // Within the window |x|, |y| and |z| are at most w; half of that is the side of the window.
-                let px_error = (off.x.max(off.y) + off.w) * width.max(height) / 2.0;
-                let depth_error = (off.z + off.w) / 2.0;
-                let (face, number) = (face - 1, index as u32);
-                let piece = Piece { face, item: number, px, w, px_error, depth_error, triangle };
-                if !is_removed {
-                    pieces.push(piece);
-                } else if piece.change() == Change::Over {
-                    lost.push(piece);
-                }
-            }
-        }
+        })?;
     }
     Ok((pieces, lost))
+}
+
+/// What clipping leaves of a triangle of an item, or a part of it, culled or not.
+pub(crate) struct Cut<'a, V> {
+    pub face: u32,
+    /// The corners of the triangle, and its number in the item.
+    pub corners: &'a [Corner; 3],
+    pub number: usize,
+    /// Its corners in pixels, not snapped.
+    pub px: [[f64; 2]; 3],
+    pub w: [f64; 3],
+    pub triangle: ScreenTriangle<V>,
+}
+
+/// Calls `see` with the parts of the triangles of an item that lie in the window. `varying` is what a corner carries, by the corner
+/// and its number in the triangle.
+pub(crate) fn each_cut<V: Varying>(
+    scene: &Scene,
+    item: usize,
+    window: PixelRect,
+    varying: impl Fn(&Corner, usize) -> V,
+    see: &mut dyn FnMut(Cut<'_, V>),
+) -> Result<(), BadScene> {
+    let (width, height) = (f64::from(window.width()), f64::from(window.height()));
+    let viewport = Viewport::new(window);
+    let before: usize = scene.items[..item].iter().map(|item| item.mesh.triangles.len()).sum();
+    let points = clip_points(scene, item)?;
+    for (number, corners) in scene.items[item].mesh.triangles.iter().enumerate() {
+        let vertex = |i: usize| ClipVertex {
+            position: points[corners[i].position as usize],
+            varying: varying(&corners[i], i),
+        };
+        let vertices = [vertex(0), vertex(1), vertex(2)];
+        let [a, b, c] = vertices.map_array(|vertex| outcode(&vertex));
+        if a & b & c != 0 {
+            continue;
+        }
+        let (polygon, _) = clip(&vertices, a | b | c);
+        let mut placed = polygon.vertices().filter_map(|vertex| {
+            let DVec4 { x, y, w, .. } = vertex.position;
+            let px = [(x / w + 1.0) / 2.0 * width, (1.0 - y / w) / 2.0 * height];
+            Some((px, w, viewport.place(vertex).ok()?))
+        });
+        let (Some(first), Some(mut previous)) = (placed.next(), placed.next()) else {
+            continue;
+        };
+        for next in placed {
+            let of = [first, previous, next];
+            previous = next;
+            let triangle = ScreenTriangle { vertices: of.map_array(|(.., v)| v) };
+            let (px, w) = (of.map_array(|(px, ..)| px), of.map_array(|(_, w, _)| w));
+            let face = (before + number) as u32;
+            see(Cut { face, corners: &corners, number, px, w, triangle });
+        }
+    }
+    Ok(())
 }
 
 /// What a coordinate in clip space may be off, in what the same sums with positive terms alone come to. Three matrices
@@ -156,19 +189,26 @@ pub struct Sampled {
     pub planes: Vec<Vec<Piece>>,
     /// For each plane the pieces that culling removes only since snapping has turned them over.
     pub lost: Vec<Vec<Piece>>,
+    /// The grid by which it is told what snapping does; what is seen is that of the usual one.
+    pub grid: CornerGrid,
     /// The pieces in the pixels of the picture, where they are no plane, and those of them that are lost.
     centre: Option<[Vec<Piece>; 2]>,
 }
 
 impl Sampled {
     pub fn of(scene: &Scene, target: &Target) -> Result<Self, BadScene> {
+        Self::on(scene, target, CornerGrid::USUAL)
+    }
+
+    /// The same where what snapping does is that of another grid.
+    pub fn on(scene: &Scene, target: &Target, grid: CornerGrid) -> Result<Self, BadScene> {
         let (size, window) = (target.size(), target.bounds());
-        let (at_centres, lost) = pieces_and_lost(scene, size)?;
-        let sampled = |planes, lost, centre| Self { size, window, planes, lost, centre };
+        let (at_centres, lost) = pieces_and_lost(scene, size, grid)?;
+        let sampled = |planes, lost, centre| Self { size, window, planes, lost, grid, centre };
         Ok(match target.antialias() {
             Antialias::None => sampled(vec![at_centres], vec![lost], None),
             Antialias::Supersample(_) => {
-                let (pieces, lost_there) = pieces_and_lost(scene, window)?;
+                let (pieces, lost_there) = pieces_and_lost(scene, window, grid)?;
                 sampled(vec![pieces], vec![lost_there], Some([at_centres, lost]))
             }
             Antialias::Multisample4 => {
@@ -224,25 +264,30 @@ impl Sampled {
     }
 }
 
-/// Calls `see` with the pieces at each plane of samples of a picture, as [`Sampled`] has them, one plane after the other.
+/// Calls `see` with the pieces at each plane of samples of a picture and those that are lost, as [`Sampled`] has them, one plane after
+/// the other.
 pub(crate) fn each_plane(
     scene: &Scene,
     target: &Target,
-    see: &mut dyn FnMut(&[Piece]),
+    grid: CornerGrid,
+    see: &mut dyn FnMut(&[Piece], &[Piece]),
 ) -> Result<(), BadScene> {
     if target.antialias() != Antialias::Multisample4 {
-        see(&pieces(scene, target.bounds())?);
+        let (pieces, lost) = pieces_and_lost(scene, target.bounds(), grid)?;
+        see(&pieces, &lost);
         return Ok(());
     }
     for sample in SAMPLES {
         // Made anew for each plane, since two lists of millions of pieces do not fit beside each other.
-        let mut pieces = pieces(scene, target.size())?;
-        pieces.retain_mut(|piece| {
-            let moved = moved(piece, sample);
-            *piece = moved.unwrap_or(*piece);
-            moved.is_some()
-        });
-        see(&pieces);
+        let (mut pieces, mut lost) = pieces_and_lost(scene, target.size(), grid)?;
+        for list in [&mut pieces, &mut lost] {
+            list.retain_mut(|piece| {
+                let moved = moved(piece, sample);
+                *piece = moved.unwrap_or(*piece);
+                moved.is_some()
+            });
+        }
+        see(&pieces, &lost);
     }
     Ok(())
 }

@@ -1,8 +1,5 @@
 //! The winding of a triangle before its corners are snapped and after.
 
-use rasterproof_core::geometry::twice_area;
-use rasterproof_core::triangle::Corners;
-
 /// What snapping does to a triangle that has an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Change {
@@ -22,17 +19,17 @@ pub(crate) fn area([a, b, c]: [[f64; 2]; 3]) -> f64 {
     if (p - q).abs() > OFF * (p.abs() + q.abs()) { p - q } else { 0.0 }
 }
 
-/// What snapping does to a triangle, by its corners before, which may be off by `off_px`, and after.
-pub(crate) fn change(given: [[f64; 2]; 3], off_px: f64, snapped: Corners) -> Change {
+/// What snapping does to a triangle, by its corners before, which may be off by `off_px`, and the sign of its area after.
+pub(crate) fn change(given: [[f64; 2]; 3], off_px: f64, snapped: f64) -> Change {
     let [a, b, c] = given;
     let length = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| (ax - bx).abs() + (ay - by).abs();
     let around = length(a, b) + length(b, c) + length(c, a);
     let given = area(given);
-    match twice_area(&snapped).signum() as f64 {
+    match snapped {
         // Seen from its edge, it has no winding that snapping could change.
         _ if given.abs() <= 2.0 * off_px * around => Change::None,
         0.0 => Change::Flat,
-        sign if sign == given.signum() => Change::None,
+        sign if sign.signum() == given.signum() => Change::None,
         _ => Change::Over,
     }
 }
@@ -41,6 +38,7 @@ pub(crate) fn change(given: [[f64; 2]; 3], off_px: f64, snapped: Corners) -> Cha
 mod tests {
     use super::*;
     use rasterproof_core::arrays::MapArray as _;
+    use rasterproof_core::geometry::twice_area;
     use rasterproof_core::grid::SubpixelPoint;
 
     #[test]
@@ -51,7 +49,7 @@ mod tests {
                 let [x, y] = [x, y].map(|at: f64| (at * 256.0).round_ties_even() as i32);
                 SubpixelPoint::new(x, y)
             });
-            change(given, off_px, snapped)
+            change(given, off_px, twice_area(&snapped) as f64)
         };
         assert_eq!(of([4.0, 3.0], 0.0), Change::None);
         // To the left of the long edge by some millionths of a pixel, and snapped to its other side.

@@ -36,6 +36,7 @@
 //! | their depths and attributes too | [`contract::DrawLine`] | [`assert_line_values!`] |
 //! | corners that are not snapped to a grid | [`contract::RasterizeExact`] | [`comparison::judge_exact`] |
 //! | the triangles that are made of a polygon | [`partition::Tessellate`], or a function | [`assert_partition!`] |
+//! | what your own snapping does to a mesh | both meshes | [`snapping::broken`] |
 //!
 //! Each macro judges 2,000 cases of every family in [`cases`]: corners on pixel centres, slivers, meshes, corners far outside the
 //! window. It panics where a pixel is wrong, and where nothing was judged at all. A second argument says what else is
@@ -210,6 +211,7 @@ mod learn;
 pub mod mistakes;
 pub mod partition;
 mod promise;
+pub mod snapping;
 // So that whoever judges needs this crate alone.
 #[doc(inline)]
 pub use rasterproof_core::{contract, frame, grid, triangle};

@@ -5,6 +5,7 @@
 //! dots and never overlap.
 
 use crate::cost::Group;
+use crate::grid::GridPrice;
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced};
 use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
 use rasterproof_report::words::{number, thousands};
@@ -93,6 +94,36 @@ pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
                   a circle around it: the cheapest exact choice\n\
                   line: the least error at each price; bars: the middle half of the times";
     drawn("Error against time", legend, groups.iter().map(panel).collect(), in_row)
+}
+
+/// Pixels that change against time, a dot for each grid and a panel for each engine.
+pub fn pareto_of_grids(prices: &[GridPrice], in_row: usize) -> Drawing {
+    let panel = |engine: &str, time: &dyn Fn(&GridPrice) -> f64| {
+        let dot = |price: &GridPrice| Dot {
+            label: price.bits.map_or("unsnapped".to_owned(), |bits| format!("{bits} bits")),
+            time: time(price),
+            quartiles: [time(price); 2],
+            error: (price.changed > 0).then_some(price.changed as f64),
+            good: price.changed == 0,
+            hollow: false,
+            cracked: false,
+            best: false,
+        };
+        Panel {
+            head: format!("Coverage by {engine}"),
+            up: "px that change".to_owned(),
+            right: "time in ms".to_owned(),
+            snapping: None,
+            dots: prices.iter().map(dot).collect(),
+        }
+    };
+    let panels = vec![
+        panel("scanline", &|price| price.scanline_ms),
+        panel("edge function", &|price| price.edge_function_ms),
+    ];
+    let legend = "each dot a grid: bits below the pixel; shelf: no pixel changes here\n\
+                  up to 8 bits by whole numbers, beyond by the exact engines";
+    drawn("Pixels that the grid changes, against time", legend, panels, in_row)
 }
 
 /// A bar: its share of the longest, its colour, and what stands behind it.

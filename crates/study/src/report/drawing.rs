@@ -4,6 +4,7 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Duration;
 
+use rasterproof_core::frame::Frame;
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Engine;
 use rasterproof_registry::undecided::{self, EngineFrame};
@@ -12,17 +13,18 @@ use rasterproof_render::effects::depth_ties::ByRounding;
 use rasterproof_render::effects::plan::Plan;
 use rasterproof_render::effects::render::{PaidMap, Rendered};
 use rasterproof_render::pipeline::Counters;
-use rasterproof_render::pipeline::target::Target;
+use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
 use rasterproof_report::table::{Row, Table};
-use rasterproof_report::words::thousands;
+use rasterproof_report::words::{self, thousands};
 use rasterproof_tiles::frames::HandedOver;
 
 use super::plan;
-use crate::ties::classify;
+use crate::corner_grid::CornerGrid;
+use crate::snapping::{self, BySnapping};
 
 /// A frame of one rasterizer, with what was found of its plan.
 pub struct Drawing {
@@ -48,7 +50,9 @@ pub struct Data<'a> {
     pub counters: &'a Counters,
     pub plan: &'a Plan,
     pub comparison: &'a Option<Comparison>,
-    pub by_rounding: &'a Option<ByRounding>,
+    pub by_rounding: Option<&'a ByRounding>,
+    pub by_snapping: Option<&'a BySnapping>,
+    pub grid: Option<&'a ByGrid>,
 }
 
 pub fn names(drawings: &[Drawing]) -> Vec<&'static str> {
@@ -94,17 +98,91 @@ pub fn compare(
     Ok(Some(comparison))
 }
 
-/// Pixels in which rounding alone decides which surface is seen, as `study` counts them.
-pub fn by_rounding(
+/// Pixels in which rounding alone decides which surface is seen, and those that snapping breaks, as `study` counts them.
+pub fn undecided_and_broken(
     scene: &Scene,
     target: &Target,
-) -> Result<ByRounding, Box<dyn Error + Send + Sync>> {
+    grid: CornerGrid,
+) -> Result<(ByRounding, BySnapping), Box<dyn Error + Send + Sync>> {
     if scene.hidden == Hidden::Painter {
-        return Ok(ByRounding::default());
+        return Ok(Default::default());
     }
-    let classes = classify(scene, target)?;
+    let (classes, by_snapping) = snapping::look(scene, target, grid)?;
     let first = classes.first.map(|pair| pair.pixel.into());
-    Ok(ByRounding { pixels: classes.by_rounding, first })
+    Ok((ByRounding { pixels: classes.by_rounding, first }, by_snapping))
+}
+
+/// What another grid changes in a picture.
+#[derive(serde::Serialize)]
+pub struct ByGrid {
+    /// Pixels that have another colour than on the usual grid, and the first of them.
+    pub pixels: u64,
+    pub first: Option<[i32; 2]>,
+    #[serde(skip)]
+    pub picture: Frame<Colour>,
+}
+
+impl ByGrid {
+    pub fn between((usual, usual_target): (&Frame<Colour>, &Target), drawing: &Drawing) -> Self {
+        let (picture, target) = (&drawing.rendered.picture, &drawing.target);
+        let compared = frame_comparison::compare((usual, usual_target), (picture, target), None);
+        let mut first = None;
+        for (y, row) in usual.rows() {
+            let differs =
+                |(x, own): (i32, &Colour)| (picture.get(x, y) != Some(*own)).then_some([x, y]);
+            first = first.or_else(|| (0..).zip(row).find_map(differs));
+        }
+        Self {
+            pixels: frame_comparison::differing(usual, picture),
+            first,
+            picture: compared.picture,
+        }
+    }
+}
+
+/// The same in words.
+pub fn grid_notes(
+    found: &ByGrid,
+    grid: CornerGrid,
+    place: Option<impl std::fmt::Display>,
+) -> Vec<String> {
+    let place = place.map(|place| format!(", drawn in {place}")).unwrap_or_default();
+    let usual = CornerGrid::USUAL;
+    let sentence = match found.first {
+        None => format!(
+            "GRID: with corners {grid} no pixel differs from the picture with corners {usual}"
+        ),
+        Some([x, y]) => {
+            let pixels = match found.pixels {
+                1 => "1 pixel differs".to_owned(),
+                many => format!("{} pixels differ", thousands(many)),
+            };
+            format!(
+                "GRID: with corners {grid} {pixels} from the picture with corners {usual}, the first at {x}, {y}{place}"
+            )
+        }
+    };
+    vec![sentence]
+}
+
+/// What snapping breaks in words, a line each, and the command that names faces and cures.
+pub fn snapped(found: BySnapping, grid: CornerGrid, study: &str) -> Vec<String> {
+    let kinds = [
+        (found.cracks, found.first_crack, "in cracks, which show what is behind a surface"),
+        (found.folds, found.first_fold, "in folds, where a surface is drawn too often"),
+    ];
+    let line = |(count, first, what): (u64, Option<[i32; 2]>, &str)| {
+        let [x, y] = first?;
+        let pixels = words::count(count, "pixel", "pixels");
+        Some(format!(
+            "SNAPPING: {pixels} {what} once its corners are {grid}; the first is at {x}, {y}"
+        ))
+    };
+    let mut lines: Vec<String> = kinds.into_iter().filter_map(line).collect();
+    if !lines.is_empty() {
+        lines.push(format!("the faces there, and what mends them: {study}"));
+    }
+    lines
 }
 
 /// What decides which surface is seen, and how far it reaches, in words: for every rasterizer, and for tiles.

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::{Places, StudyFindings};
 use crate::cost::{Choice, Group};
 use crate::effects::{Need, Needs, State};
-use crate::hard::HardCases;
+use crate::hard::{HardCases, Shifted};
 use crate::{face_of, triangle_of};
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the choices that others beat in error and time.
@@ -71,6 +71,7 @@ pub fn study(subject: &Places<'_>, found: &StudyFindings<'_>, answers: &impl Ser
         "loading_s": found.loading_s, "answers": answers,
         "hard_cases": hard_cases(subject, hard), "decided": hard.classes,
         "effects": needs(found.needs, found.not_drawn), "costs": costs(subject, found.costs),
+        "grids": found.grids,
     })
 }
 
@@ -93,9 +94,15 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
             "faces": case.triangles.iter().map(face).collect::<Vec<_>>(),
         })
     });
+    let shifted = |shifted: &Shifted| {
+        let Shifted { by, pixel, triangle } = shifted;
+        json!({ "by": by, "pixel": pixel, "face": face_of(subject.scene, subject.origins, *triangle) })
+    };
     json!({
         "cases": cases.collect::<Vec<_>>(), "w": found.w, "f32_pixels": found.f32_pixels,
         "is_cut_short": found.is_cut_short,
+        "moved_depth": found.shift.depth.as_ref().map(shifted),
+        "moved_texels": found.shift.texels.as_ref().map(shifted),
     })
 }
 

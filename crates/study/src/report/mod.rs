@@ -13,7 +13,8 @@ use std::fmt::Write as _;
 
 use crate::cost::{Choice, Group};
 use crate::effects::{Need, Needs, State};
-use crate::hard::{HardCase, HardCases, Kind};
+use crate::grid::GridPrice;
+use crate::hard::{HardCase, HardCases, Kind, Shifted};
 use crate::ties::{Class, Classes, TiedPair};
 use crate::{face_of, triangle_of};
 use image::{Rgb, RgbImage};
@@ -80,7 +81,7 @@ fn compared_in(costs: &[Group]) -> Option<String> {
 }
 
 /// What is said of all hard cases together, a line each.
-fn about_hard_cases(found: &HardCases, costs: &[Group]) -> Vec<String> {
+fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> Vec<String> {
     let mut lines: Vec<String> = compared_in(costs).into_iter().collect();
     let missing = Kind::ALL.into_iter().filter(|kind| found.of(*kind).is_none());
     let missing: Vec<&str> = missing.map(Kind::name).collect();
@@ -95,6 +96,22 @@ fn about_hard_cases(found: &HardCases, costs: &[Group]) -> Vec<String> {
     if let Some([near, far]) = found.w {
         let [near, far] = [near, far].map(|w| number(w, 9));
         lines.push(format!("w, the distance from the eye, in the window: {near} to {far}"));
+    }
+    let shifted = |shifted: Shifted, unit: &str| {
+        let Shifted { by, pixel: [x, y], triangle } = shifted;
+        format!("by {by:.1e}{unit} at {x},{y} on {}", subject.face(triangle))
+    };
+    let depth = found.shift.depth.map(|depth| format!("a depth {}", shifted(depth, "")));
+    let texels = found
+        .shift
+        .texels
+        .map(|texels| format!("texture coordinates {}", shifted(texels, " texels")));
+    let values: Vec<String> = depth.into_iter().chain(texels).collect();
+    if !values.is_empty() {
+        lines.push(format!(
+            "the most that snapped corners change of what is seen: {}",
+            values.join("; ")
+        ));
     }
     if found.f32_pixels > 0 {
         let pixels = thousands(found.f32_pixels);
@@ -464,6 +481,8 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
 
 pub struct StudyFindings<'a> {
     pub hard: &'a HardCases,
+    /// What each grid changes and takes; nothing where that was not measured.
+    pub grids: &'a [GridPrice],
     pub needs: &'a Needs,
     pub costs: &'a [Group],
     pub not_drawn: &'a str,
@@ -484,7 +503,7 @@ fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
         (ms.is_some() || need.wrong > 0).then(|| (need.effect.name(), ms, saved, need.wrong))
     };
     let bars: Vec<_> = found.needs.needs.iter().filter_map(bar).collect();
-    vec![
+    let mut figures = vec![
         canvas::figure(
             "Error against time of each choice on the triangles of this view",
             [2, 1].map(|in_row| cost_plots::pareto_of_model(found.costs, in_row)),
@@ -493,7 +512,35 @@ fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
             "What each effect takes or saves, and the pixels that are wrong without it",
             [800.0, 400.0].map(|width| cost_plots::effects(&bars, width)),
         ),
-    ]
+    ];
+    if !found.grids.is_empty() {
+        figures.push(canvas::figure(
+            "Pixels in which another triangle is seen than without a grid, against the time of coverage",
+            [2, 1].map(|in_row| cost_plots::pareto_of_grids(found.grids, in_row)),
+        ));
+    }
+    figures
+}
+
+/// What each grid changes and takes.
+fn grids(prices: &[GridPrice]) -> Option<Table> {
+    let row = |price: &GridPrice| {
+        let name = price
+            .bits
+            .map_or("no grid".to_owned(), |bits| format!("{bits} bits, 1/{} px", 1u32 << bits));
+        let first = price.first.map_or(String::new(), |[x, y]| format!("{x},{y}"));
+        let [scanline, edge_function] =
+            [price.scanline_ms, price.edge_function_ms].map(|ms| number(ms, 9));
+        Row::of(&[&name, &thousands(price.changed), &first, &scanline, &edge_function])
+    };
+    let columns =
+        "grid 22 | >px that change 15 | first 12 | >scanline ms 13 | >edge-function ms 18";
+    let how = "another triangle is seen than without a grid; times are those of the coverage of all triangles, by whole \
+               numbers up to 8 bits, by the exact engines beyond";
+    (!prices.is_empty()).then(|| {
+        Table::new("What the grid of corners changes", columns, prices.iter().map(row).collect())
+            .noted(vec![how.to_owned()])
+    })
 }
 
 /// Pixels of a mark around a pixel that stands alone, which would not be seen otherwise.
@@ -560,6 +607,7 @@ pub fn report(
         }
     }
     tables.extend(costs(subject, found.costs));
+    tables.extend(grids(found.grids));
     let answers = answers(subject, found, commands);
     let picture = picture::of_frame(&found.hard.picture);
     let marked = marked(found.hard, &picture);
@@ -622,7 +670,7 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> T
     let columns = "kind 32 | >in view 11 how many are seen | >only in the mesh 17 how many are culled, hidden or outside | \
                    >pixels 11 pixels of the picture in which they are seen | what one sees | where | command | wrong choices";
     let rows = found.cases.iter().map(row).collect();
-    Table::new(caption, columns, rows).noted(about_hard_cases(found, costs))
+    Table::new(caption, columns, rows).noted(about_hard_cases(subject, found, costs))
 }
 
 fn needs_table(needs: &Needs, state: State) -> Table {

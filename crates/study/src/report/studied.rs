@@ -11,6 +11,7 @@ use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::words::{count, thousands};
 
 use super::Places;
+use crate::corner_grid::CornerGrid;
 use crate::hard::{self, HardCases, Kind};
 use crate::view::{Piece, Sampled};
 use crate::{faces, triangle_of};
@@ -28,6 +29,7 @@ impl<'a> Studied<'a> {
         scene: Scene,
         origins: &'a [Origin],
         target: &mut Target,
+        grid: CornerGrid,
     ) -> Result<Self, Box<dyn Error + Send + Sync>> {
         if scene.hidden == Hidden::Painter {
             return Err(
@@ -35,7 +37,7 @@ impl<'a> Studied<'a> {
                     .into(),
             );
         }
-        let sampled = Sampled::of(&scene, target)?;
+        let sampled = Sampled::on(&scene, target, grid)?;
         let hard = hard::find(&scene, origins, &sampled, target)?;
         Ok(Self { scene, origins, sampled, hard })
     }

@@ -67,6 +67,94 @@ pub(super) fn snap_to_even(given: &FigureInput<'_>) -> Result<LiveFigure, String
     })
 }
 
+/// Steps of a grid in a pixel, by the position of the grip that says how many bits it has.
+fn steps(bits: Point) -> u32 {
+    1 << bits[0] as u32
+}
+
+/// The corners of triangles on a grid of at most as many bits as that of the engines.
+fn on_grid(triangles: &[[Point; 3]], bits: Point) -> Vec<[Point; 3]> {
+    let steps = f64::from(steps(bits));
+    let place = |point: Point| point.map(|v| (v * steps).round_ties_even() / steps);
+    triangles.iter().map(|corners| corners.map(place)).collect()
+}
+
+/// A rectangle of 9 x 5 px in triangles, as they are given and on a grid; which of its pixels are hit by none or by several.
+fn snapped_mesh(
+    given: &FigureInput<'_>,
+    triangles: &[[Point; 3]],
+    (dragged, letter): (Point, &str),
+    says: &str,
+) -> Result<(Drawing, [usize; 2]), String> {
+    let panel = Panel::middle(9, 5, 38.0, 10.0);
+    let placed = on_grid(triangles, given.at[1]);
+    let hits = cover(given.fill, &snapped(&placed)?, panel.window);
+    let mut drawing = Drawing::new(panel.bottom() + 46.0, given.is_answered);
+    drawing.hits(&panel, &hits, &Coverage::new(panel.window, 1));
+    drawing.grid(&panel);
+    drawing.samples(&panel);
+    for triangle in triangles {
+        drawing.outline(&panel, "soft", triangle, true);
+    }
+    if given.is_answered {
+        for triangle in &placed {
+            drawing.outline(&panel, "ink", triangle, true);
+        }
+    }
+    drawing.named_grip(panel.place(dragged), [panel.unit, 0.0], letter);
+    drawing.slider(given, 1, panel.bottom() + 26.0, says);
+    let counted = |is: fn(u8) -> bool| {
+        panel.pixels().filter(|p| hits.get(p[0], p[1]).is_some_and(is)).count()
+    };
+    Ok((drawing, [counted(|hits| hits == 0), counted(|hits| hits > 1)]))
+}
+
+/// A corner within the edge of another triangle, which is snapped without that edge.
+pub(super) fn snapped_crack(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
+    let x = given.at[0][0];
+    let q = [x, x * 5.0 / 9.0];
+    let (o, e, r, s) = ([0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]);
+    let triangles = [[o, r, s], [o, e, q], [e, r, q]];
+    let (drawing, [holes, twice]) =
+        snapped_mesh(given, &triangles, (q, "Q"), &format!("1/{} px", steps(given.at[1])))?;
+    Ok(LiveFigure {
+        drawing,
+        predict: Predict::Number(holes as f64, 0),
+        values: vec![
+            ("qx", number(q[0], 4)),
+            ("qy", number(q[1], 4)),
+            ("steps", steps(given.at[1]).to_string()),
+            ("holes", holes.to_string()),
+            ("twice", twice.to_string()),
+        ],
+        link: None,
+    })
+}
+
+/// A narrow part of a plane mesh without a corner on an edge, which snapping turns over.
+pub(super) fn snapped_fold(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
+    let x = given.at[0][0];
+    // To either side of the diagonal by 1/100 px, so that the narrow triangles between them have an area.
+    let (m, n) = ([x, x * 5.0 / 9.0 - 0.01], [6.4, 6.4 * 5.0 / 9.0 + 0.01]);
+    let (o, e, r, s) = ([0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [0.0, 5.0]);
+    let triangles = [[o, e, m], [e, r, m], [o, m, n], [m, r, n], [o, n, s], [n, r, s]];
+    let placed = snapped(&on_grid(&triangles, given.at[1]))?;
+    let turned = placed.iter().filter(|corners| twice_area(corners) <= 0).count();
+    let (drawing, [holes, twice]) =
+        snapped_mesh(given, &triangles, (m, "M"), &format!("1/{} px", steps(given.at[1])))?;
+    Ok(LiveFigure {
+        drawing,
+        predict: Predict::Number(twice as f64, 0),
+        values: vec![
+            ("steps", steps(given.at[1]).to_string()),
+            ("holes", holes.to_string()),
+            ("twice", twice.to_string()),
+            ("turned", turned.to_string()),
+        ],
+        link: None,
+    })
+}
+
 pub(super) fn edge_sign(given: &FigureInput<'_>) -> Result<LiveFigure, String> {
     let [a, b] = [given.at[0], given.at[1]];
     let panel = Panel::middle(9, 7, 36.0, 10.0);

@@ -102,9 +102,11 @@ struct LiveFigure {
 
 type Draw = fn(&FigureInput<'_>) -> Result<LiveFigure, String>;
 
-const DRAWN_BY: [(&str, Draw); 28] = [
+const DRAWN_BY: [(&str, Draw); 30] = [
     ("one-sample", coverage::one_sample),
     ("snap-to-even", coverage::snap_to_even),
+    ("snapped-crack", coverage::snapped_crack),
+    ("snapped-fold", coverage::snapped_fold),
     ("line-pixels", lines::line_pixels),
     ("there-and-back", lines::there_and_back),
     ("edge-sign", coverage::edge_sign),

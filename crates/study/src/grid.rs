@@ -1,0 +1,351 @@
+//! A scene whose corners lie on another grid than the engines', or on none.
+//!
+//! The engines count in 1/256 px, and so does the pipeline between them. Another grid therefore needs no second pipeline: both exact
+//! engines decide which pixels each triangle covers once its corners are put on that grid, and each pixel of a triangle becomes a small
+//! triangle of its own around the pixel's centre, with the values that the whole one has there. What is drawn is that scene, with all
+//! effects, by the same two engines. Nothing of the engines is changed, and neither engine decides alone what the other one draws.
+
+use std::time::Instant;
+
+use glam::{DMat4, DVec2, DVec3, DVec4};
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::{Rasterize as _, RasterizeExact};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::raster::scanline_exact::ScanlineExact;
+use rasterproof_core::triangle::{Corners, FreeCorners, ScreenTriangle, Span, Varying};
+use rasterproof_render::effects::render::BadScene;
+use rasterproof_render::scene::{Attribute, Corner, Hidden, Item, Mesh, Normals, Scene};
+use rasterproof_render::scene::{Shading, Triangles};
+use rasterproof_report::words::thousands;
+
+use crate::corner_grid::CornerGrid;
+use crate::ties::DepthPlane;
+use crate::view::{Cut, NOTHING, Piece, each_cut, pieces_and_lost};
+
+/// Cells that a scene may have: each takes some 300 bytes.
+const MOST_CELLS: u64 = 1 << 22;
+
+/// How far the corners of a cell are from the centre of its pixel, in 1/256 px; smaller where the larger ones would lie behind the eye.
+const REACHES: [f64; 3] = [16.0, 4.0, 1.0];
+
+/// The corners of a cell around a centre, clockwise as seen, in its reach. Its edges run through no centre.
+const CELL: [[f64; 2]; 3] = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]];
+
+/// A scene of a cell for each pixel of each triangle.
+pub struct Cells {
+    pub scene: Scene,
+    /// Pixels of triangles, hidden ones counted, that one exact engine covers and the other does not: a fault.
+    pub disagreeing: u64,
+}
+
+/// Makes the cells of a scene whose corners lie on a grid, for a window with one sample at the centre of each pixel.
+///
+/// # Errors
+/// A sentence where cells cannot stand for the scene.
+pub fn cells(scene: &Scene, window: PixelRect, grid: CornerGrid) -> Result<Cells, String> {
+    let refused = |what: &str, instead: &str| {
+        Err(format!(
+            "a grid of its own is drawn pixel by pixel, which {what} is not made for: {instead}"
+        ))
+    };
+    if scene.hidden == Hidden::Painter {
+        return refused("drawing from back to front", "choose another scene");
+    }
+    if scene.shadows.is_some() {
+        return refused("a shadow map", "leave out --shadows");
+    }
+    let is_gouraud = |item: &Item| item.material.shading == Shading::Gouraud;
+    if scene.items.iter().any(is_gouraud) {
+        return refused("light of corners", "choose --shading flat or phong");
+    }
+    let mut cells = Scene { items: Vec::with_capacity(scene.items.len()), ..scene.clone() };
+    let (mut disagreeing, mut count) = (0, 0);
+    for (index, item) in scene.items.iter().enumerate() {
+        let mut builder = Builder::new(scene, item, window);
+        let cut = |cut: Cut<'_, DVec3>| {
+            let corners = grid.place(cut.px);
+            let winding = grid.winding(cut.px);
+            let Ok(free) = FreeCorners::new(corners) else { return };
+            if winding == 0.0 || grid.is_removed(item.cull, cut.px) || count > MOST_CELLS {
+                return;
+            }
+            let pixels = pixels(&ScanlineExact, &free, window);
+            let other = self::pixels(&EdgeFunctionExact, &free, window);
+            disagreeing += without(&pixels, &other) + without(&other, &pixels);
+            count += pixels.len() as u64;
+            for pixel in pixels {
+                builder.add(&cut, corners, winding, pixel);
+            }
+        };
+        let mut cut = cut;
+        let varying = |_: &Corner, i: usize| DVec3::AXES[i];
+        each_cut(scene, index, window, varying, &mut cut).map_err(|error| error.to_string())?;
+        cells.items.push(builder.item());
+    }
+    if count > MOST_CELLS {
+        return Err(format!(
+            "a grid of its own is drawn pixel by pixel, and the triangles in this window have more than {} pixels, hidden ones counted: \
+             give a smaller --size",
+            thousands(MOST_CELLS)
+        ));
+    }
+    Ok(Cells { scene: cells, disagreeing })
+}
+
+fn pixels(engine: &impl RasterizeExact, corners: &FreeCorners, window: PixelRect) -> Vec<[i32; 2]> {
+    let mut pixels = Vec::new();
+    engine.cover_exact(corners, window, |span| {
+        pixels.extend((span.x0_px..span.x1_px).map(|x| [x, span.y_px]));
+    });
+    pixels.sort_unstable_by_key(|[x, y]| [*y, *x]);
+    pixels
+}
+
+/// How many of some pixels are not among others; both from the top left.
+fn without(some: &[[i32; 2]], others: &[[i32; 2]]) -> u64 {
+    if some == others {
+        return 0;
+    }
+    let is_other = |[x, y]: &[i32; 2]| {
+        others.binary_search_by(|other| [other[1], other[0]].cmp(&[*y, *x])).is_err()
+    };
+    some.iter().filter(|pixel| is_other(pixel)).count() as u64
+}
+
+/// The cells of an item on the way.
+struct Builder<'a> {
+    item: &'a Item,
+    size: [f64; 2],
+    /// From clip to object space.
+    back: DMat4,
+    /// What a corner of a cell has: position, colour, normal, tangent and both texture coordinates.
+    positions: Vec<DVec3>,
+    colours: Vec<[DVec3; 3]>,
+    normals: Vec<[DVec3; 3]>,
+    tangents: Vec<[DVec4; 3]>,
+    uvs: Vec<[DVec2; 3]>,
+    second_uvs: Vec<[DVec2; 3]>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(scene: &Scene, item: &'a Item, window: PixelRect) -> Self {
+        Self {
+            item,
+            size: [f64::from(window.width()), f64::from(window.height())],
+            back: (scene.projection * scene.view * item.model).inverse(),
+            positions: Vec::new(),
+            colours: Vec::new(),
+            normals: Vec::new(),
+            tangents: Vec::new(),
+            uvs: Vec::new(),
+            second_uvs: Vec::new(),
+        }
+    }
+
+    /// Adds the cell of a pixel that a part of a triangle covers, whose corners on the grid are given with a number of the sign of their
+    /// area.
+    fn add(&mut self, cut: &Cut<'_, DVec3>, corners: [[f64; 2]; 3], winding: f64, pixel: [i32; 2]) {
+        let centre = pixel.map_array(|px| f64::from(px) + 0.5);
+        // A cell is seen from the side that its triangle is seen from.
+        let order = if winding > 0.0 { [0, 1, 2] } else { [0, 2, 1] };
+        let cell = REACHES.into_iter().find_map(|reach| {
+            let at = |i: usize| {
+                let [x, y] = CELL[order[i]].map_array(|by| by * reach / 256.0);
+                Value::at([centre[0] + x, centre[1] + y], &cut.triangle, corners)
+            };
+            Some([at(0)?, at(1)?, at(2)?])
+        });
+        let Some(cell) = cell else { return };
+        let [width, height] = self.size;
+        for Value { px: [x, y], depth, w, .. } in cell {
+            let clip =
+                DVec4::new(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height, 2.0 * depth - 1.0, 1.0);
+            let position = self.back * (clip * w);
+            self.positions.push(position.truncate() / position.w);
+        }
+        let mesh = &self.item.mesh;
+        let shares = cell.map_array(|value| value.varying.to_array());
+        let of = cut.corners;
+        self.colours.push(shares.map_array(|shares| mix(shares, of.map_array(|of| of.colour))));
+        let normals = match self.item.material.shading {
+            Shading::Flat => [mesh.face_normal(of.map_array(|of| of.position)); 3],
+            _ => of.map_array(|of| of.normal),
+        };
+        self.normals.push(shares.map_array(|shares| mix(shares, normals)));
+        self.uvs.push(shares.map_array(|shares| mix(shares, of.map_array(|of| of.uv))));
+        let (tangents, uvs) =
+            (mesh.triangles.tangents(cut.number), mesh.triangles.second_uvs(cut.number));
+        self.tangents.push(shares.map_array(|shares| mix(shares, tangents)));
+        self.second_uvs.push(shares.map_array(|shares| mix(shares, uvs)));
+    }
+
+    fn item(self) -> Item {
+        let Self { item, positions, colours, normals, tangents, uvs, second_uvs, .. } = self;
+        let numbers = (0..positions.len() as u32).collect();
+        let normals = Normals::Given(Attribute::OfCorners(normals));
+        let triangles = Triangles::new(
+            numbers,
+            Attribute::OfCorners(colours),
+            normals,
+            Attribute::OfCorners(uvs),
+        );
+        let triangles = triangles
+            .with_tangents(Attribute::OfCorners(tangents))
+            .with_second_uvs(Attribute::OfCorners(second_uvs));
+        let mut item =
+            Item { mesh: Mesh { positions: positions.into(), triangles }.into(), ..item.clone() };
+        if item.material.shading == Shading::Flat {
+            // Each cell has the normal of its face, at all of its corners.
+            item.material.shading = Shading::Phong;
+        }
+        item
+    }
+}
+
+/// What a part of a triangle has at a place in the window.
+#[derive(Clone, Copy)]
+pub(crate) struct Value<V> {
+    pub px: [f64; 2],
+    pub depth: f64,
+    pub w: f64,
+    pub varying: V,
+}
+
+impl<V: Varying> Value<V> {
+    /// The value at a place of a part whose corners lie elsewhere than its vertices; nothing where it lies behind the eye.
+    pub fn at(px: [f64; 2], triangle: &ScreenTriangle<V>, corners: [[f64; 2]; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        let parts = [product(b, c, px), product(c, a, px), product(a, b, px)];
+        let all = parts[0] + parts[1] + parts[2];
+        let [p, q, r] = parts.map_array(|part| part / all);
+        let [one, two, three] = &triangle.vertices;
+        let [of_one, of_two, of_three] = [p * one.inv_w, q * two.inv_w, r * three.inv_w];
+        let inv_w = of_one + of_two + of_three;
+        let varying = one.varying * of_one + two.varying * of_two + three.varying * of_three;
+        let depth = p * one.depth + q * two.depth + r * three.depth;
+        (inv_w > 0.0 && inv_w.is_finite() && depth.is_finite()).then(|| Self {
+            px,
+            depth,
+            w: 1.0 / inv_w,
+            varying: varying * (1.0 / inv_w),
+        })
+    }
+}
+
+/// Twice the area of two corners and a point, within two roundings of the product of its differences.
+fn product(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
+    let ([ax, ay], [bx, by]) = ([a[0] - p[0], a[1] - p[1]], [b[0] - p[0], b[1] - p[1]]);
+    let second = ay * bx;
+    // What the product was rounded by is added again.
+    let rounded = (-ay).mul_add(bx, second);
+    ax.mul_add(by, -second) + rounded
+}
+
+fn mix<V>([p, q, r]: [f64; 3], [a, b, c]: [V; 3]) -> V
+where
+    V: std::ops::Mul<f64, Output = V> + std::ops::Add<Output = V>,
+{
+    a * p + b * q + c * r
+}
+
+/// What a grid changes in a view, and how long the coverage of all triangles takes on it.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct GridPrice {
+    /// Bits below the pixel; nothing without a grid.
+    pub bits: Option<u32>,
+    /// Pixels in which another triangle is seen than without a grid.
+    pub changed: u64,
+    /// The first of them.
+    pub first: Option<[i32; 2]>,
+    /// Median times of both engines, in ms.
+    pub scanline_ms: f64,
+    pub edge_function_ms: f64,
+}
+
+/// The price of each grid, coverage measured so many times.
+pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<GridPrice>, BadScene> {
+    let mut prices = Vec::new();
+    let mut unsnapped: Option<Frame<u32>> = None;
+    for grid in CornerGrid::ALL.into_iter().rev() {
+        let (pieces, _) = pieces_and_lost(scene, window, grid)?;
+        let seen = seen(&pieces, window, grid);
+        let truth = unsnapped.get_or_insert_with(|| seen.clone());
+        let (mut changed, mut first) = (0, None);
+        for (y, row) in seen.rows() {
+            for (x, face) in (window.x0..).zip(row) {
+                if truth.get(x, y) != Some(*face) {
+                    changed += 1;
+                    first = first.or(Some([x, y]));
+                }
+            }
+        }
+        let [scanline_ms, edge_function_ms] = times(&pieces, window, grid, rounds);
+        prices.push(GridPrice { bits: grid.bits(), changed, first, scanline_ms, edge_function_ms });
+    }
+    prices.reverse();
+    Ok(prices)
+}
+
+/// Which triangle is seen in each pixel, by the depths of the planes before corners are put on a grid.
+fn seen(pieces: &[Piece], window: PixelRect, grid: CornerGrid) -> Frame<u32> {
+    let mut seen = Frame::new(window, NOTHING);
+    let mut nearest = Frame::new(window, f64::INFINITY);
+    for piece in pieces {
+        let Some(plane) = DepthPlane::of(piece) else { continue };
+        grid.cover(piece.px, window, &mut |span| {
+            for x in span.x0_px..span.x1_px {
+                let [z, ..] = plane.at(x, span.y_px);
+                let held = &mut nearest.span_mut(span.y_px, x, x + 1)[0];
+                if z < *held {
+                    *held = z;
+                    seen.span_mut(span.y_px, x, x + 1)[0] = piece.face;
+                }
+            }
+        });
+    }
+    seen
+}
+
+/// Median times of the coverage of all pieces by both engines, in ms: by whole numbers where the engines' words hold the grid, else by the
+/// exact engines. Putting corners on the grid is no part of it.
+fn times(pieces: &[Piece], window: PixelRect, grid: CornerGrid, rounds: usize) -> [f64; 2] {
+    let free = pieces.iter().filter_map(|piece| FreeCorners::new(grid.place(piece.px)).ok());
+    let free: Vec<FreeCorners> = free.collect();
+    let whole = pieces.iter().filter_map(|piece| {
+        let [a, b, c] = grid.place(piece.px).map_array(|[x, y]| SubpixelPoint::from_px(x, y).ok());
+        Some([a?, b?, c?])
+    });
+    let whole: Vec<Corners> = if grid.is_whole() { whole.collect() } else { Vec::new() };
+    let mut count = 0;
+    let mut add = |span: Span| count += span.pixels();
+    let mut all = [Vec::new(), Vec::new()];
+    for _ in 0..rounds.max(1) {
+        let start = Instant::now();
+        if grid.is_whole() {
+            whole.iter().for_each(|corners| Scanline.cover(*corners, window, &mut add));
+        } else {
+            for corners in &free {
+                ScanlineExact.cover_exact(corners, window, &mut add);
+            }
+        }
+        all[0].push(start.elapsed().as_secs_f64() * 1e3);
+        let start = Instant::now();
+        if grid.is_whole() {
+            whole.iter().for_each(|corners| EdgeFunction.cover(*corners, window, &mut add));
+        } else {
+            for corners in &free {
+                EdgeFunctionExact.cover_exact(corners, window, &mut add);
+            }
+        }
+        all[1].push(start.elapsed().as_secs_f64() * 1e3);
+    }
+    std::hint::black_box(count);
+    all.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    })
+}
