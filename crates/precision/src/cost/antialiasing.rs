@@ -99,7 +99,7 @@ pub(super) fn measure_on(
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0.0))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Antialiasing, choices);
+    let mut draft = Draft::new(Ladder::Antialiasing, measures(), choices, options);
     for ((scene, triangles), target) in scenes.iter().zip(&triangles).zip(&targets) {
         draft.tell(progress, scenes.len());
         let column = |pixels| Column::new(scene.name, scene.about, triangles.len() as u64, pixels);
@@ -118,5 +118,5 @@ pub(super) fn measure_on(
         });
         draft.add(column(truth.pixels), cells);
     }
-    draft.finish(measures(), options, (progress, afterwards))
+    draft.finish_or_give(options, (progress, afterwards))
 }

@@ -156,7 +156,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };
     let made = DISTANCES.map(|(name, z)| layers(options.seed, name, z, tiles));
-    let mut draft = Draft::new(Ladder::Depth, variants.iter().map(|(choice, _)| choice.clone()));
+    let mut draft = Draft::new(Ladder::Depth, measures(), variants.iter().map(|(choice, _)| choice.clone()), options);
     for ((name, z), layers) in DISTANCES.into_iter().zip(&made) {
         draft.tell(progress, DISTANCES.len());
         let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");
@@ -166,7 +166,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     }
     let why = "depth depends on the distance from the eye, not on the shape";
     draft.leave_out_classes(options, why);
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }
 
 #[cfg(test)]

@@ -137,7 +137,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let drawn: Vec<_> = scenes.iter().map(textured).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
-    let mut draft = Draft::new(Ladder::Levels, variants.iter().map(|(choice, _)| choice.clone()));
+    let mut draft = Draft::new(Ladder::Levels, measures(), variants.iter().map(|(choice, _)| choice.clone()), options);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
         draft.tell(progress, scenes.len());
         let samples = samples(drawn);
@@ -149,7 +149,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
         let (items, pixels) = (drawn.len() as u64, pixels(drawn) as u64);
         draft.add(Column::new(scene.name, scene.about, items, pixels), cells);
     }
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }
 
 #[cfg(test)]

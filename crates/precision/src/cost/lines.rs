@@ -153,7 +153,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let targets: Vec<_> =
         classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Lines, choices);
+    let mut draft = Draft::new(Ladder::Lines, measures(), choices, options);
     for ((class, made), target) in classes.iter().zip(&made).zip(&targets) {
         draft.tell(progress, classes.len());
         let (lines, about) = match made {
@@ -178,5 +178,5 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
         });
         draft.add(Column::new(class.name, *about, lines.len() as u64, pixels), cells);
     }
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }

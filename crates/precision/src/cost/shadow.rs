@@ -154,7 +154,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };
     let made = CLASSES.each_ref().map(|class| tiles(options.seed, class, count));
-    let mut draft = Draft::new(Ladder::Shadows, variants.iter().map(|(choice, _)| choice.clone()));
+    let mut draft = Draft::new(Ladder::Shadows, measures(), variants.iter().map(|(choice, _)| choice.clone()), options);
     for (class, tiles) in CLASSES.iter().zip(&made) {
         draft.tell(progress, CLASSES.len());
         let slope =
@@ -166,7 +166,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     }
     let why = "shadows depend on the depths of surfaces, not on their shapes";
     draft.leave_out_classes(options, why);
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }
 
 #[cfg(test)]
