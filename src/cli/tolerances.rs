@@ -97,7 +97,11 @@ fn page(seed: u64, report: &Acceptance) -> Page {
         about: format!(
             "{faults} faults and {right} right rasterizers with another permitted convention, seed {seed}"
         ),
-        answers: vec![Statement { about: "rules", sentence: sentence(report), command: String::new() }],
+        answers: vec![Statement {
+            about: "rules",
+            sentence: sentence(report),
+            command: String::new(),
+        }],
         tables: caught.into_iter().chain(passes).chain([rules]).collect(),
         data: json::value(&Data { seed, rules: &RULES, found: report }),
         ..Page::default()
@@ -109,7 +113,8 @@ fn sentence(report: &Acceptance) -> String {
     let faults = report.faults.len();
     let rows = report.suites.iter().zip(&report.hard).zip(&RULES);
     let rows: Vec<_> = rows.map(|((suites, hard), rule)| (suites, hard, rule)).collect();
-    let is_fair = |suites: &Row, hard: &Row| suites.refused_right.is_empty() && hard.refused_right.is_empty();
+    let is_fair =
+        |suites: &Row, hard: &Row| suites.refused_right.is_empty() && hard.refused_right.is_empty();
     let fair = rows.iter().filter(|(suites, hard, _)| is_fair(suites, hard));
     let best = fair.clone().max_by_key(|(suites, hard, _)| suites.caught.len() + hard.caught.len());
     let count = fair.count();

@@ -136,7 +136,8 @@ impl Group {
     pub fn cheapest(&self, filter: &dyn Fn(&Judged) -> bool) -> Option<usize> {
         let timed = self.choices.iter().enumerate();
         let timed = timed.filter(|(_, choice)| choice.refused.is_none() && filter(choice));
-        let timed = timed.filter_map(|(number, choice)| Some((number, choice.time.as_ref()?.median())));
+        let timed =
+            timed.filter_map(|(number, choice)| Some((number, choice.time.as_ref()?.median())));
         timed.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
     }
 
@@ -153,7 +154,9 @@ impl Group {
             if number == choice || !self.is_exact(other, measure) {
                 continue;
             }
-            let Some(ratio) = other.time.as_ref().and_then(|time| time.over(best)) else { continue };
+            let Some(ratio) = other.time.as_ref().and_then(|time| time.over(best)) else {
+                continue;
+            };
             if ratio.is_within(EQUAL) {
                 equal.push(number);
             } else if ratio.low <= EQUAL {
@@ -564,8 +567,7 @@ fn ladder(
     let classes = [class(taken.iter(), window), class(sample.of(&taken), window)];
     let measure = match ladder {
         Ladder::Interpolation => {
-            let title =
-                "worst error over the largest value; up to half a step of 8 bits is good";
+            let title = "worst error over the largest value; up to half a step of 8 bits is good";
             Measure::new(title, "error / M", Some(1.0 / 512.0))
         }
         _ => {
@@ -580,7 +582,7 @@ fn ladder(
             Ladder::Interpolation => {
                 let of = board.columns[0].pixels;
                 Part { part: compared_values(of), of }
-            },
+            }
             _ => Part::all(sample.pixels.of),
         };
         group.not_judged = (pieces.len() - taken.len()) as u64;
@@ -843,7 +845,8 @@ mod tests {
     #[test]
     fn nothing_is_exact_on_pixels_that_were_not_drawn() {
         let judged = Judged { errors: vec![Some(0.0)], ..Judged::default() };
-        let mut group = Group::new("", vec![Measure::new("", "", Some(0.0))], &Sample::of_sizes(&[7], 9));
+        let mut group =
+            Group::new("", vec![Measure::new("", "", Some(0.0))], &Sample::of_sizes(&[7], 9));
         assert!(group.is_exact(&judged, 0));
         group.judged.part = 0;
         assert!(!group.is_exact(&judged, 0));

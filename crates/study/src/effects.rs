@@ -10,6 +10,7 @@ use rasterproof_precision::cost::{Pair, Pass, Ratio, Said, Times, Timing, compar
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 
@@ -186,7 +187,7 @@ pub fn survey(
                 effect.calls(&rendered.counters).abs_diff(effect.calls(&other))
             },
             otherwise: None,
-            draws_less: without.counters.fragments < rendered.counters.fragments,
+            draws_less: visible(&without.counters) < visible(&rendered.counters),
         });
     }
     let planned = set_times(scene, &mut needs, target, timing);
@@ -231,6 +232,11 @@ pub(crate) fn differing<'a>(
             .filter(move |(_, (a, b))| a.iter().zip(b.iter()).any(|(a, b)| a.abs_diff(*b) > steps));
         far.map(move |(x, _)| (x, y))
     })
+}
+
+/// Fragments that passed the depth test.
+fn visible(counters: &Counters) -> u64 {
+    counters.fragments - counters.depth_failed
 }
 
 /// The plan with one effect switched over.
@@ -328,7 +334,8 @@ fn antialias(
     }
     let pairs: Vec<Pair> = (1..passes.len()).map(|other| [other, 0]).collect();
     let times = compare(&mut passes, timing, &|_| pairs.clone(), &|_| ());
-    let ratios = ALL.iter().zip(&times).filter_map(|((name, _), time)| Some((*name, time.over(&times[0])?)));
+    let ratios =
+        ALL.iter().zip(&times).filter_map(|((name, _), time)| Some((*name, time.over(&times[0])?)));
     found.antialiasing.extend(ratios);
     let Some((_, finest)) = pictures.pop() else { return Ok(()) };
     for (name, picture) in &pictures {

@@ -2,9 +2,9 @@
 //! always paid for.
 
 use std::cell::RefCell;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use rasterproof_precision::cost::{Pair, Pass, Ratio, Spread, Times, Timing, compare};
+use rasterproof_precision::cost::{Clock, Pair, Pass, Ratio, Spread, Times, Timing, compare};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::Canvas;
 use rasterproof_render::effects::render::{BadScene, Rendered, survey_again};
@@ -32,7 +32,14 @@ impl Measured {
     fn new(effects: &str, times: &Times, same: bool) -> Self {
         let Spread { low, median, high } = times.spread().times(1e-3);
         let (effects, times) = (effects.to_owned(), times.clone());
-        Self { effects, rounds: times.rounds(), time_us: median, quartiles_us: [low, high], same, times }
+        Self {
+            effects,
+            rounds: times.rounds(),
+            time_us: median,
+            quartiles_us: [low, high],
+            same,
+            times,
+        }
     }
 
     /// How many times as long it takes as another frame.
@@ -136,11 +143,16 @@ pub fn measure(
         [draw(&Effects::ALWAYS)?, draw(&Effects::USUAL)?, draw(&Effects::PLANNED)?];
     let mut timing = Timing { rounds: rounds.map(|rounds| rounds as usize), ..PLAN };
     let mut mixtures = Vec::new();
-    let effects = if is_whole || (rounds.is_none() && is_slow(&mut draw)?) { &[][..] } else { &Effect::ALL };
+    let effects =
+        if is_whole || (rounds.is_none() && is_slow(&mut draw)?) { &[][..] } else { &Effect::ALL };
     for &effect in effects {
         let name = effect.name();
         for (base, name, effects) in [
-            (&everything, format!("all, {name} planned"), Effects::ALWAYS.with(effect, Mode::Planned)),
+            (
+                &everything,
+                format!("all, {name} planned"),
+                Effects::ALWAYS.with(effect, Mode::Planned),
+            ),
             (&planned, format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)),
         ] {
             let rendered = draw(&effects)?;
@@ -180,9 +192,8 @@ pub fn measure(
     drop(passes);
     let target = shared.into_inner();
     let whole = [&everything, &usual, &planned];
-    let whole = [0, 1, 2].map(|i| {
-        Measured::new(WHOLE[i].0, &times[i], whole[i].picture == everything.picture)
-    });
+    let whole = [0, 1, 2]
+        .map(|i| Measured::new(WHOLE[i].0, &times[i], whole[i].picture == everything.picture));
     let mut savings = Savings {
         times: [0, 1].map(|i| whole[i].over(&whole[2])),
         noise: times[0].noise(),
@@ -204,7 +215,8 @@ pub fn measure(
                 return Saves::new(0, None);
             };
             let mixture = Measured::new(name, &times[*place], *same);
-            let ratio = if number.is_multiple_of(2) { all.over(&mixture) } else { mixture.over(plan) };
+            let ratio =
+                if number.is_multiple_of(2) { all.over(&mixture) } else { mixture.over(plan) };
             savings.mixtures.push(mixture);
             Saves::new(*work, Some(ratio))
         })
@@ -227,11 +239,11 @@ const PLAN: Timing =
 
 /// Whether rounds of all mixtures would take far more than the budget, so that only whole frames are compared.
 fn is_slow(draw: &mut dyn FnMut(&Effects) -> Result<Rendered, BadScene>) -> Result<bool, BadScene> {
-    let start = Instant::now();
+    let start = Clock::Thread.now();
     draw(&Effects::PLANNED)?;
     draw(&Effects::ALWAYS)?;
-    // As many frames as all mixtures are drawn once in any case.
-    Ok(start.elapsed() * Effect::ALL.len() as u32 > PLAN.budget / 2)
+    let round_s = (Clock::Thread.now() - start) / 1e9 * Effect::ALL.len() as f64;
+    Ok(round_s > PLAN.budget.as_secs_f64() / 2.0)
 }
 
 /// Microseconds that a planned frame looks at triangles for the reason of depth, the median; none where it lists all.

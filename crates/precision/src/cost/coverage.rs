@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use super::external::ExternalVariant;
 use super::tiles::Lists;
 use super::{
-    Board, Choice, Clock, Column, CostOptions, Draft, Ladder, Measure, Name, Pass, PreparedCell, finish,
+    Board, Choice, Clock, Column, CostOptions, Draft, Ladder, Name, Pass, PreparedCell, finish,
 };
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
@@ -33,23 +33,6 @@ pub(super) const GIVEN: usize = 0;
 pub(super) const SNAPPED: usize = 1;
 const HOLES: usize = 2;
 const TWICE: usize = 3;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new(
-            "wrong pixels per million, against the vertices as given",
-            "wrong/M",
-            Some(0.0),
-        ),
-        Measure::new(
-            "wrong pixels per million, against the snapped vertices",
-            "snapped",
-            Some(0.0),
-        ),
-        Measure::new("pixels inside the mesh that no triangle hits", "holes", None),
-        Measure::new("pixels inside the mesh that two triangles hit", "twice", None),
-    ]
-}
 
 #[derive(Clone, Copy, Debug)]
 struct AsPublished(BookChapter2);
@@ -360,7 +343,7 @@ pub(super) fn measure(
         let external: &mut [_] = if *ladder == Ladder::EdgeFunction { external } else { &mut [] };
         let own = variants.iter().map(|variant| variant.choice.clone());
         let choices = own.chain(external.iter().map(|variant| variant.choice()));
-        let mut draft = Draft::new(*ladder, measures(), choices, options);
+        let mut draft = Draft::new(*ladder, choices, options);
         for (scene, target) in scenes.iter().zip(&targets) {
             draft.tell(progress, scenes.len());
             let items = scene.triangles.len() as u64;

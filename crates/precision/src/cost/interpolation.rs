@@ -9,7 +9,7 @@ use super::bounds::{Bound, Place, largest};
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, PreparedCell, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Name, PreparedCell, Told};
 use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -20,19 +20,7 @@ use rasterproof_core::triangle::Span;
 use rasterproof_verify::oracle::values::{Exact, ExactTriangle};
 
 /// Half a step of 8 bits over [0, M]: nobody sees less.
-const HALF_STEP: f64 = 1.0 / 512.0;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new(
-            "worst error over M, the largest value of a vertex",
-            "error / M",
-            Some(HALF_STEP),
-        ),
-        Measure::new("worst error in units of u M, u of the float used", "u M", None),
-        Measure::new("worst error over its derived bound", "of bound", None),
-    ]
-}
+pub(super) const HALF_STEP: f64 = 1.0 / 512.0;
 
 impl AnyValues<Valued> for Planes {
     fn each(&self, drawn: &CoveredTriangle<Valued>, emit: &mut dyn FnMut(i32, i32, f64)) {
@@ -315,7 +303,7 @@ pub(super) fn measure_on(
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Interpolation, measures(), choices, options);
+    let mut draft = Draft::new(Ladder::Interpolation, choices, options);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
         draft.tell(progress, scenes.len());
         let samples = samples(drawn, count);

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
@@ -16,17 +16,10 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 
 /// A part of a level that 8 bits between two levels can express, as the Vulkan specification wants at most.
-const STEP: f64 = 1.0 / 256.0;
+pub(super) const STEP: f64 = 1.0 / 256.0;
 
 /// Pixels of a class at which errors are taken.
 const SAMPLES: usize = 400;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new("largest distance from the exact level of detail", "levels", Some(STEP)),
-        Measure::new("mean distance from the exact level of detail", "mean", None),
-    ]
-}
 
 /// The triangles of a scene on the lattice that cover anything, with texture coordinates made of their positions.
 fn textured(scene: &Scene) -> Vec<CoveredTriangle<Textured>> {
@@ -137,7 +130,8 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let drawn: Vec<_> = scenes.iter().map(textured).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
-    let mut draft = Draft::new(Ladder::Levels, measures(), variants.iter().map(|(choice, _)| choice.clone()), options);
+    let mut draft =
+        Draft::new(Ladder::Levels, variants.iter().map(|(choice, _)| choice.clone()), options);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
         draft.tell(progress, scenes.len());
         let samples = samples(drawn);

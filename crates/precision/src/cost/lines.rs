@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -15,11 +15,6 @@ use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_verify::oracle::Oracle;
 
 type Ends = [PixelPoint; 2];
-
-fn measures() -> Vec<Measure> {
-    let title = "wrong pixels per million, against the exact line";
-    vec![Measure::new(title, "wrong/M", Some(0.0))]
-}
 
 trait AnyDraw {
     fn accepts(&self, ends: Ends) -> Result<(), String>;
@@ -153,7 +148,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let targets: Vec<_> =
         classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Lines, measures(), choices, options);
+    let mut draft = Draft::new(Ladder::Lines, choices, options);
     for ((class, made), target) in classes.iter().zip(&made).zip(&targets) {
         draft.tell(progress, classes.len());
         let (lines, about) = match made {

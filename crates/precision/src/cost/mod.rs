@@ -66,6 +66,81 @@ impl Ladder {
             Self::Lines => "Lines",
         }
     }
+
+    /// By what the choices of a group are judged; the first measure is the error of the plots.
+    fn measures(self) -> Vec<Measure> {
+        match self {
+            Self::Scanline | Self::EdgeFunction => vec![
+                Measure::new(
+                    "wrong pixels per million, against the vertices as given",
+                    "wrong/M",
+                    Some(0.0),
+                ),
+                Measure::new(
+                    "wrong pixels per million, against the snapped vertices",
+                    "snapped",
+                    Some(0.0),
+                ),
+                Measure::new("pixels inside the mesh that no triangle hits", "holes", None),
+                Measure::new("pixels inside the mesh that two triangles hit", "twice", None),
+            ],
+            Self::Interpolation => vec![
+                Measure::new(
+                    "worst error over M, the largest value of a vertex",
+                    "error / M",
+                    Some(interpolation::HALF_STEP),
+                ),
+                Measure::new("worst error in units of u M, u of the float used", "u M", None),
+                Measure::new("worst error over its derived bound", "of bound", None),
+            ],
+            Self::Depth => vec![
+                Measure::new(
+                    "pixels per million showing the wrong one of two layers z / 10,000 apart",
+                    "wrong/M",
+                    Some(0.0),
+                ),
+                Measure::new(
+                    "gap: the least distance behind z that is stored as another depth",
+                    "gap",
+                    None,
+                ),
+                Measure::new(
+                    "step: the largest such gap over a thousand distances around z",
+                    "step",
+                    None,
+                ),
+            ],
+            Self::Shadows => vec![
+                Measure::new(
+                    "places per million in shadow that some light reaches",
+                    "missed/M",
+                    Some(0.0),
+                ),
+                Measure::new(
+                    "places per million in the light that keep some of it from themselves",
+                    "acne/M",
+                    Some(0.0),
+                ),
+            ],
+            Self::Levels => vec![
+                Measure::new(
+                    "largest distance from the exact level of detail",
+                    "levels",
+                    Some(levels::STEP),
+                ),
+                Measure::new("mean distance from the exact level of detail", "mean", None),
+            ],
+            Self::Antialiasing => {
+                let title =
+                    "root mean square distance from the exact share, over the pixels on an edge";
+                vec![Measure::new(title, "rms", Some(0.0))]
+            }
+            Self::Lines => {
+                let title = "wrong pixels per million, against the exact line";
+                vec![Measure::new(title, "wrong/M", Some(0.0))]
+            }
+        }
+    }
 }
 
 /// Words of a board: of the program where it was measured, of the file where it was read.
@@ -286,15 +361,10 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    fn new(
-        ladder: Ladder,
-        measures: Vec<Measure>,
-        choices: impl Iterator<Item = Choice>,
-        options: &CostOptions,
-    ) -> Self {
+    fn new(ladder: Ladder, choices: impl Iterator<Item = Choice>, options: &CostOptions) -> Self {
         let choices: Vec<Choice> = choices.collect();
         let cells = choices.iter().map(|_| Vec::new()).collect();
-        let (seed, columns) = (options.seed, Vec::new());
+        let (seed, columns, measures) = (options.seed, Vec::new(), ladder.measures());
         let board = Board { ladder, seed, rounds: 0, measures, columns, choices, cells };
         Self { board, passes: Vec::new() }
     }
@@ -357,7 +427,8 @@ fn finish(
     progress: &dyn Fn(f64, &str),
 ) -> Vec<Board> {
     let mut boards = Vec::new();
-    let mut by_column: std::collections::BTreeMap<usize, Vec<(usize, Placed<'_>)>> = Default::default();
+    let mut by_column: std::collections::BTreeMap<usize, Vec<(usize, Placed<'_>)>> =
+        Default::default();
     for (number, Draft { board, passes }) in drafts.into_iter().enumerate() {
         boards.push(board);
         for placed in passes {
@@ -372,8 +443,7 @@ fn finish(
             placed.into_iter().map(|(board, one)| ((board, one.choice), one.pass)).unzip();
         let all = [(0..passes.len()).collect::<Vec<_>>()];
         let wanted = |medians: &[f64]| over_fastest(&all, medians);
-        let told =
-            |share: f64| progress(0.3 + 0.7 * (done as f64 + share) / columns as f64, title);
+        let told = |share: f64| progress(0.3 + 0.7 * (done as f64 + share) / columns as f64, title);
         let times = compare(&mut passes, timing, &wanted, &told);
         let Some(fastest) = times.iter().min_by(|a, b| a.median().total_cmp(&b.median())) else {
             continue;
@@ -387,7 +457,9 @@ fn finish(
                 0 => of.rounds(),
                 rounds => rounds.min(of.rounds()),
             };
-            if let (Cell::Run(run), Some(times)) = (&mut board.cells[choice][column], of.over(fastest)) {
+            if let (Cell::Run(run), Some(times)) =
+                (&mut board.cells[choice][column], of.over(fastest))
+            {
                 run.time = Some(Time { pixel_ns, times });
             }
         }

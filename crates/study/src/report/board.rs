@@ -76,8 +76,10 @@ fn times(board: &Board) -> [Table; 2] {
         let mark = if fastest { '<' } else { ' ' };
         Some((format!("{}{mark}", number(value(time.pixel_ns.median), cell_width(board))), false))
     };
-    let title =
-        format!("ns for each covered pixel, median of {} rounds or more (< the fastest)", board.rounds);
+    let title = format!(
+        "ns for each covered pixel, median of {} rounds or more (< the fastest)",
+        board.rounds
+    );
     let pixels = block(board, title, &|r, c| cell(r, c, &|ns| ns));
     let title = "ns for each triangle or line".to_owned();
     let mut items = block(board, title, &|r, c| {
@@ -93,16 +95,14 @@ fn times(board: &Board) -> [Table; 2] {
             "quartiles lie {middle:.0}% of the median apart in the middle cell, {worst:.0}% in the worst"
         ));
     }
-    let noise = board.columns.iter().filter_map(|column| column.noise.map(off_one));
+    let noise = board.columns.iter().filter_map(|column| column.noise.map(Ratio::off_one));
     if let Some(worst) = noise.reduce(f64::max) {
-        items.notes.push(format!("two equal passes differ by at most {:.1}% in a class", 100.0 * (worst - 1.0)));
+        items.notes.push(format!(
+            "two equal passes differ by at most {:.1}% in a class",
+            100.0 * (worst - 1.0)
+        ));
     }
     [pixels, items]
-}
-
-/// How many times one of two is the other, whichever is larger.
-fn off_one(ratio: Ratio) -> f64 {
-    ratio.median.max(1.0 / ratio.median)
 }
 
 fn work(board: &Board) -> [Table; 3] {
@@ -203,8 +203,7 @@ fn dominated(board: &Board) -> Vec<String> {
 /// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
 pub fn price(boards: &[Board]) -> Option<Table> {
     let prices = prices(boards);
-    let columns =
-        "~class 8 | cheapest in floats 28 | exact on the lattice 26 | exact as given 28";
+    let columns = "~class 8 | cheapest in floats 28 | exact on the lattice 26 | exact as given 28";
     let cell = |p: &Option<Priced>| {
         p.as_ref().map_or("not run".to_owned(), |p| format!("{} {}", p.name, p.ratio))
     };

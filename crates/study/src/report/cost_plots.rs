@@ -174,7 +174,8 @@ pub fn price(prices: &[Price], width: f64) -> Drawing {
         (GREEN, "the cheapest that is exact on the 1/256-px lattice (snaps)"),
         (SAND, "the cheapest that is exact for the vertices as given"),
     ];
-    let most = prices.iter().flat_map(kinds).flatten().map(|one| one.ratio.median).fold(1.0, f64::max);
+    let most =
+        prices.iter().flat_map(kinds).flatten().map(|one| one.ratio.median).fold(1.0, f64::max);
     let bar = |(priced, ink): (Option<Priced>, Ink)| {
         let Priced { name, ratio, pixel_ns } = priced?;
         let label = match ratio == Ratio::ONE {

@@ -163,9 +163,11 @@ fn accuracy(groups: &[Group]) -> String {
     let mut all = Vec::new();
     for group in of_coverage {
         let timed = group.choices.iter().filter(|judged| judged.refused.is_none());
-        all.extend(timed.filter_map(|judged| {
-            Some(OfCoverage { group, judged, time: judged.time.as_ref()? })
-        }));
+        all.extend(
+            timed.filter_map(|judged| {
+                Some(OfCoverage { group, judged, time: judged.time.as_ref()? })
+            }),
+        );
     }
     let least = |of: &dyn Fn(&OfCoverage<'_>) -> bool| {
         let of = all.iter().filter(|one| of(one));
@@ -198,7 +200,8 @@ fn accuracy(groups: &[Group]) -> String {
     };
     let as_given = least(&|one| one.promises(0));
     if let Some(as_given) = as_given.filter(|_| is_snapped && certain.wrong_as_given() > 0) {
-        let differ = count(certain.wrong_as_given(), &format!("{unit} differs"), &format!("{unit} differ"));
+        let differ =
+            count(certain.wrong_as_given(), &format!("{unit} differs"), &format!("{unit} differ"));
         let words = as_given.over(cheapest).words(LONG);
         let _ = write!(
             sentence,
@@ -212,9 +215,9 @@ fn accuracy(groups: &[Group]) -> String {
         None => write!(sentence, " None of the {} choices is wrong here.", all.len()),
         Some(worst) => write!(
             sentence,
-            " Of {} choices {} wrong here; the worst, {}, in {} {unit}.",
+            " Of {} choices {} {}, in {} {unit}.",
             all.len(),
-            count(are_wrong.len() as u64, "is", "are"),
+            count(are_wrong.len() as u64, "is wrong here:", "are wrong here, most of all"),
             worst.name(),
             thousands(worst.wrong() as u64)
         ),
@@ -266,7 +269,10 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
             let (name, pixels) = (most.kind.name(), thousands(most.pixels));
             let seen = "seen in this view";
             match others.len() {
-                1 => write!(sentence, " One other kind of hard case is {seen}: {name}, in {pixels} px."),
+                1 => write!(
+                    sentence,
+                    " One other kind of hard case is {seen}: {name}, in {pixels} px."
+                ),
                 kinds => write!(
                     sentence,
                     " {kinds} other kinds of hard cases are {seen}; the one with most pixels is {name}, in {pixels} px."
@@ -346,7 +352,7 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     let row = |need: &Need| {
         Row::of(&[&need.effect.name(), &thousands(need.wrong), &takes(found.needs, need)])
     };
-    let columns = "effects called for 28 | >px wrong without 17 | :takes of the planned frame";
+    let columns = "effects called for 24 | >px wrong without 16 | takes of the planned frame 32";
     let mut called: Vec<_> = of(State::CalledFor).collect();
     called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
     let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name().to_owned()).collect();
@@ -356,16 +362,19 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     for group in found.costs {
         for (number, measure) in group.measures.iter().enumerate() {
             let of_measure = if group.measures.len() > 1 {
-                format!("{}, {}", group.title.trim_start_matches("Coverage "), measure.short)
+                format!("{}, {}", group.title.trim_start_matches(COVERAGE), measure.short)
             } else {
                 group.title.to_owned()
             };
             rows.push(cheapest_row(group, number, of_measure));
         }
     }
-    let columns = "what exactness costs 30 | cheapest exact 24 | >ms 7 | :times the cheapest of all";
-    let more = format!("{CELLS}. What each choice does: --all; with pictures: --report");
-    let costs = Table::new("", columns, rows).noted(vec![more]);
+    let columns =
+        "what exactness costs 31 | cheapest exact 22 | >ms 7 | times 16 the cheapest of all";
+    let more =
+        "+2: two others may be as fast. What each choice does: --all; with pictures: --report";
+    let cells = format!("times the cheapest of all, {CELLS}");
+    let costs = Table::new("", columns, rows).noted(vec![cells, more.to_owned()]);
     vec![seen, called, costs]
 }
 
@@ -375,14 +384,22 @@ fn cheapest_row(group: &Group, measure: usize, title: String) -> Row {
         let none = if group.judged.part == 0 { "no pixel was compared" } else { "none" };
         return Row::of(&[&title, &none, &"-", &"-"]);
     };
-    let others = if best.equal.is_empty() && best.undecided.is_empty() { "" } else { " or others" };
+    let others = match best.equal.len() + best.undecided.len() {
+        0 => String::new(),
+        others => format!(" +{others}"),
+    };
     let choice = &group.choices[best.choice];
     let time = |choice: usize| group.choices[choice].time.as_ref();
     let least = group.cheapest(&|_| true).and_then(time);
     let over = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
     let times = over.map_or("-".to_owned(), |ratio| ratio.to_string());
     let name = format!("{}{others}", choice.name());
-    Row::of(&[&title, &name, &choice.time.as_ref().map_or("-".to_owned(), |time| ms(time.median())), &times])
+    Row::of(&[
+        &title,
+        &name,
+        &choice.time.as_ref().map_or("-".to_owned(), |time| ms(time.median())),
+        &times,
+    ])
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
@@ -489,7 +506,10 @@ fn takes(needs: &Needs, need: &Need) -> String {
     match need.adds(&needs.planned) {
         Adds::NoWork => "no work".to_owned(),
         Adds::DrawsLess => "less is drawn without it".to_owned(),
-        Adds::Times(_) if !need.is_paid_for => "not paid for".to_owned(),
+        Adds::Times(_) if !need.is_paid_for => match need.adds_ms(&needs.planned) {
+            Some(ms) => format!("would add {} ms", number(ms, 9)),
+            None => "would add nothing that can be told".to_owned(),
+        },
         Adds::Times(ratio) => match need.adds_ms(&needs.planned) {
             Some(ms) => format!("{} ms, {}", number(ms, 9), ratio.saving()),
             None => ratio.saving(),
@@ -520,7 +540,9 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     let mut lines = Vec::new();
     let is_idle = |need: &&Need| !need.is_paid_for && need.adds_ms(&needs.planned).is_some();
     let more = |need: &Need| match need.adds(&needs.planned) {
-        Adds::Times(ratio) => format!("{} {:.0}%", need.effect.name(), 100.0 * (ratio.median - 1.0)),
+        Adds::Times(ratio) => {
+            format!("{} {:.0}%", need.effect.name(), 100.0 * (ratio.median - 1.0))
+        }
         Adds::NoWork | Adds::DrawsLess => need.effect.name().to_owned(),
     };
     let idle: Vec<_> = needs.needs.iter().filter(is_idle).map(more).collect();
@@ -770,7 +792,10 @@ fn cost_table(subject: &Places<'_>, group: &Group) -> Table {
         Some(format!("{}: {} ms pass meanwhile, on all threads", choice.name(), ms(wall)))
     }));
     let noise = least.and_then(Times::noise);
-    notes.extend(noise.map(|noise| format!("two equal passes in the same rounds: {:.3} times", noise.median)));
+    notes
+        .extend(noise.map(|noise| {
+            format!("two equal passes in the same rounds: {:.3} times", noise.median)
+        }));
     notes.extend(advice(subject, group));
     Table::of(&caption, columns, group.choices.iter().map(row).collect()).noted(notes)
 }

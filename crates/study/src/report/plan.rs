@@ -136,7 +136,8 @@ impl Measurement<'_> {
         };
         let paid = Effect::ALL.iter().filter(|effect| paid_for(effect)).count();
         let all = Effect::ALL.len();
-        let mut sentence = format!("{paid} of {all} effects are paid for in this view, as planned.");
+        let mut sentence =
+            format!("{paid} of {all} effects are paid for in this view, as planned.");
         let of_each = &self.savings.effects;
         if !of_each.is_empty() {
             let called = of_each.iter().filter(|saving| saving.wrong_without > 0).count();
@@ -147,7 +148,9 @@ impl Measurement<'_> {
         let time = if self.frames[0].counters.fragments == 0 {
             "No triangle covers a pixel, so times say nothing of effects.".to_owned()
         } else {
-            format!("The planned frame against everything on: {everything}. Against the usual way: {usual}.")
+            format!(
+                "The planned frame against everything on: {everything}. Against the usual way: {usual}."
+            )
         };
         [("effects", sentence), ("time", time)]
             .map(|(about, sentence)| Statement { about, sentence, command: String::new() })
@@ -242,8 +245,10 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
         let ratio = ratio.map_or("-".to_owned(), |ratio| ratio.to_string());
         Row::of(&[&name, &format!("{:.0}", m.time_us), &format!("{low:.0}-{high:.0}"), &ratio])
     };
-    let mut notes: Vec<_> =
-        savings.different().map(|name| format!("DIFFERENT PICTURE with the effects {name}")).collect();
+    let mut notes: Vec<_> = savings
+        .different()
+        .map(|name| format!("DIFFERENT PICTURE with the effects {name}"))
+        .collect();
     notes.push(
         "usual: what a renderer does without a planner (cuts what crosses, culls, one depth test)"
             .to_owned(),
