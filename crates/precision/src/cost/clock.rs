@@ -649,13 +649,12 @@ mod tests {
         left_behind: f64,
         rng: Rng,
         last: usize,
-        rounds: usize,
     }
 
     impl Machine {
         fn new(ns: &[f64], noise: f64, seed: u64) -> Self {
             let rng = Rng::new("machine", seed, 0);
-            Self { ns: ns.to_vec(), noise, left_behind: 0.0, rng, last: 1, rounds: 0 }
+            Self { ns: ns.to_vec(), noise, left_behind: 0.0, rng, last: 1 }
         }
 
         fn time(&mut self, pass: usize) -> f64 {
