@@ -12,8 +12,9 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Span, check_value};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Choice, Clock, EQUAL, Ladder, Measure, Pass, Times, Timing, Variant, compare as compare_times,
-    compared_values, measure_on, over_fastest, variants, wrong_pixels, wrong_values,
+    Choice, Clock, Ladder, Measure, Pass, Places, Said, Times, Timing, Variant,
+    compare as compare_times, compared_values, measure_on, over_fastest, variants, wrong_pixels,
+    wrong_values,
 };
 use rasterproof_precision::ladder::snap;
 use rasterproof_registry::engines::Drawer;
@@ -101,9 +102,9 @@ pub struct Group {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cheapest {
     pub choice: usize,
-    /// Those that are shown to be equally fast, but for 3%.
+    /// Those between which and it there is no difference.
     pub equal: Vec<usize>,
-    /// Those that may be faster or slower than it by more than 3%, for all that was measured.
+    /// Those that may be faster or slower than it, for all that was measured.
     pub undecided: Vec<usize>,
     pub rounds: usize,
 }
@@ -141,6 +142,16 @@ impl Group {
         timed.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
     }
 
+    /// The fastest of all choices that do the same job: both groups of coverage do.
+    #[must_use]
+    pub fn cheapest_of_job<'a>(&self, groups: &'a [Self]) -> Option<&'a Times> {
+        let job = |group: &Self| group.title.split(" by ").next();
+        let same = groups.iter().filter(|group| job(group) == job(self));
+        let cheapest =
+            same.filter_map(|group| group.choices[group.cheapest(&|_| true)?].time.as_ref());
+        cheapest.min_by(|a, b| a.median().total_cmp(&b.median()))
+    }
+
     pub fn cheapest_exact(&self, measure: usize) -> Option<usize> {
         self.cheapest(&|choice| self.is_exact(choice, measure))
     }
@@ -157,10 +168,10 @@ impl Group {
             let Some(ratio) = other.time.as_ref().and_then(|time| time.over(best)) else {
                 continue;
             };
-            if ratio.is_within(EQUAL) {
-                equal.push(number);
-            } else if ratio.low <= EQUAL {
-                undecided.push(number);
+            match ratio.said() {
+                Said::NoDifference => equal.push(number),
+                Said::CannotBeTold if ratio.low <= 1.0 => undecided.push(number),
+                Said::CannotBeTold | Said::Holds => {}
             }
         }
         Some(Cheapest { choice, equal, undecided, rounds: best.rounds() })
@@ -353,7 +364,7 @@ fn coverage(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Group> {
         .map(|(ladder, variants)| judged_coverage(ladder, variants, sampled, sample))
         .collect();
     let class = class(sample.of(&sampled.planes[0]), sampled.window);
-    let frame = RefCell::new(Frame::new(sampled.window, 0));
+    let frame = Places::new(|| Frame::new(sampled.window, 0));
     let mut passes = Vec::new();
     for (group, variants) in all.iter().enumerate() {
         for (choice, variant) in variants.iter().enumerate() {

@@ -5,11 +5,14 @@
 //! - The clock is the processor time of the thread, so a round in which another program ran is not longer.
 //! - A pass of a few milliseconds runs once untimed before it is timed, so that it finds the caches and the heap as it left them
 //!   itself, and not as the pass before it did.
+//! - What a pass writes to lies at another place in memory in each round, so that its ratio does not depend on where it happens to lie
+//!   in this process ([`Places`]).
 //! - One pass runs twice in each round, as if it were two (A/A). What the ratio of the two is off 1 is the noise.
 //! - The ratio of two passes is the median of the ratios in the single rounds, with an interval: the true median lies between two
 //!   of the sorted ratios, by the binomial distribution, whatever the times are like.
 //! - There are more rounds while an interval is wide, until the time is over.
 
+use std::cell::{Cell, Ref, RefCell, RefMut};
 use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -79,6 +82,35 @@ impl<'a> Pass<'a> {
     }
 }
 
+thread_local! {
+    /// The number of the round that runs.
+    static ROUND: Cell<usize> = const { Cell::new(0) };
+}
+
+/// Memory to which passes write, several times over, one after the other: on one of four of them a write of 64 bytes falls into
+/// one line of the cache, and on the others into two, which takes up to twice as long. In each round the next one is written to.
+pub struct Places<T>(Vec<RefCell<T>>);
+
+impl<T> Places<T> {
+    pub fn new(make: impl Fn() -> T) -> Self {
+        // Blocks of the heap whose sizes are multiples of 64 bytes lie 16 bytes further in a line each.
+        keep_heap();
+        Self((0..4).map(|_| RefCell::new(make())).collect())
+    }
+
+    fn now(&self) -> &RefCell<T> {
+        &self.0[ROUND.get() % self.0.len()]
+    }
+
+    pub fn borrow(&self) -> Ref<'_, T> {
+        self.now().borrow()
+    }
+
+    pub fn borrow_mut(&self) -> RefMut<'_, T> {
+        self.now().borrow_mut()
+    }
+}
+
 /// Quartiles of one quantity over the rounds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Sorted")]
@@ -131,8 +163,10 @@ impl Spread {
     }
 }
 
-/// Two times whose ratio lies between `1 / EQUAL` and `EQUAL` are equal.
-pub const EQUAL: f64 = 1.03;
+/// How many times the ratio of the same two passes in one process is that in another, in nine of ten cases: 162 ratios of three models,
+/// each in two processes on two cores that up to 20 others wanted, were 1.009 times off in the middle, 1.049 in 90% and 1.076 in 95%. Where
+/// pages lie in memory and what other programs do to the caches differs between processes, and no number of rounds shows it.
+const BETWEEN: f64 = 1.05;
 
 /// The probability that an interval does not contain the median of what it is of.
 const ERROR: f64 = 0.01;
@@ -141,7 +175,7 @@ const ERROR: f64 = 0.01;
 const WIDE: f64 = 1.1;
 
 /// How many times as long one pass takes as another one: the median of the ratios in the rounds in which both ran, and an interval
-/// around it, which the noise of the comparison widens.
+/// around it, which the noise of the comparison widens, and [`BETWEEN`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Sorted")]
 pub struct Ratio {
@@ -166,7 +200,7 @@ impl TryFrom<Sorted> for Ratio {
 pub enum Said {
     /// The ratio holds: its interval is narrow, and 1 is not in it.
     Holds,
-    /// The interval is narrow and holds 1, or nothing that is more than [`EQUAL`] from it.
+    /// The interval is narrow and holds 1.
     NoDifference,
     /// The interval is wide, or there were too few rounds for one.
     CannotBeTold,
@@ -208,26 +242,14 @@ impl Ratio {
         is_far || self.rounds > 0 && outside(self.rounds).is_none()
     }
 
-    /// Whether the whole interval is at most so many times from 1.
-    #[must_use]
-    pub fn is_within(&self, times: f64) -> bool {
-        self.low >= 1.0 / times && self.high <= times
-    }
-
     #[must_use]
     pub fn said(&self) -> Said {
         let holds_one = self.low <= 1.0 && 1.0 <= self.high;
-        match (self.is_wide(), holds_one || self.is_within(EQUAL)) {
+        match (self.is_wide(), holds_one) {
             (true, _) => Said::CannotBeTold,
             (false, true) => Said::NoDifference,
             (false, false) => Said::Holds,
         }
-    }
-
-    /// Whether more rounds would tell nothing that is said: the interval is narrow, and not on both sides of [`EQUAL`].
-    fn is_settled(&self) -> bool {
-        let is_between = |at: f64| self.low <= at && at < self.high;
-        !self.is_wide() && !is_between(EQUAL) && !is_between(1.0 / EQUAL)
     }
 
     /// In a sentence: `4.6 times as long (4.4 to 4.9)`, `no difference`, or `cannot be told here (2 to 12 times as long)`.
@@ -266,6 +288,7 @@ impl fmt::Display for Ratio {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [low, median, high] = [self.low, self.median, self.high].map(short);
         match self.said() {
+            _ if *self == Self::ONE => write!(f, "1"),
             Said::Holds => write!(f, "{median} ({low}-{high})"),
             Said::NoDifference => write!(f, "same"),
             Said::CannotBeTold => write!(f, "{low}-{high}?"),
@@ -351,7 +374,8 @@ impl Times {
         if std::ptr::eq(self, other) {
             return Some(Ratio::ONE);
         }
-        Some(ratio(&self.ns, &other.ns).widened(self.noise.map_or(1.0, Ratio::off_one)))
+        let noise = self.noise.map_or(1.0, Ratio::off_one);
+        Some(ratio(&self.ns, &other.ns).widened(noise * BETWEEN))
     }
 }
 
@@ -487,6 +511,7 @@ fn in_rounds(
     let mut order = Order::new((0..=twin).collect());
     let mut rounds = 0;
     while !first.is_empty() {
+        ROUND.set(rounds);
         for slot in order.draw() {
             times[slot].push(run(if slot == twin { of_twin } else { slot }));
         }
@@ -502,7 +527,7 @@ fn in_rounds(
             times[..twin].iter().map(|ns| Spread::of(ns.clone()).median).collect();
         let mut pairs = wanted(&medians);
         let noise = ratio(&times[twin], &times[of_twin]).off_one();
-        pairs.retain(|&[a, b]| !ratio(&times[a], &times[b]).widened(noise).is_settled());
+        pairs.retain(|&[a, b]| ratio(&times[a], &times[b]).widened(noise * BETWEEN).is_wide());
         if pairs.is_empty() {
             break;
         }
@@ -602,7 +627,6 @@ mod tests {
         let words = |low, median, high, rounds| ratio(low, median, high, rounds).words("long");
         assert_eq!(words(4.4, 4.6, 4.9, 9), "4.60 times as long (4.40 to 4.90)");
         assert_eq!(words(0.97, 1.01, 1.06, 9), "no difference");
-        assert_eq!(words(1.005, 1.01, 1.02, 9), "no difference", "within three hundredths");
         assert_eq!(words(1.02, 1.04, 1.06, 9), "1.04 times as long (1.02 to 1.06)");
         assert_eq!(words(2.0, 5.0, 12.0, 99), "cannot be told here (2.00 to 12.0 times as long)");
         assert_eq!(words(0.8, 1.0, 1.2, 99), "cannot be told here (0.80 to 1.20 times as long)");
@@ -697,20 +721,31 @@ mod tests {
     #[test]
     fn there_are_more_rounds_while_an_interval_is_wide() {
         assert_eq!(Machine::new(&[1.0, 2.0], 0.01, 1).compare(1000).2, LOOKS[0]);
-        let (times, _, rounds) = Machine::new(&[1.0, 2.0], 0.5, 1).compare(1000);
+        let (times, noise, rounds) = Machine::new(&[1.0, 2.0], 0.1, 1).compare(1000);
         assert!(rounds > LOOKS[0], "{rounds}");
-        assert_ne!(super::ratio(&times[1], &times[0]).said(), Said::CannotBeTold);
-        let (times, noise, rounds) = Machine::new(&[1.0, 2.0], 0.5, 1).compare(5);
+        let times = Times::of(times, noise);
+        let said = |times: &[Times]| times[1].over(&times[0]).unwrap().said();
+        assert_eq!(said(&times), Said::Holds);
+        let (times, noise, rounds) = Machine::new(&[1.0, 2.0], 0.1, 1).compare(5);
         assert_eq!((rounds, noise), (5, None));
-        assert_eq!(super::ratio(&times[1], &times[0]).said(), Said::CannotBeTold);
+        assert_eq!(said(&Times::of(times, noise)), Said::CannotBeTold);
     }
 
-    /// A pass that is clearly slower leaves; those that are near go on.
+    /// A slow pass of which all is known leaves; one that is near and noisy goes on.
     #[test]
     fn what_is_settled_leaves() {
-        let (times, ..) = Machine::new(&[1.0, 1.03, 20.0], 0.1, 3).compare(100);
-        assert!(times[2].len() < times[1].len(), "{} {}", times[2].len(), times[1].len());
-        assert_eq!(super::ratio(&times[2], &times[0]).said(), Said::Holds);
+        let mut rng = Rng::new("noisy", 1, 0);
+        let mut run = |pass: usize| match pass {
+            1 => 1.1 + 0.5 * rng.signed(),
+            pass => [1.0, 0.0, 20.0][pass],
+        };
+        let sets = [vec![0, 1, 2]];
+        let wanted = |medians: &[f64]| over_fastest(&sets, medians);
+        let mut has_time = |rounds: usize| rounds < 100;
+        let (times, _) = in_rounds(&[1.0, 1.1, 20.0], None, &wanted, &mut run, &mut has_time);
+        assert_eq!((times[2].len(), times[1].len()), (LOOKS[0], 100));
+        let times = Times::of(times, None);
+        assert_eq!(times[2].over(&times[0]).unwrap().said(), Said::Holds);
     }
 
     /// One pass leaves a heap behind for which the next one pays: as each follows it equally often, all pay alike, and equal passes

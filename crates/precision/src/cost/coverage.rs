@@ -4,12 +4,11 @@
 //! and the triangle with its corners snapped to 1/256 px. Choices on the lattice are exact against the
 //! latter; what they show against the former is the price of snapping, an error of the input.
 
-use std::cell::RefCell;
-
 use super::external::ExternalVariant;
 use super::tiles::Lists;
 use super::{
-    Board, Choice, Clock, Column, CostOptions, Draft, Ladder, Name, Pass, PreparedCell, finish,
+    Board, Choice, Clock, Column, CostOptions, Draft, Ladder, Name, Pass, Places, PreparedCell,
+    finish,
 };
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
@@ -297,7 +296,7 @@ fn prepare<'a>(
     variant: &'a Variant,
     scene: &'a Scene,
     truth: &Truth,
-    target: &'a RefCell<Frame<u32>>,
+    target: &'a Places<Frame<u32>>,
 ) -> PreparedCell<'a> {
     match errors(variant, scene, truth) {
         Err(why) => PreparedCell::NotRun(why),
@@ -337,7 +336,7 @@ pub(super) fn measure(
     let groups: Vec<(Ladder, Vec<Variant>)> =
         ladders.iter().map(|&ladder| (ladder, variants(ladder))).collect();
     let targets: Vec<_> =
-        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0))).collect();
+        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0))).collect();
     let mut drafts = Vec::new();
     for (ladder, variants) in &groups {
         let external: &mut [_] = if *ladder == Ladder::EdgeFunction { external } else { &mut [] };

@@ -3,13 +3,11 @@
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels,
 //! against quotients of big integers; each choice with a derived bound is also held to that.
 
-use std::cell::RefCell;
-
 use super::bounds::{Bound, Place, largest};
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Name, PreparedCell, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Name, Places, PreparedCell, Told};
 use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -301,7 +299,7 @@ pub(super) fn measure_on(
     let variants = variants();
     let drawn: Vec<_> = scenes.iter().map(valued).collect();
     let targets: Vec<_> =
-        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
+        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0f32))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
     let mut draft = Draft::new(Ladder::Interpolation, choices, options);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {

@@ -3,11 +3,9 @@
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels, against derivatives in
 //! quotients of big integers, of which the logarithm alone is rounded.
 
-use std::cell::RefCell;
-
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell};
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
@@ -129,7 +127,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let variants = variants();
     let drawn: Vec<_> = scenes.iter().map(textured).collect();
     let targets: Vec<_> =
-        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
+        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0f32))).collect();
     let mut draft =
         Draft::new(Ladder::Levels, variants.iter().map(|(choice, _)| choice.clone()), options);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {

@@ -1,9 +1,7 @@
 //! The group of lines: pixels beside the nearest one, and what drawing takes.
 
-use std::cell::RefCell;
-
 use super::scene::{Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -146,7 +144,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let made: Vec<_> =
         classes.iter().map(|class| lines(class.name, options.seed, &size, class.bounds)).collect();
     let targets: Vec<_> =
-        classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
+        classes.iter().map(|class| Places::new(|| Frame::new(class.bounds, 0))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
     let mut draft = Draft::new(Ladder::Lines, choices, options);
     for ((class, made), target) in classes.iter().zip(&made).zip(&targets) {

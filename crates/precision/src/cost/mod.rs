@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 use crate::ladder::Work;
 pub use bounds::Bound;
 pub use clock::{
-    CELLS, Clock, EQUAL, Pair, Pass, Ratio, Said, Spread, Times, Timing, compare, over_fastest,
+    CELLS, Clock, Pair, Pass, Places, Ratio, Said, Spread, Times, Timing, compare, over_fastest,
 };
 pub use coverage::{Variant, variants, wrong_pixels};
 pub use external::ExternalVariant;

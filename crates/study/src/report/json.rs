@@ -101,7 +101,7 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
 
 pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
     let group = |group: &Group| {
-        let least = group.cheapest(&|_| true).and_then(|one| group.choices[one].time.as_ref());
+        let least = group.cheapest_of_job(groups);
         let choice = |choice: &Judged| {
             let first = choice.first_wrong.map(|(of, [x, y])| {
                 let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));

@@ -185,7 +185,7 @@ fn accuracy(groups: &[Group]) -> String {
     let ratio = certain.over(cheapest);
     let mut sentence = if ratio.said() == Said::NoDifference {
         format!(
-            "Exact coverage costs nothing here: no choice is cheaper than {name}, which is exact for every model{snapped}."
+            "Exact coverage costs nothing here: no choice is cheaper than {name}, exact for every model{snapped}."
         )
     } else {
         let is = match cheapest.wrong() {
@@ -193,7 +193,7 @@ fn accuracy(groups: &[Group]) -> String {
             wrong => format!("is wrong in {} {unit}", thousands(wrong as u64)),
         };
         format!(
-            "Exact coverage by {name}, which is exact for every model{snapped}, against the cheapest choice, {}, which {is}: {}.",
+            "Exact coverage by {name}, exact for every model{snapped}, against the cheapest choice, {}, which {is}: {}.",
             cheapest.name(),
             ratio.words(LONG)
         )
@@ -304,7 +304,7 @@ fn effects(found: &StudyFindings<'_>) -> String {
     if let Some(ratio) = times.and_then(|(every, planned)| every.over(planned)) {
         let _ = write!(
             sentence,
-            " A frame that pays for all {}, against one that pays for what the plan asks for: {}.",
+            " Paying for all {}, against what the plan pays for: {}.",
             all.len(),
             ratio.words(LONG)
         );
@@ -313,7 +313,7 @@ fn effects(found: &StudyFindings<'_>) -> String {
 }
 
 /// Rows of a table of cases or effects on a first screen, which has 40.
-const MOST_ROWS: usize = 4;
+const MOST_ROWS: usize = 3;
 
 /// What is seen, what is called for, and the cheapest exact choices: a table for each question.
 fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
@@ -366,20 +366,21 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
             } else {
                 group.title.to_owned()
             };
-            rows.push(cheapest_row(group, number, of_measure));
+            rows.push(cheapest_row(found.costs, group, number, of_measure));
         }
     }
     let columns =
         "what exactness costs 31 | cheapest exact 22 | >ms 7 | times 16 the cheapest of all";
-    let more =
-        "+2: two others may be as fast. What each choice does: --all; with pictures: --report";
-    let cells = format!("times the cheapest of all, {CELLS}");
-    let costs = Table::new("", columns, rows).noted(vec![cells, more.to_owned()]);
+    let notes = [
+        "same: no difference; 2-12?: cannot be told here; +2: two others may be as fast",
+        "what each choice does: --all; with pictures: --report",
+    ];
+    let costs = Table::new("", columns, rows).noted(notes.map(str::to_owned).to_vec());
     vec![seen, called, costs]
 }
 
 /// The cheapest choice that a measure calls exact, and what it takes.
-fn cheapest_row(group: &Group, measure: usize, title: String) -> Row {
+fn cheapest_row(groups: &[Group], group: &Group, measure: usize, title: String) -> Row {
     let Some(best) = group.compared(measure) else {
         let none = if group.judged.part == 0 { "no pixel was compared" } else { "none" };
         return Row::of(&[&title, &none, &"-", &"-"]);
@@ -389,8 +390,7 @@ fn cheapest_row(group: &Group, measure: usize, title: String) -> Row {
         others => format!(" +{others}"),
     };
     let choice = &group.choices[best.choice];
-    let time = |choice: usize| group.choices[choice].time.as_ref();
-    let least = group.cheapest(&|_| true).and_then(time);
+    let least = group.cheapest_of_job(groups);
     let over = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
     let times = over.map_or("-".to_owned(), |ratio| ratio.to_string());
     let name = format!("{}{others}", choice.name());
@@ -476,11 +476,11 @@ fn compared(group: &Group, measure: usize) -> Vec<String> {
     }
     let mut lines = vec![format!("cheapest exact ({short}): {}", names(&[best.choice]))];
     if !best.equal.is_empty() {
-        lines.push(format!("equally fast within 3%: {}", names(&best.equal)));
+        lines.push(format!("no difference: {}", names(&best.equal)));
     }
     if !best.undecided.is_empty() {
         let (rounds, others) = (best.rounds, names(&best.undecided));
-        lines.push(format!("undecided after {rounds} rounds, within 3% or not: {others}"));
+        lines.push(format!("undecided after {rounds} rounds, as fast or not: {others}"));
     }
     lines
 }
@@ -745,12 +745,11 @@ fn needs_table(needs: &Needs, state: State) -> Table {
 
 /// What each choice costs, a table for each group, with what to choose.
 pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Vec<Table> {
-    groups.iter().map(|group| cost_table(subject, group)).collect()
+    groups.iter().map(|group| cost_table(subject, groups, group)).collect()
 }
 
-fn cost_table(subject: &Places<'_>, group: &Group) -> Table {
-    let time = |choice: usize| group.choices[choice].time.as_ref();
-    let least = group.cheapest(&|_| true).and_then(time);
+fn cost_table(subject: &Places<'_>, groups: &[Group], group: &Group) -> Table {
+    let least = group.cheapest_of_job(groups);
     let row = |choice: &Judged| {
         if let Some(why) = &choice.refused {
             return Row::of(&[&choice.name(), &format!("not run: {why}")]);
