@@ -235,7 +235,7 @@ pub fn measure(
 
 /// How long frames are compared where no number of rounds is given.
 const PLAN: Timing =
-    Timing { slice: Timing::QUICK.slice, budget: Duration::from_secs(10), rounds: None };
+    Timing { slice: Timing::QUICK.slice, budget: Duration::from_secs(5), rounds: None };
 
 /// Whether rounds of all mixtures would take far more than the budget, so that only whole frames are compared.
 fn is_slow(draw: &mut dyn FnMut(&Effects) -> Result<Rendered, BadScene>) -> Result<bool, BadScene> {

@@ -414,7 +414,7 @@ impl Timing {
 }
 
 /// How many times as long as the processor time a comparison may take.
-const LONGER: f64 = 6.0;
+const LONGER: f64 = 4.0;
 
 /// The fewest rounds that have an interval, and other numbers of rounds after which it is asked whether more are needed.
 const LOOKS: [usize; 6] = [8, 16, 32, 64, 128, 256];
