@@ -365,13 +365,15 @@ fn coverage(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Group> {
         .collect();
     let class = class(sample.of(&sampled.planes[0]), sampled.window);
     let frame = Places::new(|| Frame::new(sampled.window, 0));
+    let triangles = Places::new(|| class.triangles.clone());
     let mut passes = Vec::new();
     for (group, variants) in all.iter().enumerate() {
         for (choice, variant) in variants.iter().enumerate() {
             if groups[group].choices[choice].refused.is_none() {
-                let (frame, triangles) = (&frame, &class.triangles);
+                let (frame, triangles) = (&frame, &triangles);
                 let pass = Pass::new(move || {
-                    variant.paint(std::hint::black_box(triangles), &mut frame.borrow_mut());
+                    variant
+                        .paint(std::hint::black_box(&triangles.borrow()), &mut frame.borrow_mut());
                 });
                 passes.push((group, choice, pass));
             }

@@ -270,7 +270,7 @@ mod tests {
     fn what_does_no_work_saves_nothing() {
         let times = Times::of(vec![vec![2.0; 8], vec![1.0; 8]], None);
         let ratio = times[0].over(&times[1]);
-        assert_eq!(Saves::new(7, ratio).words(), "50% (48 to 52)");
+        assert_eq!(Saves::new(7, ratio).words(), "50% (46 to 53)");
         assert_eq!(Saves::new(0, ratio).words(), "no work");
     }
 }
