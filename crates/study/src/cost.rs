@@ -12,7 +12,7 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Span, check_value};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Choice, Clock, Ladder, Measure, Pass, Places, Said, Times, Timing, Variant,
+    Choice, Clock, Ladder, Measure, Pass, Places, RatioKind, Times, Timing, Variant,
     compare as compare_times, compared_values, measure_on, over_fastest, variants, wrong_pixels,
     wrong_values,
 };
@@ -35,7 +35,7 @@ use crate::view::{NOTHING, Piece, Sampled, seen};
 
 /// A choice with what it gets wrong of the triangles of a scene, and what it takes.
 #[derive(Clone, Debug, Default)]
-pub struct Judged {
+pub struct JudgedChoice {
     pub choice: Choice,
     /// By each measure of the group; none where it does not apply.
     pub errors: Vec<Option<f64>>,
@@ -51,7 +51,7 @@ pub struct Judged {
     pub refused: Option<String>,
 }
 
-impl Judged {
+impl JudgedChoice {
     fn new(choice: &Choice) -> Self {
         Self { choice: choice.clone(), ..Self::default() }
     }
@@ -85,7 +85,7 @@ impl Part {
 pub struct Group {
     pub title: &'static str,
     pub measures: Vec<Measure>,
-    pub choices: Vec<Judged>,
+    pub choices: Vec<JudgedChoice>,
     /// Triangles that are timed.
     pub timed: Part,
     /// Pixels that these cover.
@@ -125,7 +125,7 @@ impl Group {
 
     /// Whether an error of a choice is one that a measure calls exact. Where no pixel was compared, nothing is.
     #[must_use]
-    pub fn is_exact(&self, choice: &Judged, measure: usize) -> bool {
+    pub fn is_exact(&self, choice: &JudgedChoice, measure: usize) -> bool {
         let error = choice.errors.get(measure).copied().flatten();
         let goal = self.measures.get(measure).and_then(|measure| measure.goal);
         let meets = error.zip(goal).is_some_and(|(error, goal)| error <= goal);
@@ -134,7 +134,7 @@ impl Group {
 
     /// The fastest of some choices.
     #[must_use]
-    pub fn cheapest(&self, filter: &dyn Fn(&Judged) -> bool) -> Option<usize> {
+    pub fn cheapest(&self, filter: &dyn Fn(&JudgedChoice) -> bool) -> Option<usize> {
         let timed = self.choices.iter().enumerate();
         let timed = timed.filter(|(_, choice)| choice.refused.is_none() && filter(choice));
         let timed =
@@ -169,9 +169,9 @@ impl Group {
                 continue;
             };
             match ratio.said() {
-                Said::NoDifference => equal.push(number),
-                Said::CannotBeTold if ratio.low <= 1.0 => undecided.push(number),
-                Said::CannotBeTold | Said::Holds => {}
+                RatioKind::NoDifference => equal.push(number),
+                RatioKind::CannotBeTold if ratio.low <= 1.0 => undecided.push(number),
+                RatioKind::CannotBeTold | RatioKind::Holds => {}
             }
         }
         Some(Cheapest { choice, equal, undecided, rounds: best.rounds() })
@@ -411,7 +411,7 @@ fn judged_coverage(
     let measure = |i: usize| Measure::new(titles[i], shorts[i], Some(0.0)).counts(sampled.unit());
     let mut group = Group::new(ladder.title(), [0, 1].map(measure).to_vec(), sample);
     for (number, variant) in variants.iter().enumerate() {
-        let mut judged = Judged::new(&variant.choice);
+        let mut judged = JudgedChoice::new(&variant.choice);
         let of_choice = || of_chunks.iter().map(|chunk| &chunk[number]);
         let sum = |i: usize| of_choice().map(|wrong| wrong.pixels[i]).sum::<u64>() as f64;
         judged.errors = vec![Some(sum(0)), Some(sum(1))];
@@ -600,7 +600,7 @@ fn ladder(
         };
         group.not_judged = (pieces.len() - taken.len()) as u64;
         for (number, info) in board.choices.iter().enumerate() {
-            let mut judged = Judged::new(info);
+            let mut judged = JudgedChoice::new(info);
             let run = board.run(number, 0);
             judged.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
             judged.bytes = match ladder {
@@ -637,7 +637,7 @@ fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Group {
             DepthFormat::F32Reversed => "a float, 1 at the near plane",
             DepthFormat::F64 => "a double",
         };
-        let mut choice = Judged::new(&Choice::new(format.name(), about, &[]));
+        let mut choice = JudgedChoice::new(&Choice::new(format.name(), about, &[]));
         choice.bytes = Some(memory::depth(format, window, sampled.planes.len()));
         for (pieces, truth) in sampled.planes.iter().zip(&truths) {
             let seen = seen(pieces, window, format, &mut (0..pieces.len()));
@@ -731,7 +731,7 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Group,
     for drawer in Drawer::ALL {
         for (name, effects, about) in PLANNERS {
             let name = format!("{} {name}", drawer.name());
-            let mut choice = Judged::new(&Choice::new(name, about, &[]));
+            let mut choice = JudgedChoice::new(&Choice::new(name, about, &[]));
             let rendered = drawer.render(scene, &effects, target)?;
             choice.bytes = Some(memory::frame(&rendered, scene, target));
             pictures.push(rendered.picture);
@@ -754,7 +754,7 @@ fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Group,
             Ok(picture) => {
                 pictures.push(picture);
                 let about = "coverage exact, values in f32; the time of all its threads together";
-                choices.push(Judged::new(&Choice::new("tiles", about, &[])));
+                choices.push(JudgedChoice::new(&Choice::new("tiles", about, &[])));
             }
             Err(TilesError::NotDrawn(_)) => samples = None,
             Err(TilesError::Scene(bad)) => return Err(bad),
@@ -857,7 +857,7 @@ mod tests {
     /// Where no pixel was compared, no choice is exact.
     #[test]
     fn nothing_is_exact_on_pixels_that_were_not_drawn() {
-        let judged = Judged { errors: vec![Some(0.0)], ..Judged::default() };
+        let judged = JudgedChoice { errors: vec![Some(0.0)], ..JudgedChoice::default() };
         let mut group =
             Group::new("", vec![Measure::new("", "", Some(0.0))], &Sample::of_sizes(&[7], 9));
         assert!(group.is_exact(&judged, 0));

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use rasterproof_core::frame::Frame;
 use rasterproof_models::Origin;
-use rasterproof_precision::cost::{Pair, Pass, Ratio, Said, Times, Timing, compare};
+use rasterproof_precision::cost::{Pair, Pass, Ratio, RatioKind, Times, Timing, compare};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -88,7 +88,7 @@ impl Need {
     pub fn adds_ms(&self, planned: &Times) -> Option<f64> {
         let Adds::Times(ratio) = self.adds(planned) else { return None };
         let without = if self.is_paid_for { self.otherwise.as_ref()? } else { planned };
-        let is_more = ratio.said() == Said::Holds && ratio.low > 1.0;
+        let is_more = ratio.said() == RatioKind::Holds && ratio.low > 1.0;
         is_more.then(|| (ratio.median - 1.0) * without.median() / 1e6)
     }
 }

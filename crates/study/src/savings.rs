@@ -113,7 +113,7 @@ const WHOLE: [(&str, Effects); 3] =
     [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
 
 /// A frame that was drawn once: what it did, and whether it has the bits of the one that pays for everything.
-struct Drawn {
+struct TriedMixture {
     name: String,
     effects: Effects,
     /// Of the effect that is switched over in it.
@@ -158,7 +158,7 @@ pub fn measure(
             let rendered = draw(&effects)?;
             let work = effect.calls(&rendered.counters).abs_diff(effect.calls(&base.counters));
             let same = rendered.picture == everything.picture;
-            mixtures.push(Drawn { name, effects, work, same });
+            mixtures.push(TriedMixture { name, effects, work, same });
         }
     }
     // The whole frames, and those whose work differs from that of the frame that they are compared with.
@@ -166,7 +166,7 @@ pub fn measure(
     let mut pairs: Vec<Pair> = vec![[0, 2], [1, 2]];
     let places: Vec<Option<usize>> = (0..mixtures.len())
         .map(|number| {
-            let Drawn { effects, work, .. } = &mixtures[number];
+            let TriedMixture { effects, work, .. } = &mixtures[number];
             (*work > 0).then(|| {
                 timed.push(*effects);
                 // Everything is compared with the even ones, and the odd ones with the plan.
@@ -209,7 +209,7 @@ pub fn measure(
         .iter()
         .zip(&places)
         .enumerate()
-        .map(|(number, (Drawn { name, work, same, .. }, place))| {
+        .map(|(number, (TriedMixture { name, work, same, .. }, place))| {
             let Some(place) = place else {
                 savings.changed.extend((!same).then(|| name.clone()));
                 return Saves::new(0, None);
@@ -235,7 +235,7 @@ pub fn measure(
 
 /// How long frames are compared where no number of rounds is given.
 const PLAN: Timing =
-    Timing { slice: Timing::QUICK.slice, budget: Duration::from_secs(5), rounds: None };
+    Timing { slice: Timing::QUICK.slice, budget: Duration::from_secs(10), rounds: None };
 
 /// Whether rounds of all mixtures would take far more than the budget, so that only whole frames are compared.
 fn is_slow(draw: &mut dyn FnMut(&Effects) -> Result<Rendered, BadScene>) -> Result<bool, BadScene> {

@@ -113,7 +113,7 @@ impl<T> Places<T> {
 
 /// Quartiles of one quantity over the rounds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Sorted")]
+#[serde(try_from = "ThreeNumbers")]
 pub struct Spread {
     /// A quarter of the rounds were at most this.
     pub low: f64,
@@ -123,7 +123,7 @@ pub struct Spread {
 
 /// Three numbers from a file, which may be anything.
 #[derive(Deserialize)]
-struct Sorted {
+struct ThreeNumbers {
     low: f64,
     median: f64,
     high: f64,
@@ -131,7 +131,7 @@ struct Sorted {
     rounds: usize,
 }
 
-impl Sorted {
+impl ThreeNumbers {
     fn checked(self, what: &str) -> Result<Self, String> {
         let Self { low, median, high, .. } = self;
         match 0.0 <= low && low <= median && 0.0 < median && median <= high {
@@ -141,11 +141,11 @@ impl Sorted {
     }
 }
 
-impl TryFrom<Sorted> for Spread {
+impl TryFrom<ThreeNumbers> for Spread {
     type Error = String;
 
-    fn try_from(sorted: Sorted) -> Result<Self, String> {
-        let Sorted { low, median, high, .. } = sorted.checked("quartiles of times")?;
+    fn try_from(sorted: ThreeNumbers) -> Result<Self, String> {
+        let ThreeNumbers { low, median, high, .. } = sorted.checked("quartiles of times")?;
         Ok(Self { low, median, high })
     }
 }
@@ -178,7 +178,7 @@ const WIDE: f64 = 1.15;
 /// How many times as long one pass takes as another one: the median of the ratios in the rounds in which both ran, and an interval
 /// around it, which the noise of the comparison widens, and [`BETWEEN`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Sorted")]
+#[serde(try_from = "ThreeNumbers")]
 pub struct Ratio {
     pub low: f64,
     pub median: f64,
@@ -187,18 +187,18 @@ pub struct Ratio {
     pub rounds: usize,
 }
 
-impl TryFrom<Sorted> for Ratio {
+impl TryFrom<ThreeNumbers> for Ratio {
     type Error = String;
 
-    fn try_from(sorted: Sorted) -> Result<Self, String> {
-        let Sorted { low, median, high, rounds } = sorted.checked("interval of a ratio")?;
+    fn try_from(sorted: ThreeNumbers) -> Result<Self, String> {
+        let ThreeNumbers { low, median, high, rounds } = sorted.checked("interval of a ratio")?;
         Ok(Self { low, median, high, rounds })
     }
 }
 
 /// What may be said of a ratio.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Said {
+pub enum RatioKind {
     /// The ratio holds: its interval is narrow, and 1 is not in it.
     Holds,
     /// The interval is narrow and holds 1.
@@ -244,12 +244,12 @@ impl Ratio {
     }
 
     #[must_use]
-    pub fn said(&self) -> Said {
+    pub fn said(&self) -> RatioKind {
         let holds_one = self.low <= 1.0 && 1.0 <= self.high;
         match (self.is_wide(), holds_one) {
-            (true, _) => Said::CannotBeTold,
-            (false, true) => Said::NoDifference,
-            (false, false) => Said::Holds,
+            (true, _) => RatioKind::CannotBeTold,
+            (false, true) => RatioKind::NoDifference,
+            (false, false) => RatioKind::Holds,
         }
     }
 
@@ -257,12 +257,12 @@ impl Ratio {
     #[must_use]
     pub fn words(&self, as_what: &str) -> String {
         match self.said() {
-            Said::Holds => {
+            RatioKind::Holds => {
                 let [low, median, high] = [self.low, self.median, self.high].map(short);
                 format!("{median} times as {as_what} ({low} to {high})")
             }
-            Said::NoDifference => "no difference".to_owned(),
-            Said::CannotBeTold => {
+            RatioKind::NoDifference => "no difference".to_owned(),
+            RatioKind::CannotBeTold => {
                 let [low, high] = [self.low, self.high].map(short);
                 format!("cannot be told here ({low} to {high} times as {as_what})")
             }
@@ -277,9 +277,9 @@ impl Ratio {
         let [low, median, high] = shares.map(|share| format!("{share:.0}"));
         let is_known = outside(self.rounds).is_some() && shares[2] - shares[0] <= 10.0;
         match self.said() {
-            Said::NoDifference => "no difference".to_owned(),
-            Said::CannotBeTold if !is_known => format!("{low} to {high}%?"),
-            Said::Holds | Said::CannotBeTold => format!("{median}% ({low} to {high})"),
+            RatioKind::NoDifference => "no difference".to_owned(),
+            RatioKind::CannotBeTold if !is_known => format!("{low} to {high}%?"),
+            RatioKind::Holds | RatioKind::CannotBeTold => format!("{median}% ({low} to {high})"),
         }
     }
 }
@@ -290,9 +290,9 @@ impl fmt::Display for Ratio {
         let [low, median, high] = [self.low, self.median, self.high].map(short);
         match self.said() {
             _ if *self == Self::ONE => write!(f, "1"),
-            Said::Holds => write!(f, "{median} ({low}-{high})"),
-            Said::NoDifference => write!(f, "same"),
-            Said::CannotBeTold => write!(f, "{low}-{high}?"),
+            RatioKind::Holds => write!(f, "{median} ({low}-{high})"),
+            RatioKind::NoDifference => write!(f, "same"),
+            RatioKind::CannotBeTold => write!(f, "{low}-{high}?"),
         }
     }
 }
@@ -415,7 +415,7 @@ impl Timing {
 }
 
 /// How many times as long as the processor time a comparison may take.
-const LONGER: f64 = 4.0;
+const LONGER: f64 = 6.0;
 
 /// The fewest rounds that have an interval, and other numbers of rounds after which it is asked whether more are needed.
 const LOOKS: [usize; 6] = [8, 16, 32, 64, 128, 256];
@@ -427,7 +427,7 @@ const COSTLY: f64 = 8.0;
 pub type Pair = [usize; 2];
 
 /// The pairs that are asked for, by the median times of the passes.
-pub type Wanted<'a> = &'a dyn Fn(&[f64]) -> Vec<Pair>;
+pub type PairsOfInterest<'a> = &'a dyn Fn(&[f64]) -> Vec<Pair>;
 
 /// All passes of each set over the fastest of the set.
 pub fn over_fastest(sets: &[Vec<usize>], medians: &[f64]) -> Vec<Pair> {
@@ -446,7 +446,7 @@ pub fn over_fastest(sets: &[Vec<usize>], medians: &[f64]) -> Vec<Pair> {
 pub fn compare(
     passes: &mut [Pass<'_>],
     timing: Timing,
-    wanted: Wanted<'_>,
+    wanted: PairsOfInterest<'_>,
     progress: &dyn Fn(f64),
 ) -> Vec<Times> {
     let (start, used) = (Instant::now(), Clock::Threads.now());
@@ -501,7 +501,7 @@ fn keep_heap() {
 fn in_rounds(
     first: &[f64],
     fixed: Option<usize>,
-    wanted: Wanted<'_>,
+    wanted: PairsOfInterest<'_>,
     run: &mut dyn FnMut(usize) -> f64,
     has_time: &mut dyn FnMut(usize) -> bool,
 ) -> (Vec<Vec<f64>>, Option<Ratio>) {
@@ -640,7 +640,7 @@ mod tests {
             ["78% (77 to 80)", "no difference", "50 to 92%?"]
         );
         let large = ratio(20.0, 25.0, 33.0, 9);
-        assert_eq!((large.said(), &*large.saving()), (Said::CannotBeTold, "96% (95 to 97)"));
+        assert_eq!((large.said(), &*large.saving()), (RatioKind::CannotBeTold, "96% (95 to 97)"));
         let half = cells[0].inverse();
         assert!((half.low - 1.0 / 4.9).abs() < 1e-12 && (half.high - 1.0 / 4.4).abs() < 1e-12);
     }
@@ -726,10 +726,10 @@ mod tests {
         assert!(rounds > LOOKS[0], "{rounds}");
         let times = Times::of(times, noise);
         let said = |times: &[Times]| times[1].over(&times[0]).unwrap().said();
-        assert_eq!(said(&times), Said::Holds);
+        assert_eq!(said(&times), RatioKind::Holds);
         let (times, noise, rounds) = Machine::new(&[1.0, 2.0], 0.1, 1).compare(5);
         assert_eq!((rounds, noise), (5, None));
-        assert_eq!(said(&Times::of(times, noise)), Said::CannotBeTold);
+        assert_eq!(said(&Times::of(times, noise)), RatioKind::CannotBeTold);
     }
 
     /// A slow pass of which all is known leaves; one that is near and noisy goes on.
@@ -746,7 +746,7 @@ mod tests {
         let (times, _) = in_rounds(&[1.0, 1.1, 20.0], None, &wanted, &mut run, &mut has_time);
         assert_eq!((times[2].len(), times[1].len()), (LOOKS[0], 100));
         let times = Times::of(times, None);
-        assert_eq!(times[2].over(&times[0]).unwrap().said(), Said::Holds);
+        assert_eq!(times[2].over(&times[0]).unwrap().said(), RatioKind::Holds);
     }
 
     /// One pass leaves a heap behind for which the next one pays: as each follows it equally often, all pay alike, and equal passes
@@ -783,6 +783,6 @@ mod tests {
         let (a, b) = (times.next().unwrap(), times.next().unwrap());
         assert_eq!(a.over(&a), Some(Ratio::ONE));
         assert_eq!(a.over(&b), None);
-        assert_eq!(a.over(&a.clone()).map(|ratio| ratio.said()), Some(Said::CannotBeTold));
+        assert_eq!(a.over(&a.clone()).map(|ratio| ratio.said()), Some(RatioKind::CannotBeTold));
     }
 }

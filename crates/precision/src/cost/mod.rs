@@ -27,7 +27,8 @@ use serde::{Deserialize, Serialize};
 use crate::ladder::Work;
 pub use bounds::Bound;
 pub use clock::{
-    CELLS, Clock, Pair, Pass, Places, Ratio, Said, Spread, Times, Timing, compare, over_fastest,
+    CELLS, Clock, Pair, Pass, Places, Ratio, RatioKind, Spread, Times, Timing, compare,
+    over_fastest,
 };
 pub use coverage::{Variant, variants, wrong_pixels};
 pub use external::ExternalVariant;
@@ -316,14 +317,14 @@ pub fn measure_with(
 }
 
 /// A pass with the numbers of its choice and its column.
-pub struct Placed<'a> {
+pub struct PlacedPass<'a> {
     pub choice: usize,
     pub column: usize,
     pub pass: Pass<'a>,
 }
 
 /// What happens to a board and the passes of its cells.
-pub type Afterwards<'a> = &'a mut dyn FnMut(&Board, Vec<Placed<'_>>);
+pub type Afterwards<'a> = &'a mut dyn FnMut(&Board, Vec<PlacedPass<'_>>);
 
 /// The errors of a group on scenes of the caller, who may time its passes; nothing for a group that draws scenes of its own. Errors
 /// are taken at as many pixels whether the measurement is quick or not.
@@ -357,7 +358,7 @@ impl<'a> PreparedCell<'a> {
 /// A board before it is timed.
 struct Draft<'a> {
     board: Board,
-    passes: Vec<Placed<'a>>,
+    passes: Vec<PlacedPass<'a>>,
 }
 
 impl<'a> Draft<'a> {
@@ -382,7 +383,7 @@ impl<'a> Draft<'a> {
             row.push(match cell {
                 PreparedCell::NotRun(why) => Cell::NotRun(why),
                 PreparedCell::Ready { errors, work, pass } => {
-                    self.passes.push(Placed { choice, column, pass });
+                    self.passes.push(PlacedPass { choice, column, pass });
                     Cell::Run(Run { errors, work, time: None })
                 }
             });
@@ -427,7 +428,7 @@ fn finish(
     progress: &dyn Fn(f64, &str),
 ) -> Vec<Board> {
     let mut boards = Vec::new();
-    let mut by_column: std::collections::BTreeMap<usize, Vec<(usize, Placed<'_>)>> =
+    let mut by_column: std::collections::BTreeMap<usize, Vec<(usize, PlacedPass<'_>)>> =
         Default::default();
     for (number, Draft { board, passes }) in drafts.into_iter().enumerate() {
         boards.push(board);

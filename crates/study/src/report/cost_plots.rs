@@ -65,7 +65,7 @@ pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
     let panel = |group: &Group| {
         let measures = 0..group.measures.len();
         let best: Vec<usize> = measures.filter_map(|one| group.cheapest_exact(one)).collect();
-        let dot = |(number, choice): (usize, &crate::cost::Judged)| {
+        let dot = |(number, choice): (usize, &crate::cost::JudgedChoice)| {
             let time = choice.time.as_ref().filter(|_| choice.refused.is_none())?.spread();
             let first = choice.errors.first().copied().flatten()?;
             let is_exact = |measure: usize| group.is_exact(choice, measure);

@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Places, StudyFindings};
-use crate::cost::{Group, Judged};
+use crate::cost::{Group, JudgedChoice};
 use crate::effects::{Adds, Need, Needs, State};
 use crate::hard::HardCases;
 use crate::{face_of, triangle_of};
@@ -102,7 +102,7 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
 pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
     let group = |group: &Group| {
         let least = group.cheapest_of_job(groups);
-        let choice = |choice: &Judged| {
+        let choice = |choice: &JudgedChoice| {
             let first = choice.first_wrong.map(|(of, [x, y])| {
                 let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
                 json!({ "pixel": [x, y], "face": face })

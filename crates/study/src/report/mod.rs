@@ -11,7 +11,7 @@ pub mod studied;
 
 use std::fmt::Write as _;
 
-use crate::cost::{FRAMES, Group, Judged, Part};
+use crate::cost::{FRAMES, Group, JudgedChoice, Part};
 use crate::effects::{Adds, Need, Needs, State};
 use crate::hard::{HardCase, HardCases, Kind};
 use crate::ties::{Class, Classes, TiedPair};
@@ -19,7 +19,7 @@ use crate::{face_of, triangle_of};
 use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
-use rasterproof_precision::cost::{CELLS, Ladder, Ratio, Said, Times};
+use rasterproof_precision::cost::{CELLS, Ladder, Ratio, RatioKind, Times};
 use rasterproof_render::scene::Scene;
 
 use rasterproof_report::canvas;
@@ -57,7 +57,7 @@ impl Places<'_> {
 /// By group the choices that get triangles of a kind wrong, with how many samples.
 fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
     let of_group = |group: &Group| {
-        let of_choice = |choice: &Judged| {
+        let of_choice = |choice: &JudgedChoice| {
             let of_kind = |pair: &[u32; 2]| pair.iter().any(|one| found.is(*one, kind));
             let of_kind = choice.wrong.iter().filter(|(pair, _)| of_kind(pair));
             let count: u64 = of_kind.map(|(_, count)| count).sum();
@@ -125,7 +125,7 @@ fn answers(
 #[derive(Clone, Copy)]
 struct OfCoverage<'a> {
     group: &'a Group,
-    judged: &'a Judged,
+    judged: &'a JudgedChoice,
     time: &'a Times,
 }
 
@@ -183,7 +183,7 @@ fn accuracy(groups: &[Group]) -> String {
     let snapped = if is_snapped { " once its corners are snapped" } else { "" };
     let name = certain.name();
     let ratio = certain.over(cheapest);
-    let mut sentence = if ratio.said() == Said::NoDifference {
+    let mut sentence = if ratio.said() == RatioKind::NoDifference {
         format!(
             "Exact coverage costs nothing here: no choice is cheaper than {name}, exact for every model{snapped}."
         )
@@ -232,7 +232,8 @@ fn z_fighting(groups: &[Group]) -> String {
     let Some(group) = groups.iter().find(|group| group.title == Ladder::Depth.title()) else {
         return String::new();
     };
-    let wrong = |choice: &Judged| choice.errors.first().copied().flatten().unwrap_or(0.0) as u64;
+    let wrong =
+        |choice: &JudgedChoice| choice.errors.first().copied().flatten().unwrap_or(0.0) as u64;
     let wrong: Vec<String> = group
         .choices
         .iter()
@@ -275,7 +276,7 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
                 ),
                 kinds => write!(
                     sentence,
-                    " {kinds} other kinds of hard cases are {seen}; the one with most pixels is {name}, in {pixels} px."
+                    " {kinds} other kinds of hard cases are {seen}, most of all {name}, in {pixels} px."
                 ),
             }
         }
@@ -372,7 +373,7 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     let columns =
         "what exactness costs 31 | cheapest exact 22 | >ms 7 | times 16 the cheapest of all";
     let notes = [
-        "same: no difference; 2-12?: cannot be told here; +2: two others may be as fast",
+        "same: no difference; 2-12?: cannot be told; +2: two others may be as fast",
         "what each choice does: --all; with pictures: --report",
     ];
     let costs = Table::new("", columns, rows).noted(notes.map(str::to_owned).to_vec());
@@ -427,7 +428,8 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
     }
     for choice in &group.choices {
         let is_cheaper = choice.time.as_ref().zip(limit).is_some_and(|(time, limit)| {
-            time.over(limit).is_some_and(|ratio| ratio.said() == Said::Holds && ratio.high < 1.0)
+            time.over(limit)
+                .is_some_and(|ratio| ratio.said() == RatioKind::Holds && ratio.high < 1.0)
         });
         let goal = |i: usize| group.measures[i].goal.unwrap_or(f64::INFINITY);
         let mut errors = choice.errors.iter().enumerate();
@@ -468,7 +470,7 @@ fn compared(group: &Group, measure: usize) -> Vec<String> {
         all.iter().map(|one| group.choices[*one].name()).collect::<Vec<_>>().join(", ")
     };
     let short = &group.measures[measure].short;
-    let exact = |choice: &&Judged| choice.time.is_some() && group.is_exact(choice, measure);
+    let exact = |choice: &&JudgedChoice| choice.time.is_some() && group.is_exact(choice, measure);
     let is_all = group.choices.iter().filter(exact).count() == best.equal.len() + 1;
     if is_all && !best.equal.is_empty() {
         let all = names(&[&[best.choice], &*best.equal].concat());
@@ -750,7 +752,7 @@ pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Vec<Table> {
 
 fn cost_table(subject: &Places<'_>, groups: &[Group], group: &Group) -> Table {
     let least = group.cheapest_of_job(groups);
-    let row = |choice: &Judged| {
+    let row = |choice: &JudgedChoice| {
         if let Some(why) = &choice.refused {
             return Row::of(&[&choice.name(), &format!("not run: {why}")]);
         }
