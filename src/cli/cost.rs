@@ -174,7 +174,7 @@ fn measure_all(
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let CostArguments { seed, quick, .. } = *arguments;
     // Of each class of scenes, of which a group has nine.
-    let timing = if quick { Timing::QUICK.within(0.15) } else { Timing::USUAL.within(0.5) };
+    let timing = if quick { Timing::QUICK.within(0.3) } else { Timing::USUAL.within(0.5) };
     let options = CostOptions { seed, quick, timing: Some(timing) };
     Ok(measure_with(ladders, &options, &mut external, &|share, what| {
         progress.at((share * 100.0) as u64, what);

@@ -203,7 +203,7 @@ fn dominated(board: &Board) -> Vec<String> {
 /// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
 pub fn price(boards: &[Board]) -> Option<Table> {
     let prices = prices(boards);
-    let columns = "~class 8 | cheapest in floats 28 | exact on the lattice 26 | exact as given 28";
+    let columns = "~class 6 | cheapest in floats 40 | exact on the lattice 40 | :exact as given";
     let cell = |p: &Option<Priced>| {
         p.as_ref().map_or("not run".to_owned(), |p| format!("{} {}", p.name, p.ratio))
     };

@@ -372,11 +372,8 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     }
     let columns =
         "what exactness costs 31 | cheapest exact 22 | >ms 7 | times 16 the cheapest of all";
-    let notes = [
-        "same: no difference; 2-12?: cannot be told; +2: two others may be as fast",
-        "what each choice does: --all; with pictures: --report",
-    ];
-    let costs = Table::new("", columns, rows).noted(notes.map(str::to_owned).to_vec());
+    let note = "same: no difference; 2-12?: cannot be told; +2: two as fast; more: --all";
+    let costs = Table::new("", columns, rows).noted(vec![note.to_owned()]);
     vec![seen, called, costs]
 }
 
