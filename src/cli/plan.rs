@@ -24,7 +24,7 @@ pub struct PlanArguments {
     /// The rasterizer
     #[arg(long, default_value = "scanline", value_parser = super::one_of(Drawer::ALL.map(|drawer| (drawer.name(), drawer))))]
     engine: Drawer,
-    /// Rounds of measuring, each with every mixture of effects in turn [default: 9, fewer for a large model]
+    /// Rounds of measuring, each with every mixture of effects [default: as many as intervals need in 10 s]
     #[arg(long, value_parser = super::whole::<u32>(1..=1000))]
     rounds: Option<u32>,
     /// Measure everything, usual and planned alone, and no single effect

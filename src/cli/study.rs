@@ -138,8 +138,8 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let window = target.size();
     let pieces = studied.sampled.at_centres();
     let visible = (pieces, &cost::exactly_seen(pieces, window));
-    let budget = effort.survey();
-    let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, budget)?;
+    let timing = effort.timing().within(1.2);
+    let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, timing)?;
     let inspect = |face| match what.source() {
         Ok(name) => format!("(a scene of the book, {name}, is no file to inspect)"),
         Err(path) => inspect_command(typed, path, face),

@@ -2,7 +2,6 @@
 //! answer.
 
 use std::cell::RefCell;
-use std::time::{Duration, Instant};
 
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _, RasterizeExact as _};
@@ -13,8 +12,9 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Span, check_value};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Board, CostOptions, Finish, Ladder, Pass, Race, Spread, Timing, Variant, measure_on, race,
-    time, variants, wrong_pixels, wrong_values,
+    Choice, Clock, Ladder, Measure, Pass, Places, RatioKind, Times, Timing, Variant,
+    compare as compare_times, compared_values, measure_on, over_fastest, variants, wrong_pixels,
+    wrong_values,
 };
 use rasterproof_precision::ladder::snap;
 use rasterproof_registry::engines::Drawer;
@@ -33,11 +33,10 @@ use crate::hard::HardCases;
 use crate::memory;
 use crate::view::{NOTHING, Piece, Sampled, seen};
 
-/// A way to do a part of the work.
+/// A choice with what it gets wrong of the triangles of a scene, and what it takes.
 #[derive(Clone, Debug, Default)]
-pub struct Choice {
-    pub name: String,
-    pub about: String,
+pub struct JudgedChoice {
+    pub choice: Choice,
     /// By each measure of the group; none where it does not apply.
     pub errors: Vec<Option<f64>>,
     /// Where it is wrong first: the triangle of the scene, where it is of one, and the pixel.
@@ -46,30 +45,39 @@ pub struct Choice {
     pub wrong: Vec<([u32; 2], u64)>,
     /// The smallest distance of a decision from 0, in error bounds; where such a bound is derived.
     pub margin: Option<f64>,
-    /// Nanoseconds of all that is timed.
-    pub time: Option<Spread>,
+    pub time: Option<Times>,
     /// Memory at the peak, see [`crate::memory`].
     pub bytes: Option<u64>,
     pub refused: Option<String>,
-    /// The measure by which it is exact for every model, not for this one alone.
-    pub promises: Option<usize>,
 }
 
-impl Choice {
-    fn new(name: &str, about: &str) -> Self {
-        Self { name: name.to_owned(), about: about.to_owned(), ..Self::default() }
+impl JudgedChoice {
+    fn new(choice: &Choice) -> Self {
+        Self { choice: choice.clone(), ..Self::default() }
+    }
+
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.choice.name
     }
 }
 
-/// What an error of a group means.
-#[derive(Clone, Debug)]
-pub struct Measure {
-    pub title: &'static str,
-    pub short: &'static str,
-    /// What stands beside a count in a sentence; none for a measure that counts nothing.
-    pub unit: Option<&'static str>,
-    /// Up to this error a choice is exact, or as good; none for a measure that ranks nothing.
-    pub goal: Option<f64>,
+/// How much of something there is, and of how much it is a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Part {
+    pub part: u64,
+    pub of: u64,
+}
+
+impl Part {
+    fn all(of: u64) -> Self {
+        Self { part: of, of }
+    }
+
+    #[must_use]
+    pub fn is_all(self) -> bool {
+        self.part == self.of
+    }
 }
 
 /// Choices between which one may choose.
@@ -77,70 +85,96 @@ pub struct Measure {
 pub struct Group {
     pub title: &'static str,
     pub measures: Vec<Measure>,
-    pub choices: Vec<Choice>,
-    pub timed: [u64; 2],
-    /// By measure the cheapest exact choice; none where none is exact.
-    pub best: Vec<Option<Best>>,
-    /// In how many of how many pixels of hard cases it was looked for what is wrong; none where in all.
-    pub looked_at: Option<[u64; 2]>,
+    pub choices: Vec<JudgedChoice>,
+    /// Triangles that are timed.
+    pub timed: Part,
+    /// Pixels that these cover.
+    pub timed_pixels: Part,
+    /// Pixels in which it was looked for errors.
+    pub judged: Part,
+    /// Pixels of hard cases in which it was looked for what is wrong, where that is another part.
+    pub looked_at: Option<Part>,
     /// Pieces that were left out, since single precision does not hold a value or 1/w of a corner.
     pub not_judged: u64,
 }
 
-/// The cheapest of the choices that a measure calls exact, as far as that could be told.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Best {
+/// The cheapest exact choice, and those of which the same rounds do not show that they are slower.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cheapest {
     pub choice: usize,
-    /// Those that are shown to be equally fast, but for 3%.
+    /// Those between which and it there is no difference.
     pub equal: Vec<usize>,
-    /// Those that may be faster or slower than it by more than 3%, for all that was measured.
+    /// Those that may be faster or slower than it, for all that was measured.
     pub undecided: Vec<usize>,
-    /// Rounds in which they were compared; none for the only one that came into question.
     pub rounds: usize,
 }
 
-impl Best {
-    fn alone(choice: usize) -> Self {
-        Self { choice, ..Self::default() }
-    }
-
-    fn of(race: &Race, choices: &[usize]) -> Option<Self> {
-        let with = |finish: Finish| {
-            let all = race.finishes.iter().zip(choices);
-            all.filter(|(own, _)| **own == finish).map(|(_, choice)| *choice).collect::<Vec<_>>()
-        };
-        let choice = *with(Finish::Fastest).first()?;
-        let (equal, undecided) = (with(Finish::Equal), with(Finish::Undecided));
-        Some(Self { choice, equal, undecided, rounds: race.rounds })
-    }
-}
-
 impl Group {
-    fn new(title: &'static str, measures: &[Measure], timed: [u64; 2]) -> Self {
-        let (measures, choices) = (measures.to_vec(), Vec::new());
-        let (best, looked_at, not_judged) = (Vec::new(), None, 0);
-        Self { title, measures, choices, timed, best, looked_at, not_judged }
+    fn new(title: &'static str, measures: Vec<Measure>, sample: &Sample) -> Self {
+        Self {
+            title,
+            measures,
+            choices: Vec::new(),
+            timed: sample.pieces,
+            timed_pixels: sample.pixels,
+            judged: Part::all(sample.pixels.of),
+            looked_at: None,
+            not_judged: 0,
+        }
     }
 
-    /// Whether an error of a choice is one that a measure calls exact.
+    /// Whether an error of a choice is one that a measure calls exact. Where no pixel was compared, nothing is.
     #[must_use]
-    pub fn is_exact(&self, choice: &Choice, measure: usize) -> bool {
+    pub fn is_exact(&self, choice: &JudgedChoice, measure: usize) -> bool {
         let error = choice.errors.get(measure).copied().flatten();
         let goal = self.measures.get(measure).and_then(|measure| measure.goal);
-        choice.refused.is_none() && error.zip(goal).is_some_and(|(error, goal)| error <= goal)
+        let meets = error.zip(goal).is_some_and(|(error, goal)| error <= goal);
+        choice.refused.is_none() && self.judged.part > 0 && meets
+    }
+
+    /// The fastest of some choices.
+    #[must_use]
+    pub fn cheapest(&self, filter: &dyn Fn(&JudgedChoice) -> bool) -> Option<usize> {
+        let timed = self.choices.iter().enumerate();
+        let timed = timed.filter(|(_, choice)| choice.refused.is_none() && filter(choice));
+        let timed =
+            timed.filter_map(|(number, choice)| Some((number, choice.time.as_ref()?.median())));
+        timed.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
+    }
+
+    /// The fastest of all choices that do the same job: both groups of coverage do.
+    #[must_use]
+    pub fn cheapest_of_job<'a>(&self, groups: &'a [Self]) -> Option<&'a Times> {
+        let job = |group: &Self| group.title.split(" by ").next();
+        let same = groups.iter().filter(|group| job(group) == job(self));
+        let cheapest =
+            same.filter_map(|group| group.choices[group.cheapest(&|_| true)?].time.as_ref());
+        cheapest.min_by(|a, b| a.median().total_cmp(&b.median()))
     }
 
     pub fn cheapest_exact(&self, measure: usize) -> Option<usize> {
-        self.best.get(measure)?.as_ref().map(|best| best.choice)
+        self.cheapest(&|choice| self.is_exact(choice, measure))
     }
 
-    #[must_use]
-    pub fn cheapest(&self, filter: &dyn Fn(&Choice) -> bool) -> Option<usize> {
-        let median = |choice: &Choice| choice.time.map(|time| time.median);
-        let timed = self.choices.iter().enumerate();
-        let timed = timed.filter(|(_, choice)| choice.refused.is_none() && filter(choice));
-        let timed = timed.filter_map(|(number, choice)| Some((number, median(choice)?)));
-        timed.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
+    /// The same with those that are as fast, as far as it can be told.
+    pub fn compared(&self, measure: usize) -> Option<Cheapest> {
+        let choice = self.cheapest_exact(measure)?;
+        let best = self.choices[choice].time.as_ref()?;
+        let (mut equal, mut undecided) = (Vec::new(), Vec::new());
+        for (number, other) in self.choices.iter().enumerate() {
+            if number == choice || !self.is_exact(other, measure) {
+                continue;
+            }
+            let Some(ratio) = other.time.as_ref().and_then(|time| time.over(best)) else {
+                continue;
+            };
+            match ratio.said() {
+                RatioKind::NoDifference => equal.push(number),
+                RatioKind::CannotBeTold if ratio.low <= 1.0 => undecided.push(number),
+                RatioKind::CannotBeTold | RatioKind::Holds => {}
+            }
+        }
+        Some(Cheapest { choice, equal, undecided, rounds: best.rounds() })
     }
 }
 
@@ -155,41 +189,14 @@ pub enum Effort {
 }
 
 impl Effort {
-    fn rounds(self) -> usize {
-        match self {
-            Self::Usual => 21,
-            Self::Quick => 5,
-            Self::Once => 1,
-        }
-    }
-
-    fn of(self, [usual_ms, quick_ms]: [u64; 2]) -> Duration {
-        Duration::from_millis(match self {
-            Self::Usual => usual_ms,
-            Self::Quick => quick_ms,
-            Self::Once => 0,
-        })
-    }
-
-    /// How long exact choices are compared with each other.
-    fn race(self) -> Duration {
-        self.of([4000, 500])
-    }
-
-    /// The same for formats of depth, which differ by a few percent, so that more rounds are needed.
-    fn race_of_depths(self) -> Duration {
-        2 * self.race()
-    }
-
-    /// How long whole frames are timed, and then compared with each other.
-    fn frames(self) -> Duration {
-        self.of([8000, 600])
-    }
-
-    /// How long frames without an effect are timed ([`crate::effects::survey`]).
+    /// How a group is timed.
     #[must_use]
-    pub fn survey(self) -> Duration {
-        self.of([5000, 700])
+    pub fn timing(self) -> Timing {
+        match self {
+            Self::Usual => Timing::USUAL,
+            Self::Quick => Timing::QUICK,
+            Self::Once => Timing::ONCE,
+        }
     }
 }
 
@@ -205,26 +212,18 @@ pub fn measure(
     progress: &dyn Fn(f64, &str),
 ) -> Result<Vec<Group>, BadScene> {
     let sample = Sample::new(&sampled.planes[0], sampled.window, TIMED_PX);
-    let mut groups = Vec::new();
-    for (done, ladder) in [Ladder::Scanline, Ladder::EdgeFunction].into_iter().enumerate() {
-        progress(0.2 * done as f64, ladder.title());
-        groups.push(coverage(ladder, sampled, &sample, effort));
-    }
+    let timing = effort.timing();
+    progress(0.0, Ladder::Scanline.title());
+    let mut groups = coverage(sampled, &sample, timing.within(2.0));
     progress(0.4, Ladder::Interpolation.title());
-    let shaded = sampled.shaded();
-    let part = Sample::new(shaded.0, shaded.1, TIMED_PX / 4);
-    groups.extend(ladder(Ladder::Interpolation, shaded, &part, effort));
-    if let Some(group) = groups.last_mut() {
-        wrong_values_of(shaded, hard, group);
-    }
+    groups.push(ladder(Ladder::Interpolation, sampled.shaded(), Some(hard), timing));
     progress(0.5, Ladder::Depth.title());
-    groups.push(depth(sampled, &sample, effort));
+    groups.push(depth(sampled, &sample, timing.within(2.0)));
     progress(0.6, Ladder::Antialiasing.title());
     let centres = (sampled.at_centres(), sampled.size);
-    let part = Sample::new(centres.0, centres.1, TIMED_PX / 4);
-    groups.extend(ladder(Ladder::Antialiasing, centres, &part, effort));
+    groups.push(ladder(Ladder::Antialiasing, centres, None, timing));
     progress(0.7, "planners");
-    groups.push(planners(scene, target, effort)?);
+    groups.push(planners(scene, target, timing.within(2.0))?);
     Ok(groups)
 }
 
@@ -237,12 +236,16 @@ fn wrong_values_of((pieces, window): (&[Piece], PixelRect), hard: &HardCases, gr
         return;
     }
     let found = wrong_values(&class(of.iter().copied(), window));
-    for (choice, wrong) in group.choices.iter_mut().zip(&found.wrong) {
-        let of_pieces = of.iter().zip(wrong).filter(|(_, count)| **count > 0);
-        choice.wrong = of_pieces.map(|(piece, count)| ([piece.face; 2], *count)).collect();
-        merge(&mut choice.wrong);
+    for (judged, by_piece) in group.choices.iter_mut().zip(&found.choices) {
+        let of_pieces = of.iter().zip(&by_piece.wrong).filter(|(_, count)| **count > 0);
+        judged.wrong = of_pieces.map(|(piece, count)| ([piece.face; 2], *count)).collect();
+        merge(&mut judged.wrong);
+        // What is wrong on hard cases is wrong of the model, whatever its other pixels show.
+        if let Some(Some(error)) = judged.errors.first_mut() {
+            *error = error.max(by_piece.worst);
+        }
     }
-    group.looked_at = Some([found.pixels, found.of]);
+    group.looked_at = Some(Part { part: found.pixels, of: found.of });
 }
 
 fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
@@ -254,14 +257,16 @@ fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
     });
 }
 
-/// Pieces that are timed: every so many-th one.
+/// Pieces that are timed.
 struct Sample {
-    stride: usize,
-    pieces: u64,
-    pixels: u64,
+    numbers: Vec<usize>,
+    pieces: Part,
+    pixels: Part,
 }
 
 impl Sample {
+    /// Every so many-th piece, and the largest of the others where these cover much less than was meant: of a floor of two
+    /// triangles, one may lie outside the window but for a corner.
     fn new(pieces: &[Piece], window: PixelRect, most_px: u64) -> Self {
         let covered = |piece: &Piece| {
             let mut pixels = 0;
@@ -269,16 +274,34 @@ impl Sample {
             pixels
         };
         let pixels: Vec<u64> = pieces.iter().map(covered).collect();
+        Self::of_sizes(&pixels, most_px)
+    }
+
+    /// The same of pieces that cover so many pixels each.
+    fn of_sizes(pixels: &[u64], most_px: u64) -> Self {
         let all: u64 = pixels.iter().sum();
         // A triangle without a pixel takes about as long as one with four.
-        let work = all.max(4 * pieces.len() as u64);
+        let work = all.max(4 * pixels.len() as u64);
         let stride = work.div_ceil(most_px.max(1)).max(1) as usize;
-        let timed = || pixels.iter().step_by(stride);
-        Self { stride, pieces: timed().count() as u64, pixels: timed().sum() }
+        let mut numbers: Vec<usize> = (0..pixels.len()).step_by(stride).collect();
+        let mut timed: u64 = numbers.iter().map(|&number| pixels[number]).sum();
+        let mut others: Vec<usize> =
+            (0..pixels.len()).filter(|number| !number.is_multiple_of(stride)).collect();
+        others.sort_by_key(|&number| std::cmp::Reverse(pixels[number]));
+        for number in others {
+            if 2 * timed >= most_px.min(all) {
+                break;
+            }
+            timed += pixels[number];
+            numbers.push(number);
+        }
+        numbers.sort_unstable();
+        let pieces = Part { part: numbers.len() as u64, of: pixels.len() as u64 };
+        Self { numbers, pieces, pixels: Part { part: timed, of: all } }
     }
 
     fn of<'a>(&self, pieces: &'a [Piece]) -> impl Iterator<Item = &'a Piece> {
-        pieces.iter().step_by(self.stride)
+        self.numbers.iter().map(|&number| &pieces[number])
     }
 }
 
@@ -331,68 +354,81 @@ fn chunks(sampled: &Sampled) -> Vec<&[Piece]> {
     sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect()
 }
 
-/// Coverage of all pieces against the oracle, as they are and snapped; times of a sample.
-fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
-    let (window, pieces) = (sampled.window, &sampled.planes[0]);
-    let variants = variants(ladder);
+/// Both groups of coverage: all pieces against the oracle, as they are and snapped; times of a sample, in the same rounds.
+fn coverage(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Group> {
+    let ladders = [Ladder::Scanline, Ladder::EdgeFunction];
+    let all = ladders.map(variants);
+    let mut groups: Vec<Group> = ladders
+        .into_iter()
+        .zip(&all)
+        .map(|(ladder, variants)| judged_coverage(ladder, variants, sampled, sample))
+        .collect();
+    let class = class(sample.of(&sampled.planes[0]), sampled.window);
+    let frame = Places::new(|| Frame::new(sampled.window, 0));
+    let triangles = Places::new(|| class.triangles.clone());
+    let mut passes = Vec::new();
+    for (group, variants) in all.iter().enumerate() {
+        for (choice, variant) in variants.iter().enumerate() {
+            if groups[group].choices[choice].refused.is_none() {
+                let (frame, triangles) = (&frame, &triangles);
+                let pass = Pass::new(move || {
+                    variant
+                        .paint(std::hint::black_box(&triangles.borrow()), &mut frame.borrow_mut());
+                });
+                passes.push((group, choice, pass));
+            }
+        }
+    }
+    set_times(&mut groups, passes, timing);
+    groups
+}
+
+fn judged_coverage(
+    ladder: Ladder,
+    variants: &[Variant],
+    sampled: &Sampled,
+    sample: &Sample,
+) -> Group {
+    let window = sampled.window;
     let chunks = chunks(sampled);
     let of_chunks = parallel::map(chunks.len(), |number| {
         let mut wrong = vec![Wrong::default(); variants.len()];
         for piece in chunks[number] {
-            compare(&variants, piece, window, &mut wrong);
+            compare(variants, piece, window, &mut wrong);
         }
         wrong
     });
-    let mut choices: Vec<Choice> = variants
-        .iter()
-        .map(|variant| Choice::new(&variant.choice.name, &variant.choice.about))
-        .collect();
-    for (number, choice) in choices.iter_mut().enumerate() {
+    let (titles, shorts) = match sampled.is_antialiased() {
+        false => (
+            ["wrong pixels, corners as they are", "wrong pixels, corners snapped"],
+            ["px as given", "px snapped"],
+        ),
+        true => (
+            ["wrong samples, corners as they are", "wrong samples, corners snapped"],
+            ["samples as given", "samples snapped"],
+        ),
+    };
+    let measure = |i: usize| Measure::new(titles[i], shorts[i], Some(0.0)).counts(sampled.unit());
+    let mut group = Group::new(ladder.title(), [0, 1].map(measure).to_vec(), sample);
+    for (number, variant) in variants.iter().enumerate() {
+        let mut judged = JudgedChoice::new(&variant.choice);
         let of_choice = || of_chunks.iter().map(|chunk| &chunk[number]);
         let sum = |i: usize| of_choice().map(|wrong| wrong.pixels[i]).sum::<u64>() as f64;
-        choice.errors = vec![Some(sum(0)), Some(sum(1))];
+        judged.errors = vec![Some(sum(0)), Some(sum(1))];
         let first = of_choice().find_map(|wrong| wrong.first);
-        choice.first_wrong = first.map(|(face, sample)| (Some(face), sampled.pixel(sample)));
-        choice.wrong = of_choice().flat_map(|wrong| &wrong.triangles).copied().collect();
-        merge(&mut choice.wrong);
-        choice.refused = of_choice().find_map(|wrong| wrong.refused.clone());
-        choice.promises = variants[number].choice.promises.first().copied();
-        choice.bytes = Some(memory::coverage(&choice.name, window, sample.pieces));
-        let unit = match (ladder, &*choice.name) {
-            (Ladder::EdgeFunction, "f32 direct") => f64::from(f32::EPSILON) / 2.0,
-            (Ladder::EdgeFunction, "f64 direct") => f64::EPSILON / 2.0,
-            _ => continue,
+        judged.first_wrong = first.map(|(face, sample)| (Some(face), sampled.pixel(sample)));
+        judged.wrong = of_choice().flat_map(|wrong| &wrong.triangles).copied().collect();
+        merge(&mut judged.wrong);
+        judged.refused = of_choice().find_map(|wrong| wrong.refused.clone());
+        judged.bytes = Some(memory::coverage(judged.name(), window, sample.pieces.part));
+        let unit = match (ladder, judged.name()) {
+            (Ladder::EdgeFunction, "f32 direct") => Some(f64::from(f32::EPSILON) / 2.0),
+            (Ladder::EdgeFunction, "f64 direct") => Some(f64::EPSILON / 2.0),
+            _ => None,
         };
-        choice.margin = Some(margin(sampled, unit));
+        judged.margin = unit.map(|unit| margin(sampled, unit));
+        group.choices.push(judged);
     }
-    let class = class(sample.of(pieces), window);
-    let frame = RefCell::new(Frame::new(window, 0));
-    let mut passes = Vec::new();
-    let mut timed = Vec::new();
-    for (number, variant) in variants.iter().enumerate() {
-        if choices[number].refused.is_none() {
-            let (frame, triangles) = (&frame, &class.triangles);
-            let run = Box::new(move || {
-                variant.paint(std::hint::black_box(triangles), &mut frame.borrow_mut());
-            });
-            passes.push(Pass { column: 0, run });
-            timed.push(number);
-        }
-    }
-    let titles = match sampled.is_antialiased() {
-        false => ["wrong pixels, corners as they are", "wrong pixels, corners snapped"],
-        true => ["wrong samples, corners as they are", "wrong samples, corners snapped"],
-    };
-    let unit = Some(sampled.unit());
-    let shorts = match sampled.is_antialiased() {
-        false => ["px as given", "px snapped"],
-        true => ["samples as given", "samples snapped"],
-    };
-    let measures = [(titles[0], shorts[0]), (titles[1], shorts[1])];
-    let measures = measures.map(|(title, short)| Measure { title, short, unit, goal: Some(0.0) });
-    let mut group = Group::new(ladder.title(), &measures, [sample.pieces, sample.pixels]);
-    group.choices = choices;
-    set_times(&mut group, &timed, &mut passes, effort, (effort.rounds(), effort.race()));
     group
 }
 
@@ -509,125 +545,86 @@ fn margin_of(px: [[f64; 2]; 3], window: PixelRect, u: f64) -> f64 {
     smallest
 }
 
-/// Times the passes of some choices, and finds the fastest of those that are exact.
-fn set_times(
-    group: &mut Group,
-    timed: &[usize],
-    passes: &mut [Pass<'_>],
-    effort: Effort,
-    (rounds, race): (usize, Duration),
-) {
-    let slice = if effort == Effort::Once { Duration::ZERO } else { Timing::QUICK.slice };
-    let spreads = time(passes, Timing { rounds, slice }, &|_| ());
-    for (&number, spread) in timed.iter().zip(spreads) {
-        group.choices[number].time = Some(spread);
+/// Times choices in the same rounds: each against the fastest of all, and the exact ones of each measure against each other.
+/// A pass comes with the numbers of its group and its choice.
+fn set_times(groups: &mut [Group], passes: Vec<(usize, usize, Pass<'_>)>, timing: Timing) {
+    let (places, mut passes): (Vec<[usize; 2]>, Vec<Pass<'_>>) =
+        passes.into_iter().map(|(group, choice, pass)| ([group, choice], pass)).unzip();
+    let mut sets = vec![(0..passes.len()).collect::<Vec<_>>()];
+    for (number, group) in groups.iter().enumerate() {
+        for measure in 0..group.measures.len() {
+            let is_exact = |&place: &usize| {
+                let [of, choice] = places[place];
+                of == number && group.is_exact(&group.choices[choice], measure)
+            };
+            sets.push((0..places.len()).filter(is_exact).collect());
+        }
     }
-    set_best(group, timed, passes, effort, race);
-}
-
-/// An exact choice is raced unless a quarter of its first rounds is slower by more than this than the median of the best.
-const CLOSE: f64 = 1.5;
-
-/// Races the exact choices of each measure against each other; their times become those of the race.
-fn set_best(
-    group: &mut Group,
-    timed: &[usize],
-    passes: &mut [Pass<'_>],
-    effort: Effort,
-    budget: Duration,
-) {
-    let mut before: Vec<(Vec<usize>, Best)> = Vec::new();
-    for measure in 0..group.measures.len() {
-        let time = |place: usize| {
-            let choice = &group.choices[timed[place]];
-            choice.time.filter(|_| group.is_exact(choice, measure))
-        };
-        let medians = (0..timed.len()).filter_map(|place| Some(time(place)?.median));
-        let least = medians.fold(f64::INFINITY, f64::min);
-        let is_close = |place: &usize| time(*place).is_some_and(|t| t.low <= CLOSE * least);
-        let racing: Vec<usize> = (0..timed.len()).filter(is_close).collect();
-        let known = before.iter().find(|(same, _)| *same == racing).map(|(_, best)| best.clone());
-        let best = match (known, &*racing) {
-            (Some(best), _) => Some(best),
-            (None, []) => None,
-            (None, [only]) => Some(Best::alone(timed[*only])),
-            (None, several) => {
-                let of = passes.iter_mut().enumerate();
-                let mut of: Vec<_> =
-                    of.filter(|(place, _)| several.contains(place)).map(|(_, pass)| pass).collect();
-                let race = race(&mut of, budget, effort == Effort::Usual);
-                let numbers: Vec<usize> = several.iter().map(|&place| timed[place]).collect();
-                for (&number, time) in numbers.iter().zip(&race.times) {
-                    group.choices[number].time = Some(*time);
-                }
-                Best::of(&race, &numbers)
-            }
-        };
-        before.extend(best.clone().map(|best| (racing, best)));
-        group.best.push(best);
+    let wanted = |medians: &[f64]| over_fastest(&sets, medians);
+    let times = compare_times(&mut passes, timing, &wanted, &|_| ());
+    for ([group, choice], of) in places.into_iter().zip(times) {
+        groups[group].choices[choice].time = Some(of);
     }
 }
 
-/// A group whose errors are measured on a sample.
+/// A group of choices that are ready-made: errors of all pieces, times of a sample.
 fn ladder(
     ladder: Ladder,
     (pieces, window): (&[Piece], PixelRect),
-    sample: &Sample,
-    effort: Effort,
-) -> Option<Group> {
+    hard: Option<&HardCases>,
+    timing: Timing,
+) -> Group {
     let is_judged = |piece: &&Piece| ladder != Ladder::Interpolation || has_values(piece);
-    let class = class(sample.of(pieces).filter(is_judged), window);
-    let timing = match effort {
-        Effort::Usual => Timing::USUAL,
-        Effort::Quick => Timing::QUICK,
-        Effort::Once => Timing::ONCE,
+    let taken: Vec<Piece> = pieces.iter().filter(is_judged).cloned().collect();
+    let sample = Sample::new(&taken, window, TIMED_PX / 4);
+    let classes = [class(taken.iter(), window), class(sample.of(&taken), window)];
+    let measure = match ladder {
+        Ladder::Interpolation => {
+            let title = "worst error over the largest value; up to half a step of 8 bits is good";
+            Measure::new(title, "error / M", Some(1.0 / 512.0))
+        }
+        _ => {
+            let title = "root mean square distance from the exact share of a pixel on an edge";
+            Measure::new(title, "rms of a px", Some(0.0))
+        }
     };
-    let options = CostOptions { seed: 0, quick: effort != Effort::Usual, timing: Some(timing) };
-    let measures: &[Measure] = match ladder {
-        Ladder::Interpolation => &[Measure {
-            title: "worst error over the largest value; up to half a step of 8 bits is good",
-            short: "error / M",
-            unit: None,
-            goal: Some(1.0 / 512.0),
-        }],
-        _ => &[Measure {
-            title: "root mean square distance from the exact share of a pixel on an edge",
-            short: "rms of a px",
-            unit: None,
-            goal: Some(0.0),
-        }],
-    };
-    let mut group = Group::new(ladder.title(), measures, [0; 2]);
-    group.not_judged = pieces.iter().filter(|piece| !is_judged(piece)).count() as u64;
-    measure_on(ladder, &[class], &options, &mut |board: &Board, passes| {
-        let Some(column) = board.columns.first() else { return };
-        group.timed = [column.items, column.pixels];
-        let numbers = 0..board.choices.len();
-        group.choices = numbers.clone().map(|one| choice(board, one, window)).collect();
-        let timed: Vec<usize> = numbers.filter(|&one| board.run(one, 0).is_some()).collect();
-        set_best(&mut group, &timed, passes, effort, effort.race());
-    })?;
-    Some(group)
-}
-
-fn choice(board: &Board, number: usize, window: PixelRect) -> Choice {
-    let (info, items) = (&board.choices[number], board.columns[0].items);
-    let mut choice = Choice::new(&info.name, &info.about);
-    let run = board.run(number, 0);
-    choice.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
-    choice.time = run.and_then(|run| run.time).map(|time| time.item_ns.times(items as f64));
-    choice.bytes = match board.ladder {
-        Ladder::Antialiasing => memory::antialiasing(&info.name, window),
-        _ => Some(memory::interpolation(window)),
-    };
-    if run.is_none() {
-        choice.refused = Some("it does not take these triangles".to_owned());
-    }
-    choice
+    let mut groups = [Group::new(ladder.title(), vec![measure], &sample)];
+    measure_on(ladder, &classes, &mut |board, placed| {
+        let group = &mut groups[0];
+        group.judged = match ladder {
+            Ladder::Interpolation => {
+                let of = board.columns[0].pixels;
+                Part { part: compared_values(of), of }
+            }
+            _ => Part::all(sample.pixels.of),
+        };
+        group.not_judged = (pieces.len() - taken.len()) as u64;
+        for (number, info) in board.choices.iter().enumerate() {
+            let mut judged = JudgedChoice::new(info);
+            let run = board.run(number, 0);
+            judged.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
+            judged.bytes = match ladder {
+                Ladder::Antialiasing => memory::antialiasing(&info.name, window),
+                _ => Some(memory::interpolation(window)),
+            };
+            if run.is_none() {
+                judged.refused = Some("it does not take these triangles".to_owned());
+            }
+            group.choices.push(judged);
+        }
+        if let Some(hard) = hard {
+            wrong_values_of((pieces, window), hard, group);
+        }
+        let timed = placed.into_iter().filter(|placed| placed.column == 1);
+        let timed = timed.map(|placed| (0, placed.choice, placed.pass)).collect();
+        set_times(&mut groups, timed, timing);
+    });
+    let [group] = groups;
+    group
 }
 
 /// Formats of the depth buffer: pixels that show another piece than the exact depths say.
-fn depth(sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
+fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Group {
     let (window, pieces) = (sampled.window, &*sampled.planes[0]);
     let truths =
         parallel::map(sampled.planes.len(), |plane| exactly_seen(&sampled.planes[plane], window));
@@ -640,7 +637,7 @@ fn depth(sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
             DepthFormat::F32Reversed => "a float, 1 at the near plane",
             DepthFormat::F64 => "a double",
         };
-        let mut choice = Choice::new(format.name(), about);
+        let mut choice = JudgedChoice::new(&Choice::new(format.name(), about, &[]));
         choice.bytes = Some(memory::depth(format, window, sampled.planes.len()));
         for (pieces, truth) in sampled.planes.iter().zip(&truths) {
             let seen = seen(pieces, window, format, &mut (0..pieces.len()));
@@ -662,27 +659,23 @@ fn depth(sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
         choice.errors = vec![Some(wrong as f64)];
         choices.push(choice);
     }
+    let (title, short) = match sampled.is_antialiased() {
+        false => ("pixels that show another piece than exact depths do", "wrong px"),
+        true => ("samples that show another piece than exact depths do", "wrong samples"),
+    };
+    let measure = Measure::new(title, short, Some(0.0)).counts(sampled.unit());
+    let mut groups = [Group::new(Ladder::Depth.title(), vec![measure], sample)];
+    groups[0].choices = choices;
     let mut passes = Vec::new();
-    for format in DepthFormat::ALL {
-        let run = Box::new(move || {
-            let mut timed = (0..pieces.len()).step_by(sample.stride);
+    for (choice, format) in DepthFormat::ALL.into_iter().enumerate() {
+        let pass = Pass::new(move || {
+            let mut timed = sample.numbers.iter().copied();
             std::hint::black_box(seen(pieces, window, format, &mut timed));
         });
-        passes.push(Pass { column: 0, run });
+        passes.push((0, choice, pass));
     }
-    let timed: Vec<usize> = (0..choices.len()).collect();
-    let measure = Measure {
-        title: match sampled.is_antialiased() {
-            false => "pixels that show another piece than exact depths do",
-            true => "samples that show another piece than exact depths do",
-        },
-        short: if sampled.is_antialiased() { "wrong samples" } else { "wrong px" },
-        unit: Some(sampled.unit()),
-        goal: Some(0.0),
-    };
-    let mut group = Group::new(Ladder::Depth.title(), &[measure], [sample.pieces, sample.pixels]);
-    group.choices = choices;
-    set_times(&mut group, &timed, &mut passes, effort, (effort.rounds(), effort.race_of_depths()));
+    set_times(&mut groups, passes, timing);
+    let [group] = groups;
     group
 }
 
@@ -725,7 +718,7 @@ fn is_nearer(piece: &Piece, other: &Piece, x_px: i32, y_px: i32) -> bool {
 }
 
 /// Whole frames: each rasterizer by each planner, and tiles, against the one with everything switched on.
-fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group, BadScene> {
+fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Group, BadScene> {
     const PLANNERS: [(&str, Effects, &str); 3] = [
         ("all", Effects::ALWAYS, "every effect is computed everywhere"),
         ("usual", Effects::USUAL, "what a usual renderer leaves out is left out"),
@@ -734,14 +727,12 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
     let window = target.size();
     let mut choices = Vec::new();
     let mut pictures: Vec<Frame<Colour>> = Vec::new();
-    let mut once = Duration::ZERO;
     let mut draws: Vec<(Drawer, Effects)> = Vec::new();
     for drawer in Drawer::ALL {
         for (name, effects, about) in PLANNERS {
-            let mut choice = Choice::new(&format!("{} {name}", drawer.name()), about);
-            let start = Instant::now();
+            let name = format!("{} {name}", drawer.name());
+            let mut choice = JudgedChoice::new(&Choice::new(name, about, &[]));
             let rendered = drawer.render(scene, &effects, target)?;
-            once += start.elapsed();
             choice.bytes = Some(memory::frame(&rendered, scene, target));
             pictures.push(rendered.picture);
             choices.push(choice);
@@ -759,12 +750,11 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
         _ => None,
     };
     if let Some(per_pixel) = samples {
-        let start = Instant::now();
         match frames::render(scene, window.width(), window.height(), per_pixel) {
             Ok(picture) => {
                 pictures.push(picture);
-                once += start.elapsed();
-                choices.push(Choice::new("tiles", "coverage exact, values in f32; all threads"));
+                let about = "coverage exact, values in f32; the time of all its threads together";
+                choices.push(JudgedChoice::new(&Choice::new("tiles", about, &[])));
             }
             Err(TilesError::NotDrawn(_)) => samples = None,
             Err(TilesError::Scene(bad)) => return Err(bad),
@@ -777,36 +767,38 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
     }
     let target = RefCell::new(target);
     let mut passes = Vec::new();
-    for (drawer, effects) in draws {
+    for (choice, (drawer, effects)) in draws.into_iter().enumerate() {
         let target = &target;
-        let run = Box::new(move || {
+        let pass = Pass::new(move || {
             let rendered = drawer.render(scene, &effects, &mut target.borrow_mut());
             std::hint::black_box(rendered.is_ok());
         });
-        passes.push(Pass { column: 0, run });
+        passes.push((0, choice, pass));
     }
     if let Some(samples) = samples {
-        let run = Box::new(move || {
+        let pass = Pass::new(move || {
             let rendered = frames::render(scene, window.width(), window.height(), samples);
             std::hint::black_box(rendered.is_ok());
         });
-        passes.push(Pass { column: 0, run });
+        passes.push((0, passes.len(), pass.by(Clock::Threads)));
     }
-    let rounds = effort.frames().as_secs_f64() / once.as_secs_f64().max(1e-6);
-    let rounds = if effort == Effort::Once { 1 } else { (rounds as usize).clamp(3, 101) };
-    let timed: Vec<usize> = (0..choices.len()).collect();
-    let measure = Measure {
-        title: "pixels that differ from the frame of scanline with everything switched on",
-        short: "wrong px",
-        unit: None,
-        goal: Some(0.0),
-    };
+    let title = "pixels that differ from the frame of scanline with everything switched on";
+    let measure = Measure::new(title, "wrong px", Some(0.0));
     let pixels = u64::from(window.width()) * u64::from(window.height());
-    let mut group = Group::new("Whole frames", &[measure], [scene.triangles() as u64, pixels]);
-    group.choices = choices;
-    set_times(&mut group, &timed, &mut passes, effort, (rounds, effort.frames()));
+    let of = Sample {
+        numbers: Vec::new(),
+        pieces: Part::all(scene.triangles() as u64),
+        pixels: Part::all(pixels),
+    };
+    let mut groups = [Group::new(FRAMES, vec![measure], &of)];
+    groups[0].choices = choices;
+    set_times(&mut groups, passes, timing);
+    let [group] = groups;
     Ok(group)
 }
+
+/// The title of the group of planners.
+pub const FRAMES: &str = "Whole frames";
 
 #[cfg(test)]
 mod tests {
@@ -848,6 +840,29 @@ mod tests {
         let unit = |bits: i32| 0.5f64.powi(bits);
         assert!(margin_of(px, WINDOW, unit(24)) < 1.0);
         assert!(margin_of(px, WINDOW, unit(53)) > 1.0);
+    }
+
+    /// Of a floor of two triangles the first covers no pixel: the other is timed, though a sample of every second piece
+    /// leaves it out.
+    #[test]
+    fn a_sample_covers_pixels_where_there_are_any() {
+        let sample = Sample::of_sizes(&[0, 345_600], 50_000);
+        assert_eq!((sample.numbers, sample.pixels), (vec![0, 1], Part::all(345_600)));
+        let sample = Sample::of_sizes(&[10; 10_000], 50_000);
+        assert_eq!(sample.numbers.len(), 5_000, "every second one is enough");
+        assert_eq!(sample.pixels, Part { part: 50_000, of: 100_000 });
+        assert_eq!(Sample::of_sizes(&[], 50_000).numbers, [0usize; 0]);
+    }
+
+    /// Where no pixel was compared, no choice is exact.
+    #[test]
+    fn nothing_is_exact_on_pixels_that_were_not_drawn() {
+        let judged = JudgedChoice { errors: vec![Some(0.0)], ..JudgedChoice::default() };
+        let mut group =
+            Group::new("", vec![Measure::new("", "", Some(0.0))], &Sample::of_sizes(&[7], 9));
+        assert!(group.is_exact(&judged, 0));
+        group.judged.part = 0;
+        assert!(!group.is_exact(&judged, 0));
     }
 
     #[test]

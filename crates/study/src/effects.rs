@@ -2,15 +2,15 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
 
 use glam::DVec2;
 use rasterproof_core::frame::Frame;
 use rasterproof_models::Origin;
-use rasterproof_precision::cost::{Pass, Spread, Timing, time};
+use rasterproof_precision::cost::{Pair, Pass, Ratio, RatioKind, Times, Timing, compare};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 
@@ -40,9 +40,24 @@ pub struct Need {
     pub pixels: Option<u64>,
     /// Pixels that change when it is switched off.
     pub wrong: u64,
-    /// Nanoseconds of a planned frame with this effect switched off where it is paid for, and on everywhere where it is
-    /// not.
-    pub otherwise: Spread,
+    /// How much less work of it a planned frame does with this effect switched off, where it is paid for, or how much more
+    /// with it on everywhere, where it is not.
+    pub work: u64,
+    /// The time of such a frame; none where the work is the same, so that only noise could be seen.
+    pub otherwise: Option<Times>,
+    /// Whether fewer fragments are drawn without it, so that the time saved is not its own.
+    pub draws_less: bool,
+}
+
+/// What an effect adds to the time of a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Adds {
+    /// It does no work in this view.
+    NoWork,
+    /// Without it fewer fragments are drawn.
+    DrawsLess,
+    /// The frame with it over the frame without.
+    Times(Ratio),
 }
 
 impl Need {
@@ -53,6 +68,28 @@ impl Need {
             (true, 0) => State::ToBeSafe,
             (false, 0) => State::NotCalledFor,
         }
+    }
+
+    /// What it adds to a planned frame where it is paid for, and would add where it is not.
+    #[must_use]
+    pub fn adds(&self, planned: &Times) -> Adds {
+        match self.otherwise.as_ref().filter(|_| self.work > 0) {
+            None => Adds::NoWork,
+            Some(_) if self.is_paid_for && self.draws_less => Adds::DrawsLess,
+            Some(without) => {
+                let ratio = planned.over(without).unwrap_or(Ratio::ONE);
+                Adds::Times(if self.is_paid_for { ratio } else { ratio.inverse() })
+            }
+        }
+    }
+
+    /// The milliseconds of that, where they are more than noise.
+    #[must_use]
+    pub fn adds_ms(&self, planned: &Times) -> Option<f64> {
+        let Adds::Times(ratio) = self.adds(planned) else { return None };
+        let without = if self.is_paid_for { self.otherwise.as_ref()? } else { planned };
+        let is_more = ratio.said() == RatioKind::Holds && ratio.low > 1.0;
+        is_more.then(|| (ratio.median - 1.0) * without.median() / 1e6)
     }
 }
 
@@ -70,11 +107,11 @@ pub struct Fineness {
 #[derive(Clone, Debug)]
 pub struct Needs {
     pub needs: Vec<Need>,
-    /// Nanoseconds of the planned frame.
-    pub planned: Spread,
+    /// The time of the planned frame, in the same rounds as all others.
+    pub planned: Times,
     pub textures: Vec<Fineness>,
-    /// Nanoseconds of a frame by antialiasing, where it was drawn.
-    pub antialiasing: Vec<(&'static str, f64)>,
+    /// How many times as long a frame takes by antialiasing, where it was drawn.
+    pub antialiasing: Vec<(&'static str, Ratio)>,
 }
 
 /// A channel that is off by more than so many steps of 255 is far.
@@ -89,7 +126,7 @@ pub fn survey(
     origins: &[Origin],
     (pieces, seen): (&[Piece], &Frame<u32>),
     target: &mut Target,
-    budget: Duration,
+    timing: Timing,
 ) -> Result<Needs, BadScene> {
     let drawer = Drawer::Scanline;
     let names = names(scene, origins);
@@ -97,7 +134,7 @@ pub fn survey(
     let (rendered, map) = drawer.render_mapped(scene, &Effects::PLANNED, target)?;
     let mut needs = Vec::new();
     for effect in Effect::ALL {
-        let picture = drawer.render_without(scene, effect, target)?.picture;
+        let without = drawer.render_without(scene, effect, target)?;
         let decisions = rendered.plan.decisions.iter().filter(|d| d.effect == effect);
         let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
         let mut called = vec![false; scene.items.len()];
@@ -141,20 +178,23 @@ pub fn survey(
             is_paid_for,
             reasons: reasons.into_iter().collect(),
             pixels: is_of_pixels.then_some(pixels),
-            wrong: differing(&picture, &rendered.picture, 0).count() as u64,
-            otherwise: Spread { low: 0.0, median: 0.0, high: 0.0 },
+            wrong: differing(&without.picture, &rendered.picture, 0).count() as u64,
+            work: {
+                let other = match is_paid_for {
+                    true => without.counters,
+                    false => drawer.render(scene, &otherwise(effect, false), target)?.counters,
+                };
+                effect.calls(&rendered.counters).abs_diff(effect.calls(&other))
+            },
+            otherwise: None,
+            draws_less: visible(&without.counters) < visible(&rendered.counters),
         });
     }
-    let start = Instant::now();
-    drawer.render(scene, &Effects::PLANNED, target)?;
-    let all = start.elapsed().as_secs_f64() * (needs.len() + 1) as f64;
-    let rounds = ((budget.as_secs_f64() / all.max(1e-6)) as usize).clamp(2, 31);
-    let timing = if budget.is_zero() { Timing::ONCE } else { Timing { rounds, ..Timing::QUICK } };
     let planned = set_times(scene, &mut needs, target, timing);
     let mut found = Needs { needs, planned, textures: Vec::new(), antialiasing: Vec::new() };
     found.textures = textures(scene, &names, pieces, seen);
     if found.textures.iter().any(|texture| texture.texels > FINE) {
-        antialias(scene, &names, (&items, &mut found), target)?;
+        antialias(scene, &names, (&items, &mut found), target, timing)?;
     }
     Ok(found)
 }
@@ -194,28 +234,37 @@ pub(crate) fn differing<'a>(
     })
 }
 
-/// Times the planned frame, and those in which one effect is switched over.
-fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, timing: Timing) -> Spread {
-    let mut all = vec![Effects::PLANNED];
-    for need in &*needs {
-        let mode = if need.is_paid_for { Mode::Never } else { Mode::Always };
-        all.push(Effects::PLANNED.with(need.effect, mode));
-    }
+/// Fragments that passed the depth test.
+fn visible(counters: &Counters) -> u64 {
+    counters.fragments - counters.depth_failed
+}
+
+/// The plan with one effect switched over.
+fn otherwise(effect: Effect, is_paid_for: bool) -> Effects {
+    Effects::PLANNED.with(effect, if is_paid_for { Mode::Never } else { Mode::Always })
+}
+
+/// Times the planned frame, and those in which one effect is switched over that makes a difference in work.
+fn set_times(scene: &Scene, needs: &mut [Need], target: &mut Target, timing: Timing) -> Times {
+    let mut working: Vec<&mut Need> = needs.iter_mut().filter(|need| need.work > 0).collect();
+    let others = working.iter().map(|need| otherwise(need.effect, need.is_paid_for));
     let target = RefCell::new(target);
-    let passes = all.into_iter().map(|effects| {
+    let pass = |effects: Effects| {
         let target = &target;
-        let run = Box::new(move || {
+        Pass::new(move || {
             let drawn = Drawer::Scanline.render(scene, &effects, &mut target.borrow_mut());
             std::hint::black_box(drawn.is_ok());
-        });
-        Pass { column: 0, run }
-    });
-    let mut passes: Vec<Pass<'_>> = passes.collect();
-    let spreads = time(&mut passes, timing, &|_| ());
-    for (need, spread) in needs.iter_mut().zip(&spreads[1..]) {
-        need.otherwise = *spread;
+        })
+    };
+    let mut passes: Vec<Pass<'_>> =
+        std::iter::once(Effects::PLANNED).chain(others).map(pass).collect();
+    let pairs: Vec<Pair> = (1..passes.len()).map(|other| [other, 0]).collect();
+    let mut times = compare(&mut passes, timing, &|_| pairs.clone(), &|_| ()).into_iter();
+    let planned = times.next().expect("the planned frame is timed");
+    for (need, times) in working.iter_mut().zip(times) {
+        need.otherwise = Some(times);
     }
-    spreads[0]
+    planned
 }
 
 /// How many texels of each textured material lie along the side of a pixel.
@@ -255,6 +304,7 @@ fn antialias(
     names: &[String],
     (items, found): (&Frame<u32>, &mut Needs),
     target: &Target,
+    timing: Timing,
 ) -> Result<(), BadScene> {
     const ALL: [(&str, Antialias); 4] = [
         ("none", Antialias::None),
@@ -264,17 +314,29 @@ fn antialias(
     ];
     let size = target.size();
     let mut pictures = Vec::new();
+    let mut targets = Vec::new();
     for (name, antialias) in ALL {
         // A picture too large to be drawn with so many samples is not compared.
         let Ok(mut target) = Target::new(size.width(), size.height(), antialias, target.format)
         else {
             return Ok(());
         };
-        let start = Instant::now();
         let picture = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target)?.picture;
-        found.antialiasing.push((name, start.elapsed().as_nanos() as f64));
         pictures.push((name, picture));
+        targets.push(target);
     }
+    let mut passes = Vec::new();
+    for target in &mut targets {
+        passes.push(Pass::new(move || {
+            let drawn = Drawer::Scanline.render(scene, &Effects::PLANNED, target);
+            std::hint::black_box(drawn.is_ok());
+        }));
+    }
+    let pairs: Vec<Pair> = (1..passes.len()).map(|other| [other, 0]).collect();
+    let times = compare(&mut passes, timing, &|_| pairs.clone(), &|_| ());
+    let ratios =
+        ALL.iter().zip(&times).filter_map(|((name, _), time)| Some((*name, time.over(&times[0])?)));
+    found.antialiasing.extend(ratios);
     let Some((_, finest)) = pictures.pop() else { return Ok(()) };
     for (name, picture) in &pictures {
         let mut far: BTreeMap<&str, u64> = BTreeMap::new();
@@ -288,4 +350,31 @@ fn antialias(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Made-up times in which a frame takes half as long with an effect switched over.
+    #[test]
+    fn what_does_no_work_adds_nothing() {
+        let times = Times::of(vec![vec![2e6; 8], vec![1e6; 8], vec![4e6; 8]], None);
+        let need = |work: u64, is_paid_for: bool, draws_less: bool| Need {
+            effect: Effect::Shadows,
+            materials: Vec::new(),
+            is_paid_for,
+            reasons: Vec::new(),
+            pixels: None,
+            wrong: 0,
+            work,
+            otherwise: Some(times[if is_paid_for { 1 } else { 2 }].clone()),
+            draws_less,
+        };
+        assert_eq!(need(5, true, false).adds_ms(&times[0]), Some(1.0));
+        assert_eq!(need(5, false, false).adds_ms(&times[0]), Some(2.0));
+        assert_eq!(need(0, true, false).adds(&times[0]), Adds::NoWork);
+        assert_eq!(need(0, false, false).adds_ms(&times[0]), None);
+        assert_eq!(need(5, true, true).adds(&times[0]), Adds::DrawsLess);
+    }
 }

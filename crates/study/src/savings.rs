@@ -1,8 +1,10 @@
 //! What planning the effects of a scene saves: the times of whole frames by every mixture of planned effects and of those that are
 //! always paid for.
 
-use std::time::{Duration, Instant};
+use std::cell::RefCell;
+use std::time::Duration;
 
+use rasterproof_precision::cost::{Clock, Pair, Pass, Ratio, Spread, Times, Timing, compare};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::Canvas;
 use rasterproof_render::effects::render::{BadScene, Rendered, survey_again};
@@ -12,43 +14,69 @@ use rasterproof_render::scene::Scene;
 
 use crate::effects::differing;
 
+/// A frame by a mixture of effects, whose times are of the same rounds as those of the others.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Measured {
     pub effects: String,
     pub rounds: usize,
+    /// Of processor time, the median, and quartiles.
     pub time_us: f64,
-    /// The fastest round and the slowest.
-    pub range_us: [f64; 2],
-    /// A quarter of the rounds is faster than the first, a quarter slower than the second.
     pub quartiles_us: [f64; 2],
     /// Whether the picture has the bits of the one that pays for everything.
     pub same: bool,
+    #[serde(skip)]
+    times: Times,
 }
 
-/// The fewest rounds of which quartiles are compared.
-const FEWEST_ROUNDS: usize = 4;
-
 impl Measured {
-    /// Whether the middle halves of their rounds overlap, or the rounds are too few to say.
-    fn is_noise(&self, other: &Self) -> bool {
-        let ([a0, a1], [b0, b1]) = (self.quartiles_us, other.quartiles_us);
-        self.rounds.min(other.rounds) < FEWEST_ROUNDS || a0 <= b1 && b0 <= a1
+    fn new(effects: &str, times: &Times, same: bool) -> Self {
+        let Spread { low, median, high } = times.spread().times(1e-3);
+        let (effects, times) = (effects.to_owned(), times.clone());
+        Self {
+            effects,
+            rounds: times.rounds(),
+            time_us: median,
+            quartiles_us: [low, high],
+            same,
+            times,
+        }
+    }
+
+    /// How many times as long it takes as another frame.
+    #[must_use]
+    pub fn over(&self, other: &Self) -> Ratio {
+        self.times.over(&other.times).unwrap_or(Ratio::ONE)
+    }
+}
+
+/// What planning an effect saves beside others.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct Saves {
+    /// How much less of its work is done, by the counter of the effect.
+    pub work: u64,
+    /// How many times as long the frame takes that pays for it; none where its work is the same, since what is measured then is noise.
+    pub times: Option<Ratio>,
+}
+
+impl Saves {
+    fn new(work: u64, times: Option<Ratio>) -> Self {
+        Self { work, times: times.filter(|_| work > 0) }
+    }
+
+    /// A share of the time, or that there is nothing to save.
+    #[must_use]
+    pub fn words(&self) -> String {
+        self.times.map_or("no work".to_owned(), |ratio| ratio.saving())
     }
 }
 
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Saving {
     pub effect: Effect,
-    /// Time of the frame in which it is planned and everything else paid for, and what share that
-    /// is less than to pay for everything, and whether the difference is within the noise.
-    pub alone_us: f64,
-    pub saves_alone: f64,
-    pub noise_alone: bool,
-    /// Time of the frame in which it is paid for and everything else planned, and what share of it is saved when this effect is
-    /// planned, too.
-    pub all_but_us: f64,
-    pub saves_last: f64,
-    pub noise_last: bool,
+    /// Of a frame that pays for everything: it alone is planned.
+    pub alone: Saves,
+    /// Of the planned frame: it alone had been paid for.
+    pub last: Saves,
     /// Pixels that change when it is left out everywhere.
     pub wrong_without: u64,
 }
@@ -58,8 +86,15 @@ pub struct Savings {
     pub everything: Measured,
     pub usual: Measured,
     pub planned: Measured,
+    /// How many times as long everything takes as the plan, and as usual.
+    pub times: [Ratio; 2],
+    /// The ratio of two equal frames in the same rounds, where there were enough.
+    pub noise: Option<Ratio>,
     pub effects: Vec<Saving>,
+    /// Those whose work is not that of everything or of the plan.
     pub mixtures: Vec<Measured>,
+    /// Mixtures that were not timed and changed the picture all the same.
+    pub changed: Vec<String>,
 }
 
 impl Savings {
@@ -67,62 +102,27 @@ impl Savings {
         [&self.everything, &self.usual, &self.planned].into_iter().chain(&self.mixtures)
     }
 
-    /// How many times as fast the plan is as everything on, and as usual.
-    #[must_use]
-    pub fn factors(&self) -> [f64; 2] {
-        [&self.everything, &self.usual].map(|other| other.time_us / self.planned.time_us)
-    }
-
-    /// The same in words. No number is given where no difference was measured: the middle halves of the rounds overlap, or the
-    /// factor rounds to 1.
-    #[must_use]
-    pub fn phrases(&self) -> [String; 2] {
-        let phrase = |other: &Measured| {
-            let factor = format!("{:.1}", other.time_us / self.planned.time_us);
-            let has_quartiles = self.planned.rounds.min(other.rounds) >= FEWEST_ROUNDS;
-            match has_quartiles && self.planned.is_noise(other) || factor == "1.0" {
-                true => "as fast".to_owned(),
-                false => format!("{factor} times as fast"),
-            }
-        };
-        [&self.everything, &self.usual].map(phrase)
+    /// The mixtures with another picture.
+    pub fn different(&self) -> impl Iterator<Item = &str> {
+        let timed = self.all().filter(|mixture| !mixture.same).map(|mixture| &*mixture.effects);
+        timed.chain(self.changed.iter().map(String::as_str))
     }
 }
 
 const WHOLE: [(&str, Effects); 3] =
     [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
 
-/// Everything on, as usual, everything planned, then for each effect that one planned, and all the others planned.
-fn mixtures() -> Vec<(String, Effects)> {
-    let of = |effect: Effect| {
-        let name = effect.name();
-        [
-            (format!("all, {name} planned"), Effects::ALWAYS.with(effect, Mode::Planned)),
-            (format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)),
-        ]
-    };
-    let whole = WHOLE.map(|(name, effects)| (name.to_owned(), effects));
-    whole.into_iter().chain(Effect::ALL.into_iter().flat_map(of)).collect()
+/// A frame that was drawn once: what it did, and whether it has the bits of the one that pays for everything.
+struct TriedMixture {
+    name: String,
+    effects: Effects,
+    /// Of the effect that is switched over in it.
+    work: u64,
+    same: bool,
 }
 
-/// How many rounds are measured where no number is given, and how long they may take all together.
-const USUAL_ROUNDS: u32 = 9;
-const BUDGET: Duration = Duration::from_secs(10);
-
-/// How many rounds fit into the budget, and with how many mixtures: all of them, or the whole ones alone
-/// if not even two rounds of all fit. `warm` is the time of one round of the whole ones.
-fn fitting(warm: Duration, mixtures: usize) -> (u32, usize) {
-    let of = |count: usize| warm.as_secs_f64() * count as f64 / WHOLE.len() as f64;
-    let rounds = |count: usize| (BUDGET.as_secs_f64() / of(count).max(1e-9)) as u32;
-    match rounds(mixtures) {
-        // One of them warms up.
-        0 | 1 => (rounds(WHOLE.len()).clamp(1, USUAL_ROUNDS), WHOLE.len()),
-        some => ((some - 1).min(USUAL_ROUNDS), mixtures),
-    }
-}
-
-/// Interleaved rounds of every mixture, or of the whole ones alone: the times, the frame that pays for everything, and the planned
-/// one. `drawn` is called after each frame.
+/// Rounds of all frames that differ in work, or of the whole ones alone: the times, the frame that pays for everything, and the
+/// planned one. `drawn` is called after each frame.
 ///
 /// # Errors
 /// [`BadScene`].
@@ -133,69 +133,117 @@ pub fn measure(
     is_whole: bool,
     drawn: &dyn Fn(),
 ) -> Result<(Savings, [Rendered; 2]), BadScene> {
-    let mut mixtures = mixtures();
-    if is_whole {
-        mixtures.truncate(WHOLE.len());
-    }
     let mut draw = |effects: &Effects| {
-        let start = Instant::now();
         let rendered = drawer.render(scene, effects, target)?;
         drawn();
-        Ok::<_, BadScene>((start.elapsed(), rendered))
+        Ok::<_, BadScene>(rendered)
     };
-    // The first round warms up and compares the pictures. Only those are kept that are shown.
-    let [first, usual, last] =
+    // Only those are kept that are shown.
+    let [everything, usual, planned] =
         [draw(&Effects::ALWAYS)?, draw(&Effects::USUAL)?, draw(&Effects::PLANNED)?];
-    let warm = first.0 + usual.0 + last.0;
-    let (everything, planned) = (first.1, last.1);
-    let whole = [&everything, &usual.1, &planned];
-    let mut same = whole.map(|one| one.picture == everything.picture).to_vec();
-    let (rounds, kept) = match rounds {
-        Some(rounds) => (rounds, mixtures.len()),
-        None => fitting(warm, mixtures.len()),
-    };
-    mixtures.truncate(kept);
-    for (_, effects) in &mixtures[WHOLE.len()..] {
-        same.push(draw(effects)?.1.picture == everything.picture);
-    }
-    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); mixtures.len()];
-    for round in 1..=rounds {
-        for k in 0..mixtures.len() {
-            // Another one begins each round, so that none always follows the same.
-            let i = (k + round as usize) % mixtures.len();
-            times[i].push(draw(&mixtures[i].1)?.0);
+    let mut timing = Timing { rounds: rounds.map(|rounds| rounds as usize), ..PLAN };
+    let mut mixtures = Vec::new();
+    let effects =
+        if is_whole || (rounds.is_none() && is_slow(&mut draw)?) { &[][..] } else { &Effect::ALL };
+    for &effect in effects {
+        let name = effect.name();
+        for (base, name, effects) in [
+            (
+                &everything,
+                format!("all, {name} planned"),
+                Effects::ALWAYS.with(effect, Mode::Planned),
+            ),
+            (&planned, format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)),
+        ] {
+            let rendered = draw(&effects)?;
+            let work = effect.calls(&rendered.counters).abs_diff(effect.calls(&base.counters));
+            let same = rendered.picture == everything.picture;
+            mixtures.push(TriedMixture { name, effects, work, same });
         }
     }
-    times.iter_mut().for_each(|times| times.sort_unstable());
-    let measured = |i: usize| {
-        let (effects, rounds, same) = (mixtures[i].0.clone(), times[i].len(), same[i]);
-        let us = |rank: usize| times[i][rank].as_secs_f64() * 1e6;
-        let (time_us, range_us) = (us(rounds / 2), [us(0), us(rounds - 1)]);
-        let quartiles_us = [1, 3].map(|n| us((rounds - 1) * n / 4));
-        Measured { effects, rounds, time_us, range_us, quartiles_us, same }
+    // The whole frames, and those whose work differs from that of the frame that they are compared with.
+    let mut timed = WHOLE.map(|(_, effects)| effects).to_vec();
+    let mut pairs: Vec<Pair> = vec![[0, 2], [1, 2]];
+    let places: Vec<Option<usize>> = (0..mixtures.len())
+        .map(|number| {
+            let TriedMixture { effects, work, .. } = &mixtures[number];
+            (*work > 0).then(|| {
+                timed.push(*effects);
+                // Everything is compared with the even ones, and the odd ones with the plan.
+                let last = timed.len() - 1;
+                pairs.push(if number.is_multiple_of(2) { [0, last] } else { [last, 2] });
+                last
+            })
+        })
+        .collect();
+    let shared = RefCell::new(target);
+    let pass = |effects: Effects| {
+        let shared = &shared;
+        Pass::new(move || {
+            let rendered = drawer.render(scene, &effects, &mut shared.borrow_mut());
+            std::hint::black_box(rendered.is_ok());
+        })
     };
+    let mut passes: Vec<Pass<'_>> = timed.into_iter().map(pass).collect();
+    if is_whole {
+        timing = timing.within(0.5);
+    }
+    let times = compare(&mut passes, timing, &|_| pairs.clone(), &|_| drawn());
+    drop(passes);
+    let target = shared.into_inner();
+    let whole = [&everything, &usual, &planned];
+    let whole = [0, 1, 2]
+        .map(|i| Measured::new(WHOLE[i].0, &times[i], whole[i].picture == everything.picture));
     let mut savings = Savings {
-        everything: measured(0),
-        usual: measured(1),
-        planned: measured(2),
+        times: [0, 1].map(|i| whole[i].over(&whole[2])),
+        noise: times[0].noise(),
         effects: Vec::new(),
-        mixtures: (WHOLE.len()..mixtures.len()).map(measured).collect(),
+        mixtures: Vec::new(),
+        changed: Vec::new(),
+        everything: whole[0].clone(),
+        usual: whole[1].clone(),
+        planned: whole[2].clone(),
     };
-    // As many as were measured: none of a large model.
-    for (effect, pair) in Effect::ALL.into_iter().zip(savings.mixtures.chunks_exact(2)) {
+    let [all, _, plan] = &whole;
+    let saves: Vec<Saves> = mixtures
+        .iter()
+        .zip(&places)
+        .enumerate()
+        .map(|(number, (TriedMixture { name, work, same, .. }, place))| {
+            let Some(place) = place else {
+                savings.changed.extend((!same).then(|| name.clone()));
+                return Saves::new(0, None);
+            };
+            let mixture = Measured::new(name, &times[*place], *same);
+            let ratio =
+                if number.is_multiple_of(2) { all.over(&mixture) } else { mixture.over(plan) };
+            savings.mixtures.push(mixture);
+            Saves::new(*work, Some(ratio))
+        })
+        .collect();
+    for (&effect, pair) in effects.iter().zip(saves.chunks_exact(2)) {
         let without = drawer.render_without(scene, effect, target)?;
         savings.effects.push(Saving {
             effect,
-            alone_us: pair[0].time_us,
-            saves_alone: 1.0 - pair[0].time_us / savings.everything.time_us,
-            noise_alone: pair[0].is_noise(&savings.everything),
-            all_but_us: pair[1].time_us,
-            saves_last: 1.0 - savings.planned.time_us / pair[1].time_us,
-            noise_last: pair[1].is_noise(&savings.planned),
+            alone: pair[0],
+            last: pair[1],
             wrong_without: differing(&without.picture, &everything.picture, 0).count() as u64,
         });
     }
     Ok((savings, [everything, planned]))
+}
+
+/// How long frames are compared where no number of rounds is given.
+const PLAN: Timing =
+    Timing { slice: Timing::QUICK.slice, budget: Duration::from_secs(10), rounds: None };
+
+/// Whether rounds of all mixtures would take far more than the budget, so that only whole frames are compared.
+fn is_slow(draw: &mut dyn FnMut(&Effects) -> Result<Rendered, BadScene>) -> Result<bool, BadScene> {
+    let start = Clock::Thread.now();
+    draw(&Effects::PLANNED)?;
+    draw(&Effects::ALWAYS)?;
+    let round_s = (Clock::Thread.now() - start) / 1e9 * Effect::ALL.len() as f64;
+    Ok(round_s > PLAN.budget.as_secs_f64() / 2.0)
 }
 
 /// Microseconds that a planned frame looks at triangles for the reason of depth, the median; none where it lists all.
@@ -203,48 +251,26 @@ pub fn measure(
 /// # Errors
 /// [`BadScene`].
 pub fn survey_us(scene: &Scene, target: &Target) -> Result<Option<f64>, BadScene> {
-    const ROUNDS: usize = 9;
-    let mut times = Vec::with_capacity(ROUNDS);
+    let timing = Timing { rounds: Some(9), ..PLAN };
+    let mut us = None;
     survey_again(scene, &Canvas::of(target), &mut |survey| {
-        for _ in 0..ROUNDS {
-            let start = Instant::now();
-            survey();
-            times.push(start.elapsed().as_secs_f64() * 1e6);
-        }
+        let times = compare(&mut [Pass::new(survey)], timing, &|_| Vec::new(), &|_| ());
+        us = times.first().map(|times| times.median() / 1e3);
     })?;
-    times.sort_by(f64::total_cmp);
-    Ok(times.get(ROUNDS / 2).copied())
+    Ok(us)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn measured(time_us: f64, quartiles_us: [f64; 2], rounds: usize) -> Measured {
-        let (effects, range_us) = (String::new(), quartiles_us);
-        Measured { effects, rounds, time_us, range_us, quartiles_us, same: true }
-    }
-
-    /// A number is said of what differs alone.
+    /// Made-up times in which a frame takes half as long without an effect: it saves that where it does work, and nothing where it
+    /// does none.
     #[test]
-    fn what_does_not_differ_has_no_factor() {
-        let phrases = |usual: Measured, rounds: usize| {
-            let savings = Savings {
-                everything: measured(85.0, [80.0, 90.0], rounds),
-                usual,
-                planned: measured(10.0, [9.0, 11.0], rounds),
-                effects: Vec::new(),
-                mixtures: Vec::new(),
-            };
-            savings.phrases()
-        };
-        let slow = "8.5 times as fast".to_owned();
-        let like = [slow.clone(), "as fast".to_owned()];
-        assert_eq!(phrases(measured(12.0, [10.0, 14.0], 9), 9), like, "within the noise");
-        assert_eq!(phrases(measured(10.3, [10.0, 10.6], 1), 1), like, "1.0 times");
-        let faster = [slow, "1.2 times as fast".to_owned()];
-        assert_eq!(phrases(measured(12.0, [11.5, 14.0], 9), 9), faster);
-        // Too few rounds for quartiles.
-        assert_eq!(phrases(measured(12.0, [10.0, 14.0], 1), 1), faster);
+    fn what_does_no_work_saves_nothing() {
+        let times = Times::of(vec![vec![2.0; 8], vec![1.0; 8]], None);
+        let ratio = times[0].over(&times[1]);
+        assert_eq!(Saves::new(7, ratio).words(), "50% (46 to 53)");
+        assert_eq!(Saves::new(0, ratio).words(), "no work");
     }
 }

@@ -3,21 +3,15 @@
 //! The error is the root of the mean square over the pixels that some edge passes through; pixels
 //! wholly inside or outside are right with any number of samples.
 
-use std::cell::RefCell;
 use std::ops::Range;
 
 use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell, Told};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::Corners;
-
-fn measures() -> Vec<Measure> {
-    let title = "root mean square distance from the exact share, over the pixels on an edge";
-    vec![Measure::new(title, "rms", Some(0.0))]
-}
 
 struct Variant {
     choice: Choice,
@@ -97,9 +91,9 @@ pub(super) fn measure_on(
     let triangles: Vec<Vec<Corners>> =
         scenes.iter().map(|scene| scene.triangles.iter().filter_map(snap).collect()).collect();
     let targets: Vec<_> =
-        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0.0))).collect();
+        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0.0))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Antialiasing, choices);
+    let mut draft = Draft::new(Ladder::Antialiasing, choices, options);
     for ((scene, triangles), target) in scenes.iter().zip(&triangles).zip(&targets) {
         draft.tell(progress, scenes.len());
         let column = |pixels| Column::new(scene.name, scene.about, triangles.len() as u64, pixels);
@@ -118,5 +112,5 @@ pub(super) fn measure_on(
         });
         draft.add(column(truth.pixels), cells);
     }
-    draft.finish(measures(), options, (progress, afterwards))
+    draft.finish_or_give(options, (progress, afterwards))
 }

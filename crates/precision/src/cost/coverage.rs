@@ -4,11 +4,12 @@
 //! and the triangle with its corners snapped to 1/256 px. Choices on the lattice are exact against the
 //! latter; what they show against the former is the price of snapping, an error of the input.
 
-use std::cell::RefCell;
-
 use super::external::ExternalVariant;
 use super::tiles::Lists;
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, PreparedCell};
+use super::{
+    Board, Choice, Clock, Column, CostOptions, Draft, Ladder, Name, Pass, Places, PreparedCell,
+    finish,
+};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
@@ -31,23 +32,6 @@ pub(super) const GIVEN: usize = 0;
 pub(super) const SNAPPED: usize = 1;
 const HOLES: usize = 2;
 const TWICE: usize = 3;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new(
-            "wrong pixels per million, against the vertices as given",
-            "wrong/M",
-            Some(0.0),
-        ),
-        Measure::new(
-            "wrong pixels per million, against the snapped vertices",
-            "snapped",
-            Some(0.0),
-        ),
-        Measure::new("pixels inside the mesh that no triangle hits", "holes", None),
-        Measure::new("pixels inside the mesh that two triangles hit", "twice", None),
-    ]
-}
 
 #[derive(Clone, Copy, Debug)]
 struct AsPublished(BookChapter2);
@@ -312,12 +296,12 @@ fn prepare<'a>(
     variant: &'a Variant,
     scene: &'a Scene,
     truth: &Truth,
-    target: &'a RefCell<Frame<u32>>,
+    target: &'a Places<Frame<u32>>,
 ) -> PreparedCell<'a> {
     match errors(variant, scene, truth) {
         Err(why) => PreparedCell::NotRun(why),
         Ok((errors, work)) => {
-            let pass = Box::new(|| {
+            let pass = Pass::new(|| {
                 variant.paint(std::hint::black_box(&scene.triangles), &mut target.borrow_mut());
             });
             PreparedCell::Ready { errors, work, pass }
@@ -333,43 +317,50 @@ fn prepare_external<'a>(
 ) -> PreparedCell<'a> {
     let mut ready = || {
         let spans = variant.spans(&scene.triangles, scene.bounds)?;
-        let pass = variant.pass(&scene.triangles, scene.bounds)?;
+        // A device works while the processor waits.
+        let pass = Pass::new(variant.pass(&scene.triangles, scene.bounds)?).by(Clock::Wall);
         Ok(PreparedCell::Ready { errors: score(&spans, scene, truth), work: None, pass })
     };
     ready().unwrap_or_else(PreparedCell::NotRun)
 }
 
-/// Measures one of the two groups, with external variants on it.
+/// Measures one of the two groups or both, with external variants on that of edge functions.
 pub(super) fn measure(
-    ladder: Ladder,
+    ladders: &[Ladder],
     options: &CostOptions,
     external: &mut [Box<dyn ExternalVariant>],
     progress: &dyn Fn(f64, &str),
-) -> Board {
+) -> Vec<Board> {
     let pixels = if options.quick { 60_000 } else { 800_000 };
     let scenes = scenes(options.seed, Size { side_px: 1024, pixels });
-    let variants = variants(ladder);
+    let groups: Vec<(Ladder, Vec<Variant>)> =
+        ladders.iter().map(|&ladder| (ladder, variants(ladder))).collect();
     let targets: Vec<_> =
-        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0))).collect();
-    let own = variants.iter().map(|variant| variant.choice.clone());
-    let choices = own.chain(external.iter().map(|variant| variant.choice()));
-    let mut draft = Draft::new(ladder, choices);
-    for (scene, target) in scenes.iter().zip(&targets) {
-        draft.tell(progress, scenes.len());
-        let items = scene.triangles.len() as u64;
-        if scene.name.starts_with(W_PREFIX) {
-            let column = Column::new(scene.name, scene.about, items, 0);
-            draft.leave_out(column, "coverage does not depend on w");
-            continue;
+        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0))).collect();
+    let mut drafts = Vec::new();
+    for (ladder, variants) in &groups {
+        let external: &mut [_] = if *ladder == Ladder::EdgeFunction { external } else { &mut [] };
+        let own = variants.iter().map(|variant| variant.choice.clone());
+        let choices = own.chain(external.iter().map(|variant| variant.choice()));
+        let mut draft = Draft::new(*ladder, choices, options);
+        for (scene, target) in scenes.iter().zip(&targets) {
+            draft.tell(progress, scenes.len());
+            let items = scene.triangles.len() as u64;
+            if scene.name.starts_with(W_PREFIX) {
+                let column = Column::new(scene.name, scene.about, items, 0);
+                draft.leave_out(column, "coverage does not depend on w");
+                continue;
+            }
+            let truth = Truth::of(scene);
+            let own = variants.iter().map(|variant| prepare(variant, scene, &truth, target));
+            let others = external.iter_mut();
+            let others = others.map(|variant| prepare_external(variant.as_mut(), scene, &truth));
+            let column = Column::new(scene.name, scene.about, items, truth.pixels[GIVEN]);
+            draft.add(column, own.chain(others));
         }
-        let truth = Truth::of(scene);
-        let own = variants.iter().map(|variant| prepare(variant, scene, &truth, target));
-        let others = external.iter_mut();
-        let others = others.map(|variant| prepare_external(variant.as_mut(), scene, &truth));
-        let column = Column::new(scene.name, scene.about, items, truth.pixels[GIVEN]);
-        draft.add(column, own.chain(others));
+        drafts.push(draft);
     }
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    finish(drafts, options, progress)
 }
 
 #[cfg(test)]

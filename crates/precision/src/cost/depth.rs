@@ -3,7 +3,7 @@
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -15,22 +15,6 @@ const DISTANCES: [(&str, f64); 5] =
 /// How far apart the layers are, over the distance.
 const APART: f64 = 1e-4;
 const SIDE_PX: usize = 64;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new(
-            "pixels per million showing the wrong one of two layers z / 10,000 apart",
-            "wrong/M",
-            Some(0.0),
-        ),
-        Measure::new(
-            "gap: the least distance behind z that is stored as another depth",
-            "gap",
-            None,
-        ),
-        Measure::new("step: the largest such gap over a thousand distances around z", "step", None),
-    ]
-}
 
 /// Two layers over a tile of pixels, as the depths at three of its corners.
 struct Layers {
@@ -121,33 +105,29 @@ fn step<F: Format>(z: f64) -> f64 {
     (0..1000).map(|i| gap::<F>(z * (1.0 - 0.003 * f64::from(i) / 1013.0))).fold(0.0, f64::max)
 }
 
-trait AnyFormat {
-    /// Draws the layers and counts what is wrong of them; and draws them again to be timed.
-    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> PreparedCell<'a>;
+/// Draws the layers and counts what is wrong of them; and draws them again to be timed.
+fn prepare<F: Format + 'static>(z: f64, layers: &[Layers]) -> PreparedCell<'_> {
+    let pixels = layers.len() * SIDE_PX * SIDE_PX;
+    let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
+    draw::<F>(layers, &mut buffer, &mut colours);
+    let wrong = colours.iter().filter(|&&colour| colour != 2).count();
+    let per_million = wrong as f64 * 1e6 / pixels as f64;
+    let errors = vec![Some(per_million), Some(gap::<F>(z)), Some(step::<F>(z))];
+    PreparedCell::ready(errors, move || {
+        draw::<F>(std::hint::black_box(layers), &mut buffer, &mut colours);
+        std::hint::black_box(&buffer);
+    })
 }
 
-impl<F: Format + 'static> AnyFormat for F {
-    fn prepare<'a>(&self, z: f64, layers: &'a [Layers]) -> PreparedCell<'a> {
-        let pixels = layers.len() * SIDE_PX * SIDE_PX;
-        let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
-        draw::<F>(layers, &mut buffer, &mut colours);
-        let wrong = colours.iter().filter(|&&colour| colour != 2).count();
-        let per_million = wrong as f64 * 1e6 / pixels as f64;
-        let errors = vec![Some(per_million), Some(gap::<F>(z)), Some(step::<F>(z))];
-        PreparedCell::ready(errors, move || {
-            draw::<F>(std::hint::black_box(layers), &mut buffer, &mut colours);
-            std::hint::black_box(&buffer);
-        })
-    }
-}
+type Prepare = for<'a> fn(f64, &'a [Layers]) -> PreparedCell<'a>;
 
-fn variants() -> Vec<(Choice, Box<dyn AnyFormat>)> {
+fn variants() -> Vec<(Choice, Prepare)> {
     let choice = |name, about| Choice::new(name, about, &[]);
     vec![
-        (choice("24-bit", "whole numbers, 0 at the near plane"), Box::new(Fixed24)),
-        (choice("f32", "-1 at the near plane"), Box::new(Forward::<f32>::default())),
-        (choice("f32 reversed", "1 at the near plane"), Box::new(Reversed::<f32>::default())),
-        (choice("f64", "-1 at the near plane"), Box::new(Forward::<f64>::default())),
+        (choice("24-bit", "whole numbers, 0 at the near plane"), prepare::<Fixed24>),
+        (choice("f32", "-1 at the near plane"), prepare::<Forward<f32>>),
+        (choice("f32 reversed", "1 at the near plane"), prepare::<Reversed<f32>>),
+        (choice("f64", "-1 at the near plane"), prepare::<Forward<f64>>),
     ]
 }
 
@@ -156,17 +136,18 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };
     let made = DISTANCES.map(|(name, z)| layers(options.seed, name, z, tiles));
-    let mut draft = Draft::new(Ladder::Depth, variants.iter().map(|(choice, _)| choice.clone()));
+    let mut draft =
+        Draft::new(Ladder::Depth, variants.iter().map(|(choice, _)| choice.clone()), options);
     for ((name, z), layers) in DISTANCES.into_iter().zip(&made) {
         draft.tell(progress, DISTANCES.len());
         let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");
         let pixels = (2 * tiles * SIDE_PX * SIDE_PX) as u64;
-        let cells = variants.iter().map(|(_, format)| format.prepare(z, layers));
+        let cells = variants.iter().map(|(_, prepare)| prepare(z, layers));
         draft.add(Column::new(name, about, 2 * tiles as u64, pixels), cells);
     }
     let why = "depth depends on the distance from the eye, not on the shape";
     draft.leave_out_classes(options, why);
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }
 
 #[cfg(test)]

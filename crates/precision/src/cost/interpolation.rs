@@ -3,13 +3,11 @@
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels,
 //! against quotients of big integers; each choice with a derived bound is also held to that.
 
-use std::cell::RefCell;
-
 use super::bounds::{Bound, Place, largest};
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, Name, PreparedCell, Told};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Name, Places, PreparedCell, Told};
 use crate::ladder::Real;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -20,19 +18,7 @@ use rasterproof_core::triangle::Span;
 use rasterproof_verify::oracle::values::{Exact, ExactTriangle};
 
 /// Half a step of 8 bits over [0, M]: nobody sees less.
-const HALF_STEP: f64 = 1.0 / 512.0;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new(
-            "worst error over M, the largest value of a vertex",
-            "error / M",
-            Some(HALF_STEP),
-        ),
-        Measure::new("worst error in units of u M, u of the float used", "u M", None),
-        Measure::new("worst error over its derived bound", "of bound", None),
-    ]
-}
+pub(super) const HALF_STEP: f64 = 1.0 / 512.0;
 
 impl AnyValues<Valued> for Planes {
     fn each(&self, drawn: &CoveredTriangle<Valued>, emit: &mut dyn FnMut(i32, i32, f64)) {
@@ -171,10 +157,20 @@ struct Sample {
     exact: Exact,
 }
 
+/// Every so many-th pixel is a sample, so that there are about `count`.
+fn stride(pixels: usize, count: usize) -> usize {
+    // Odd, so that a stride does not keep step with rows of even length.
+    (pixels / count).max(1) | 1
+}
+
+/// In how many of so many pixels values are compared.
+pub fn compared_values(pixels: u64) -> u64 {
+    pixels.div_ceil(stride(pixels as usize, SAMPLES) as u64)
+}
+
 /// About `count` samples of all pixels, evenly spread in drawing order.
 fn samples(drawn: &[CoveredTriangle<Valued>], count: usize) -> Vec<Sample> {
-    // Odd, so that a stride does not keep step with rows of even length.
-    let stride = (pixels(drawn) / count).max(1) | 1;
+    let stride = stride(pixels(drawn), count);
     let mut samples = Vec::new();
     let mut before = 0;
     for (triangle, CoveredTriangle { triangle: valued, spans, .. }) in drawn.iter().enumerate() {
@@ -227,9 +223,8 @@ fn errors(
     let (mut worst, mut worst_bound) = (0f64, None::<f64>);
     at_samples(&*variant.body, drawn, samples, &mut |of_this, sample, [x_px, y_px], value| {
         let CoveredTriangle { triangle, spans, .. } = of_this;
-        let m = largest(triangle.value);
         let error = sample.exact.distance(value);
-        worst = worst.max(if m > 0.0 { error / m } else { error });
+        worst = worst.max(relative(of_this, sample, value));
         let place = Place { triangle, spans, span: row_of(spans, y_px), x_px };
         if let Some(bound) = variant.bound.at(&place, variant.unit) {
             let share = if error == 0.0 { 0.0 } else { error / bound };
@@ -249,27 +244,41 @@ fn row_of(spans: &[Span], y_px: i32) -> Span {
 /// What the choices get wrong of some triangles.
 #[derive(Clone, Debug)]
 pub struct WrongValues {
-    /// By choice and by triangle: pixels whose value is off by more than half a step of 8 bits of the largest.
-    pub wrong: Vec<Vec<u64>>,
+    pub choices: Vec<WrongOfChoice>,
     /// Pixels that were looked at, evenly spread, and all.
     pub pixels: u64,
     pub of: u64,
+}
+
+#[derive(Clone, Debug)]
+pub struct WrongOfChoice {
+    /// By triangle the pixels whose value is off by more than half a step of 8 bits of the largest.
+    pub wrong: Vec<u64>,
+    /// The worst error over the largest value.
+    pub worst: f64,
 }
 
 /// The pixels of each triangle in which each choice is visibly wrong.
 pub fn wrong_values(scene: &Scene) -> WrongValues {
     let drawn = valued(scene);
     let samples = samples(&drawn, 4 * SAMPLES);
-    let wrong = variants().into_iter().map(|variant| {
-        let mut wrong = vec![0; scene.triangles.len()];
+    let of_choice = |variant: Variant| {
+        let mut found = WrongOfChoice { wrong: vec![0; scene.triangles.len()], worst: 0.0 };
         at_samples(&*variant.body, &drawn, &samples, &mut |of_this, sample, _, value| {
             let limit = HALF_STEP * largest(of_this.triangle.value);
-            wrong[of_this.number] += u64::from(sample.exact.distance(value) > limit);
+            found.wrong[of_this.number] += u64::from(sample.exact.distance(value) > limit);
+            found.worst = found.worst.max(relative(of_this, sample, value));
         });
-        wrong
-    });
-    let wrong = wrong.collect();
-    WrongValues { wrong, pixels: samples.len() as u64, of: pixels(&drawn) as u64 }
+        found
+    };
+    let choices = variants().into_iter().map(of_choice).collect();
+    WrongValues { choices, pixels: samples.len() as u64, of: pixels(&drawn) as u64 }
+}
+
+/// The error of a value over the largest of its triangle, where that is not 0.
+fn relative(of_this: &CoveredTriangle<Valued>, sample: &Sample, value: f64) -> f64 {
+    let (m, error) = (largest(of_this.triangle.value), sample.exact.distance(value));
+    if m > 0.0 { error / m } else { error }
 }
 
 pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
@@ -290,9 +299,9 @@ pub(super) fn measure_on(
     let variants = variants();
     let drawn: Vec<_> = scenes.iter().map(valued).collect();
     let targets: Vec<_> =
-        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
+        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0f32))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Interpolation, choices);
+    let mut draft = Draft::new(Ladder::Interpolation, choices, options);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
         draft.tell(progress, scenes.len());
         let samples = samples(drawn, count);
@@ -304,7 +313,7 @@ pub(super) fn measure_on(
         let (items, pixels) = (drawn.len() as u64, pixels(drawn) as u64);
         draft.add(Column::new(scene.name, scene.about, items, pixels), cells);
     }
-    draft.finish(measures(), options, (progress, afterwards))
+    draft.finish_or_give(options, (progress, afterwards))
 }
 
 #[cfg(test)]

@@ -3,11 +3,9 @@
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels, against derivatives in
 //! quotients of big integers, of which the logarithm alone is rounded.
 
-use std::cell::RefCell;
-
 use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell};
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
@@ -16,17 +14,10 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 
 /// A part of a level that 8 bits between two levels can express, as the Vulkan specification wants at most.
-const STEP: f64 = 1.0 / 256.0;
+pub(super) const STEP: f64 = 1.0 / 256.0;
 
 /// Pixels of a class at which errors are taken.
 const SAMPLES: usize = 400;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new("largest distance from the exact level of detail", "levels", Some(STEP)),
-        Measure::new("mean distance from the exact level of detail", "mean", None),
-    ]
-}
 
 /// The triangles of a scene on the lattice that cover anything, with texture coordinates made of their positions.
 fn textured(scene: &Scene) -> Vec<CoveredTriangle<Textured>> {
@@ -136,8 +127,9 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let variants = variants();
     let drawn: Vec<_> = scenes.iter().map(textured).collect();
     let targets: Vec<_> =
-        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
-    let mut draft = Draft::new(Ladder::Levels, variants.iter().map(|(choice, _)| choice.clone()));
+        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0f32))).collect();
+    let mut draft =
+        Draft::new(Ladder::Levels, variants.iter().map(|(choice, _)| choice.clone()), options);
     for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
         draft.tell(progress, scenes.len());
         let samples = samples(drawn);
@@ -149,7 +141,7 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
         let (items, pixels) = (drawn.len() as u64, pixels(drawn) as u64);
         draft.add(Column::new(scene.name, scene.about, items, pixels), cells);
     }
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }
 
 #[cfg(test)]

@@ -1,9 +1,7 @@
 //! The group of lines: pixels beside the nearest one, and what drawing takes.
 
-use std::cell::RefCell;
-
 use super::scene::{Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -15,11 +13,6 @@ use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_verify::oracle::Oracle;
 
 type Ends = [PixelPoint; 2];
-
-fn measures() -> Vec<Measure> {
-    let title = "wrong pixels per million, against the exact line";
-    vec![Measure::new(title, "wrong/M", Some(0.0))]
-}
 
 trait AnyDraw {
     fn accepts(&self, ends: Ends) -> Result<(), String>;
@@ -151,9 +144,9 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     let made: Vec<_> =
         classes.iter().map(|class| lines(class.name, options.seed, &size, class.bounds)).collect();
     let targets: Vec<_> =
-        classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
+        classes.iter().map(|class| Places::new(|| Frame::new(class.bounds, 0))).collect();
     let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Lines, choices);
+    let mut draft = Draft::new(Ladder::Lines, choices, options);
     for ((class, made), target) in classes.iter().zip(&made).zip(&targets) {
         draft.tell(progress, classes.len());
         let (lines, about) = match made {
@@ -178,5 +171,5 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
         });
         draft.add(Column::new(class.name, *about, lines.len() as u64, pixels), cells);
     }
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }

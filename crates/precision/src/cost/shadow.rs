@@ -4,7 +4,7 @@
 //! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Measure, PreparedCell};
+use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_core::random::Rng;
 
@@ -36,17 +36,6 @@ const TILE: usize = SIDE * SIDE;
 const MAP: f64 = 1024.0;
 /// The 3 x 3 texels around its place that a fragment reads.
 const TAPS: u8 = 9;
-
-fn measures() -> Vec<Measure> {
-    vec![
-        Measure::new("places per million in shadow that some light reaches", "missed/M", Some(0.0)),
-        Measure::new(
-            "places per million in the light that keep some of it from themselves",
-            "acne/M",
-            Some(0.0),
-        ),
-    ]
-}
 
 struct Tile {
     receiver: DepthPlane,
@@ -117,35 +106,28 @@ fn errors(lit: &[u8]) -> Vec<Option<f64>> {
     vec![share(0), share(1)]
 }
 
-trait AnyFormat {
-    /// Draws the tiles and counts what is wrong of them; and draws them again to be timed.
-    fn prepare<'a>(&self, tiles: &'a [Tile]) -> PreparedCell<'a>;
+/// Draws the tiles and counts what is wrong of them; and draws them again to be timed.
+fn prepare<F: Format + 'static>(tiles: &[Tile]) -> PreparedCell<'_> {
+    let places = tiles.len() * TILE;
+    let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
+    draw::<F>(tiles, &mut map, &mut lit);
+    PreparedCell::ready(errors(&lit), move || {
+        draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
+        std::hint::black_box(&lit);
+    })
 }
 
-impl<F: Format + 'static> AnyFormat for F {
-    fn prepare<'a>(&self, tiles: &'a [Tile]) -> PreparedCell<'a> {
-        let places = tiles.len() * TILE;
-        let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
-        draw::<F>(tiles, &mut map, &mut lit);
-        PreparedCell::ready(errors(&lit), move || {
-            draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
-            std::hint::black_box(&lit);
-        })
-    }
-}
+type Prepare = for<'a> fn(&'a [Tile]) -> PreparedCell<'a>;
 
-fn variants() -> Vec<(Choice, Box<dyn AnyFormat>)> {
+fn variants() -> Vec<(Choice, Prepare)> {
     let choice = |name, about| Choice::new(name, about, &[]);
     vec![
-        (
-            choice("24-bit, no bias", "depths are compared as they are"),
-            Box::new(Unbiased::default()),
-        ),
-        (choice("16-bit", "whole numbers"), Box::new(Fixed16::default())),
-        (choice("24-bit", "whole numbers"), Box::new(Fixed24::default())),
-        (choice("32-bit", "whole numbers, as the renderer here"), Box::new(Fixed32::default())),
-        (choice("f32", "a float"), Box::new(Floats::<f32>::default())),
-        (choice("f64", "a double"), Box::new(Floats::<f64>::default())),
+        (choice("24-bit, no bias", "depths are compared as they are"), prepare::<Unbiased>),
+        (choice("16-bit", "whole numbers"), prepare::<Fixed16>),
+        (choice("24-bit", "whole numbers"), prepare::<Fixed24>),
+        (choice("32-bit", "whole numbers, as the renderer here"), prepare::<Fixed32>),
+        (choice("f32", "a float"), prepare::<Floats<f32>>),
+        (choice("f64", "a double"), prepare::<Floats<f64>>),
     ]
 }
 
@@ -154,19 +136,20 @@ pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Bo
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };
     let made = CLASSES.each_ref().map(|class| tiles(options.seed, class, count));
-    let mut draft = Draft::new(Ladder::Shadows, variants.iter().map(|(choice, _)| choice.clone()));
+    let mut draft =
+        Draft::new(Ladder::Shadows, variants.iter().map(|(choice, _)| choice.clone()), options);
     for (class, tiles) in CLASSES.iter().zip(&made) {
         draft.tell(progress, CLASSES.len());
         let slope =
             if class.slope > 0.0 { "sloping by up to 10 degrees" } else { "facing the light" };
         let about = format!("surfaces {slope}, 2^-{} of the map's depth apart", class.apart);
-        let cells = variants.iter().map(|(_, format)| format.prepare(tiles));
+        let cells = variants.iter().map(|(_, prepare)| prepare(tiles));
         let pixels = (count * TILE) as u64;
         draft.add(Column::new(class.name, about, count as u64, pixels), cells);
     }
     let why = "shadows depend on the depths of surfaces, not on their shapes";
     draft.leave_out_classes(options, why);
-    draft.finish(measures(), options, (progress, &mut |_, _| ()))
+    draft.finish(options, progress)
 }
 
 #[cfg(test)]
@@ -176,9 +159,7 @@ mod tests {
     fn errors_of<F: Format + Default + 'static>(name: &str) -> [f64; 2] {
         let class = CLASSES.iter().find(|class| class.name == name).unwrap();
         let tiles = tiles(3, class, 64);
-        let PreparedCell::Ready { errors, .. } = F::default().prepare(&tiles) else {
-            unreachable!()
-        };
+        let PreparedCell::Ready { errors, .. } = prepare::<F>(&tiles) else { unreachable!() };
         [errors[0].unwrap(), errors[1].unwrap()]
     }
 

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::{Board, Ladder};
+use super::{Board, Ladder, Ratio, Time};
 
 /// The cheapest choices of one class of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -24,7 +24,7 @@ pub struct Dominated {
     pub by: Vec<usize>,
 }
 
-/// What no error costs over the cheapest choice, for one class of scenes.
+/// What no error costs over the cheapest choice of both groups, for one class of scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Price {
     pub column: String,
@@ -41,7 +41,7 @@ pub struct Price {
 pub struct Priced {
     pub name: String,
     pub pixel_ns: f64,
-    pub ratio: f64,
+    pub ratio: Ratio,
 }
 
 impl Board {
@@ -77,8 +77,7 @@ impl Board {
     }
 
     /// Whether `other` beats `choice` in a column: by this measure and those that rank nothing it is
-    /// at most as wrong, and three quarters of its rounds were faster than three quarters of the
-    /// choice's.
+    /// at most as wrong, and its ratio to the cheapest choice is below that of the choice, intervals and all.
     fn beats(&self, other: usize, choice: usize, column: usize, measure: usize) -> Option<bool> {
         let (a, b) = (self.time(other, column)?, self.time(choice, column)?);
         let at_most = |m: usize| match (self.error(other, column, m), self.error(choice, column, m))
@@ -93,7 +92,7 @@ impl Board {
         }
         let counts = |m: &usize| *m == measure || self.measures[*m].goal.is_none();
         let no_worse = (0..self.measures.len()).filter(counts).all(at_most);
-        Some(no_worse && a.pixel_ns.high < b.pixel_ns.low)
+        Some(no_worse && a.times.high < b.times.low)
     }
 
     /// Choices that are beaten in every column in which they ran.
@@ -132,32 +131,25 @@ pub fn prices(boards: &[Board]) -> Vec<Price> {
         .collect();
     let Some(first) = coverage.first() else { return Vec::new() };
     let price = |column: usize| {
-        let cheapest = |filter: &dyn Fn(&Board, usize) -> bool| {
-            let choices = coverage.iter().flat_map(|board| {
-                (0..board.choices.len()).filter(|&choice| filter(board, choice)).filter_map(
-                    |choice| {
-                        let time = board.time(choice, column)?.pixel_ns.median;
-                        let kind =
-                            if board.ladder == Ladder::Scanline { "scanline" } else { "edge" };
-                        Some((format!("{kind} {}", board.choices[choice].name), time))
-                    },
-                )
+        let cheapest = |filter: &dyn Fn(&[usize]) -> bool| {
+            let timed = coverage.iter().flat_map(|board| {
+                let choices = board.choices.iter().enumerate();
+                let choices = choices.filter(|(_, choice)| filter(&choice.promises));
+                choices.filter_map(|(number, choice)| {
+                    let Time { pixel_ns, times } = board.time(number, column)?;
+                    let kind = if board.ladder == Ladder::Scanline { "scanline" } else { "edge" };
+                    let name = format!("{kind} {}", choice.name);
+                    Some(Priced { name, pixel_ns: pixel_ns.median, ratio: *times })
+                })
             });
-            choices.min_by(|a, b| a.1.total_cmp(&b.1))
-        };
-        let (name, least) = cheapest(&|_, _| true)?;
-        let priced =
-            |(name, pixel_ns): (String, f64)| Priced { name, pixel_ns, ratio: pixel_ns / least };
-        let certain = |measure: usize| {
-            cheapest(&|board, choice| board.choices[choice].promises.contains(&measure)).map(priced)
+            timed.min_by(|a, b| a.pixel_ns.total_cmp(&b.pixel_ns))
         };
         Some(Price {
             column: first.columns[column].name.to_string(),
-            cheapest: priced((name, least)),
-            unpromised: cheapest(&|board, choice| board.choices[choice].promises.is_empty())
-                .map(priced),
-            snapped: certain(super::coverage::SNAPPED),
-            given: certain(super::coverage::GIVEN),
+            cheapest: cheapest(&|_| true)?,
+            unpromised: cheapest(&<[usize]>::is_empty),
+            snapped: cheapest(&|promises| promises.contains(&super::coverage::SNAPPED)),
+            given: cheapest(&|promises| promises.contains(&super::coverage::GIVEN)),
         })
     };
     first.columns_run().filter_map(price).collect()

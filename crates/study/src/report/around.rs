@@ -54,7 +54,7 @@ impl Around {
         });
         for (place, group) in groups.iter().enumerate() {
             if let Some(choice) = group.cheapest_exact(group.measures.len() - 1) {
-                let key = (place, group.choices[choice].name.clone());
+                let key = (place, group.choices[choice].name().to_owned());
                 self.best.entry(key).or_insert((group.title, 0)).1 += 1;
             }
         }

@@ -7,11 +7,11 @@
 use super::{cost_plots, json};
 use rasterproof_host::text::printable;
 use rasterproof_precision::cost::{
-    Board, Cell, Ladder, Measure, Price, Priced, Recorded, Run, Time, prices,
+    Board, CELLS, Cell, Column, Ladder, Measure, Price, Priced, Ratio, Recorded, Run, Time, prices,
 };
 use rasterproof_report::canvas;
 use rasterproof_report::html::{Figure, Report};
-use rasterproof_report::table::{Column, Row, Table};
+use rasterproof_report::table::{self, Row, Table};
 use rasterproof_report::words::number;
 
 const WIDTH: usize = 100;
@@ -68,19 +68,24 @@ fn error_cell(board: &Board, choice: usize, column: usize, measure: usize) -> Op
 }
 
 fn times(board: &Board) -> [Table; 2] {
-    let cell = |choice: usize, column: usize, value: fn(&Time) -> f64| {
+    let cell = |choice: usize, column: usize, value: &dyn Fn(f64) -> f64| {
         let time = board.time(choice, column)?;
         let fastest = (0..board.choices.len())
             .filter_map(|r| board.time(r, column))
             .all(|other| other.pixel_ns.median >= time.pixel_ns.median);
         let mark = if fastest { '<' } else { ' ' };
-        Some((format!("{}{mark}", number(value(time), cell_width(board))), false))
+        Some((format!("{}{mark}", number(value(time.pixel_ns.median), cell_width(board))), false))
     };
-    let title =
-        format!("ns for each covered pixel, median of {} rounds (< the fastest)", board.rounds);
-    let pixels = block(board, title, &|r, c| cell(r, c, |t| t.pixel_ns.median));
+    let title = format!(
+        "ns for each covered pixel, median of {} rounds or more (< the fastest)",
+        board.rounds
+    );
+    let pixels = block(board, title, &|r, c| cell(r, c, &|ns| ns));
     let title = "ns for each triangle or line".to_owned();
-    let mut items = block(board, title, &|r, c| cell(r, c, |t| t.item_ns.median));
+    let mut items = block(board, title, &|r, c| {
+        let Column { items, pixels, .. } = board.columns[c];
+        cell(r, c, &|ns| ns * pixels.max(1) as f64 / items.max(1) as f64)
+    });
     let timed = board.cells.iter().flatten().filter_map(|cell| cell.run()?.time);
     let spread = |t: Time| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median;
     let mut spreads: Vec<f64> = timed.map(|time| spread(time) * 100.0).collect();
@@ -88,6 +93,13 @@ fn times(board: &Board) -> [Table; 2] {
     if let (Some(middle), Some(worst)) = (spreads.get(spreads.len() / 2), spreads.last()) {
         items.notes.push(format!(
             "quartiles lie {middle:.0}% of the median apart in the middle cell, {worst:.0}% in the worst"
+        ));
+    }
+    let noise = board.columns.iter().filter_map(|column| column.noise.map(Ratio::off_one));
+    if let Some(worst) = noise.reduce(f64::max) {
+        items.notes.push(format!(
+            "two equal passes differ by at most {:.1}% in a class",
+            100.0 * (worst - 1.0)
         ));
     }
     [pixels, items]
@@ -144,9 +156,9 @@ fn block(board: &Board, caption: String, cell: &dyn Fn(usize, usize) -> Option<M
         let name = &board.columns[column].name;
         let has_room = name.chars().count() < cell_width(board).max(6);
         let head = if has_room { format!("{name} ") } else { name.to_string() };
-        Column::numbers(name, "").short(head).least(cell_width(board))
+        table::Column::numbers(name, "").short(head).least(cell_width(board))
     };
-    let first = Column::words("choice").short("").least(NAME - INDENT);
+    let first = table::Column::words("choice").short("").least(NAME - INDENT);
     let columns = [first].into_iter().chain(columns.iter().map(head)).collect();
     Table::of(&caption, columns, choices.clone().filter(has_cell).map(row).collect())
 }
@@ -191,17 +203,17 @@ fn dominated(board: &Board) -> Vec<String> {
 /// What exact coverage costs over the cheapest choice, for each class; nothing where that was not measured.
 pub fn price(boards: &[Board]) -> Option<Table> {
     let prices = prices(boards);
-    let columns =
-        "~class 8 | >cheapest in floats 29 | >exact on the lattice 28 | >exact as given 30";
+    let columns = "~class 6 | cheapest in floats 40 | exact on the lattice 40 | :exact as given";
     let cell = |p: &Option<Priced>| {
-        p.as_ref().map_or("not run".to_owned(), |p| format!("{} {:.2}x", p.name, p.ratio))
+        p.as_ref().map_or("not run".to_owned(), |p| format!("{} {}", p.name, p.ratio))
     };
     let row = |price: &Price| {
         let [floats, snapped, given] = [&price.unpromised, &price.snapped, &price.given].map(cell);
         Row::of(&[&price.column, &floats, &snapped, &given])
     };
     let caption = "Exact coverage over the cheapest choice, by ns for each covered pixel";
-    (!prices.is_empty()).then(|| Table::new(caption, columns, prices.iter().map(row).collect()))
+    let table = || Table::new(caption, columns, prices.iter().map(row).collect());
+    (!prices.is_empty()).then(|| table().noted(vec![CELLS.to_owned()]))
 }
 
 /// What was measured, with plots that are given.

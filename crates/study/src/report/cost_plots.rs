@@ -6,7 +6,7 @@
 
 use crate::cost::Group;
 use crate::grid::GridPrice;
-use rasterproof_precision::cost::{Board, Ladder, Price, Priced};
+use rasterproof_precision::cost::{Board, Ladder, Price, Priced, Ratio};
 use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
 use rasterproof_report::words::{number, thousands};
 use rasterproof_verify::judge::ascii;
@@ -64,15 +64,16 @@ pub fn pareto(board: &Board, in_row: usize) -> Drawing {
 /// The same of a model, a panel for each part of the work.
 pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
     let panel = |group: &Group| {
-        let best = group.best.iter().flatten().map(|best| best.choice).collect::<Vec<_>>();
-        let dot = |(number, choice): (usize, &crate::cost::Choice)| {
-            let time = choice.time.filter(|_| choice.refused.is_none())?;
+        let measures = 0..group.measures.len();
+        let best: Vec<usize> = measures.filter_map(|one| group.cheapest_exact(one)).collect();
+        let dot = |(number, choice): (usize, &crate::cost::JudgedChoice)| {
+            let time = choice.time.as_ref().filter(|_| choice.refused.is_none())?.spread();
             let first = choice.errors.first().copied().flatten()?;
             let is_exact = |measure: usize| group.is_exact(choice, measure);
             // As on a board: what is exact once corners are snapped stands on the shelf.
             let hollow = !is_exact(0) && group.measures.len() > 1 && is_exact(1);
             Some(Dot {
-                label: choice.name.clone(),
+                label: choice.name().to_owned(),
                 time: time.median / 1e6,
                 quartiles: [time.low / 1e6, time.high / 1e6],
                 error: (first > 0.0 && !hollow).then_some(first),
@@ -84,7 +85,7 @@ pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
         };
         Panel {
             head: group.title.to_owned(),
-            up: group.measures[0].title.to_owned(),
+            up: group.measures[0].title.to_string(),
             right: "time in ms".to_owned(),
             snapping: None,
             dots: group.choices.iter().enumerate().filter_map(dot).collect(),
@@ -187,7 +188,7 @@ pub fn effects(rows: &[(&str, Option<f64>, bool, u64)], width: f64) -> Drawing {
         let ink = if is_saved { GREEN } else { BLUE };
         let time = match ms {
             Some(ms) => (ms / most_ms, ink, format!("{} ms", number(ms, 8))),
-            None => (0.0, SOFT, "noise".to_owned()),
+            None => (0.0, SOFT, "no time".to_owned()),
         };
         let pixels = (wrong as f64 / most_px, RED, format!("{} px", thousands(wrong)));
         (name, vec![time, pixels])
@@ -204,14 +205,15 @@ pub fn price(prices: &[Price], width: f64) -> Drawing {
         (GREEN, "the cheapest that is exact on the 1/256-px lattice (snaps)"),
         (SAND, "the cheapest that is exact for the vertices as given"),
     ];
-    let most = prices.iter().flat_map(kinds).flatten().map(|one| one.ratio).fold(1.0, f64::max);
+    let most =
+        prices.iter().flat_map(kinds).flatten().map(|one| one.ratio.median).fold(1.0, f64::max);
     let bar = |(priced, ink): (Option<Priced>, Ink)| {
         let Priced { name, ratio, pixel_ns } = priced?;
-        let label = match ratio {
-            1.0 => format!("{name} {} ns/px", number(pixel_ns, 8)),
-            _ => format!("{name} {ratio:.2}x"),
+        let label = match ratio == Ratio::ONE {
+            true => format!("{name} {} ns/px", number(pixel_ns, 8)),
+            false => format!("{name} {ratio}"),
         };
-        Some((ratio / most, ink, label))
+        Some((ratio.median / most, ink, label))
     };
     let row = |price: &'_ Price| {
         kinds(price).into_iter().zip(legend.map(|one| one.0)).filter_map(bar).collect()

@@ -1,12 +1,12 @@
 //! A study and the boards of `cost` for machines.
 
-use rasterproof_precision::cost::{Recorded, prices};
+use rasterproof_precision::cost::{Recorded, Spread, Times, prices};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Places, StudyFindings};
-use crate::cost::{Choice, Group};
-use crate::effects::{Need, Needs, State};
+use crate::cost::{Group, JudgedChoice};
+use crate::effects::{Adds, Need, Needs, State};
 use crate::hard::{HardCases, Shifted};
 use crate::{face_of, triangle_of};
 
@@ -108,27 +108,30 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
 
 pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
     let group = |group: &Group| {
-        let choice = |choice: &Choice| {
+        let least = group.cheapest_of_job(groups);
+        let choice = |choice: &JudgedChoice| {
             let first = choice.first_wrong.map(|(of, [x, y])| {
                 let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
                 json!({ "pixel": [x, y], "face": face })
             });
-            let time = choice.time.map(|time| [time.low, time.median, time.high]);
+            let time = choice.time.as_ref().map(quartiles);
+            let times = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
             let measures = 0..group.measures.len();
             let exact: Vec<_> = measures.filter(|one| group.is_exact(choice, *one)).collect();
             json!({
-                "name": choice.name, "about": choice.about, "errors": choice.errors,
+                "name": choice.name(), "about": choice.choice.about, "errors": choice.errors,
                 "exact": exact, "first_wrong": first,
                 "margin": choice.margin.filter(|margin| margin.is_finite()), "time_ns": time,
+                "times": times, "wall_ns": choice.time.as_ref().and_then(|time| time.wall_ns),
                 "bytes": choice.bytes, "refused": choice.refused,
             })
         };
-        let measures: Vec<_> = group.measures.iter().map(|measure| measure.title).collect();
-        let name = |number: usize| &*group.choices[number].name;
+        let measures: Vec<_> = group.measures.iter().map(|measure| &measure.title).collect();
+        let name = |number: usize| group.choices[number].name();
         let best = (0..measures.len()).map(|number| group.cheapest_exact(number).map(name));
         let names = |all: &[usize]| all.iter().map(|&number| name(number)).collect::<Vec<_>>();
-        let compared = group.best.iter().map(|best| {
-            let best = best.as_ref()?;
+        let compared = (0..measures.len()).map(|measure| {
+            let best = group.compared(measure)?;
             Some(json!({
                 "choice": name(best.choice), "equally_fast": names(&best.equal),
                 "undecided": names(&best.undecided), "rounds": best.rounds,
@@ -136,7 +139,10 @@ pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
         });
         json!({
             "title": group.title, "measures": measures, "not_judged": group.not_judged,
-            "timed": { "triangles": group.timed[0], "pixels": group.timed[1] },
+            "timed": { "triangles": group.timed.part, "of_triangles": group.timed.of,
+                "pixels": group.timed_pixels.part, "of_pixels": group.timed_pixels.of },
+            "compared_pixels": { "part": group.judged.part, "of": group.judged.of },
+            "noise": least.and_then(Times::noise),
             "choices": group.choices.iter().map(choice).collect::<Vec<_>>(),
             "cheapest_exact": best.collect::<Vec<_>>(),
             "compared": compared.collect::<Vec<_>>(),
@@ -145,18 +151,29 @@ pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
     groups.iter().map(group).collect()
 }
 
+/// Nanoseconds.
+fn quartiles(time: &Times) -> [f64; 3] {
+    let Spread { low, median, high } = time.spread();
+    [low, median, high]
+}
+
 fn needs(needs: &Needs, not_drawn: &str) -> Value {
     let one = |need: &Need| {
         json!({
             "effect": need.effect.name(), "called_for": need.state() == State::CalledFor,
             "paid_for": need.is_paid_for, "materials": need.materials, "reasons": need.reasons,
             "pixels": need.pixels, "wrong_without": need.wrong,
-            "otherwise_ns": [need.otherwise.low, need.otherwise.median, need.otherwise.high],
+            "work": need.work, "draws_less": need.draws_less,
+            "otherwise_ns": need.otherwise.as_ref().map(quartiles),
+            "times": match need.adds(&needs.planned) {
+                Adds::Times(ratio) => Some(ratio),
+                Adds::NoWork | Adds::DrawsLess => None,
+            },
         })
     };
     json!({
         "effects": needs.needs.iter().map(one).collect::<Vec<_>>(),
-        "planned_ns": [needs.planned.low, needs.planned.median, needs.planned.high],
+        "planned_ns": quartiles(&needs.planned), "noise": needs.planned.noise(),
         "textures": needs.textures, "not_supported": not_drawn,
     })
 }

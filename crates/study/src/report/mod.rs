@@ -11,8 +11,8 @@ pub mod studied;
 
 use std::fmt::Write as _;
 
-use crate::cost::{Choice, Group};
-use crate::effects::{Need, Needs, State};
+use crate::cost::{FRAMES, Group, JudgedChoice, Part};
+use crate::effects::{Adds, Need, Needs, State};
 use crate::grid::GridPrice;
 use crate::hard::{HardCase, HardCases, Kind, Shifted};
 use crate::ties::{Class, Classes, TiedPair};
@@ -20,7 +20,7 @@ use crate::{face_of, triangle_of};
 use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
-use rasterproof_precision::cost::EQUAL;
+use rasterproof_precision::cost::{CELLS, Ladder, Ratio, RatioKind, Times};
 use rasterproof_render::scene::Scene;
 
 use rasterproof_report::canvas;
@@ -58,11 +58,11 @@ impl Places<'_> {
 /// By group the choices that get triangles of a kind wrong, with how many samples.
 fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
     let of_group = |group: &Group| {
-        let of_choice = |choice: &Choice| {
+        let of_choice = |choice: &JudgedChoice| {
             let of_kind = |pair: &[u32; 2]| pair.iter().any(|one| found.is(*one, kind));
             let of_kind = choice.wrong.iter().filter(|(pair, _)| of_kind(pair));
             let count: u64 = of_kind.map(|(_, count)| count).sum();
-            (count > 0).then(|| format!("{} {}", choice.name, thousands(count)))
+            (count > 0).then(|| format!("{} {}", choice.name(), thousands(count)))
         };
         let wrong: Vec<String> = group.choices.iter().filter_map(of_choice).collect();
         let unit = group.measures.iter().find_map(|measure| measure.unit).unwrap_or("px");
@@ -73,9 +73,9 @@ fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
 
 /// In how many pixels of hard cases values were compared; nothing where in all of them.
 fn compared_in(costs: &[Group]) -> Option<String> {
-    let [some, all] = costs.iter().find_map(|group| group.looked_at)?;
-    (some < all).then(|| {
-        let [some, all] = [some, all].map(thousands);
+    let looked_at = costs.iter().find_map(|group| group.looked_at)?;
+    (!looked_at.is_all()).then(|| {
+        let [some, all] = [looked_at.part, looked_at.of].map(thousands);
         format!("values were compared in {some} of the {all} px of these faces")
     })
 }
@@ -130,71 +130,138 @@ fn answers(
     found: &StudyFindings<'_>,
     commands: [String; 3],
 ) -> Vec<Statement> {
-    let sentences = [accuracy(found.costs), stability(subject, found.hard), effects(found)];
+    let stability = stability(subject, found.hard) + &z_fighting(found.costs);
+    let sentences = [accuracy(found.costs), stability, effects(found)];
     let questions = ["accuracy", "hard cases", "effects"];
     let all = questions.into_iter().zip(sentences).zip(commands);
     let answer = |((about, sentence), command)| Statement { about, sentence, command };
     all.map(answer).collect()
 }
 
+/// A choice of coverage with its group.
+#[derive(Clone, Copy)]
+struct OfCoverage<'a> {
+    group: &'a Group,
+    judged: &'a JudgedChoice,
+    time: &'a Times,
+}
+
+impl OfCoverage<'_> {
+    fn name(&self) -> String {
+        format!("{} by {}", self.judged.name(), self.group.title.trim_start_matches(COVERAGE))
+    }
+
+    /// How many pixels are wrong, against corners as given or snapped, whatever is better.
+    fn wrong(&self) -> f64 {
+        self.judged.errors.iter().flatten().copied().fold(f64::MAX, f64::min)
+    }
+
+    /// Those that are wrong against the corners as given.
+    fn wrong_as_given(&self) -> u64 {
+        self.judged.errors.first().copied().flatten().unwrap_or(0.0) as u64
+    }
+
+    fn promises(&self, measure: usize) -> bool {
+        self.judged.choice.promises.contains(&measure)
+    }
+
+    fn over(&self, other: &Self) -> Ratio {
+        self.time.over(other.time).unwrap_or(Ratio::ONE)
+    }
+}
+
 /// What exact coverage costs, and what is wrong.
 fn accuracy(groups: &[Group]) -> String {
-    let is_of_coverage = |group: &&Group| group.title.starts_with(COVERAGE);
-    if groups.iter().filter(is_of_coverage).all(|group| group.timed[1] == 0) {
+    let of_coverage: Vec<&Group> =
+        groups.iter().filter(|group| group.title.starts_with(COVERAGE)).collect();
+    if of_coverage.iter().all(|group| group.timed_pixels.of == 0) {
         return "No pixel is covered in this view, so nothing was compared.".to_owned();
     }
-    let all = groups.iter().filter(is_of_coverage).flat_map(|group| {
-        let timed = group.choices.iter().filter(|choice| choice.refused.is_none());
-        timed.filter_map(move |choice| Some((group, choice, choice.time?.median)))
-    });
-    let all: Vec<(&Group, &Choice, f64)> = all.collect();
-    let name = |(group, choice, _): &(&Group, &Choice, f64)| {
-        format!("{} by {}", choice.name, group.title.trim_start_matches(COVERAGE))
+    let mut all = Vec::new();
+    for group in of_coverage {
+        let timed = group.choices.iter().filter(|judged| judged.refused.is_none());
+        all.extend(
+            timed.filter_map(|judged| {
+                Some(OfCoverage { group, judged, time: judged.time.as_ref()? })
+            }),
+        );
+    }
+    let least = |of: &dyn Fn(&OfCoverage<'_>) -> bool| {
+        let of = all.iter().filter(|one| of(one));
+        of.min_by(|a, b| a.time.median().total_cmp(&b.time.median()))
     };
-    let wrong = |choice: &Choice| choice.errors.iter().flatten().copied().fold(f64::MAX, f64::min);
-    let least = |of: &dyn Fn(&Choice) -> bool| {
-        let of = all.iter().filter(|(_, choice, _)| of(choice));
-        of.min_by(|a, b| a.2.total_cmp(&b.2))
-    };
-    let certain = least(&|choice| choice.promises.is_some() && wrong(choice) == 0.0);
+    let certain = least(&|one| !one.judged.choice.promises.is_empty() && one.wrong() == 0.0);
     let (Some(cheapest), Some(certain)) = (least(&|_| true), certain) else {
         return "No choice of coverage that is exact for every model takes these triangles."
             .to_owned();
     };
-    let times = certain.2 / cheapest.2;
-    let unit = cheapest.0.measures[0].unit.unwrap_or("px");
-    let snapped = match certain.1.promises {
-        Some(1) => ", once its corners are snapped",
-        _ => "",
-    };
-    let exact = format!("{}, exact for every model{snapped}", name(certain));
-    let mut sentence = if times <= EQUAL {
-        format!("Exact coverage costs nothing here: {exact}, is the cheapest choice.")
+    let unit = cheapest.group.measures[0].unit.unwrap_or("px");
+    let is_snapped = certain.promises(1);
+    let snapped = if is_snapped { " once its corners are snapped" } else { "" };
+    let name = certain.name();
+    let ratio = certain.over(cheapest);
+    let mut sentence = if ratio.said() == RatioKind::NoDifference {
+        format!(
+            "Exact coverage costs nothing here: no choice is cheaper than {name}, exact for every model{snapped}."
+        )
     } else {
-        let is = match wrong(cheapest.1) {
+        let is = match cheapest.wrong() {
             0.0 => "happens to be exact here".to_owned(),
             wrong => format!("is wrong in {} {unit}", thousands(wrong as u64)),
         };
-        let (other, times) = (name(cheapest), number(times, 6));
         format!(
-            "Exact coverage takes {times} times as long as the cheapest choice: {exact}, against \
-             {other}, which {is}."
+            "Exact coverage by {name}, exact for every model{snapped}, against the cheapest choice, {}, which {is}: {}.",
+            cheapest.name(),
+            ratio.words(LONG)
         )
     };
-    let are_wrong: Vec<_> = all.iter().filter(|one| wrong(one.1) > 0.0).collect();
-    let worst = are_wrong.iter().max_by(|a, b| wrong(a.1).total_cmp(&wrong(b.1)));
+    let as_given = least(&|one| one.promises(0));
+    if let Some(as_given) = as_given.filter(|_| is_snapped && certain.wrong_as_given() > 0) {
+        let differ =
+            count(certain.wrong_as_given(), &format!("{unit} differs"), &format!("{unit} differ"));
+        let words = as_given.over(cheapest).words(LONG);
+        let _ = write!(
+            sentence,
+            " {differ} from the corners as given; exact for those is {}: {words}.",
+            as_given.name()
+        );
+    }
+    let are_wrong: Vec<_> = all.iter().filter(|one| one.wrong() > 0.0).collect();
+    let worst = are_wrong.iter().max_by(|a, b| a.wrong().total_cmp(&b.wrong()));
     let _ = match worst {
         None => write!(sentence, " None of the {} choices is wrong here.", all.len()),
         Some(worst) => write!(
             sentence,
-            " Of {} choices {} wrong here, {} in {} {unit}.",
+            " Of {} choices {} {}, in {} {unit}.",
             all.len(),
-            count(are_wrong.len() as u64, "is", "are"),
-            name(worst),
-            thousands(wrong(worst.1) as u64)
+            count(are_wrong.len() as u64, "is wrong here:", "are wrong here, most of all"),
+            worst.name(),
+            thousands(worst.wrong() as u64)
         ),
     };
     sentence
+}
+
+const LONG: &str = "long";
+
+/// Which depth buffers show another surface than exact depths do; nothing where none does.
+fn z_fighting(groups: &[Group]) -> String {
+    let Some(group) = groups.iter().find(|group| group.title == Ladder::Depth.title()) else {
+        return String::new();
+    };
+    let wrong =
+        |choice: &JudgedChoice| choice.errors.first().copied().flatten().unwrap_or(0.0) as u64;
+    let wrong: Vec<String> = group
+        .choices
+        .iter()
+        .filter(|choice| wrong(choice) > 0)
+        .map(|choice| format!("{} in {}", choice.name(), thousands(wrong(choice))))
+        .collect();
+    let unit = group.measures.iter().find_map(|measure| measure.unit).unwrap_or("px");
+    match &wrong[..] {
+        [] => String::new(),
+        wrong => format!(" Depth buffers that show another surface: {} {unit}.", wrong.join(", ")),
+    }
 }
 
 const COVERAGE: &str = "Coverage by ";
@@ -220,10 +287,13 @@ fn stability(subject: &Places<'_>, found: &HardCases) -> String {
             let (name, pixels) = (most.kind.name(), thousands(most.pixels));
             let seen = "seen in this view";
             match others.len() {
-                1 => write!(sentence, " The only others {seen} are {name}, in {pixels} px."),
+                1 => write!(
+                    sentence,
+                    " One other kind of hard case is {seen}: {name}, in {pixels} px."
+                ),
                 kinds => write!(
                     sentence,
-                    " {kinds} other kinds are {seen}, in most pixels {name}, in {pixels}."
+                    " {kinds} other kinds of hard cases are {seen}, most of all {name}, in {pixels} px."
                 ),
             }
         }
@@ -247,21 +317,21 @@ fn effects(found: &StudyFindings<'_>) -> String {
         let _ = write!(sentence, " Without {name}, {wrong} px are wrong.");
     }
     let frames = found.costs.iter().find(|group| group.title == FRAMES);
-    let time = |name: &str| {
-        let choice = frames?.choices.iter().find(|choice| choice.name == name)?;
-        Some(choice.time?.median)
-    };
-    if let Some((every, planned)) = time("scanline all").zip(time("scanline planned")) {
-        let times = number(every / planned, 6);
-        let _ = write!(sentence, " Paying for all {} takes {times} times as long.", all.len());
+    let time = |name: &str| frames?.choices.iter().find(|one| one.name() == name)?.time.as_ref();
+    let times = time("scanline all").zip(time("scanline planned"));
+    if let Some(ratio) = times.and_then(|(every, planned)| every.over(planned)) {
+        let _ = write!(
+            sentence,
+            " Paying for all {}, against what the plan pays for: {}.",
+            all.len(),
+            ratio.words(LONG)
+        );
     }
     sentence
 }
 
-const FRAMES: &str = "Whole frames";
-
 /// Rows of a table of cases or effects on a first screen, which has 40.
-const MOST_ROWS: usize = 4;
+const MOST_ROWS: usize = 3;
 
 /// What is seen, what is called for, and the cheapest exact choices: a table for each question.
 fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
@@ -298,51 +368,83 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     seen.notes.extend(broken);
     let of = |state: State| found.needs.needs.iter().filter(move |need| need.state() == state);
     let row = |need: &Need| {
-        let time = takes(found.needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
-        Row::of(&[&need.effect.name(), &thousands(need.wrong), &time])
+        Row::of(&[&need.effect.name(), &thousands(need.wrong), &takes(found.needs, need)])
     };
-    let columns = "effects called for 32 | >px wrong without 17 | >takes ms 11";
+    let columns = "effects called for 24 | >px wrong without 16 | takes of the planned frame 32";
     let mut called: Vec<_> = of(State::CalledFor).collect();
     called.sort_by_key(|need| std::cmp::Reverse(need.wrong));
     let safe: Vec<_> = of(State::ToBeSafe).map(|need| need.effect.name().to_owned()).collect();
     let safe = listed("paid for to be safe, though no pixel changes here", &safe);
     let called = short(columns, called.into_iter().map(row).collect(), safe);
-    let row = |group: &Group| {
-        let measure = group.measures.len() - 1;
-        let cheapest = group.cheapest_exact(measure);
-        let name = cheapest.map_or("none".to_owned(), |best| {
-            let others = if tied(group, measure).is_empty() { "" } else { " or others" };
-            format!("{}{others}", group.choices[best].name)
-        });
-        let time = |choice: Option<usize>| Some(group.choices[choice?].time?.median);
-        let (best, least) = (time(cheapest), time(group.cheapest(&|_| true)));
-        let times = best.zip(least).map(|(best, least)| number(best / least, 6));
-        let [best, times] = [best.map(ms), times].map(|cell| cell.unwrap_or("-".to_owned()));
-        Row::of(&[&group.title, &name, &best, &times])
-    };
-    let columns = "what exactness costs 26 | cheapest exact 33 | >ms 7 | >times 7";
-    let rows = found.costs.iter().map(row).collect();
-    let more =
-        "times: against the cheapest of all. What each choice does: --all; with pictures: --report";
-    let costs = Table::new("", columns, rows).noted(vec![more.to_owned()]);
+    let mut rows = Vec::new();
+    for group in found.costs {
+        for (number, measure) in group.measures.iter().enumerate() {
+            let of_measure = if group.measures.len() > 1 {
+                format!("{}, {}", group.title.trim_start_matches(COVERAGE), measure.short)
+            } else {
+                group.title.to_owned()
+            };
+            rows.push(cheapest_row(found.costs, group, number, of_measure));
+        }
+    }
+    let columns =
+        "what exactness costs 31 | cheapest exact 22 | >ms 7 | times 16 the cheapest of all";
+    let note = "same: no difference; 2-12?: cannot be told; +2: two as fast; more: --all";
+    let costs = Table::new("", columns, rows).noted(vec![note.to_owned()]);
     vec![seen, called, costs]
+}
+
+/// The cheapest choice that a measure calls exact, and what it takes.
+fn cheapest_row(groups: &[Group], group: &Group, measure: usize, title: String) -> Row {
+    let Some(best) = group.compared(measure) else {
+        let none = if group.judged.part == 0 { "no pixel was compared" } else { "none" };
+        return Row::of(&[&title, &none, &"-", &"-"]);
+    };
+    let others = match best.equal.len() + best.undecided.len() {
+        0 => String::new(),
+        others => format!(" +{others}"),
+    };
+    let choice = &group.choices[best.choice];
+    let least = group.cheapest_of_job(groups);
+    let over = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
+    let times = over.map_or("-".to_owned(), |ratio| ratio.to_string());
+    let name = format!("{}{others}", choice.name());
+    Row::of(&[
+        &title,
+        &name,
+        &choice.time.as_ref().map_or("-".to_owned(), |time| ms(time.median())),
+        &times,
+    ])
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
 pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
     let mut lines = Vec::new();
-    let mut limit = f64::INFINITY;
+    let mut limit: Option<&Times> = None;
     for (number, measure) in group.measures.iter().enumerate() {
         let Some(best) = group.cheapest_exact(number) else {
-            lines.push(format!("none is exact ({})", measure.short));
+            lines.push(match group.judged.part {
+                0 => "no pixel was compared, so nothing is called exact".to_owned(),
+                _ => format!("none is exact ({})", measure.short),
+            });
             continue;
         };
-        let choice = &group.choices[best];
         lines.extend(compared(group, number));
-        limit = limit.min(choice.time.map_or(f64::INFINITY, |time| time.median));
+        let time = group.choices[best].time.as_ref();
+        limit = match (limit, time) {
+            (Some(known), Some(time)) if time.median() >= known.median() => Some(known),
+            (known, time) => time.or(known),
+        };
+    }
+    if !group.judged.is_all() && group.judged.part > 0 {
+        let [part, of] = [group.judged.part, group.judged.of].map(thousands);
+        lines.push(format!("exact and wrong are of a sample: {part} of {of} px were compared"));
     }
     for choice in &group.choices {
-        let is_cheaper = choice.time.is_some_and(|time| time.median < limit);
+        let is_cheaper = choice.time.as_ref().zip(limit).is_some_and(|(time, limit)| {
+            time.over(limit)
+                .is_some_and(|ratio| ratio.said() == RatioKind::Holds && ratio.high < 1.0)
+        });
         let goal = |i: usize| group.measures[i].goal.unwrap_or(f64::INFINITY);
         let mut errors = choice.errors.iter().enumerate();
         let is_wrong = errors.all(|(i, error)| error.is_some_and(|error| error > goal(i)));
@@ -351,7 +453,7 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
                 let luck = if margin < 1.0 { ": it might have been wrong" } else { "" };
                 lines.push(format!(
                     "{} is exact here; the nearest decision is {} times its error bound away from 0{luck}",
-                    choice.name,
+                    choice.name(),
                     number(margin, 9)
                 ));
             }
@@ -361,7 +463,7 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
                 let cheaper = if is_cheaper { "cheaper and " } else { "" };
                 let place = triangle.map(|one| format!(": {}", subject.place(one)));
                 let place = place.unwrap_or_default();
-                lines.push(format!("{} is {cheaper}wrong, first at {x},{y}{place}", choice.name));
+                lines.push(format!("{} is {cheaper}wrong, first at {x},{y}{place}", choice.name()));
                 lines.extend(triangle.map(|one| subject.command(one)));
             }
             _ => {}
@@ -375,31 +477,26 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
     lines
 }
 
-/// Choices that are as fast as the cheapest exact one, as far as that could be told.
-fn tied(group: &Group, measure: usize) -> Vec<usize> {
-    let best = group.best.get(measure).and_then(Option::as_ref);
-    best.map_or(Vec::new(), |best| [&*best.equal, &*best.undecided].concat())
-}
-
 /// The cheapest exact choice, or that there is no difference between those that are exact.
 fn compared(group: &Group, measure: usize) -> Vec<String> {
-    let Some(Some(best)) = group.best.get(measure) else { return Vec::new() };
+    let Some(best) = group.compared(measure) else { return Vec::new() };
     let names = |all: &[usize]| {
-        all.iter().map(|one| &*group.choices[*one].name).collect::<Vec<_>>().join(", ")
+        all.iter().map(|one| group.choices[*one].name()).collect::<Vec<_>>().join(", ")
     };
-    let (tied, short) = (tied(group, measure), group.measures[measure].short);
-    let exact = |choice: &&Choice| choice.time.is_some() && group.is_exact(choice, measure);
-    if !tied.is_empty() && group.choices.iter().filter(exact).count() == tied.len() + 1 {
-        let all = names(&[&[best.choice], &*tied].concat());
+    let short = &group.measures[measure].short;
+    let exact = |choice: &&JudgedChoice| choice.time.is_some() && group.is_exact(choice, measure);
+    let is_all = group.choices.iter().filter(exact).count() == best.equal.len() + 1;
+    if is_all && !best.equal.is_empty() {
+        let all = names(&[&[best.choice], &*best.equal].concat());
         return vec![format!("no difference between the exact choices ({short}): {all}")];
     }
     let mut lines = vec![format!("cheapest exact ({short}): {}", names(&[best.choice]))];
     if !best.equal.is_empty() {
-        lines.push(format!("equally fast within 3%: {}", names(&best.equal)));
+        lines.push(format!("no difference: {}", names(&best.equal)));
     }
     if !best.undecided.is_empty() {
         let (rounds, others) = (best.rounds, names(&best.undecided));
-        lines.push(format!("undecided after {rounds} rounds, within 3% or not: {others}"));
+        lines.push(format!("undecided after {rounds} rounds, as fast or not: {others}"));
     }
     lines
 }
@@ -420,11 +517,20 @@ fn ties(subject: &Places<'_>, classes: &Classes) -> String {
     out
 }
 
-/// Milliseconds that an effect takes of a planned frame; none within the noise.
-fn takes(needs: &Needs, need: &Need) -> Option<f64> {
-    let (planned, without) = (needs.planned, need.otherwise);
-    (need.is_paid_for && planned.low > without.high)
-        .then(|| (planned.median - without.median) / 1e6)
+/// What an effect takes of a planned frame: milliseconds and the share, where it is paid for.
+fn takes(needs: &Needs, need: &Need) -> String {
+    match need.adds(&needs.planned) {
+        Adds::NoWork => "no work".to_owned(),
+        Adds::DrawsLess => "less is drawn without it".to_owned(),
+        Adds::Times(_) if !need.is_paid_for => match need.adds_ms(&needs.planned) {
+            Some(ms) => format!("would add {} ms", number(ms, 9)),
+            None => "would add nothing that can be told".to_owned(),
+        },
+        Adds::Times(ratio) => match need.adds_ms(&needs.planned) {
+            Some(ms) => format!("{} ms, {}", number(ms, 9), ratio.saving()),
+            None => ratio.saving(),
+        },
+    }
 }
 
 /// `by` the materials that call for an effect, the most visible first; nothing where none does.
@@ -448,10 +554,12 @@ fn by_whom(need: &Need) -> String {
 /// What follows from the effects, a sentence each.
 pub fn effects_advice(needs: &Needs) -> Vec<String> {
     let mut lines = Vec::new();
-    let is_idle = |need: &&Need| !need.is_paid_for && need.otherwise.low > needs.planned.high;
-    let more = |need: &Need| {
-        let more = need.otherwise.median / needs.planned.median - 1.0;
-        format!("{} {:.0}%", need.effect.name(), 100.0 * more)
+    let is_idle = |need: &&Need| !need.is_paid_for && need.adds_ms(&needs.planned).is_some();
+    let more = |need: &Need| match need.adds(&needs.planned) {
+        Adds::Times(ratio) => {
+            format!("{} {:.0}%", need.effect.name(), 100.0 * (ratio.median - 1.0))
+        }
+        Adds::NoWork | Adds::DrawsLess => need.effect.name().to_owned(),
     };
     let idle: Vec<_> = needs.needs.iter().filter(is_idle).map(more).collect();
     if !idle.is_empty() {
@@ -468,10 +576,8 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
             let share = 100.0 * *far as f64 / texture.pixels.max(1) as f64;
             let _ =
                 write!(line, "; {antialiasing} leaves {share:.1}% of its pixels far from ssaa8");
-            if let (Some(one), Some(this)) = (time("none"), time(antialiasing))
-                && *antialiasing != "none"
-            {
-                let _ = write!(line, " and takes {:.1} times the time", this / one);
+            if let Some(ratio) = time(antialiasing).filter(|_| *antialiasing != "none") {
+                let _ = write!(line, "; time against none: {}", ratio.words(LONG));
             }
         }
         lines.push(line);
@@ -494,12 +600,8 @@ pub struct StudyFindings<'a> {
 /// Plots of a study: error against time, and effects.
 fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
     let bar = |need: &Need| {
-        let (planned, without) = (found.needs.planned, need.otherwise);
-        let saved = !need.is_paid_for && without.low > planned.high;
-        let ms = match saved {
-            true => Some((without.median - planned.median) / 1e6),
-            false => takes(found.needs, need),
-        };
+        let ms = need.adds_ms(&found.needs.planned);
+        let saved = ms.is_some() && !need.is_paid_for;
         (ms.is_some() || need.wrong > 0).then(|| (need.effect.name(), ms, saved, need.wrong))
     };
     let bars: Vec<_> = found.needs.needs.iter().filter_map(bar).collect();
@@ -675,7 +777,7 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> T
 
 fn needs_table(needs: &Needs, state: State) -> Table {
     let row = |need: &Need| {
-        let time = takes(needs, need).map_or("noise".to_owned(), |ms| number(ms, 9));
+        let time = takes(needs, need);
         let (name, wrong) = (need.effect.name(), thousands(need.wrong));
         let pixels = need.pixels.map_or("-".to_owned(), thousands);
         let reasons: Vec<_> = need.reasons.iter().map(|(reason, _)| reason.as_str()).collect();
@@ -683,47 +785,63 @@ fn needs_table(needs: &Needs, state: State) -> Table {
     };
     let is_here = |need: &&Need| need.state() == state;
     let columns = "effect 28 | >pixels 11 pixels that pay for it | >wrong without 17 pixels that change when it is \
-                   switched off | >takes ms 11 what it takes of a planned frame | by | why";
+                   switched off | takes 22 what it takes of a planned frame, in ms and of its time | by | why";
     let rows = needs.needs.iter().filter(is_here).map(row).collect();
     Table::new(&format!("Effects {}", state.name()), columns, rows)
 }
 
 /// What each choice costs, a table for each group, with what to choose.
 pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Vec<Table> {
-    groups.iter().map(|group| cost_table(subject, group)).collect()
+    groups.iter().map(|group| cost_table(subject, groups, group)).collect()
 }
 
-fn cost_table(subject: &Places<'_>, group: &Group) -> Table {
-    let least = group.cheapest(&|_| true).and_then(|best| group.choices[best].time);
-    let row = |choice: &Choice| {
+fn cost_table(subject: &Places<'_>, groups: &[Group], group: &Group) -> Table {
+    let least = group.cheapest_of_job(groups);
+    let row = |choice: &JudgedChoice| {
         if let Some(why) = &choice.refused {
-            return Row::of(&[&choice.name, &format!("not run: {why}")]);
+            return Row::of(&[&choice.name(), &format!("not run: {why}")]);
         }
-        let mut cells = vec![choice.name.clone()];
+        let mut cells = vec![choice.name().to_owned()];
         let or_none =
             |value: Option<f64>, width| value.map_or("-".to_owned(), |value| number(value, width));
         cells.extend(choice.errors.iter().map(|error| or_none(*error, 9)));
-        cells.extend(match choice.time.zip(least) {
-            Some((time, least)) => {
-                let [low, median, high] = [time.low, time.median, time.high].map(ms);
-                [median, format!("{low}-{high}"), number(time.median / least.median, 6)]
+        let over = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
+        cells.extend(match choice.time.as_ref().zip(over) {
+            Some((time, over)) => {
+                let spread = time.spread();
+                let [low, high] = [spread.low, spread.high].map(ms);
+                [ms(spread.median), format!("{low}-{high}"), over.to_string()]
             }
             None => Default::default(),
         });
         cells.push(or_none(choice.bytes.map(|bytes| bytes as f64 / 1e6), 7));
-        cells.push(choice.about.clone());
+        cells.push(choice.choice.about.to_string());
         cells.into()
     };
     let mut columns = table::columns("~choice 23");
-    columns.extend(group.measures.iter().map(|m| Column::numbers(m.short, m.title).least(9)));
+    columns.extend(group.measures.iter().map(|m| Column::numbers(&m.short, &m.title).least(9)));
     columns.extend(table::columns(
-        ">ms 7 median | >quartiles 13 a quarter of the rounds took less, a quarter more, in ms | >times 6 times the cheapest \
-         | >MB 6 at the peak, from the sizes of its buffers; the scene is not in it | how",
+        ">ms 7 of processor time, median | >quartiles 13 a quarter of the rounds took less, a quarter more, in ms \
+         | >times 16 the cheapest, with an interval | >MB 6 at the peak, from the sizes of its buffers; the scene is not in it | how",
     ));
-    let [items, pixels] = group.timed.map(thousands);
+    let part = |part: Part| match part.is_all() {
+        true => thousands(part.of),
+        false => format!("a sample of {} of {}", thousands(part.part), thousands(part.of)),
+    };
+    let [items, pixels] = [group.timed, group.timed_pixels].map(part);
     let caption = format!("{}, ms for {items} triangles and {pixels} pixels", group.title);
     let measures = group.measures.iter();
     let mut notes: Vec<_> = measures.map(|m| format!("{}: {}", m.short, m.title)).collect();
+    notes.push(format!("times: {CELLS}"));
+    notes.extend(group.choices.iter().filter_map(|choice| {
+        let wall = choice.time.as_ref()?.wall_ns?;
+        Some(format!("{}: {} ms pass meanwhile, on all threads", choice.name(), ms(wall)))
+    }));
+    let noise = least.and_then(Times::noise);
+    notes
+        .extend(noise.map(|noise| {
+            format!("two equal passes in the same rounds: {:.3} times", noise.median)
+        }));
     notes.extend(advice(subject, group));
     Table::of(&caption, columns, group.choices.iter().map(row).collect()).noted(notes)
 }

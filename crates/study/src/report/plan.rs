@@ -1,15 +1,16 @@
 //! The account of a plan, and what it saves.
 
+use rasterproof_precision::cost::{CELLS, Ratio};
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::plan::{Decision, Plan, SceneDigest, Unit};
 use rasterproof_render::effects::render::Rendered;
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::scene::Scene;
-use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
+use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report, Statement};
 use rasterproof_report::json::value;
 use rasterproof_report::picture;
 use rasterproof_report::table::{Row, Table};
-use rasterproof_report::words::thousands;
+use rasterproof_report::words::{count, number, thousands};
 use serde_json::Value;
 
 use crate::savings::{Measured, Saving, Savings};
@@ -111,26 +112,49 @@ pub struct Measurement<'a> {
 impl Measurement<'_> {
     /// Whether no mixture of effects changed the picture.
     pub fn is_same(&self) -> bool {
-        self.savings.all().all(|mixture| mixture.same)
+        self.savings.different().next().is_none()
     }
 
     /// What the measurement comes to, on the screen and in the data.
     fn outcome(&self) -> Outcome {
-        let ([all, usual], same) = (self.savings.phrases(), self.is_same());
+        let same = self.is_same();
         if same && self.frames[0].counters.fragments == 0 {
             return Outcome::nothing_drawn();
         }
         let sentence = match same {
-            true if all == usual => format!(
-                "Planned, it was drawn {all} as with everything on and as usual, with the same bits."
-            ),
-            true => format!(
-                "Planned, it was drawn {all} as with everything on, and {usual} as usual, with the \
-                 same bits."
-            ),
-            false => "A plan changed the picture.".to_owned(),
+            true => "Planned, it was drawn with the same bits.",
+            false => "A plan changed the picture.",
         };
         Outcome::of(same, sentence)
+    }
+
+    /// What is called for, and what the rest costs, a sentence or two each.
+    fn answers(&self) -> Vec<Statement> {
+        let paid_for = |effect: &Effect| {
+            let of = self.frames[1].plan.decisions.iter().filter(|one| one.effect == *effect);
+            of.map(|one| one.on + one.open).sum::<u64>() > 0
+        };
+        let paid = Effect::ALL.iter().filter(|effect| paid_for(effect)).count();
+        let all = Effect::ALL.len();
+        let mut sentence =
+            format!("{paid} of {all} effects are paid for in this view, as planned.");
+        let of_each = &self.savings.effects;
+        if !of_each.is_empty() {
+            let called = of_each.iter().filter(|saving| saving.wrong_without > 0).count();
+            let are = count(called as u64, "is called for", "are called for");
+            sentence += &format!(" Of all, {are}: without it pixels change.");
+        }
+        let [everything, usual] = self.savings.times.map(|ratio| ratio.words("fast"));
+        let time = if self.frames[0].counters.fragments == 0 {
+            "No triangle covers a pixel, so times say nothing of effects.".to_owned()
+        } else {
+            format!(
+                "The planned frame against everything on: {everything}. Against the usual way: {usual}."
+            )
+        };
+        [("effects", sentence), ("time", time)]
+            .map(|(about, sentence)| Statement { about, sentence, command: String::new() })
+            .to_vec()
     }
 
     /// The tables of the plan, and the frames as layers where there is a page.
@@ -144,6 +168,7 @@ impl Measurement<'_> {
             title: format!("What the {kind} {} calls for", scene.name),
             about: format!("{}: {}", scene.name, scene.about),
             outcome: Some(self.outcome()),
+            answers: self.answers(),
             command,
             tables,
             frames: Vec::from_iter(view),
@@ -164,6 +189,7 @@ impl Measurement<'_> {
             measured: savings,
             survey_us,
             same: is_compared.then(|| self.is_same()),
+            answers: self.answers(),
             outcome: word,
             sentence,
         })
@@ -180,31 +206,26 @@ struct Data<'a> {
     survey_us: Option<f64>,
     /// Nothing where no fragment was drawn, so that two backgrounds would be compared.
     same: Option<bool>,
-    /// The first words of the text, and what follows them.
+    answers: Vec<Statement>,
+    /// The last words of the text, and what follows them.
     outcome: String,
     sentence: String,
-}
-
-/// A saving in percent, unless it is within the noise.
-fn percent(saving: f64, is_noise: bool) -> String {
-    if is_noise { "noise".to_owned() } else { format!("{:.0}%", 100.0 * saving) }
 }
 
 /// A row for each effect: what planning it saves, alone and as the last one.
 fn of_each(savings: &Savings) -> Table {
     let row = |s: &Saving| {
-        let [alone, all_but] = [s.alone_us, s.all_but_us].map(|us| format!("{us:.0}"));
-        let saves_alone = percent(s.saves_alone, s.noise_alone);
-        let saves_last = percent(s.saves_last, s.noise_last);
-        let wrong = &s.wrong_without;
-        Row::of(&[&s.effect.name(), &alone, &saves_alone, &all_but, &saves_last, wrong])
+        let [alone, last] = [&s.alone, &s.last].map(|saves| thousands(saves.work));
+        let (name, wrong) = (s.effect.name(), thousands(s.wrong_without));
+        Row::of(&[&name, &alone, &s.alone.words(), &last, &s.last.words(), &wrong])
     };
     let caption = "What planning one effect saves: alone, the rest always paid for; as the last, the rest planned";
-    let columns = "planned 14 | >alone us 10 it is planned, the rest paid for | >saves 9 compared with paying for \
-                       everything | >last us 10 it is paid for, the rest planned | >saves 9 when it is planned too | \
-                       >wrong without 14 pixels that change when it is left out everywhere";
+    let columns = "planned 14 | >alone 10 how much less of its work is done, by its counter | >saves 17 of the time of the frame \
+                       that pays for everything | >last 10 the same of the planned frame | >saves 17 of the time of the frame \
+                       that pays for it and plans the rest | >wrong without 14 pixels that change when it is left out everywhere";
     let notes = [
-        "noise: the middle halves of the rounds of both overlap, or there are fewer than four",
+        "alone, last: how much less of its work is done, by its counter; no work: there is nothing to save, and no time is compared",
+        "saves: the median over the rounds and its interval; ?: cannot be told here",
         "wrong without: pixels that change when it is left out everywhere; --without EFFECT draws them",
     ];
     let rows = savings.effects.iter().map(row).collect();
@@ -213,30 +234,34 @@ fn of_each(savings: &Savings) -> Table {
 
 /// The times of everything, usual and planned, and the mixtures that changed the picture.
 fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
+    let [everything, usual] = savings.times.map(Some);
     let rows = [
-        ("everything", &savings.everything),
-        ("usual", &savings.usual),
-        ("planned", &savings.planned),
+        ("everything", &savings.everything, everything),
+        ("usual", &savings.usual, usual),
+        ("planned", &savings.planned, None),
     ];
-    let row = |(name, m): (&str, &Measured)| {
-        let [low, high] = m.range_us;
-        Row::of(&[&name, &format!("{:.0}", m.time_us), &format!("{low:.0}-{high:.0}")])
+    let row = |(name, m, ratio): (&str, &Measured, Option<Ratio>)| {
+        let [low, high] = m.quartiles_us;
+        let ratio = ratio.map_or("-".to_owned(), |ratio| ratio.to_string());
+        Row::of(&[&name, &format!("{:.0}", m.time_us), &format!("{low:.0}-{high:.0}"), &ratio])
     };
-    let changed = savings.all().filter(|m| !m.same);
-    let mut notes: Vec<_> =
-        changed.map(|m| format!("DIFFERENT PICTURE with the effects {}", m.effects)).collect();
-    let [all, usual] = savings.factors();
-    notes.extend([
-        format!(
-            "planned as a whole: {all:.2} times as fast as everything, {usual:.2} as usual{}",
-            if savings.phrases()[1] == "as fast" { ", which is noise" } else { "" }
-        ),
+    let mut notes: Vec<_> = savings
+        .different()
+        .map(|name| format!("DIFFERENT PICTURE with the effects {name}"))
+        .collect();
+    notes.push(
         "usual: what a renderer does without a planner (cuts what crosses, culls, one depth test)"
             .to_owned(),
-    ]);
+    );
+    notes.push(format!("times: {CELLS}"));
+    let noise = savings.noise.map(|noise| number(noise.median, 9));
+    let rounds = savings.planned.rounds;
+    notes.extend(noise.map(|noise| {
+        format!("two equal frames in the same {rounds} rounds: {noise} times, by which intervals are widened")
+    }));
     if savings.effects.is_empty() && !is_whole {
         notes.push(
-            "one effect at a time is not measured, since a round of all mixtures takes more than 5 s \
+            "one effect at a time is not measured, since a round of all mixtures takes too long \
              here: --rounds 9 measures them"
                 .to_owned(),
         );
@@ -245,8 +270,8 @@ fn whole(savings: &Savings, survey_us: Option<f64>, is_whole: bool) -> Table {
         let share = 100.0 * us / savings.planned.time_us;
         format!("looking at triangles for the reason of depth: {us:.0} us, {share:.1}% of the planned frame")
     }));
-    let columns =
-        "paid for 14 | >us 10 median of the rounds | >from-to 14 the fastest round and the slowest";
+    let columns = "paid for 14 | >us 10 of processor time, median of the rounds | >quartiles 14 a quarter of the rounds took less, \
+                   a quarter more | >times planned 18 how many times as long as the planned frame";
     Table::new("The frame as a whole", columns, rows.map(row).to_vec()).noted(notes)
 }
 
