@@ -3,6 +3,7 @@
 //! A change is a map of numbers, for some of the points and for one axis or both. The numbers in it, such as an offset, are
 //! solved for: tried from coarse to fine, by how near the pictures come to the answers.
 
+use super::border::{self, Toward};
 use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
 use super::question::AnyQuestion;
@@ -15,14 +16,6 @@ pub(super) enum Points {
     Given(usize),
     /// In the order from the top down.
     ByHeight(usize),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Toward {
-    Down,
-    Nearest,
-    Up,
-    Zero,
 }
 
 /// What becomes of a coordinate.
@@ -40,6 +33,8 @@ pub(super) enum How {
     Wrap(u32, bool),
     /// Limited to a signed word of so many bits.
     Saturate(u32),
+    /// Limited to so many steps on both sides of 0.
+    Limit(i64),
     Absolute,
     /// The side of the window less so many steps and less the coordinate.
     Mirror(i64),
@@ -58,6 +53,11 @@ pub(super) enum Change {
     },
     /// x and y change places.
     Exchange,
+    /// An end beyond the window comes to its border along the line, the place there rounded to whole pixels.
+    Cut {
+        points: Points,
+        toward: Toward,
+    },
     /// All points become one, so that nothing is drawn.
     Nothing,
     /// The points come in the other order.
@@ -91,6 +91,7 @@ impl How {
             }
             Self::Wrap(bits, false) => v.rem_euclid(1 << bits),
             Self::Saturate(bits) => v.clamp(-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
+            Self::Limit(most) => v.clamp(-most.abs(), most.abs()),
             Self::Absolute => v.abs(),
             Self::Mirror(less) => side * one - less - v,
             Self::AboutFirst => 2 * first - v,
@@ -107,15 +108,12 @@ impl Change {
             Self::Reverse => q.points.reverse(),
             // A line of one point is a pixel, which lies beyond every window.
             Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
+            Self::Cut { points, toward } => cut(q, points, toward),
             Self::Move { points, axes, how } => {
                 let order = if q.is_line() { [0, 1, 1] } else { q.by_height() };
                 let first = q.points[0];
                 for i in 0..q.points.len() {
-                    let is_meant = match points {
-                        Points::All => true,
-                        Points::Given(number) => number == i,
-                        Points::ByHeight(place) => order[place] == i,
-                    };
+                    let is_meant = points.include(i, order);
                     for axis in (0..2).filter(|axis| is_meant && axes[*axis]) {
                         let side = q.side[axis].into();
                         let v = &mut q.points[i][axis];
@@ -123,6 +121,34 @@ impl Change {
                     }
                 }
             }
+        }
+    }
+}
+
+impl Points {
+    fn include(self, i: usize, order: [usize; 3]) -> bool {
+        match self {
+            Self::All => true,
+            Self::Given(number) => number == i,
+            Self::ByHeight(place) => order[place] == i,
+        }
+    }
+}
+
+/// Cuts a line at the window, one side after another.
+fn cut(q: &mut AnyQuestion, points: Points, toward: Toward) {
+    let whole = [q.points[0], q.points[1]];
+    for i in (0..2).filter(|i| points.include(*i, [0, 1, 1])) {
+        let (here, there) = (whole[i], whole[1 - i]);
+        for axis in [0, 1] {
+            let limit = q.points[i][axis].clamp(0, i64::from(q.side[axis]) - 1);
+            let by = there[axis] - here[axis];
+            if limit == q.points[i][axis] || by == 0 {
+                continue;
+            }
+            let along = here[1 - axis] * by + (limit - here[axis]) * (there[1 - axis] - here[1 - axis]);
+            q.points[i][axis] = limit;
+            q.points[i][1 - axis] = border::round(along.into(), by.into(), toward) as i64;
         }
     }
 }
@@ -176,6 +202,12 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
         [Change::Nothing, Change::Exchange, Change::Reverse]
             .map(|change| Base { changes: vec![change], rule: 0 }),
     );
+    let ends = [Points::All, Points::Given(0), Points::Given(1)];
+    for points in ends.into_iter().filter(|_| is_line) {
+        for toward in [Toward::Down, Toward::Nearest, Toward::Up, Toward::Zero] {
+            bases.push(Base { changes: vec![Change::Cut { points, toward }], rule: 0 });
+        }
+    }
     for &how in &hows {
         for &points in &points {
             let moved = AXES.map(|axes| Change::Move { points, axes, how });
@@ -215,6 +247,7 @@ pub(super) fn nearness(base: &Base, answers: &[&LearnedAnswer], drawer: &dyn Dra
 /// Offsets and scales that come nearest: tried in coarse steps, then in finer ones about the best so far.
 pub(super) fn solved(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Vec<Base> {
     let mut out = Vec::new();
+    out.extend(limits(is_line, answers, drawer));
     for how in [How::Add as fn(i64) -> How, How::Mirror, How::Scale] {
         let mut of_axes = Vec::new();
         for axes in AXES {
@@ -240,6 +273,28 @@ pub(super) fn solved(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Dra
         }
     }
     out
+}
+
+/// The limit of coordinates that comes nearest: tried at each power of two and between, then ever more finely about the best.
+fn limits(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Vec<Base> {
+    let one = if is_line { 1 } else { 256 };
+    let base = |v: i64| {
+        let how = How::Limit(v);
+        let change = Change::Move { points: Points::All, axes: [true; 2], how };
+        Base { changes: vec![change], rule: 0 }
+    };
+    let far = |a: &&&LearnedAnswer| a.question.points.iter().flatten().any(|v| v.abs() > 16 * one);
+    let answers: Vec<&LearnedAnswer> = answers.iter().filter(far).take(COARSE).copied().collect();
+    if answers.len() < 6 {
+        return Vec::new();
+    }
+    let near = |v: i64| nearness(&base(v), &answers, drawer);
+    let powers = (4..=14).flat_map(|bits| [4, 5, 6, 7].map(|part| (one << bits) / 4 * part));
+    let coarse = powers.map(|v| (near(v), v)).max().map_or(one << 10, |(_, v)| v);
+    let steps: Vec<i64> =
+        std::iter::successors(Some(coarse / 16), |step| (*step > 0).then_some(step / 4)).collect();
+    let steps: Vec<i64> = steps.into_iter().filter(|step| *step > 0).collect();
+    vec![base(finest(&steps, coarse, &|v, _| near(v)))]
 }
 
 /// Answers that coarse steps are compared by.

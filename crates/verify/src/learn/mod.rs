@@ -10,6 +10,7 @@
 //! each of its limits. Otherwise what is known is said: what separates wrong answers from right ones, where the wrong pixels
 //! lie, and a right question beside a wrong one.
 
+mod border;
 mod change;
 mod drawer;
 mod known;
@@ -82,7 +83,7 @@ const FRESH: [usize; 2] = [200, 150];
 /// How often the first are asked, as long as too few of them are wrong.
 const MOST_FRESH: usize = 4;
 /// Searches at most: what refutes one is learned from by the next.
-const MOST_ROUNDS: usize = 4;
+const MOST_ROUNDS: usize = 3;
 /// New answers below which nothing is called the cause, wrong ones among them, and those of these that are independent.
 const CERTAIN: [u64; 3] = [300, 50, 12];
 /// Wrong answers below which nothing is learned.
@@ -171,7 +172,26 @@ impl<'a> Learner<'a> {
                 break;
             }
         }
-        best.map(|(round, model)| self.learned(&round, &model))
+        let (round, model) = best?;
+        let mut learned = self.learned(&round, &model);
+        if !learned.is_certain {
+            learned.known.extend(self.nearest_right());
+        }
+        Some(learned)
+    }
+
+    /// The smallest wrong question, and a right one that differs from it in one number.
+    fn nearest_right(&mut self) -> Option<String> {
+        let wrong = self.answered.iter().enumerate().filter(|(_, a)| a.is_wrong());
+        let (smallest, a) = wrong.min_by_key(|(_, a)| a.question.bulk())?;
+        let room = self.drawer.room();
+        let mut changes = known::one_changes(&a.question, room.grain);
+        changes.retain(|change| room.may_ask(&change.question));
+        let before = self.answered.len();
+        self.left = self.left.max(changes.len());
+        self.ask(changes.iter().map(|change| change.question.clone()).collect())?;
+        let (old, new) = self.answered.split_at(before);
+        Some(known::beside(&old[smallest], &changes, new))
     }
 
     fn wrong(&self) -> impl Iterator<Item = &LearnedAnswer> {

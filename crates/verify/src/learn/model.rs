@@ -1,5 +1,6 @@
 //! An explanation as a value: changed questions with the questions that they hold for, then pixel rules, one on another.
 
+use super::border::{self, Crossing};
 use super::change::Base;
 use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
@@ -103,10 +104,23 @@ pub(super) struct GuardedStep {
     pub(super) base: Base,
 }
 
+/// A formula of the borders at one end of a row, and where it holds, by the facts of the pixel at the border.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct GuardedBorder {
+    pub(super) when: Option<Vec<Conjunction>>,
+    /// 0 for the first pixel, 1 for the last one.
+    pub(super) end: usize,
+    pub(super) crossing: Crossing,
+}
+
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Model {
     /// The first whose guard holds is drawn; the right picture where none does.
     pub(super) chain: Vec<GuardedStep>,
+    /// Of those of an end of a row, the first whose guard holds is taken.
+    pub(super) borders: Vec<GuardedBorder>,
+    /// Whether a row whose ends come in the wrong order is drawn between them; otherwise it is empty.
+    pub(super) exchanges_ends: bool,
     pub(super) steps: Vec<Step>,
 }
 
@@ -119,6 +133,9 @@ impl Model {
         vocabulary: &Vocabulary,
     ) -> Option<Picture> {
         let mut drawn = self.start(a, drawer)?;
+        if !self.borders.is_empty() {
+            drawn = self.with_borders(a, &drawn, drawer.sample());
+        }
         for step in &self.steps {
             drawn = step.apply(a, &drawn, drawer, vocabulary);
         }
@@ -131,6 +148,20 @@ impl Model {
             Some(guarded) => guarded.base.draw(&a.question, drawer),
             None => Some(a.right.clone()),
         }
+    }
+
+    fn with_borders(&self, a: &LearnedAnswer, before: &Picture, sample: [i64; 2]) -> Picture {
+        let scene = Scene::new(&a.question, before, sample);
+        let needs_facts = self.borders.iter().any(|border| border.when.is_some());
+        border::redrawn(&a.question, before, sample, self.exchanges_ends, &|site, right| {
+            let row = match needs_facts {
+                true => border::facts(&scene, &a.facts, site, right),
+                false => Vec::new(),
+            };
+            let is_one = |border: &&GuardedBorder| border.end == site.end && border.holds(&row);
+            let guarded = self.borders.iter().find(is_one)?;
+            site.evaluate(&guarded.crossing, &a.question, sample)
+        })
     }
 
     pub(super) fn fits(
@@ -147,13 +178,17 @@ impl Model {
         let guards = self.chain.iter().map(|guarded| {
             guarded.base.cost() + guarded.when.iter().flatten().map(Vec::len).sum::<usize>()
         });
-        guards.chain(self.steps.iter().map(|step| 1 + step.facts.len())).sum()
+        let borders = self.borders.iter().map(|border| {
+            border.crossing.changes() + border.when.iter().flatten().map(Vec::len).sum::<usize>()
+        });
+        guards.chain(borders).chain(self.steps.iter().map(|step| 1 + step.facts.len())).sum()
     }
 
     /// Every conjunction in it.
     pub(super) fn conjunctions(&self) -> impl Iterator<Item = &Conjunction> {
         let guards = self.chain.iter().filter_map(|guarded| guarded.when.as_ref()).flatten();
-        guards.chain(self.steps.iter().map(|step| &step.facts))
+        let borders = self.borders.iter().filter_map(|guarded| guarded.when.as_ref()).flatten();
+        guards.chain(borders).chain(self.steps.iter().map(|step| &step.facts))
     }
 
     /// With another pixel rule.
@@ -164,9 +199,19 @@ impl Model {
     }
 }
 
+fn guard_holds(when: Option<&Vec<Conjunction>>, facts: &[i64]) -> bool {
+    when.is_none_or(|when| when.iter().any(|all| all_hold(all, facts)))
+}
+
 impl GuardedStep {
     fn holds(&self, facts: &[i64]) -> bool {
-        self.when.as_ref().is_none_or(|when| when.iter().any(|all| all_hold(all, facts)))
+        guard_holds(self.when.as_ref(), facts)
+    }
+}
+
+impl GuardedBorder {
+    fn holds(&self, facts: &[i64]) -> bool {
+        guard_holds(self.when.as_ref(), facts)
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) struct Quantities {
 }
 
 /// Quantities of a pixel that are computed together.
-pub(super) const GROUPS: usize = 4;
+pub(super) const GROUPS: usize = 5;
 
 impl Quantities {
     /// Computes a group, unless it is left out.
@@ -51,6 +51,15 @@ impl Quantities {
         }
     }
 
+    /// The words are the noun, and what is said where it is 0.
+    fn named(&mut self, unit: Unit, value: i64, words: impl FnOnce() -> (String, String)) {
+        self.values.push(value);
+        if let Some(names) = &mut self.names {
+            let (noun, zero) = words();
+            names.push(Name { unit, noun, zero: [zero, String::new()] });
+        }
+    }
+
     fn flag(&mut self, value: bool, yes: &[&str], no: &str) {
         self.put(Unit::Flag, value.into(), yes, [no, ""]);
     }
@@ -60,9 +69,9 @@ impl Quantities {
     }
 }
 
-const AXES: [&str; 2] = ["x", "y"];
-const ORDINALS: [&str; 3] = ["first", "second", "third"];
-const SIDES: [&str; 2] = ["width", "height"];
+pub(super) const AXES: [&str; 2] = ["x", "y"];
+pub(super) const ORDINALS: [&str; 3] = ["first", "second", "third"];
+pub(super) const SIDES: [&str; 2] = ["width", "height"];
 
 /// The quantities of a question.
 pub(super) fn of_question(q: &AnyQuestion, out: &mut Quantities) {
@@ -178,6 +187,9 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
             ["it has no upright edge", "it has no level edge"][axis],
         );
     }
+    let [width, height] = q.extent();
+    let ratio = |a: i64, b: i64| if b == 0 { NONE } else { a.saturating_mul(256) / b };
+    out.number(Unit::Ratio, ratio(width, height), &["its width over its height"]);
     let [top, middle, bottom] = q.by_height();
     out.number(Unit::Count, top as i64 + 1, &["the number of its top corner"]);
     out.number(Unit::Count, bottom as i64 + 1, &["the number of its bottom corner"]);
@@ -255,6 +267,10 @@ impl<'a> Scene<'a> {
         out.group(3, |out| match self.question.is_line() {
             true => self.along_the_line([column, row], out),
             false => self.by_edges([column, row], out),
+        });
+        out.group(4, |out| match self.question.is_line() {
+            true => self.along_its_run([x, y], out),
+            false => self.by_crossings([column, row], out),
         });
     }
 
@@ -536,6 +552,164 @@ impl<'a> Scene<'a> {
             &["the number of rows from the first row below the middle corner"],
             ["it is in the first row below the middle corner", ""],
         );
+    }
+}
+
+/// Where two edges cross the line of samples of a row, or of a column with the axes exchanged: the whole shape, in the
+/// window or not.
+struct Crossings {
+    /// The first pixel and the last one between them.
+    ends: [i64; 2],
+    /// The edge at each end.
+    edges: [usize; 2],
+    /// From the crossing to the sample that follows it, in subpixels, rounded up.
+    ahead: [i64; 2],
+}
+
+impl Scene<'_> {
+    /// The crossings of a row, axis 1, or of a column, axis 0.
+    fn crossings(&self, axis: usize, place: i64) -> Option<Crossings> {
+        let (along, sample) = (1 - axis, self.sample[1 - axis]);
+        let at = place * 256 + self.sample[axis];
+        let mut found: Vec<(i64, i64, usize)> = Vec::new();
+        for (number, [a, b]) in EDGES.iter().enumerate() {
+            let (from, to) = (self.question.points[*a], self.question.points[*b]);
+            if (from[axis] <= at) == (to[axis] <= at) {
+                continue;
+            }
+            let by = i128::from(to[axis] - from[axis]);
+            let run = i128::from(to[along] - from[along]) * i128::from(at - from[axis]);
+            // The crossing times `by`, and the first sample at or after it.
+            let crossing = i128::from(from[along] - sample) * by + run;
+            let (crossing, by) = if by < 0 { (-crossing, -by) } else { (crossing, by) };
+            let first = -(-crossing).div_euclid(256 * by) as i64;
+            let ahead = (i128::from(first) * 256 * by - crossing).div_euclid(by);
+            found.push((first, ahead as i64, number));
+        }
+        // Of two that are followed by the same sample, the one farther from it comes first.
+        found.sort_by_key(|(first, ahead, _)| (*first, -ahead));
+        let [left, right] = found[..] else { return None };
+        Some(Crossings {
+            ends: [left.0, right.0 - 1],
+            edges: [left.2, right.2],
+            ahead: [left.1, right.1],
+        })
+    }
+
+    /// Its place between the edges that cross its row and its column, in the window or not, and what these edges are.
+    fn by_crossings(&self, at: [i64; 2], out: &mut Quantities) {
+        const WHOLE: &str = "(also beyond the window)";
+        let q = self.question;
+        let order = q.by_height();
+        for (axis, [line, unit, before, after]) in [
+            (1, ["row", "column", "left", "right"]),
+            (0, ["column", "row", "upper", "lower"]),
+        ] {
+            let along = at[1 - axis];
+            let crossed = self.crossings(axis, at[axis]);
+            let of = |value: &dyn Fn(&Crossings) -> i64| crossed.as_ref().map_or(NONE, value);
+            for (end, word) in [before, after].into_iter().enumerate() {
+                let nth = ["first", "last"][end];
+                let way = ["from", "to"][end];
+                out.named(Unit::Paired, of(&|c| (along - c.ends[end]) * [1, -1][end]), || {
+                    let zero = format!("it is the {nth} pixel of its whole {line} {WHOLE}");
+                    let noun = format!("{unit}s {way} the {nth} pixel of its whole {line} {WHOLE}");
+                    (format!("the number of {noun}"), zero)
+                });
+                out.named(Unit::Count, of(&|c| c.ends[end]), || {
+                    let noun = format!("{unit} of the {nth} pixel of its whole {line} {WHOLE}");
+                    (format!("the {noun}"), String::new())
+                });
+                // The edge there.
+                let edge = || format!("the edge at the {word} end of its {line}");
+                let is_long = |c: &Crossings| {
+                    let [a, b] = EDGES[c.edges[end]];
+                    i64::from(a != order[1] && b != order[1])
+                };
+                out.named(Unit::Flag, of(&is_long), || {
+                    let [is, is_not] = ["", " not"].map(|not| {
+                        format!("{} does{not} join the top and the bottom corner", edge())
+                    });
+                    (is.replace("does join", "joins"), is_not)
+                });
+                out.named(Unit::Count, of(&|c| c.edges[end] as i64 + 1), || {
+                    (format!("the number of {}", edge()), String::new())
+                });
+                let vector = |c: &Crossings| q.side_of(EDGES[c.edges[end]][0], EDGES[c.edges[end]][1]);
+                for way in [0, 1] {
+                    out.named(Unit::Subpixels, of(&|c| vector(c)[way]), || {
+                        let noun = format!("d{} of {} in the order given", AXES[way], edge());
+                        (noun, String::new())
+                    });
+                }
+                let slope = |c: &Crossings| {
+                    let v = vector(c);
+                    v[1 - axis].saturating_mul(256) / v[axis]
+                };
+                out.named(Unit::Ratio, of(&slope), || {
+                    let [over, under] = [AXES[1 - axis], AXES[axis]];
+                    (format!("d{over}/d{under} of {}", edge()), String::new())
+                });
+                out.named(Unit::Subpixels, of(&|c| c.ahead[end]), || {
+                    (format!("the distance from {} to the next sample", edge()), String::new())
+                });
+            }
+            out.named(Unit::Paired, of(&|c| c.ends[1] - c.ends[0] + 1), || {
+                (format!("the number of pixels of its whole {line} {WHOLE}"), String::new())
+            });
+            let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));
+            for (value, way, nth) in
+                [(at[axis] - first, "from", "first"), (after - 1 - at[axis], "to", "last")]
+            {
+                out.named(Unit::Paired, value, || {
+                    let zero = format!("it is in the {nth} {line} of the whole shape {WHOLE}");
+                    let noun = format!("{line}s {way} the {nth} {line} of the whole shape {WHOLE}");
+                    (format!("the number of {noun}"), zero)
+                });
+            }
+        }
+    }
+
+    /// Its place in the pixels of a line that lie straight one behind another, as drawn from the first end to the second.
+    fn along_its_run(&self, [x, y]: [i32; 2], out: &mut Quantities) {
+        let [dx, dy] = self.question.side_of(0, 1);
+        let step = |v: i64| v.signum() as i32;
+        let axis = usize::from(dy.abs() > dx.abs());
+        let mut ahead = [0, 0];
+        ahead[axis] = [step(dx), step(dy)][axis];
+        let aside = [step(dx) - ahead[0], step(dy) - ahead[1]];
+        let places: [([i32; 2], &str, &str); 6] = [
+            (ahead, "the pixel straight after it is drawn", "the pixel straight after it is not drawn"),
+            (
+                ahead.map(|v| -v),
+                "the pixel straight before it is drawn",
+                "the pixel straight before it is not drawn",
+            ),
+            (
+                [step(dx), step(dy)],
+                "the pixel diagonally after it is drawn",
+                "the pixel diagonally after it is not drawn",
+            ),
+            (
+                [-step(dx), -step(dy)],
+                "the pixel diagonally before it is drawn",
+                "the pixel diagonally before it is not drawn",
+            ),
+            (
+                aside,
+                "the pixel beside it, on the side that the line goes to, is drawn",
+                "the pixel beside it, on the side that the line goes to, is not drawn",
+            ),
+            (
+                aside.map(|v| -v),
+                "the pixel beside it, on the side that the line comes from, is drawn",
+                "the pixel beside it, on the side that the line comes from, is not drawn",
+            ),
+        ];
+        for ([right, down], yes, no) in places {
+            let is_drawn = [right, down] != [0, 0] && self.drawn.has([x + right, y + down]);
+            out.flag(is_drawn, &[yes], no);
+        }
     }
 }
 

@@ -50,10 +50,10 @@ impl AnyQuestion {
         ax * by - ay * bx
     }
 
-    /// The numbers of the corners from the top down, of one height from the left.
+    /// The numbers of the corners from the top down, of one height in the order given, as most programs sort them.
     pub(super) fn by_height(&self) -> [usize; 3] {
         let mut order = [0, 1, 2];
-        order.sort_by_key(|i| (self.points[*i][1], self.points[*i][0]));
+        order.sort_by_key(|i| self.points[*i][1]);
         order
     }
 
@@ -213,6 +213,12 @@ impl Room {
             q.points.iter_mut().for_each(|point| *point = point.map(near));
         }
         q
+    }
+
+    /// Whether a question keeps to the grid, the range and the largest window.
+    pub(super) fn may_ask(&self, q: &AnyQuestion) -> bool {
+        let is_small = (0..2).all(|axis| i64::from(q.side[axis]) <= self.side[axis]);
+        is_small && self.fitted(q.clone()) == *q
     }
 
     /// A question that differs from another one in little.

@@ -1,14 +1,15 @@
 //! What is said of a model, in words.
 
-use super::change::{Change, How, Points, Toward};
+use super::border::{Crossing, Distance, From, Slope, Toward};
+use super::change::{Change, How, Points};
 use super::drawer::Drawer;
-use super::model::{GuardedStep, Model, Step, Vocabulary, Wrong};
+use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::quantity::Name;
 use super::question::Unit;
 use super::rule::{Conjunction, Fact, Of, Test};
 
 /// A number of a quantity, in px or px² where it is one.
-fn number(unit: Unit, v: i64) -> String {
+pub(super) fn number(unit: Unit, v: i64) -> String {
     let (per, word) = match unit {
         Unit::Subpixels => (256.0, " px"),
         Unit::Area => (131_072.0, " square pixels"),
@@ -102,6 +103,10 @@ pub(super) fn sentences(
     for (number, guarded) in model.chain.iter().enumerate() {
         out.push(base(guarded, number > 0, is_line, drawer, vocabulary));
     }
+    out.extend(model.borders.iter().map(|guarded| border(guarded, is_line, vocabulary)));
+    if model.exchanges_ends {
+        out.push("A row whose ends then come in the wrong order is drawn between them.".to_owned());
+    }
     for step in &model.steps {
         let said = pixels(step, vocabulary);
         // A step is about what the steps before it draw.
@@ -129,16 +134,105 @@ fn base(
     if !parts.is_empty() {
         how += &format!(" as if {}", parts.join(" and "));
     }
-    let when = |all: &Vec<Conjunction>| {
-        let all = all.iter().map(|f| facts(f, &vocabulary.names));
-        all.collect::<Vec<_>>().join("; or where ")
-    };
+    let when = |all: &[Conjunction]| any(all, vocabulary);
     match (&guarded.when, is_other) {
         (Some(all), false) => format!("It {how} where {}.", when(all)),
         (Some(all), true) => format!("Elsewhere, it {how} where {}.", when(all)),
         (None, false) => format!("It {how}."),
         (None, true) => format!("Elsewhere, it {how}."),
     }
+}
+
+/// Where one of some conjunctions holds.
+fn any(all: &[Conjunction], vocabulary: &Vocabulary) -> String {
+    let all = all.iter().map(|f| facts(f, &vocabulary.names));
+    all.collect::<Vec<_>>().join("; or where ")
+}
+
+fn border(guarded: &GuardedBorder, is_line: bool, vocabulary: &Vocabulary) -> String {
+    let what = match (is_line, guarded.end) {
+        (true, _) => "the side steps of its pixels",
+        (_, 0) => "the left ends of rows",
+        _ => "the right ends of rows",
+    };
+    let how = formula(&guarded.crossing, is_line).join(" and ");
+    match &guarded.when {
+        Some(when) => {
+            format!("It computes {what} as if {how}, where {}.", any(when, vocabulary))
+        }
+        None => format!("It computes {what} as if {how}."),
+    }
+}
+
+fn toward(toward: Toward) -> &'static str {
+    match toward {
+        Toward::Down => "down",
+        Toward::Nearest => "to the nearest",
+        Toward::Up => "up",
+        Toward::Zero => "toward 0",
+    }
+}
+
+/// What is not as it should be in a formula of a border.
+fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
+    let edge = if is_line { "the line" } else { "the edge" };
+    let px = |v: i64| number(Unit::Subpixels, v);
+    let mut said = Vec::new();
+    match crossing.from {
+        From::Before => {}
+        From::After if is_line => said.push("it began at the right or lower end".to_owned()),
+        From::After => said.push("the edge began at its lower end".to_owned()),
+        From::First => said.push(format!("{edge} began at the end that is given first")),
+        From::Second => said.push(format!("{edge} began at the end that is given last")),
+    }
+    let names = ["its side place", if is_line { "its place" } else { "its height" }];
+    for (start, name) in crossing.start.iter().zip(names) {
+        said.extend(start.map(|t| {
+            format!("the start of {edge} had {name} rounded {} to whole px", toward(t))
+        }));
+    }
+    if crossing.rise != 0 {
+        let length = if is_line { "its length" } else { "the height of the edge" };
+        said.push(format!("the slope were divided by {length} plus {} px", crossing.rise));
+    }
+    match crossing.slope {
+        Slope::Exact => {}
+        Slope::None => said.push(format!("the slope of {edge} were 0")),
+        Slope::Reversed => said.push(format!("the slope of {edge} had the other sign")),
+        Slope::Twice => said.push(format!("the slope of {edge} were doubled")),
+        Slope::Word { bits, is_signed } => {
+            let kind = if is_signed { "a signed" } else { "an unsigned" };
+            said.push(format!("the shorter side of {edge} were in {kind} word of {bits} bits"));
+        }
+        Slope::Fixed { fraction, toward: way, word } => {
+            let word = word.map_or_else(String::new, |bits| format!(", in a word of {bits} bits"));
+            said.push(format!(
+                "the slope of {edge} had {fraction} bits of fraction, rounded {}{word}",
+                toward(way)
+            ));
+        }
+    }
+    match crossing.distance {
+        Distance::Exact => {}
+        Distance::Rows => said.push("the way from the corner to the first sample were left out".into()),
+        Distance::RowsOfWindow => {
+            said.push("the way from the corner to the window were left out".to_owned());
+        }
+        Distance::FromTop => said.push("the way were counted from the start of the whole shape".into()),
+        Distance::Word(bits) => {
+            said.push(format!("slope times distance were in a signed word of {bits} bits"));
+        }
+    }
+    if crossing.later != 0 {
+        said.push(format!("it were computed {} farther along", px(crossing.later)));
+    }
+    if crossing.shift != 0 {
+        said.push(format!("it were moved by {}", px(crossing.shift)));
+    }
+    if crossing.ties_up {
+        said.push("a sample exactly on it lay on its other side".to_owned());
+    }
+    said
 }
 
 fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {
@@ -171,6 +265,15 @@ fn change(change: &Change, is_line: bool) -> String {
         Change::Nothing => return "nothing were given".to_owned(),
         Change::Exchange => return "x and y were exchanged".to_owned(),
         Change::Reverse => return "its ends were exchanged".to_owned(),
+        Change::Cut { points, toward: way } => {
+            let of = match points {
+                Points::All => "each end beyond the window were",
+                Points::Given(0) => "the first end, where it is beyond the window, was",
+                _ => "the second end, where it is beyond the window, was",
+            };
+            let rounded = format!("rounded {} to a whole pixel", toward(*way));
+            return format!("{of} replaced by the point where the line enters the window, {rounded}");
+        }
         Change::Move { points, axes, how } => (points, axes, how),
     };
     let axis = match axes {
@@ -192,16 +295,10 @@ fn transformed(how: How, one: f64) -> String {
     let px = |v: i64| format!("{} px", v as f64 / one);
     let power = |bits: u32| px(1 << bits);
     match how {
-        How::Snap(step, toward) => {
-            let toward = match toward {
-                Toward::Down => "down",
-                Toward::Nearest => "to the nearest",
-                Toward::Up => "up",
-                Toward::Zero => "toward 0",
-            };
+        How::Snap(step, way) => {
             let multiple =
                 if step as f64 >= one { px(step) } else { format!("1/{} px", one as i64 / step) };
-            format!("rounded {toward}, to multiples of {multiple}")
+            format!("rounded {}, to multiples of {multiple}", toward(way))
         }
         How::Add(by) => format!("moved by {}", px(by)),
         How::AtLeast(least) => format!("at least {}", px(least)),
@@ -219,6 +316,7 @@ fn transformed(how: How, one: f64) -> String {
         How::Saturate(bits) => {
             format!("limited to the range from -{} to {}", power(bits - 1), power(bits - 1))
         }
+        How::Limit(most) => format!("limited to the range from -{} to {}", px(most), px(most)),
         How::Absolute => "without its sign".to_owned(),
         How::Mirror(less) => format!(
             "mirrored: the side of the window{} less the coordinate",
