@@ -5,7 +5,7 @@
 //! are is learned as any other fact.
 
 use super::picture::{MARGIN, Picture};
-use super::quantity::{EDGES, Quantities, Scene};
+use super::quantity::EDGES;
 use super::question::AnyQuestion;
 
 /// Where a number is rounded to.
@@ -13,8 +13,28 @@ use super::question::AnyQuestion;
 pub(super) enum Toward {
     Down,
     Nearest,
+    /// The same, but a half goes down.
+    NearestDown,
     Up,
     Zero,
+}
+
+/// Which of two pixels of a line is taken that are as near: of a row, whether a sample exactly on its border lies in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tie {
+    Down,
+    Up,
+    /// The one that the line comes from or goes to, seen from its left or upper end.
+    Back,
+    On,
+    /// The same, seen from the end that is given first.
+    BackFromFirst,
+    OnFromFirst,
+}
+
+impl Tie {
+    pub(super) const ALL: [Self; 6] =
+        [Self::Down, Self::Up, Self::Back, Self::On, Self::BackFromFirst, Self::OnFromFirst];
 }
 
 /// The point that the distance is counted from.
@@ -48,12 +68,18 @@ pub(super) enum Distance {
     Exact,
     /// Rows from the first one: the way from the corner to the first sample is left out.
     Rows,
-    /// Rows of the window: what lies before it is left out.
-    RowsOfWindow,
     /// From the top of the whole shape.
     FromTop,
-    /// The product with the slope in a word of so many bits.
+}
+
+/// The format of slope times distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Product {
+    Exact,
+    /// A signed word of so many bits.
     Word(u32),
+    /// A multiple of so many 1/256 px.
+    Rounded(i64, Toward),
 }
 
 /// A formula of a border. All lengths are in 1/256 px.
@@ -66,11 +92,15 @@ pub(super) struct Crossing {
     pub(super) rise: i64,
     pub(super) slope: Slope,
     pub(super) distance: Distance,
+    pub(super) product: Product,
+    /// Whether what lies between the start and the window is left out.
+    pub(super) from_window: bool,
+    /// Whether its two ends have each other's place along the row.
+    pub(super) exchanged: bool,
     /// What is added to the distance and to the result.
     pub(super) later: i64,
     pub(super) shift: i64,
-    /// Which of two pixels is taken that are as near.
-    pub(super) ties_up: bool,
+    pub(super) tie: Tie,
 }
 
 impl Crossing {
@@ -80,12 +110,15 @@ impl Crossing {
         rise: 0,
         slope: Slope::Exact,
         distance: Distance::Exact,
+        product: Product::Exact,
+        from_window: false,
+        exchanged: false,
         later: 0,
         shift: 0,
-        ties_up: false,
+        tie: Tie::Down,
     };
 
-    /// Fields that are not as in the right formula.
+    /// Fields that are not as in the right formula, apart from its ties.
     pub(super) fn changes(&self) -> usize {
         let right = Self::RIGHT;
         [
@@ -95,9 +128,11 @@ impl Crossing {
             self.rise != 0,
             self.slope != right.slope,
             self.distance != right.distance,
+            self.product != right.product,
+            self.from_window,
+            self.exchanged,
             self.later != 0,
             self.shift != 0,
-            self.ties_up,
         ]
         .into_iter()
         .filter(|is_changed| *is_changed)
@@ -141,17 +176,26 @@ impl Crossing {
             with(&|c| c.slope = Slope::Word { bits, is_signed: false });
             with(&|c| c.slope = Slope::Word { bits, is_signed: true });
         }
-        for distance in [Distance::Rows, Distance::RowsOfWindow, Distance::FromTop] {
+        for distance in [Distance::Rows, Distance::FromTop] {
             with(&|c| c.distance = distance);
         }
+        with(&|c| c.from_window = true);
+        with(&|c| c.exchanged = true);
         for bits in [16, 20, 24, 28, 31, 32] {
-            with(&|c| c.distance = Distance::Word(bits));
+            with(&|c| c.product = Product::Word(bits));
+        }
+        for step in [1, 16, 256] {
+            for toward in TOWARD {
+                with(&|c| c.product = Product::Rounded(step, toward));
+            }
         }
         for by in [-512, -256, -128, 128, 256, 512] {
             with(&|c| c.later = by);
             with(&|c| c.shift = by);
         }
-        with(&|c| c.ties_up = true);
+        // Ties are no change, but which they are may change with the rest.
+        let ties = Tie::ALL.into_iter().filter(|tie| *tie != self.tie);
+        all.extend(ties.map(|tie| Self { tie, ..*self }));
         all
     }
 }
@@ -163,6 +207,7 @@ pub(super) fn round(num: i128, den: i128, toward: Toward) -> i128 {
         Toward::Down => num.div_euclid(den),
         Toward::Up => -(-num).div_euclid(den),
         Toward::Nearest => (2 * num + den).div_euclid(2 * den),
+        Toward::NearestDown => -(den - 2 * num).div_euclid(2 * den),
         Toward::Zero => num / den,
     }
 }
@@ -201,6 +246,9 @@ impl Site {
         if is_turned {
             std::mem::swap(&mut a, &mut b);
         }
+        if formula.exchanged {
+            (a[along], b[along]) = (b[along], a[along]);
+        }
         let mut rise = b[axis] - a[axis];
         rise += rise.signum() * 256 * i128::from(formula.rise);
         let run = b[along] - a[along];
@@ -210,15 +258,17 @@ impl Site {
         let snapped = |v: i128, toward: Option<Toward>| toward.map_or(v, |t| round(v, 256, t) * 256);
         let start = [snapped(a[along], formula.start[0]), snapped(a[axis], formula.start[1])];
         let at = i128::from(self.place * 256 + sample[axis]);
-        let sample_row = |v: i128| -(i128::from(sample[axis]) - v).div_euclid(256);
-        let distance = match formula.distance {
-            Distance::Exact | Distance::Word(_) => at - start[1],
-            Distance::Rows => 256 * (i128::from(self.place) - sample_row(start[1])),
-            Distance::RowsOfWindow => {
-                256 * (i128::from(self.place) - sample_row(start[1]).max(0))
-            }
+        // The place of the start: the first sample that is not before it.
+        let place = -(i128::from(sample[axis]) - start[1]).div_euclid(256);
+        let mut distance = match formula.distance {
+            Distance::Exact => at - start[1],
+            Distance::Rows => 256 * (i128::from(self.place) - place),
             Distance::FromTop => at - i128::from(q.range(axis)[0] * one),
         } + i128::from(formula.later);
+        if formula.from_window {
+            let seen = place.clamp(0, i128::from(q.side[axis]) - 1);
+            distance -= 256 * (seen - place);
+        }
         let (num, den) = match formula.slope {
             Slope::Exact => (run * distance, rise),
             Slope::None => (0, 1),
@@ -236,12 +286,33 @@ impl Site {
                 (word.map_or(slope, |bits| wrap(slope, bits)) * distance, 1 << fraction)
             }
         };
-        let num = if let Distance::Word(bits) = formula.distance { wrap(num, bits) } else { num };
+        let (num, den) = match formula.product {
+            Product::Exact => (num, den),
+            Product::Word(bits) => (wrap(num, bits), den),
+            Product::Rounded(step, toward) => {
+                let step = i128::from(step);
+                (round(num, den * step, toward) * step, 1)
+            }
+        };
         let value = start[0] * den + num + i128::from(formula.shift) * den;
         let (value, den) = if den < 0 { (-value, -den) } else { (value, den) };
         // A row begins at the first sample that is not before the crossing; a line has the pixel that is nearest.
         let sample = i128::from(if q.is_line() { 128 } else { sample[along] });
-        let pixel = match (formula.ties_up, q.is_line()) {
+        // Whether the line goes up in its shorter direction, seen from its left or upper end.
+        let climbs = (run > 0) == (b[axis] > a[axis]);
+        let is_forward = {
+            let [first, second] = self.points.map(point);
+            first[axis] < second[axis]
+        };
+        let is_up = match formula.tie {
+            Tie::Down => false,
+            Tie::Up => true,
+            Tie::On => climbs,
+            Tie::Back => !climbs,
+            Tie::OnFromFirst => climbs == is_forward,
+            Tie::BackFromFirst => climbs != is_forward,
+        };
+        let pixel = match (is_up, q.is_line()) {
             (true, true) => (value + 128 * den).div_euclid(256 * den),
             (true, false) => (value - sample * den).div_euclid(256 * den) + 1,
             (false, _) => -(sample * den - value).div_euclid(256 * den),
@@ -366,11 +437,4 @@ pub(super) fn redrawn(
         }
     }
     after
-}
-
-/// The facts of a border: those of the question and of a pixel beside it.
-pub(super) fn facts(scene: &Scene<'_>, of_question: &[i64], site: &Site, border: i64) -> Vec<i64> {
-    let mut row = Quantities { values: of_question.to_vec(), ..Quantities::default() };
-    scene.of_pixel(site.pixel(border, scene.drawn), &mut row);
-    row.values
 }

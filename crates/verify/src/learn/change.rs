@@ -51,12 +51,19 @@ pub(super) enum Change {
         axes: [bool; 2],
         how: How,
     },
+    /// Each pixel is written elsewhere.
+    Write {
+        axes: [bool; 2],
+        how: How,
+    },
     /// x and y change places.
     Exchange,
-    /// An end beyond the window comes to its border along the line, the place there rounded to whole pixels.
+    /// An end beyond the window comes to its border along the line, the place there rounded to whole pixels: to all sides
+    /// of the window, or to those along the longer axis.
     Cut {
         points: Points,
         toward: Toward,
+        all_sides: bool,
     },
     /// All points become one, so that nothing is drawn.
     Nothing,
@@ -80,6 +87,7 @@ impl How {
             Self::Snap(step, Toward::Down) => v.div_euclid(step) * step,
             Self::Snap(step, Toward::Up) => -(-v).div_euclid(step) * step,
             Self::Snap(step, Toward::Nearest) => (2 * v + step).div_euclid(2 * step) * step,
+            Self::Snap(step, Toward::NearestDown) => -(step - 2 * v).div_euclid(2 * step) * step,
             Self::Snap(step, Toward::Zero) => v / step * step,
             Self::Add(by) => v + by,
             Self::AtLeast(least) => v.max(least),
@@ -108,7 +116,9 @@ impl Change {
             Self::Reverse => q.points.reverse(),
             // A line of one point is a pixel, which lies beyond every window.
             Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
-            Self::Cut { points, toward } => cut(q, points, toward),
+            // It is the picture that changes.
+            Self::Write { .. } => {}
+            Self::Cut { points, toward, all_sides } => cut(q, points, toward, all_sides),
             Self::Move { points, axes, how } => {
                 let order = if q.is_line() { [0, 1, 1] } else { q.by_height() };
                 let first = q.points[0];
@@ -136,33 +146,66 @@ impl Points {
 }
 
 /// Cuts a line at the window, one side after another.
-fn cut(q: &mut AnyQuestion, points: Points, toward: Toward) {
+fn cut(q: &mut AnyQuestion, points: Points, toward: Toward, all_sides: bool) {
     let whole = [q.points[0], q.points[1]];
+    let [dx, dy] = q.extent();
+    let longer = usize::from(dy > dx);
     for i in (0..2).filter(|i| points.include(*i, [0, 1, 1])) {
         let (here, there) = (whole[i], whole[1 - i]);
-        for axis in [0, 1] {
+        for axis in (0..2).filter(|axis| all_sides || *axis == longer) {
             let limit = q.points[i][axis].clamp(0, i64::from(q.side[axis]) - 1);
             let by = there[axis] - here[axis];
             if limit == q.points[i][axis] || by == 0 {
                 continue;
             }
             let along = here[1 - axis] * by + (limit - here[axis]) * (there[1 - axis] - here[1 - axis]);
+            // Of two pixels that are as near, the line goes on to one, seen from its left or upper end.
+            let goes_down = (there[1 - axis] < here[1 - axis]) == (by > 0);
+            let toward = match toward {
+                Toward::Nearest if goes_down => Toward::NearestDown,
+                Toward::NearestDown if goes_down => Toward::Nearest,
+                other => other,
+            };
             q.points[i][axis] = limit;
             q.points[i][1 - axis] = border::round(along.into(), by.into(), toward) as i64;
         }
     }
 }
 
+/// A picture whose pixels are written elsewhere: where two come together, the pixel is drawn twice.
+fn written(before: &Picture, axes: [bool; 2], how: How) -> Picture {
+    let mut after = Picture::new(before.side);
+    for at in before.pixels().filter(|at| before.has(*at)) {
+        let to = [0, 1].map(|axis| match axes[axis] {
+            true => how.apply(at[axis].into(), before.side[axis].into(), 1, 0) as i32,
+            false => at[axis],
+        });
+        after.set(to, (after.hits(to) + before.hits(at)).min(2));
+    }
+    after
+}
+
 impl Base {
     pub(super) fn draw(&self, question: &AnyQuestion, drawer: &dyn Drawer) -> Option<Picture> {
         let mut q = question.clone();
         self.changes.iter().for_each(|change| change.apply(&mut q));
-        drawer.right(&q, self.rule)
+        let mut picture = drawer.right(&q, self.rule)?;
+        for change in &self.changes {
+            if let Change::Write { axes, how } = change {
+                picture = written(&picture, *axes, *how);
+            }
+        }
+        Some(picture)
+    }
+
+    /// Whether it says that nothing is drawn.
+    pub(super) fn is_nothing(&self) -> bool {
+        self.changes == [Change::Nothing]
     }
 
     pub(super) fn cost(&self) -> usize {
         let moved = self.changes.iter().map(|change| match change {
-            Change::Move { points: Points::All, .. } => 1,
+            Change::Move { points: Points::All, .. } | Change::Nothing => 1,
             _ => 2,
         });
         moved.sum::<usize>() + usize::from(self.rule > 0)
@@ -204,9 +247,21 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
     );
     let ends = [Points::All, Points::Given(0), Points::Given(1)];
     for points in ends.into_iter().filter(|_| is_line) {
-        for toward in [Toward::Down, Toward::Nearest, Toward::Up, Toward::Zero] {
-            bases.push(Base { changes: vec![Change::Cut { points, toward }], rule: 0 });
+        use Toward::{Down, Nearest, NearestDown, Up, Zero};
+        for toward in [Down, Nearest, NearestDown, Up, Zero] {
+            for all_sides in [true, false] {
+                let change = Change::Cut { points, toward, all_sides };
+                bases.push(Base { changes: vec![change], rule: 0 });
+            }
         }
+    }
+    let mut places: Vec<How> =
+        (1..=6).flat_map(|bits| [How::Wrap(bits, false), How::Snap(1 << bits, Toward::Down)]).collect();
+    places.extend([How::AtMostSide(2), How::Mirror(1), How::Mirror(0)]);
+    places.extend([-2, -1, 1, 2].map(How::Add));
+    for how in places {
+        let all = AXES.map(|axes| Change::Write { axes, how });
+        bases.extend(all.map(|change| Base { changes: vec![change], rule: 0 }));
     }
     for &how in &hows {
         for &points in &points {

@@ -128,6 +128,8 @@ struct Learner<'a> {
 struct Round {
     /// Wrong answers to questions that are beside no other one.
     independent: u64,
+    /// Wrong answers that are predicted and in which something is drawn: where nothing is, much predicts the same.
+    visible: u64,
     wrong: Count,
     right: Count,
     /// Numbers of those that it does not predict.
@@ -137,6 +139,22 @@ struct Round {
 impl Round {
     fn missed(&self) -> u64 {
         self.wrong.of - self.wrong.drawn + self.right.of - self.right.drawn
+    }
+
+    /// Whether there are enough answers to call something the cause.
+    fn is_enough(&self) -> bool {
+        self.wrong.of + self.right.of >= CERTAIN[0]
+            && self.wrong.of >= CERTAIN[1]
+            && self.independent >= CERTAIN[2]
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.independent += other.independent;
+        self.visible += other.visible;
+        for (count, more) in [(&mut self.wrong, other.wrong), (&mut self.right, other.right)] {
+            count.drawn += more.drawn;
+            count.of += more.of;
+        }
     }
 }
 
@@ -159,16 +177,21 @@ impl<'a> Learner<'a> {
                 Some((_, model)) if !refuted => model.clone(),
                 _ => self.search().explain(),
             };
-            let round = self.try_out(&model)?;
+            let mut round = self.try_out(&model)?;
+            let was_right = !refuted;
             refuted = round.missed() > 0;
-            let is_settled = !refuted && round.missed.is_empty();
             self.put_first(&round.missed);
+            if was_right {
+                // What was not refuted before is asked for more.
+                best.iter().for_each(|(before, _)| round.add(before));
+            }
+            let is_enough = round.is_enough();
             let is_better =
                 best.as_ref().is_none_or(|(before, _)| round.missed() <= before.missed());
             if is_better {
                 best = Some((round, model));
             }
-            if is_settled || self.left == 0 {
+            if !refuted && is_enough || self.left == 0 {
                 break;
             }
         }
@@ -265,6 +288,7 @@ impl<'a> Learner<'a> {
             let fits = search.fits(model, a);
             let count = if a.is_wrong() { &mut round.wrong } else { &mut round.right };
             count.add(fits);
+            round.visible += u64::from(fits && a.is_wrong() && !a.drawn.is_empty());
             round.missed.extend((!fits).then_some(i));
         }
         Some(round)
@@ -316,9 +340,9 @@ impl<'a> Learner<'a> {
     fn learned(&self, round: &Round, model: &Model) -> Learned {
         let (wrong, right) = (round.wrong, round.right);
         let is_certain = round.missed() == 0
-            && wrong.of + right.of >= CERTAIN[0]
-            && wrong.of >= CERTAIN[1]
-            && round.independent >= CERTAIN[2];
+            && round.is_enough()
+            && (model.chain.iter().all(|step| step.base.is_nothing())
+                || round.visible >= CERTAIN[2]);
         let explains = 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of;
         let does = match explains && wrong.drawn > 0 {
             true => say::sentences(model, &*self.drawer, &self.vocabulary),

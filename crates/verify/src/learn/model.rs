@@ -5,7 +5,7 @@ use super::change::Base;
 use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
 use super::quantity::{self, Name, Quantities, Scene};
-use super::question::AnyQuestion;
+use super::question::{AnyQuestion, Unit};
 use super::rule::{Conjunction, Fact, Of, all_hold};
 
 /// The quantities of a question.
@@ -32,6 +32,13 @@ impl Vocabulary {
         let picture = Picture::new(question.side);
         Scene::new(question, &picture, [128; 2]).of_pixel([0, 0], &mut out);
         Self { names: out.names.unwrap_or_default(), of_question, sizes: out.sizes }
+    }
+
+    /// The names without comparisons of two quantities, which are many.
+    pub(super) fn unpaired(&self) -> Vec<Name> {
+        let mut names = self.names.clone();
+        names.iter_mut().filter(|name| name.unit == Unit::Paired).for_each(|n| n.unit = Unit::Count);
+        names
     }
 
     /// The groups of quantities of a pixel that no fact is about.
@@ -134,7 +141,7 @@ impl Model {
     ) -> Option<Picture> {
         let mut drawn = self.start(a, drawer)?;
         if !self.borders.is_empty() {
-            drawn = self.with_borders(a, &drawn, drawer.sample());
+            drawn = self.with_borders(a, &drawn, drawer.sample(), vocabulary);
         }
         for step in &self.steps {
             drawn = step.apply(a, &drawn, drawer, vocabulary);
@@ -150,13 +157,26 @@ impl Model {
         }
     }
 
-    fn with_borders(&self, a: &LearnedAnswer, before: &Picture, sample: [i64; 2]) -> Picture {
+    fn with_borders(
+        &self,
+        a: &LearnedAnswer,
+        before: &Picture,
+        sample: [i64; 2],
+        vocabulary: &Vocabulary,
+    ) -> Picture {
+        let guards = self.borders.iter().filter_map(|border| border.when.as_ref());
+        let all: Vec<Fact> = guards.flatten().flatten().copied().collect();
+        let left_out = vocabulary.left_out(&all);
         let scene = Scene::new(&a.question, before, sample);
-        let needs_facts = self.borders.iter().any(|border| border.when.is_some());
         border::redrawn(&a.question, before, sample, self.exchanges_ends, &|site, right| {
-            let row = match needs_facts {
-                true => border::facts(&scene, &a.facts, site, right),
-                false => Vec::new(),
+            let row = match all.is_empty() {
+                true => Vec::new(),
+                false => {
+                    let (values, sizes) = (a.facts.clone(), vocabulary.sizes);
+                    let mut row = Quantities { values, names: None, left_out, sizes };
+                    scene.of_pixel(site.pixel(right, before), &mut row);
+                    row.values
+                }
             };
             let is_one = |border: &&GuardedBorder| border.end == site.end && border.holds(&row);
             let guarded = self.borders.iter().find(is_one)?;

@@ -1,8 +1,9 @@
 //! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
 
-use super::picture::{Picture, Runs};
+use super::picture::{MARGIN, Picture, Runs};
 use super::question::{AnyQuestion, Unit};
 use rasterproof_core::geometry::greatest_divisor;
+use std::cell::OnceCell;
 
 /// The words of a quantity.
 #[derive(Clone, Debug)]
@@ -72,6 +73,9 @@ impl Quantities {
 pub(super) const AXES: [&str; 2] = ["x", "y"];
 pub(super) const ORDINALS: [&str; 3] = ["first", "second", "third"];
 pub(super) const SIDES: [&str; 2] = ["width", "height"];
+
+/// Ratios are whole numbers of this part: fine enough to tell 4 from a little more.
+pub(super) const RATIO: i64 = 1 << 16;
 
 /// The quantities of a question.
 pub(super) fn of_question(q: &AnyQuestion, out: &mut Quantities) {
@@ -168,7 +172,7 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
     }
     let slopes = EDGES.map(|[a, b]| {
         let [dx, dy] = q.side_of(a, b).map(i64::abs);
-        if dy == 0 { NONE } else { dx * 256 / dy }
+        if dy == 0 { NONE } else { dx * RATIO / dy }
     });
     let known = || slopes.iter().copied().filter(|slope| *slope != NONE);
     out.number(Unit::Ratio, known().max().unwrap_or(NONE), &["the largest |dx|/|dy| of its edges"]);
@@ -188,11 +192,38 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
         );
     }
     let [width, height] = q.extent();
-    let ratio = |a: i64, b: i64| if b == 0 { NONE } else { a.saturating_mul(256) / b };
+    let ratio = |a: i64, b: i64| if b == 0 { NONE } else { a.saturating_mul(RATIO) / b };
     out.number(Unit::Ratio, ratio(width, height), &["its width over its height"]);
     let [top, middle, bottom] = q.by_height();
     out.number(Unit::Count, top as i64 + 1, &["the number of its top corner"]);
     out.number(Unit::Count, bottom as i64 + 1, &["the number of its bottom corner"]);
+    for axis in [0, 1] {
+        let [least, most] = q.range(axis);
+        for (limit, word) in [(least, "smallest"), (most, "largest")] {
+            let all = q.points.iter().filter(|point| point[axis] == limit).count();
+            let noun = ["the number of corners at its ", word, " ", AXES[axis]];
+            out.number(Unit::Count, all as i64, &noun);
+        }
+        for (i, ordinal) in ORDINALS.iter().enumerate() {
+            let here = q.points[i][axis];
+            let is_alone = q.points.iter().filter(|p| p[axis] == here).count() == 1;
+            for (limit, word) in [(least, "smallest"), (most, "largest")] {
+                let is_at = is_alone && here == limit;
+                let noun = ["the ", ordinal, " corner alone has its ", word, " ", AXES[axis]];
+                let no = [&["it is not so that "][..], &noun[..]].concat().concat();
+                out.flag(is_at, &noun, &no);
+            }
+        }
+    }
+    for (a, b, edge) in [
+        (top, middle, "the edge from the top to the middle corner"),
+        (top, bottom, "the edge from the top to the bottom corner"),
+        (middle, bottom, "the edge from the middle to the bottom corner"),
+    ] {
+        let [dx, dy] = q.side_of(a, b);
+        out.number(Unit::Subpixels, dx, &["dx of ", edge]);
+        out.number(Unit::Ratio, ratio(dx, dy), &["dx/dy of ", edge]);
+    }
     let height = |a: usize, b: usize| q.points[b][1] - q.points[a][1];
     out.number(Unit::Subpixels, height(top, middle), &["the height of its upper half"]);
     out.number(Unit::Subpixels, height(middle, bottom), &["the height of its lower half"]);
@@ -215,6 +246,8 @@ pub(super) struct Scene<'a> {
     sample: [i64; 2],
     /// Twice the edge functions begin at these corners, turned so that inside is positive.
     edges: Vec<Edge>,
+    /// Of each column and each row of the window and its margin, from the first on.
+    crossings: [OnceCell<Vec<Option<Crossings>>>; 2],
 }
 
 /// Whether an edge with this direction faces somewhere.
@@ -236,7 +269,8 @@ impl<'a> Scene<'a> {
             Edge { from: question.points[a], by, length: length(by).max(1) }
         });
         let edges = edges.collect();
-        Self { question, drawn, runs: Runs::of(drawn), sample, edges }
+        let crossings = [OnceCell::new(), OnceCell::new()];
+        Self { question, drawn, runs: Runs::of(drawn), sample, edges, crossings }
     }
 
     fn is_shown(&self, at: [i32; 2]) -> bool {
@@ -462,7 +496,7 @@ impl<'a> Scene<'a> {
         );
         out.number(
             Unit::Ratio,
-            if du == 0 { 0 } else { off.abs().saturating_mul(256) / du },
+            if du == 0 { 0 } else { off.abs().saturating_mul(RATIO) / du },
             &["its distance from the line in px"],
         );
         out.number(
@@ -567,6 +601,16 @@ struct Crossings {
 }
 
 impl Scene<'_> {
+    /// The same, each computed once.
+    fn crossed(&self, axis: usize, place: i64) -> Option<&Crossings> {
+        let margin = i64::from(MARGIN);
+        let all = self.crossings[axis].get_or_init(|| {
+            let places = -margin..i64::from(self.drawn.side[axis]) + margin;
+            places.map(|place| self.crossings(axis, place)).collect()
+        });
+        all.get(usize::try_from(place + margin).ok()?)?.as_ref()
+    }
+
     /// The crossings of a row, axis 1, or of a column, axis 0.
     fn crossings(&self, axis: usize, place: i64) -> Option<Crossings> {
         let (along, sample) = (1 - axis, self.sample[1 - axis]);
@@ -606,12 +650,12 @@ impl Scene<'_> {
             (0, ["column", "row", "upper", "lower"]),
         ] {
             let along = at[1 - axis];
-            let crossed = self.crossings(axis, at[axis]);
-            let of = |value: &dyn Fn(&Crossings) -> i64| crossed.as_ref().map_or(NONE, value);
+            let crossed = self.crossed(axis, at[axis]);
+            let of = |value: &dyn Fn(&Crossings) -> i64| crossed.map_or(NONE, value);
             for (end, word) in [before, after].into_iter().enumerate() {
                 let nth = ["first", "last"][end];
                 let way = ["from", "to"][end];
-                out.named(Unit::Paired, of(&|c| (along - c.ends[end]) * [1, -1][end]), || {
+                out.named(Unit::Count, of(&|c| (along - c.ends[end]) * [1, -1][end]), || {
                     let zero = format!("it is the {nth} pixel of its whole {line} {WHOLE}");
                     let noun = format!("{unit}s {way} the {nth} pixel of its whole {line} {WHOLE}");
                     (format!("the number of {noun}"), zero)
@@ -644,7 +688,7 @@ impl Scene<'_> {
                 }
                 let slope = |c: &Crossings| {
                     let v = vector(c);
-                    v[1 - axis].saturating_mul(256) / v[axis]
+                    v[1 - axis].saturating_mul(RATIO) / v[axis]
                 };
                 out.named(Unit::Ratio, of(&slope), || {
                     let [over, under] = [AXES[1 - axis], AXES[axis]];
@@ -654,14 +698,14 @@ impl Scene<'_> {
                     (format!("the distance from {} to the next sample", edge()), String::new())
                 });
             }
-            out.named(Unit::Paired, of(&|c| c.ends[1] - c.ends[0] + 1), || {
+            out.named(Unit::Count, of(&|c| c.ends[1] - c.ends[0] + 1), || {
                 (format!("the number of pixels of its whole {line} {WHOLE}"), String::new())
             });
             let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));
             for (value, way, nth) in
                 [(at[axis] - first, "from", "first"), (after - 1 - at[axis], "to", "last")]
             {
-                out.named(Unit::Paired, value, || {
+                out.named(Unit::Count, value, || {
                     let zero = format!("it is in the {nth} {line} of the whole shape {WHOLE}");
                     let noun = format!("{line}s {way} the {nth} {line} of the whole shape {WHOLE}");
                     (format!("the number of {noun}"), zero)

@@ -149,7 +149,8 @@ impl Room {
             |room: &mut Self| [0; 2].map(|_| room.rng.int(-reach / steps, reach / steps) * steps);
         let at = self.point(side, 0, 1);
         let (ahead, aside) = (off(self), off(self));
-        let back = self.rng.int(0, 256);
+        // Often the edge ends in the window.
+        let back = if self.rng.chance(3) { 0 } else { self.rng.int(0, 256) };
         let mut points = vec![
             [0, 1].map(|axis| at[axis] + ahead[axis]),
             [0, 1].map(|axis| at[axis] - ahead[axis] * back / 256 / steps * steps),

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
-use super::quantity::{NONE, Name};
+use super::quantity::{NONE, Name, RATIO};
 use super::question::Unit;
 
 /// A quantity, or one compared with another.
@@ -279,7 +279,7 @@ pub(super) fn common(names: &[Name], table: &Table, most: usize) -> (Conjunction
     let mut candidates: Vec<&Column> =
         matrix.columns.iter().filter(|c| count(&c.yes) == yes.len()).collect();
     let mut bits = ones(no.len());
-    while facts.len() < most {
+    while facts.len() < most && left > 0 {
         let worth = |c: &Column| (count_both(&bits, &c.no) as f64 + 1.0) * c.cost;
         candidates.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
         // The first that holds of all rows, and not only of those that were looked at.
@@ -624,7 +624,8 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
     // 'Below 8' and 'at least 8' are round where the limit is 7 and 8.
     let ahead = if sign == 1 { 1 } else { 0 };
     let step = match unit {
-        Unit::Subpixels | Unit::Ratio => 256,
+        Unit::Subpixels => 256,
+        Unit::Ratio => RATIO,
         Unit::Area => 131_072,
         _ => return low,
     };
@@ -638,6 +639,11 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
             break;
         }
         power /= 2;
+    }
+    // 'More than 4' is rounder than '4.03 or more'.
+    let strict = high + 1 - ahead;
+    if strict != 0 && strict.trailing_zeros() > (best + ahead).trailing_zeros() + 3 {
+        best = high;
     }
     best.clamp(low, high)
 }

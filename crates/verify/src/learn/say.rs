@@ -1,10 +1,10 @@
 //! What is said of a model, in words.
 
-use super::border::{Crossing, Distance, From, Slope, Toward};
+use super::border::{Crossing, Distance, From, Product, Slope, Tie, Toward};
 use super::change::{Change, How, Points};
 use super::drawer::Drawer;
 use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
-use super::quantity::Name;
+use super::quantity::{Name, RATIO};
 use super::question::Unit;
 use super::rule::{Conjunction, Fact, Of, Test};
 
@@ -13,7 +13,7 @@ pub(super) fn number(unit: Unit, v: i64) -> String {
     let (per, word) = match unit {
         Unit::Subpixels => (256.0, " px"),
         Unit::Area => (131_072.0, " square pixels"),
-        Unit::Ratio => (256.0, ""),
+        Unit::Ratio => (RATIO as f64, ""),
         Unit::Pixels => (1.0, " px"),
         Unit::Flag | Unit::Count | Unit::Paired | Unit::Involved => (1.0, ""),
     };
@@ -27,10 +27,21 @@ fn limited(noun: &str, unit: Unit, test: Test) -> String {
         Test::AtMost(-1) => format!("{noun} is negative"),
         Test::AtLeast(1) if !is_count => format!("{noun} is positive"),
         Test::AtMost(v) if is_count => format!("{noun} is at most {v}"),
+        // Between a number and the next one, the rounder one is said.
+        Test::AtMost(v) if is_rounder(v, v + 1) => {
+            format!("{noun} is {} or less", number(unit, v))
+        }
         Test::AtMost(v) => format!("{noun} is less than {}", number(unit, v + 1)),
+        Test::AtLeast(v) if !is_count && is_rounder(v - 1, v) => {
+            format!("{noun} is more than {}", number(unit, v - 1))
+        }
         Test::AtLeast(v) => format!("{noun} is {} or more", number(unit, v)),
         _ => unreachable!("other tests have words of their own"),
     }
+}
+
+fn is_rounder(a: i64, b: i64) -> bool {
+    a != 0 && a.trailing_zeros() > b.trailing_zeros()
 }
 
 fn modular(noun: &str, unit: Unit, test: Test) -> String {
@@ -125,7 +136,7 @@ fn base(
 ) -> String {
     let parts: Vec<String> = guarded.base.changes.iter().map(|c| change(c, is_line)).collect();
     let rule = &drawer.rules()[guarded.base.rule];
-    let is_nothing = guarded.base.changes == [Change::Nothing];
+    let is_nothing = guarded.base.is_nothing();
     let parts = if is_nothing { Vec::new() } else { parts };
     let mut how = String::from(if is_nothing { "draws nothing" } else { "draws" });
     if !rule.is_empty() {
@@ -168,6 +179,7 @@ fn toward(toward: Toward) -> &'static str {
     match toward {
         Toward::Down => "down",
         Toward::Nearest => "to the nearest",
+        Toward::NearestDown => "to the nearest (a half down)",
         Toward::Up => "up",
         Toward::Zero => "toward 0",
     }
@@ -176,6 +188,7 @@ fn toward(toward: Toward) -> &'static str {
 /// What is not as it should be in a formula of a border.
 fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
     let edge = if is_line { "the line" } else { "the edge" };
+    let side = if is_line { "side" } else { "x" };
     let px = |v: i64| number(Unit::Subpixels, v);
     let mut said = Vec::new();
     match crossing.from {
@@ -215,13 +228,18 @@ fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
     match crossing.distance {
         Distance::Exact => {}
         Distance::Rows => said.push("the way from the corner to the first sample were left out".into()),
-        Distance::RowsOfWindow => {
-            said.push("the way from the corner to the window were left out".to_owned());
-        }
         Distance::FromTop => said.push("the way were counted from the start of the whole shape".into()),
-        Distance::Word(bits) => {
+    }
+    match crossing.product {
+        Product::Exact => {}
+        Product::Word(bits) => {
             said.push(format!("slope times distance were in a signed word of {bits} bits"));
         }
+        Product::Rounded(step, way) => said.push(format!(
+            "slope times distance were rounded {}, to multiples of {}",
+            toward(way),
+            multiple(step, 256.0)
+        )),
     }
     if crossing.later != 0 {
         said.push(format!("it were computed {} farther along", px(crossing.later)));
@@ -229,8 +247,25 @@ fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
     if crossing.shift != 0 {
         said.push(format!("it were moved by {}", px(crossing.shift)));
     }
-    if crossing.ties_up {
-        said.push("a sample exactly on it lay on its other side".to_owned());
+    if crossing.from_window {
+        said.push(format!("the part of {edge} before the window were left out"));
+    }
+    if crossing.exchanged {
+        said.push(format!("the ends of {edge} had exchanged their {side} coordinates"));
+    }
+    match (crossing.tie, is_line) {
+        (Tie::Down, _) => {}
+        (Tie::Up, false) => said.push("a sample exactly on it lay on its other side".to_owned()),
+        (tie, _) => said.extend((crossing.changes() == 0 || !is_line).then(|| {
+            let to = match tie {
+                Tie::Up => "up",
+                Tie::Back => "back, seen from the left or upper end",
+                Tie::On => "on, seen from the left or upper end",
+                Tie::BackFromFirst => "back, seen from the first end",
+                _ => "on, seen from the first end",
+            };
+            format!("a tie went {to}")
+        })),
     }
     said
 }
@@ -265,14 +300,23 @@ fn change(change: &Change, is_line: bool) -> String {
         Change::Nothing => return "nothing were given".to_owned(),
         Change::Exchange => return "x and y were exchanged".to_owned(),
         Change::Reverse => return "its ends were exchanged".to_owned(),
-        Change::Cut { points, toward: way } => {
+        Change::Write { axes, how } => {
+            let axis = match axes {
+                [true, true] => "the column and the row of each pixel were",
+                [true, false] => "the column of each pixel was",
+                _ => "the row of each pixel was",
+            };
+            return format!("{axis}, when it is written, {}", transformed(*how, 1.0));
+        }
+        Change::Cut { points, toward: way, all_sides } => {
+            let beyond = if *all_sides { "" } else { " along the longer axis" };
             let of = match points {
-                Points::All => "each end beyond the window were",
-                Points::Given(0) => "the first end, where it is beyond the window, was",
-                _ => "the second end, where it is beyond the window, was",
+                Points::All => "each end, where it is beyond the window",
+                Points::Given(0) => "the first end, where it is beyond the window",
+                _ => "the second end, where it is beyond the window",
             };
             let rounded = format!("rounded {} to a whole pixel", toward(*way));
-            return format!("{of} replaced by the point where the line enters the window, {rounded}");
+            return format!("{of}{beyond}, was replaced by the point where the line enters the window, {rounded}");
         }
         Change::Move { points, axes, how } => (points, axes, how),
     };
@@ -296,8 +340,7 @@ fn transformed(how: How, one: f64) -> String {
     let power = |bits: u32| px(1 << bits);
     match how {
         How::Snap(step, way) => {
-            let multiple =
-                if step as f64 >= one { px(step) } else { format!("1/{} px", one as i64 / step) };
+            let multiple = multiple(step, one);
             format!("rounded {}, to multiples of {multiple}", toward(way))
         }
         How::Add(by) => format!("moved by {}", px(by)),
@@ -324,6 +367,13 @@ fn transformed(how: How, one: f64) -> String {
         ),
         How::AboutFirst => "on the other side of the first point".to_owned(),
         How::Scale(times) => format!("multiplied by {}", times as f64 / 256.0),
+    }
+}
+
+fn multiple(step: i64, one: f64) -> String {
+    match step as f64 >= one {
+        true => format!("{} px", step as f64 / one),
+        false => format!("1/{} px", one as i64 / step),
     }
 }
 

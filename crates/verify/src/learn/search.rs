@@ -1,6 +1,6 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
-use super::border::{self, Crossing, Site};
+use super::border::{self, Crossing, Site, Tie};
 use super::change::{self, Base, Nearness};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
@@ -220,7 +220,14 @@ impl Search<'_> {
                 let broken = 0.1 * broken.count() as f64;
                 drawn.count() as f64 - broken - 0.3 * crossing.changes() as f64
             };
-            for crossing in climbed(&worth) {
+            // The ties are those of the right answers.
+            let agrees = |tie: &Tie| {
+                let crossing = Crossing { tie: *tie, ..Crossing::RIGHT };
+                let drawn = |i: &&usize| right[**i].is_drawn_by(&crossing, sample);
+                few_right.iter().filter(drawn).count()
+            };
+            let tie = Tie::ALL.into_iter().rev().max_by_key(agrees).unwrap_or(Tie::Down);
+            for crossing in climbed(Crossing { tie, ..Crossing::RIGHT }, &worth) {
                 let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(&crossing, sample);
                 let mut table = Table::default();
                 for seen in wrong.iter().filter(is_drawn) {
@@ -235,7 +242,7 @@ impl Search<'_> {
                 }
                 let when = match table.no.is_empty() {
                     true => None,
-                    false => match self.guard(table, &self.vocabulary.names) {
+                    false => match self.guard(table, &self.vocabulary.unpaired()) {
                         Some(guard) => Some(guard),
                         None => continue,
                     },
@@ -249,7 +256,10 @@ impl Search<'_> {
     }
 
     fn border_facts(&self, seen: &BorderSeen<'_>) -> Vec<i64> {
-        border::facts(&seen.answer.1, &seen.answer.0.facts, &seen.site, seen.right)
+        let (a, scene) = &*seen.answer;
+        let mut row = Quantities { values: a.facts.clone(), ..Quantities::default() };
+        scene.of_pixel(seen.site.pixel(seen.right, &a.right), &mut row);
+        row.values
     }
 
     /// The borders that can be read off some answers, with what a model predicts of them.
@@ -261,16 +271,28 @@ impl Search<'_> {
             let Some(predicted) = model.predict(a, self.drawer, self.vocabulary) else { continue };
             let answer = Rc::new((a, Scene::new(&a.question, &a.right, sample)));
             let is_line = a.question.is_line();
-            for site in border::sites(&a.question, sample).into_iter().filter(|s| s.end == end) {
-                let Some(drawn) = site.seen(&a.drawn, is_line) else { continue };
-                let Some(predicted) = site.seen(&predicted, is_line) else { continue };
-                let right = match is_line {
-                    true => site.seen(&a.right, true),
-                    false => site.evaluate(&Crossing::RIGHT, &a.question, sample),
+            let right_of = |site: &Site| match is_line {
+                true => site.seen(&a.right, true),
+                false => site.evaluate(&Crossing::RIGHT, &a.question, sample),
+            };
+            let sites = border::sites(&a.question, sample);
+            for row in sites.chunks(if is_line { 1 } else { 2 }) {
+                let Some(site) = row.iter().find(|site| site.end == end) else { continue };
+                let [drawn, predicted] =
+                    [&a.drawn, &predicted].map(|picture| site.seen(picture, is_line));
+                // An empty row tells something where it is to be empty.
+                let is_blank = !is_line && row_is_empty(site, &a.drawn);
+                let is_known = drawn.is_some() || is_blank && row_is_empty(site, &a.right);
+                if !is_known || predicted.is_none() && !is_blank {
+                    continue;
+                }
+                let (Some(right), Some(other)) = (right_of(site), right_of(&row[(row.len() - 1).saturating_sub(end)]))
+                else {
+                    continue;
                 };
-                let Some(right) = right else { continue };
+                let site = *site;
                 let answer = Rc::clone(&answer);
-                all.push(BorderSeen { group, answer, site, right, predicted, drawn });
+                all.push(BorderSeen { group, answer, site, right, predicted, drawn, other });
             }
         }
         all
@@ -471,9 +493,11 @@ struct BorderSeen<'a> {
     site: Site,
     /// In the window or not.
     right: i64,
-    /// In the window.
-    predicted: i64,
-    drawn: i64,
+    /// In the window; nothing where the row is empty.
+    predicted: Option<i64>,
+    drawn: Option<i64>,
+    /// The other end of the row.
+    other: i64,
 }
 
 impl BorderSeen<'_> {
@@ -481,14 +505,22 @@ impl BorderSeen<'_> {
     fn is_drawn_by(&self, crossing: &Crossing, sample: [i64; 2]) -> bool {
         let q = &self.answer.0.question;
         let side = i64::from(q.side[1 - self.site.axis]);
-        let value = self.site.evaluate(crossing, q, sample);
-        value.is_some_and(|v| v.clamp(0, side) == self.drawn)
+        let Some(value) = self.site.evaluate(crossing, q, sample) else { return false };
+        match self.drawn {
+            Some(drawn) => value.clamp(0, side) == drawn,
+            None if self.site.end == 0 => value >= self.other,
+            None => value <= self.other,
+        }
     }
 }
 
+fn row_is_empty(site: &Site, picture: &Picture) -> bool {
+    !(0..picture.side[0]).any(|x| picture.has([x, site.place as i32]))
+}
+
 /// Formulas of the largest worth: the best of one change, and those of the best with another one.
-fn climbed(worth: &dyn Fn(&Crossing) -> f64) -> Vec<Crossing> {
-    let mut best: Vec<(f64, Crossing)> = vec![(0.0, Crossing::RIGHT)];
+fn climbed(start: Crossing, worth: &dyn Fn(&Crossing) -> f64) -> Vec<Crossing> {
+    let mut best: Vec<(f64, Crossing)> = vec![(0.0, start)];
     for wanted in [FIRST_FORMULAS, FORMULAS] {
         let more: Vec<Crossing> = best.iter().flat_map(|(_, c)| c.neighbours()).collect();
         best.extend(more.into_iter().map(|c| (worth(&c), c)));
@@ -496,13 +528,13 @@ fn climbed(worth: &dyn Fn(&Crossing) -> f64) -> Vec<Crossing> {
         best.dedup_by(|(_, a), (_, b)| a == b);
         best.truncate(wanted);
     }
-    best.retain(|(_, crossing)| *crossing != Crossing::RIGHT);
+    best.retain(|(_, crossing)| *crossing != start);
     best.into_iter().map(|(_, crossing)| crossing).collect()
 }
 
 /// Formulas that are changed in another field, and those whose guard is learned.
 const FIRST_FORMULAS: usize = 12;
-const FORMULAS: usize = 3;
+const FORMULAS: usize = 2;
 /// The most formulas of borders in a model.
 const MOST_BORDERS: usize = 4;
 
