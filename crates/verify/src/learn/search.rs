@@ -223,8 +223,7 @@ impl Search<'_> {
             // The ties are those of the right answers.
             let agrees = |tie: &Tie| {
                 let crossing = Crossing { tie: *tie, ..Crossing::RIGHT };
-                let drawn = |i: &&usize| right[**i].is_drawn_by(&crossing, sample);
-                few_right.iter().filter(drawn).count()
+                right.iter().filter(|seen| seen.is_drawn_by(&crossing, sample)).count()
             };
             let tie = Tie::ALL.into_iter().rev().max_by_key(agrees).unwrap_or(Tie::Down);
             for crossing in climbed(Crossing { tie, ..Crossing::RIGHT }, &worth) {
