@@ -52,9 +52,16 @@ pub(super) enum From {
 pub(super) enum Slope {
     Exact,
     /// So many bits of fraction, and so many bits in all if they are limited.
-    Fixed { fraction: u32, toward: Toward, word: Option<u32> },
+    Fixed {
+        fraction: u32,
+        toward: Toward,
+        word: Option<u32>,
+    },
     /// The shorter side in a word of so many bits.
-    Word { bits: u32, is_signed: bool },
+    Word {
+        bits: u32,
+        is_signed: bool,
+    },
     /// It is as if the edge went straight.
     None,
     /// The other way.
@@ -232,7 +239,12 @@ pub(super) struct Site {
 impl Site {
     /// The pixel: the first of a row, or the first after it; of a line, the one that it has. Nothing where the formula has no
     /// number.
-    pub(super) fn evaluate(&self, formula: &Crossing, q: &AnyQuestion, sample: [i64; 2]) -> Option<i64> {
+    pub(super) fn evaluate(
+        &self,
+        formula: &Crossing,
+        q: &AnyQuestion,
+        sample: [i64; 2],
+    ) -> Option<i64> {
         let (axis, along) = (self.axis, 1 - self.axis);
         let one = 256 / q.one();
         let point = |i: usize| [0, 1].map(|axis| i128::from(q.points[i][axis] * one));
@@ -255,7 +267,8 @@ impl Site {
         if rise == 0 {
             return None;
         }
-        let snapped = |v: i128, toward: Option<Toward>| toward.map_or(v, |t| round(v, 256, t) * 256);
+        let snapped =
+            |v: i128, toward: Option<Toward>| toward.map_or(v, |t| round(v, 256, t) * 256);
         let start = [snapped(a[along], formula.start[0]), snapped(a[axis], formula.start[1])];
         let at = i128::from(self.place * 256 + sample[axis]);
         // The place of the start: the first sample that is not before it.
@@ -424,7 +437,8 @@ pub(super) fn redrawn(
         if new.iter().all(Option::is_none) {
             continue;
         }
-        let ends: Vec<i64> = new.iter().zip(&borders).map(|(new, old)| new.unwrap_or(*old)).collect();
+        let ends: Vec<i64> =
+            new.iter().zip(&borders).map(|(new, old)| new.unwrap_or(*old)).collect();
         let (first, end) = match ends[..] {
             [first, end] if end < first && exchanges_ends => (end, first),
             [first, end] => (first, end),

@@ -158,7 +158,8 @@ fn cut(q: &mut AnyQuestion, points: Points, toward: Toward, all_sides: bool) {
             if limit == q.points[i][axis] || by == 0 {
                 continue;
             }
-            let along = here[1 - axis] * by + (limit - here[axis]) * (there[1 - axis] - here[1 - axis]);
+            let along =
+                here[1 - axis] * by + (limit - here[axis]) * (there[1 - axis] - here[1 - axis]);
             // Of two pixels that are as near, the line goes on to one, seen from its left or upper end.
             let goes_down = (there[1 - axis] < here[1 - axis]) == (by > 0);
             let toward = match toward {
@@ -255,8 +256,9 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
             }
         }
     }
-    let mut places: Vec<How> =
-        (1..=6).flat_map(|bits| [How::Wrap(bits, false), How::Snap(1 << bits, Toward::Down)]).collect();
+    let mut places: Vec<How> = (1..=6)
+        .flat_map(|bits| [How::Wrap(bits, false), How::Snap(1 << bits, Toward::Down)])
+        .collect();
     places.extend([How::AtMostSide(2), How::Mirror(1), How::Mirror(0)]);
     places.extend([-2, -1, 1, 2].map(How::Add));
     for how in places {

@@ -12,22 +12,17 @@ use super::search::Search;
 /// When the program is wrong, and where the wrong pixels lie.
 pub(super) fn sentences(search: &Search<'_>) -> Vec<String> {
     let names = &search.vocabulary.names;
-    let answers = answers(search);
     let of_question = &names[..search.vocabulary.of_question];
-    let mut said = Vec::new();
-    said.extend(common("wrong answers", "right answers", of_question, &answers));
-    said.extend(mostly("Mostly wrong", ["wrong answers", "right ones"], of_question, &answers));
+    let mut said = told_apart("wrong answers", "right ones", of_question, &answers(search));
     for wrong in Wrong::ALL {
         let table = search.table(&Model::default(), wrong);
         let (kind, others) = match wrong {
-            Wrong::Missing => ("missing pixels", "pixels that are drawn"),
-            Wrong::Extra => ("extra pixels", "pixels that are not drawn"),
+            Wrong::Missing => ("missing pixels", "pixels that are rightly drawn"),
+            Wrong::Extra => ("extra pixels", "pixels that are rightly not drawn"),
             Wrong::Twice => ("pixels drawn more than once", "pixels drawn once"),
         };
         if table.yes.len() >= LEAST_PIXELS {
-            said.extend(common(kind, others, names, &table));
-            let start = format!("Most {kind} are those");
-            said.extend(mostly(&start, [kind, others], names, &table));
+            said.extend(told_apart(kind, others, names, &table));
         }
     }
     said
@@ -50,36 +45,33 @@ fn answers(search: &Search<'_>) -> Table {
     table
 }
 
-/// What is true of all that is wrong.
-fn common(kind: &str, others: &str, names: &[Name], table: &Table) -> Option<String> {
-    let (facts, left) = rule::common(names, table, 3);
-    (!facts.is_empty()).then(|| {
-        format!(
-            "Of all {} {kind} that were looked at: {}. So it is of {left} of {} {others}.",
-            table.yes.len(),
-            say::facts(&facts, names),
-            table.no.len()
-        )
-    })
-}
-
-/// What is true of most that is wrong, and of little else.
-fn mostly(start: &str, of: [&str; 2], names: &[Name], table: &Table) -> Option<String> {
+/// What is true of all that is wrong; and what is true of most of it and of little else.
+fn told_apart(kind: &str, others: &str, names: &[Name], table: &Table) -> Vec<String> {
     let terms = Terms { most: 3, need: 3, slack: 30, wanted: 1 };
-    let found = rule::best(names, table, terms).into_iter().next()?;
-    let held = table.no.iter().filter(|row| all_hold(&found.facts, row)).count();
-    // What holds of few says nothing.
-    (2 * found.rows >= table.yes.len()).then(|| {
-        format!(
-            "{start} where {}: this holds for {} of {} {} and {held} of {} {}.",
-            say::facts(&found.facts, names),
-            found.rows,
+    let most = rule::best(names, table, terms).into_iter().next().map(|found| found.facts);
+    let all = rule::common(names, table, 3).0;
+    let mut said = Vec::new();
+    for facts in [all, most.unwrap_or_default()] {
+        let held = |rows: &[Vec<i64>]| rows.iter().filter(|row| all_hold(&facts, row)).count();
+        let (wrong, right) = (held(&table.yes), held(&table.no));
+        // What holds of few says nothing, and what is nearly said need not be said again.
+        if facts.is_empty() || 2 * wrong < table.yes.len() {
+            continue;
+        }
+        let sentence = format!(
+            "True of {wrong} of {} {kind}, and of {right} of {} {others}: {}.",
             table.yes.len(),
-            of[0],
             table.no.len(),
-            of[1]
-        )
-    })
+            say::facts(&facts, names)
+        );
+        if !said.contains(&sentence) {
+            said.push(sentence);
+        }
+        if wrong == table.yes.len() && 50 * right <= table.no.len() {
+            break;
+        }
+    }
+    said
 }
 
 /// A question that differs from another one in one thing, with the words of it.
@@ -135,23 +127,28 @@ pub(super) fn one_changes(q: &AnyQuestion, grain: i64) -> Vec<OneChange> {
     all
 }
 
-/// That a question comes out wrong, and right with one change.
-pub(super) fn beside(wrong: &LearnedAnswer, changes: &[OneChange], right: &[LearnedAnswer]) -> String {
+/// That a question comes out wrong, and right with one change; nothing where too little was answered.
+pub(super) fn beside(
+    wrong: &LearnedAnswer,
+    changes: &[OneChange],
+    answered: &[LearnedAnswer],
+) -> Option<String> {
+    if 2 * answered.len() < changes.len() {
+        return None;
+    }
     // A picture of nothing tells least.
-    let drawn = right.iter().filter(|a| !a.is_wrong() && !a.right.is_empty());
-    let blank = right.iter().filter(|a| !a.is_wrong() && a.right.is_empty());
+    let is_right = |a: &&LearnedAnswer| !a.is_wrong();
+    let drawn = answered.iter().filter(is_right).filter(|a| !a.right.is_empty());
+    let nearest = drawn.chain(answered.iter().filter(is_right)).next();
+    let change = nearest.and_then(|a| changes.iter().find(|c| c.question == a.question));
     let asked = wrong.question.request();
-    let found = drawn.chain(blank).find_map(|a| {
-        let change = changes.iter().find(|change| change.question == a.question)?;
-        Some(format!(
-            "'{asked}' comes out wrong; with {}, it comes out right.",
-            change.says
-        ))
-    });
-    found.unwrap_or_else(|| {
-        format!(
-            "'{asked}' comes out wrong; so does each of {} questions that differ from it in one number.",
-            right.len()
-        )
+    Some(match change {
+        Some(change) => {
+            format!("'{asked}' comes out wrong; with {}, it comes out right.", change.says)
+        }
+        None => format!(
+            "'{asked}' comes out wrong, and so does each of {} questions that differ from it in one number.",
+            answered.len()
+        ),
     })
 }

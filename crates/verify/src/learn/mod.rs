@@ -84,6 +84,8 @@ const FRESH: [usize; 2] = [200, 150];
 const MOST_FRESH: usize = 4;
 /// Searches at most: what refutes one is learned from by the next.
 const MOST_ROUNDS: usize = 3;
+/// Of so many new answers, one that is not predicted after the second search ends it.
+const HOPELESS: u64 = 8;
 /// New answers below which nothing is called the cause, wrong ones among them, and those of these that are independent.
 const CERTAIN: [u64; 3] = [300, 50, 12];
 /// Wrong answers below which nothing is learned.
@@ -172,6 +174,7 @@ impl<'a> Learner<'a> {
         }
         let mut best: Option<(Round, Model)> = None;
         let mut refuted = true;
+        let mut searches = 0;
         for _ in 0..MOST_ROUNDS {
             let model = match &best {
                 Some((_, model)) if !refuted => model.clone(),
@@ -191,7 +194,11 @@ impl<'a> Learner<'a> {
             if is_better {
                 best = Some((round, model));
             }
-            if !refuted && is_enough || self.left == 0 {
+            let is_hopeless = best.as_ref().is_some_and(|(round, _)| {
+                round.missed() > (round.wrong.of + round.right.of) / HOPELESS
+            });
+            searches += usize::from(!was_right);
+            if !refuted && is_enough || self.left == 0 || searches > 1 && is_hopeless {
                 break;
             }
         }
@@ -214,7 +221,7 @@ impl<'a> Learner<'a> {
         self.left = self.left.max(changes.len());
         self.ask(changes.iter().map(|change| change.question.clone()).collect())?;
         let (old, new) = self.answered.split_at(before);
-        Some(known::beside(&old[smallest], &changes, new))
+        known::beside(&old[smallest], &changes, new)
     }
 
     fn wrong(&self) -> impl Iterator<Item = &LearnedAnswer> {

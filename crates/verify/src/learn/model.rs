@@ -37,7 +37,10 @@ impl Vocabulary {
     /// The names without comparisons of two quantities, which are many.
     pub(super) fn unpaired(&self) -> Vec<Name> {
         let mut names = self.names.clone();
-        names.iter_mut().filter(|name| name.unit == Unit::Paired).for_each(|n| n.unit = Unit::Count);
+        names
+            .iter_mut()
+            .filter(|name| name.unit == Unit::Paired)
+            .for_each(|n| n.unit = Unit::Count);
         names
     }
 
@@ -53,6 +56,20 @@ impl Vocabulary {
                 Of::Difference(i, j) => !group.contains(&i) && !group.contains(&j),
             })
         })
+    }
+
+    /// Facts that need the same groups of quantities, with the groups that they leave out: most pixels are told by the first.
+    fn stages(&self, facts: &[Fact]) -> Vec<([bool; quantity::GROUPS], Conjunction)> {
+        let mut stages: Vec<([bool; quantity::GROUPS], Conjunction)> = Vec::new();
+        for fact in facts {
+            let left_out = self.left_out(&[*fact]);
+            match stages.iter_mut().find(|(groups, _)| *groups == left_out) {
+                Some((_, facts)) => facts.push(*fact),
+                None => stages.push((left_out, vec![*fact])),
+            }
+        }
+        stages.sort_by_key(|(left_out, _)| left_out.iter().filter(|is_out| !**is_out).count());
+        stages
     }
 
     fn is_of_question(&self, fact: &Fact) -> bool {
@@ -256,13 +273,19 @@ impl Step {
             return after;
         }
         let scene = Scene::new(&a.question, before, drawer.sample());
-        let left_out = vocabulary.left_out(&of_pixel);
+        let stages = vocabulary.stages(&of_pixel);
         let (values, sizes) = (a.facts.clone(), vocabulary.sizes);
-        let mut row = Quantities { values, names: None, left_out, sizes };
+        let mut row = Quantities { values, sizes, ..Quantities::default() };
+        let mut holds = |at: [i32; 2]| {
+            stages.iter().all(|(left_out, facts)| {
+                row.left_out = *left_out;
+                row.values.truncate(vocabulary.of_question);
+                scene.of_pixel(at, &mut row);
+                all_hold(facts, &row.values)
+            })
+        };
         for at in before.all().filter(|at| self.wrong.may_befall(before.hits(*at))) {
-            row.values.truncate(vocabulary.of_question);
-            scene.of_pixel(at, &mut row);
-            if all_hold(&of_pixel, &row.values) {
+            if holds(at) {
                 after.set(at, self.wrong.hits());
             }
         }

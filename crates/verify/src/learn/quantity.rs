@@ -31,7 +31,7 @@ pub(super) struct Quantities {
 }
 
 /// Quantities of a pixel that are computed together.
-pub(super) const GROUPS: usize = 5;
+pub(super) const GROUPS: usize = 6;
 
 impl Quantities {
     /// Computes a group, unless it is left out.
@@ -184,10 +184,10 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
     for axis in [0, 1] {
         let of = |a: usize, b: usize| q.points[a][axis] == q.points[b][axis];
         let straight = EDGES.iter().any(|[a, b]| of(*a, *b));
-        let word = ["upright", "level"][axis];
+        let word = ["an upright", "a level"][axis];
         out.flag(
             straight,
-            &["it has an ", word, " edge"],
+            &["it has ", word, " edge"],
             ["it has no upright edge", "it has no level edge"][axis],
         );
     }
@@ -304,7 +304,12 @@ impl<'a> Scene<'a> {
         });
         out.group(4, |out| match self.question.is_line() {
             true => self.along_its_run([x, y], out),
-            false => self.by_crossings([column, row], out),
+            false => self.by_crossings(1, [column, row], out),
+        });
+        out.group(5, |out| {
+            if !self.question.is_line() {
+                self.by_crossings(0, [column, row], out);
+            }
         });
     }
 
@@ -640,77 +645,76 @@ impl Scene<'_> {
         })
     }
 
-    /// Its place between the edges that cross its row and its column, in the window or not, and what these edges are.
-    fn by_crossings(&self, at: [i64; 2], out: &mut Quantities) {
+    /// Its place between the edges that cross its row, axis 1, or its column, axis 0, in the window or not, and what these
+    /// edges are.
+    fn by_crossings(&self, axis: usize, at: [i64; 2], out: &mut Quantities) {
         const WHOLE: &str = "(also beyond the window)";
         let q = self.question;
         let order = q.by_height();
-        for (axis, [line, unit, before, after]) in [
-            (1, ["row", "column", "left", "right"]),
-            (0, ["column", "row", "upper", "lower"]),
-        ] {
-            let along = at[1 - axis];
-            let crossed = self.crossed(axis, at[axis]);
-            let of = |value: &dyn Fn(&Crossings) -> i64| crossed.map_or(NONE, value);
-            for (end, word) in [before, after].into_iter().enumerate() {
-                let nth = ["first", "last"][end];
-                let way = ["from", "to"][end];
-                out.named(Unit::Count, of(&|c| (along - c.ends[end]) * [1, -1][end]), || {
-                    let zero = format!("it is the {nth} pixel of its whole {line} {WHOLE}");
-                    let noun = format!("{unit}s {way} the {nth} pixel of its whole {line} {WHOLE}");
-                    (format!("the number of {noun}"), zero)
-                });
-                out.named(Unit::Count, of(&|c| c.ends[end]), || {
-                    let noun = format!("{unit} of the {nth} pixel of its whole {line} {WHOLE}");
-                    (format!("the {noun}"), String::new())
-                });
-                // The edge there.
-                let edge = || format!("the edge at the {word} end of its {line}");
-                let is_long = |c: &Crossings| {
-                    let [a, b] = EDGES[c.edges[end]];
-                    i64::from(a != order[1] && b != order[1])
-                };
-                out.named(Unit::Flag, of(&is_long), || {
-                    let [is, is_not] = ["", " not"].map(|not| {
-                        format!("{} does{not} join the top and the bottom corner", edge())
-                    });
-                    (is.replace("does join", "joins"), is_not)
-                });
-                out.named(Unit::Count, of(&|c| c.edges[end] as i64 + 1), || {
-                    (format!("the number of {}", edge()), String::new())
-                });
-                let vector = |c: &Crossings| q.side_of(EDGES[c.edges[end]][0], EDGES[c.edges[end]][1]);
-                for way in [0, 1] {
-                    out.named(Unit::Subpixels, of(&|c| vector(c)[way]), || {
-                        let noun = format!("d{} of {} in the order given", AXES[way], edge());
-                        (noun, String::new())
-                    });
-                }
-                let slope = |c: &Crossings| {
-                    let v = vector(c);
-                    v[1 - axis].saturating_mul(RATIO) / v[axis]
-                };
-                out.named(Unit::Ratio, of(&slope), || {
-                    let [over, under] = [AXES[1 - axis], AXES[axis]];
-                    (format!("d{over}/d{under} of {}", edge()), String::new())
-                });
-                out.named(Unit::Subpixels, of(&|c| c.ahead[end]), || {
-                    (format!("the distance from {} to the next sample", edge()), String::new())
-                });
-            }
-            out.named(Unit::Count, of(&|c| c.ends[1] - c.ends[0] + 1), || {
-                (format!("the number of pixels of its whole {line} {WHOLE}"), String::new())
+        let [line, unit, before, after] = match axis {
+            1 => ["row", "column", "left", "right"],
+            _ => ["column", "row", "upper", "lower"],
+        };
+        let along = at[1 - axis];
+        let crossed = self.crossed(axis, at[axis]);
+        let of = |value: &dyn Fn(&Crossings) -> i64| crossed.map_or(NONE, value);
+        for (end, word) in [before, after].into_iter().enumerate() {
+            let nth = ["first", "last"][end];
+            let way = ["from", "to"][end];
+            out.named(Unit::Count, of(&|c| (along - c.ends[end]) * [1, -1][end]), || {
+                let zero = format!("it is the {nth} pixel of its whole {line} {WHOLE}");
+                let noun = format!("{unit}s {way} the {nth} pixel of its whole {line} {WHOLE}");
+                (format!("the number of {noun}"), zero)
             });
-            let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));
-            for (value, way, nth) in
-                [(at[axis] - first, "from", "first"), (after - 1 - at[axis], "to", "last")]
-            {
-                out.named(Unit::Count, value, || {
-                    let zero = format!("it is in the {nth} {line} of the whole shape {WHOLE}");
-                    let noun = format!("{line}s {way} the {nth} {line} of the whole shape {WHOLE}");
-                    (format!("the number of {noun}"), zero)
+            out.named(Unit::Count, of(&|c| c.ends[end]), || {
+                let noun = format!("{unit} of the {nth} pixel of its whole {line} {WHOLE}");
+                (format!("the {noun}"), String::new())
+            });
+            // The edge there.
+            let edge = || format!("the edge at the {word} end of its {line}");
+            let is_long = |c: &Crossings| {
+                let [a, b] = EDGES[c.edges[end]];
+                i64::from(a != order[1] && b != order[1])
+            };
+            out.named(Unit::Flag, of(&is_long), || {
+                let [is, is_not] = ["", " not"]
+                    .map(|not| format!("{} does{not} join the top and the bottom corner", edge()));
+                (is.replace("does join", "joins"), is_not)
+            });
+            out.named(Unit::Count, of(&|c| c.edges[end] as i64 + 1), || {
+                (format!("the number of {}", edge()), String::new())
+            });
+            let vector = |c: &Crossings| q.side_of(EDGES[c.edges[end]][0], EDGES[c.edges[end]][1]);
+            for way in [0, 1] {
+                out.named(Unit::Subpixels, of(&|c| vector(c)[way]), || {
+                    let noun = format!("d{} of {} in the order given", AXES[way], edge());
+                    (noun, String::new())
                 });
             }
+            let slope = |c: &Crossings| {
+                let v = vector(c);
+                v[1 - axis].saturating_mul(RATIO) / v[axis]
+            };
+            out.named(Unit::Ratio, of(&slope), || {
+                let [over, under] = [AXES[1 - axis], AXES[axis]];
+                (format!("d{over}/d{under} of {}", edge()), String::new())
+            });
+            out.named(Unit::Subpixels, of(&|c| c.ahead[end]), || {
+                (format!("the distance from {} to the next sample", edge()), String::new())
+            });
+        }
+        out.named(Unit::Count, of(&|c| c.ends[1] - c.ends[0] + 1), || {
+            (format!("the number of pixels of its whole {line} {WHOLE}"), String::new())
+        });
+        let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));
+        for (value, way, nth) in
+            [(at[axis] - first, "from", "first"), (after - 1 - at[axis], "to", "last")]
+        {
+            out.named(Unit::Count, value, || {
+                let zero = format!("it is in the {nth} {line} of the whole shape {WHOLE}");
+                let noun = format!("{line}s {way} the {nth} {line} of the whole shape {WHOLE}");
+                (format!("the number of {noun}"), zero)
+            });
         }
     }
 
@@ -723,7 +727,11 @@ impl Scene<'_> {
         ahead[axis] = [step(dx), step(dy)][axis];
         let aside = [step(dx) - ahead[0], step(dy) - ahead[1]];
         let places: [([i32; 2], &str, &str); 6] = [
-            (ahead, "the pixel straight after it is drawn", "the pixel straight after it is not drawn"),
+            (
+                ahead,
+                "the pixel straight after it is drawn",
+                "the pixel straight after it is not drawn",
+            ),
             (
                 ahead.map(|v| -v),
                 "the pixel straight before it is drawn",

@@ -368,9 +368,8 @@ impl Matrix {
             }
         }
         // Of facts that hold of the same rows, the cheapest is kept.
-        columns.sort_by(|a, b| {
-            (&a.yes, &a.no).cmp(&(&b.yes, &b.no)).then(a.cost.total_cmp(&b.cost))
-        });
+        columns
+            .sort_by(|a, b| (&a.yes, &a.no).cmp(&(&b.yes, &b.no)).then(a.cost.total_cmp(&b.cost)));
         columns.dedup_by(|a, b| a.yes == b.yes && a.no == b.no);
         let mut matrix = Self { columns, rows: yes.len(), others: no.len() };
         // A fact that tells a little is needed beside others.

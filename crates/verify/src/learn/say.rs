@@ -200,9 +200,11 @@ fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
     }
     let names = ["its side place", if is_line { "its place" } else { "its height" }];
     for (start, name) in crossing.start.iter().zip(names) {
-        said.extend(start.map(|t| {
-            format!("the start of {edge} had {name} rounded {} to whole px", toward(t))
-        }));
+        said.extend(
+            start.map(|t| {
+                format!("the start of {edge} had {name} rounded {} to whole px", toward(t))
+            }),
+        );
     }
     if crossing.rise != 0 {
         let length = if is_line { "its length" } else { "the height of the edge" };
@@ -227,8 +229,12 @@ fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
     }
     match crossing.distance {
         Distance::Exact => {}
-        Distance::Rows => said.push("the way from the corner to the first sample were left out".into()),
-        Distance::FromTop => said.push("the way were counted from the start of the whole shape".into()),
+        Distance::Rows => {
+            said.push("the way from the corner to the first sample were left out".into())
+        }
+        Distance::FromTop => {
+            said.push("the way were counted from the start of the whole shape".into())
+        }
     }
     match crossing.product {
         Product::Exact => {}
@@ -316,7 +322,9 @@ fn change(change: &Change, is_line: bool) -> String {
                 _ => "the second end, where it is beyond the window",
             };
             let rounded = format!("rounded {} to a whole pixel", toward(*way));
-            return format!("{of}{beyond}, was replaced by the point where the line enters the window, {rounded}");
+            return format!(
+                "{of}{beyond}, was replaced by the point where the line enters the window, {rounded}"
+            );
         }
         Change::Move { points, axes, how } => (points, axes, how),
     };

@@ -14,6 +14,9 @@ use std::rc::Rc;
 const LEARNED_FROM: [usize; 2] = [90, 70];
 /// Answers that changed questions are ranked by.
 const RANKED_BY: usize = 36;
+/// Changed questions that are ranked under a model, and the answers that choose them.
+const RANKED_UNDER: usize = 150;
+const FEW: usize = 8;
 /// Pixels of one answer that are looked at, of those that are not wrong.
 const MOST_OF_ONE: usize = 240;
 /// The most steps of a model.
@@ -135,6 +138,14 @@ impl Search<'_> {
                 Nearness { exact, pixels: 0 }
             }
         };
+        // Under a model only those are looked at that come nearest without it.
+        let few = &answers[..answers.len().min(FEW)];
+        let rough = |base: &Base| std::cmp::Reverse(change::nearness(base, few, self.drawer));
+        let mut bases = bases;
+        if *under != Model::default() {
+            bases.sort_by_cached_key(rough);
+            bases.truncate(RANKED_UNDER);
+        }
         let mut ranked: Vec<(Nearness, Base)> = bases.into_iter().map(|b| (near(&b), b)).collect();
         ranked.sort_by(|(a, x), (b, y)| b.cmp(a).then(x.cost().cmp(&y.cost())));
         ranked
@@ -285,7 +296,8 @@ impl Search<'_> {
                 if !is_known || predicted.is_none() && !is_blank {
                     continue;
                 }
-                let (Some(right), Some(other)) = (right_of(site), right_of(&row[(row.len() - 1).saturating_sub(end)]))
+                let (Some(right), Some(other)) =
+                    (right_of(site), right_of(&row[(row.len() - 1).saturating_sub(end)]))
                 else {
                     continue;
                 };
