@@ -196,7 +196,7 @@ impl Crossing {
                 with(&|c| c.product = Product::Rounded(step, toward));
             }
         }
-        for by in [-512, -256, -128, 128, 256, 512] {
+        for by in [128, 256, 512, 1024, 2048].into_iter().flat_map(|by| [by, -by]) {
             with(&|c| c.later = by);
             with(&|c| c.shift = by);
         }

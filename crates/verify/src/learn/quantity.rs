@@ -377,6 +377,13 @@ impl<'a> Scene<'a> {
             &["the number of columns to the last column of the shape"],
             ["it is in the last column of the shape", "it is not in the last column of the shape"],
         );
+        let first = rows.first.min(y);
+        let empty = (first..y).filter(|y| self.runs.row(*y).is_none()).count() as i64;
+        out.number(
+            Unit::Count,
+            empty,
+            &["the number of empty rows between the first row of the shape and its row"],
+        );
         out.number(Unit::Paired, i64::from(rows.count), &["the number of rows of the shape"]);
         out.number(Unit::Paired, i64::from(columns.count), &["the number of columns of the shape"]);
         // A loop by groups of pixels ends early where the row is no whole number of groups.

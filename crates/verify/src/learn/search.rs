@@ -87,7 +87,8 @@ impl Search<'_> {
             return self.pruned(best(&tried).model.clone());
         }
         tried.push(self.tried(self.with_steps(&Model::default(), MOST_STEPS, 2)));
-        if !best(&tried).is_whole() {
+        // A long model may be a formula in other words.
+        if !best(&tried).is_whole() || best(&tried).model.cost() > 5 {
             self.move_borders(&mut tried);
         }
         if !best(&tried).is_whole() {
@@ -199,8 +200,9 @@ impl Search<'_> {
             let next = candidates.reduce(|a, b| if b.score() > a.score() { b } else { a });
             let Some(next) = next.filter(|next| next.score() > score) else { break };
             (model, score) = (next.model.clone(), next.score());
+            let is_whole = next.is_whole();
             tried.push(next);
-            if best(tried).is_whole() {
+            if is_whole {
                 return;
             }
         }
