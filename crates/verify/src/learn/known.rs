@@ -4,7 +4,7 @@
 use super::drawer::LearnedAnswer;
 use super::model::{Model, Wrong};
 use super::quantity::{AXES, Name, ORDINALS, SIDES};
-use super::question::{AnyQuestion, Unit};
+use super::question::AnyQuestion;
 use super::rule::{self, Table, Terms, all_hold};
 use super::say;
 use super::search::Search;
@@ -93,12 +93,7 @@ pub(super) fn one_changes(q: &AnyQuestion, grain: i64) -> Vec<OneChange> {
                     let mut other = q.clone();
                     other.points[i][axis] += by;
                     let [before, after] =
-                        [q, &other].map(|q| say::number(Unit::Pixels, q.points[i][axis] / one));
-                    let [before, after] = if one == 1 {
-                        [before, after]
-                    } else {
-                        [q, &other].map(|q| say::number(Unit::Subpixels, q.points[i][axis]))
-                    };
+                        [q, &other].map(|q| say::number(q.unit(), q.points[i][axis]));
                     let says =
                         format!("{} of the {ordinal} {corner} {after}, not {before}", AXES[axis]);
                     all.push(OneChange { question: other, says });
