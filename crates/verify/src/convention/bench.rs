@@ -17,7 +17,7 @@ pub struct TriangleQuestion {
 }
 
 /// Questions that a program is asked at most to learn what it does.
-pub const MOST_TO_LEARN: usize = 4000;
+pub const MOST_TO_LEARN: usize = 6000;
 
 /// Whoever answers: a program behind a pipe, a function, a recording.
 pub trait Ask {

@@ -3,6 +3,7 @@
 //! A change is a map of numbers, for some of the points and for one axis or both. The numbers in it, such as an offset, are
 //! solved for: tried from coarse to fine, by how near the pictures come to the answers.
 
+use super::border::{self, Toward};
 use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
 use super::question::AnyQuestion;
@@ -15,14 +16,6 @@ pub(super) enum Points {
     Given(usize),
     /// In the order from the top down.
     ByHeight(usize),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Toward {
-    Down,
-    Nearest,
-    Up,
-    Zero,
 }
 
 /// What becomes of a coordinate.
@@ -40,6 +33,8 @@ pub(super) enum How {
     Wrap(u32, bool),
     /// Limited to a signed word of so many bits.
     Saturate(u32),
+    /// Limited to so many steps on both sides of 0.
+    Limit(i64),
     Absolute,
     /// The side of the window less so many steps and less the coordinate.
     Mirror(i64),
@@ -56,8 +51,20 @@ pub(super) enum Change {
         axes: [bool; 2],
         how: How,
     },
+    /// Each pixel is written elsewhere.
+    Write {
+        axes: [bool; 2],
+        how: How,
+    },
     /// x and y change places.
     Exchange,
+    /// An end beyond the window comes to its border along the line, the place there rounded to whole pixels: to all sides
+    /// of the window, or to those along the longer axis.
+    Cut {
+        points: Points,
+        toward: Toward,
+        all_sides: bool,
+    },
     /// All points become one, so that nothing is drawn.
     Nothing,
     /// The points come in the other order.
@@ -80,6 +87,7 @@ impl How {
             Self::Snap(step, Toward::Down) => v.div_euclid(step) * step,
             Self::Snap(step, Toward::Up) => -(-v).div_euclid(step) * step,
             Self::Snap(step, Toward::Nearest) => (2 * v + step).div_euclid(2 * step) * step,
+            Self::Snap(step, Toward::NearestDown) => -(step - 2 * v).div_euclid(2 * step) * step,
             Self::Snap(step, Toward::Zero) => v / step * step,
             Self::Add(by) => v + by,
             Self::AtLeast(least) => v.max(least),
@@ -91,6 +99,7 @@ impl How {
             }
             Self::Wrap(bits, false) => v.rem_euclid(1 << bits),
             Self::Saturate(bits) => v.clamp(-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
+            Self::Limit(most) => v.clamp(-most.abs(), most.abs()),
             Self::Absolute => v.abs(),
             Self::Mirror(less) => side * one - less - v,
             Self::AboutFirst => 2 * first - v,
@@ -107,15 +116,14 @@ impl Change {
             Self::Reverse => q.points.reverse(),
             // A line of one point is a pixel, which lies beyond every window.
             Self::Nothing => q.points.iter_mut().for_each(|point| *point = [-FAR_AWAY; 2]),
+            // It is the picture that changes.
+            Self::Write { .. } => {}
+            Self::Cut { points, toward, all_sides } => cut(q, points, toward, all_sides),
             Self::Move { points, axes, how } => {
                 let order = if q.is_line() { [0, 1, 1] } else { q.by_height() };
                 let first = q.points[0];
                 for i in 0..q.points.len() {
-                    let is_meant = match points {
-                        Points::All => true,
-                        Points::Given(number) => number == i,
-                        Points::ByHeight(place) => order[place] == i,
-                    };
+                    let is_meant = points.include(i, order);
                     for axis in (0..2).filter(|axis| is_meant && axes[*axis]) {
                         let side = q.side[axis].into();
                         let v = &mut q.points[i][axis];
@@ -127,16 +135,78 @@ impl Change {
     }
 }
 
+impl Points {
+    fn include(self, i: usize, order: [usize; 3]) -> bool {
+        match self {
+            Self::All => true,
+            Self::Given(number) => number == i,
+            Self::ByHeight(place) => order[place] == i,
+        }
+    }
+}
+
+/// Cuts a line at the window, one side after another.
+fn cut(q: &mut AnyQuestion, points: Points, toward: Toward, all_sides: bool) {
+    let whole = [q.points[0], q.points[1]];
+    let [dx, dy] = q.extent();
+    let longer = usize::from(dy > dx);
+    for i in (0..2).filter(|i| points.include(*i, [0, 1, 1])) {
+        let (here, there) = (whole[i], whole[1 - i]);
+        for axis in (0..2).filter(|axis| all_sides || *axis == longer) {
+            let limit = q.points[i][axis].clamp(0, i64::from(q.side[axis]) - 1);
+            let by = there[axis] - here[axis];
+            if limit == q.points[i][axis] || by == 0 {
+                continue;
+            }
+            let along =
+                here[1 - axis] * by + (limit - here[axis]) * (there[1 - axis] - here[1 - axis]);
+            // Of two pixels that are as near, the line goes on to one, seen from its left or upper end.
+            let goes_down = (there[1 - axis] < here[1 - axis]) == (by > 0);
+            let toward = match toward {
+                Toward::Nearest if goes_down => Toward::NearestDown,
+                Toward::NearestDown if goes_down => Toward::Nearest,
+                other => other,
+            };
+            q.points[i][axis] = limit;
+            q.points[i][1 - axis] = border::round(along.into(), by.into(), toward) as i64;
+        }
+    }
+}
+
+/// A picture whose pixels are written elsewhere: where two come together, the pixel is drawn twice.
+fn written(before: &Picture, axes: [bool; 2], how: How) -> Picture {
+    let mut after = Picture::new(before.side);
+    for at in before.pixels().filter(|at| before.has(*at)) {
+        let to = [0, 1].map(|axis| match axes[axis] {
+            true => how.apply(at[axis].into(), before.side[axis].into(), 1, 0) as i32,
+            false => at[axis],
+        });
+        after.set(to, (after.hits(to) + before.hits(at)).min(2));
+    }
+    after
+}
+
 impl Base {
     pub(super) fn draw(&self, question: &AnyQuestion, drawer: &dyn Drawer) -> Option<Picture> {
         let mut q = question.clone();
         self.changes.iter().for_each(|change| change.apply(&mut q));
-        drawer.right(&q, self.rule)
+        let mut picture = drawer.right(&q, self.rule)?;
+        for change in &self.changes {
+            if let Change::Write { axes, how } = change {
+                picture = written(&picture, *axes, *how);
+            }
+        }
+        Some(picture)
+    }
+
+    /// Whether it says that nothing is drawn.
+    pub(super) fn is_nothing(&self) -> bool {
+        self.changes == [Change::Nothing]
     }
 
     pub(super) fn cost(&self) -> usize {
         let moved = self.changes.iter().map(|change| match change {
-            Change::Move { points: Points::All, .. } => 1,
+            Change::Move { points: Points::All, .. } | Change::Nothing => 1,
             _ => 2,
         });
         moved.sum::<usize>() + usize::from(self.rule > 0)
@@ -176,6 +246,25 @@ pub(super) fn all(is_line: bool, rules: usize) -> Vec<Base> {
         [Change::Nothing, Change::Exchange, Change::Reverse]
             .map(|change| Base { changes: vec![change], rule: 0 }),
     );
+    let ends = [Points::All, Points::Given(0), Points::Given(1)];
+    for points in ends.into_iter().filter(|_| is_line) {
+        use Toward::{Down, Nearest, NearestDown, Up, Zero};
+        for toward in [Down, Nearest, NearestDown, Up, Zero] {
+            for all_sides in [true, false] {
+                let change = Change::Cut { points, toward, all_sides };
+                bases.push(Base { changes: vec![change], rule: 0 });
+            }
+        }
+    }
+    let mut places: Vec<How> = (1..=6)
+        .flat_map(|bits| [How::Wrap(bits, false), How::Snap(1 << bits, Toward::Down)])
+        .collect();
+    places.extend([How::AtMostSide(2), How::Mirror(1), How::Mirror(0)]);
+    places.extend([-2, -1, 1, 2].map(How::Add));
+    for how in places {
+        let all = AXES.map(|axes| Change::Write { axes, how });
+        bases.extend(all.map(|change| Base { changes: vec![change], rule: 0 }));
+    }
     for &how in &hows {
         for &points in &points {
             let moved = AXES.map(|axes| Change::Move { points, axes, how });
@@ -215,6 +304,7 @@ pub(super) fn nearness(base: &Base, answers: &[&LearnedAnswer], drawer: &dyn Dra
 /// Offsets and scales that come nearest: tried in coarse steps, then in finer ones about the best so far.
 pub(super) fn solved(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Vec<Base> {
     let mut out = Vec::new();
+    out.extend(limits(is_line, answers, drawer));
     for how in [How::Add as fn(i64) -> How, How::Mirror, How::Scale] {
         let mut of_axes = Vec::new();
         for axes in AXES {
@@ -240,6 +330,28 @@ pub(super) fn solved(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Dra
         }
     }
     out
+}
+
+/// The limit of coordinates that comes nearest: tried at each power of two and between, then ever more finely about the best.
+fn limits(is_line: bool, answers: &[&LearnedAnswer], drawer: &dyn Drawer) -> Vec<Base> {
+    let one = if is_line { 1 } else { 256 };
+    let base = |v: i64| {
+        let how = How::Limit(v);
+        let change = Change::Move { points: Points::All, axes: [true; 2], how };
+        Base { changes: vec![change], rule: 0 }
+    };
+    let far = |a: &&&LearnedAnswer| a.question.points.iter().flatten().any(|v| v.abs() > 16 * one);
+    let answers: Vec<&LearnedAnswer> = answers.iter().filter(far).take(COARSE).copied().collect();
+    if answers.len() < 6 {
+        return Vec::new();
+    }
+    let near = |v: i64| nearness(&base(v), &answers, drawer);
+    let powers = (4..=14).flat_map(|bits| [4, 5, 6, 7].map(|part| (one << bits) / 4 * part));
+    let coarse = powers.map(|v| (near(v), v)).max().map_or(one << 10, |(_, v)| v);
+    let steps: Vec<i64> =
+        std::iter::successors(Some(coarse / 16), |step| (*step > 0).then_some(step / 4)).collect();
+    let steps: Vec<i64> = steps.into_iter().filter(|step| *step > 0).collect();
+    vec![base(finest(&steps, coarse, &|v, _| near(v)))]
 }
 
 /// Answers that coarse steps are compared by.

@@ -10,6 +10,7 @@
 //! each of its limits. Otherwise what is known is said: what separates wrong answers from right ones, where the wrong pixels
 //! lie, and a right question beside a wrong one.
 
+mod border;
 mod change;
 mod drawer;
 mod known;
@@ -82,7 +83,9 @@ const FRESH: [usize; 2] = [200, 150];
 /// How often the first are asked, as long as too few of them are wrong.
 const MOST_FRESH: usize = 4;
 /// Searches at most: what refutes one is learned from by the next.
-const MOST_ROUNDS: usize = 4;
+const MOST_ROUNDS: usize = 3;
+/// Of so many new answers, one that is not predicted after the second search ends it.
+const HOPELESS: u64 = 8;
 /// New answers below which nothing is called the cause, wrong ones among them, and those of these that are independent.
 const CERTAIN: [u64; 3] = [300, 50, 12];
 /// Wrong answers below which nothing is learned.
@@ -127,6 +130,8 @@ struct Learner<'a> {
 struct Round {
     /// Wrong answers to questions that are beside no other one.
     independent: u64,
+    /// Wrong answers that are predicted and in which something is drawn: where nothing is, much predicts the same.
+    visible: u64,
     wrong: Count,
     right: Count,
     /// Numbers of those that it does not predict.
@@ -136,6 +141,22 @@ struct Round {
 impl Round {
     fn missed(&self) -> u64 {
         self.wrong.of - self.wrong.drawn + self.right.of - self.right.drawn
+    }
+
+    /// Whether there are enough answers to call something the cause.
+    fn is_enough(&self) -> bool {
+        self.wrong.of + self.right.of >= CERTAIN[0]
+            && self.wrong.of >= CERTAIN[1]
+            && self.independent >= CERTAIN[2]
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.independent += other.independent;
+        self.visible += other.visible;
+        for (count, more) in [(&mut self.wrong, other.wrong), (&mut self.right, other.right)] {
+            count.drawn += more.drawn;
+            count.of += more.of;
+        }
     }
 }
 
@@ -153,25 +174,54 @@ impl<'a> Learner<'a> {
         }
         let mut best: Option<(Round, Model)> = None;
         let mut refuted = true;
+        let mut searches = 0;
         for _ in 0..MOST_ROUNDS {
             let model = match &best {
                 Some((_, model)) if !refuted => model.clone(),
                 _ => self.search().explain(),
             };
-            let round = self.try_out(&model)?;
+            let mut round = self.try_out(&model)?;
+            let was_right = !refuted;
             refuted = round.missed() > 0;
-            let is_settled = !refuted && round.missed.is_empty();
             self.put_first(&round.missed);
+            if was_right {
+                // What was not refuted before is asked for more.
+                best.iter().for_each(|(before, _)| round.add(before));
+            }
+            let is_enough = round.is_enough();
             let is_better =
                 best.as_ref().is_none_or(|(before, _)| round.missed() <= before.missed());
             if is_better {
                 best = Some((round, model));
             }
-            if is_settled || self.left == 0 {
+            let is_hopeless = best.as_ref().is_some_and(|(round, _)| {
+                round.missed() > (round.wrong.of + round.right.of) / HOPELESS
+            });
+            searches += usize::from(!was_right);
+            if !refuted && is_enough || self.left == 0 || searches > 1 && is_hopeless {
                 break;
             }
         }
-        best.map(|(round, model)| self.learned(&round, &model))
+        let (round, model) = best?;
+        let mut learned = self.learned(&round, &model);
+        if !learned.is_certain {
+            learned.known.extend(self.nearest_right());
+        }
+        Some(learned)
+    }
+
+    /// The smallest wrong question, and a right one that differs from it in one number.
+    fn nearest_right(&mut self) -> Option<String> {
+        let wrong = self.answered.iter().enumerate().filter(|(_, a)| a.is_wrong());
+        let (smallest, a) = wrong.min_by_key(|(_, a)| a.question.bulk())?;
+        let room = self.drawer.room();
+        let mut changes = known::one_changes(&a.question, room.grain);
+        changes.retain(|change| room.may_ask(&change.question));
+        let before = self.answered.len();
+        self.left = self.left.max(changes.len());
+        self.ask(changes.iter().map(|change| change.question.clone()).collect())?;
+        let (old, new) = self.answered.split_at(before);
+        known::beside(&old[smallest], &changes, new)
     }
 
     fn wrong(&self) -> impl Iterator<Item = &LearnedAnswer> {
@@ -245,6 +295,7 @@ impl<'a> Learner<'a> {
             let fits = search.fits(model, a);
             let count = if a.is_wrong() { &mut round.wrong } else { &mut round.right };
             count.add(fits);
+            round.visible += u64::from(fits && a.is_wrong() && !a.drawn.is_empty());
             round.missed.extend((!fits).then_some(i));
         }
         Some(round)
@@ -296,9 +347,9 @@ impl<'a> Learner<'a> {
     fn learned(&self, round: &Round, model: &Model) -> Learned {
         let (wrong, right) = (round.wrong, round.right);
         let is_certain = round.missed() == 0
-            && wrong.of + right.of >= CERTAIN[0]
-            && wrong.of >= CERTAIN[1]
-            && round.independent >= CERTAIN[2];
+            && round.is_enough()
+            && (model.chain.iter().all(|step| step.base.is_nothing())
+                || round.visible >= CERTAIN[2]);
         let explains = 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of;
         let does = match explains && wrong.drawn > 0 {
             true => say::sentences(model, &*self.drawer, &self.vocabulary),

@@ -1,10 +1,11 @@
 //! An explanation as a value: changed questions with the questions that they hold for, then pixel rules, one on another.
 
+use super::border::{self, Crossing};
 use super::change::Base;
 use super::drawer::{Drawer, LearnedAnswer};
 use super::picture::Picture;
 use super::quantity::{self, Name, Quantities, Scene};
-use super::question::AnyQuestion;
+use super::question::{AnyQuestion, Unit};
 use super::rule::{Conjunction, Fact, Of, all_hold};
 
 /// The quantities of a question.
@@ -33,6 +34,16 @@ impl Vocabulary {
         Self { names: out.names.unwrap_or_default(), of_question, sizes: out.sizes }
     }
 
+    /// The names without comparisons of two quantities, which are many.
+    pub(super) fn unpaired(&self) -> Vec<Name> {
+        let mut names = self.names.clone();
+        names
+            .iter_mut()
+            .filter(|name| name.unit == Unit::Paired)
+            .for_each(|n| n.unit = Unit::Count);
+        names
+    }
+
     /// The groups of quantities of a pixel that no fact is about.
     fn left_out(&self, facts: &[Fact]) -> [bool; quantity::GROUPS] {
         let grouped: usize = self.sizes.iter().sum();
@@ -45,6 +56,20 @@ impl Vocabulary {
                 Of::Difference(i, j) => !group.contains(&i) && !group.contains(&j),
             })
         })
+    }
+
+    /// Facts that need the same groups of quantities, with the groups that they leave out: most pixels are told by the first.
+    fn stages(&self, facts: &[Fact]) -> Vec<([bool; quantity::GROUPS], Conjunction)> {
+        let mut stages: Vec<([bool; quantity::GROUPS], Conjunction)> = Vec::new();
+        for fact in facts {
+            let left_out = self.left_out(&[*fact]);
+            match stages.iter_mut().find(|(groups, _)| *groups == left_out) {
+                Some((_, facts)) => facts.push(*fact),
+                None => stages.push((left_out, vec![*fact])),
+            }
+        }
+        stages.sort_by_key(|(left_out, _)| left_out.iter().filter(|is_out| !**is_out).count());
+        stages
     }
 
     fn is_of_question(&self, fact: &Fact) -> bool {
@@ -103,10 +128,23 @@ pub(super) struct GuardedStep {
     pub(super) base: Base,
 }
 
+/// A formula of the borders at one end of a row, and where it holds, by the facts of the pixel at the border.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct GuardedBorder {
+    pub(super) when: Option<Vec<Conjunction>>,
+    /// 0 for the first pixel, 1 for the last one.
+    pub(super) end: usize,
+    pub(super) crossing: Crossing,
+}
+
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Model {
     /// The first whose guard holds is drawn; the right picture where none does.
     pub(super) chain: Vec<GuardedStep>,
+    /// Of those of an end of a row, the first whose guard holds is taken.
+    pub(super) borders: Vec<GuardedBorder>,
+    /// Whether a row whose ends come in the wrong order is drawn between them; otherwise it is empty.
+    pub(super) exchanges_ends: bool,
     pub(super) steps: Vec<Step>,
 }
 
@@ -119,6 +157,9 @@ impl Model {
         vocabulary: &Vocabulary,
     ) -> Option<Picture> {
         let mut drawn = self.start(a, drawer)?;
+        if !self.borders.is_empty() {
+            drawn = self.with_borders(a, &drawn, drawer.sample(), vocabulary);
+        }
         for step in &self.steps {
             drawn = step.apply(a, &drawn, drawer, vocabulary);
         }
@@ -131,6 +172,33 @@ impl Model {
             Some(guarded) => guarded.base.draw(&a.question, drawer),
             None => Some(a.right.clone()),
         }
+    }
+
+    fn with_borders(
+        &self,
+        a: &LearnedAnswer,
+        before: &Picture,
+        sample: [i64; 2],
+        vocabulary: &Vocabulary,
+    ) -> Picture {
+        let guards = self.borders.iter().filter_map(|border| border.when.as_ref());
+        let all: Vec<Fact> = guards.flatten().flatten().copied().collect();
+        let left_out = vocabulary.left_out(&all);
+        let scene = Scene::new(&a.question, before, sample);
+        border::redrawn(&a.question, before, sample, self.exchanges_ends, &|site, right| {
+            let row = match all.is_empty() {
+                true => Vec::new(),
+                false => {
+                    let (values, sizes) = (a.facts.clone(), vocabulary.sizes);
+                    let mut row = Quantities { values, names: None, left_out, sizes };
+                    scene.of_pixel(site.pixel(right, before), &mut row);
+                    row.values
+                }
+            };
+            let is_one = |border: &&GuardedBorder| border.end == site.end && border.holds(&row);
+            let guarded = self.borders.iter().find(is_one)?;
+            site.evaluate(&guarded.crossing, &a.question, sample)
+        })
     }
 
     pub(super) fn fits(
@@ -147,13 +215,17 @@ impl Model {
         let guards = self.chain.iter().map(|guarded| {
             guarded.base.cost() + guarded.when.iter().flatten().map(Vec::len).sum::<usize>()
         });
-        guards.chain(self.steps.iter().map(|step| 1 + step.facts.len())).sum()
+        let borders = self.borders.iter().map(|border| {
+            border.crossing.changes() + border.when.iter().flatten().map(Vec::len).sum::<usize>()
+        });
+        guards.chain(borders).chain(self.steps.iter().map(|step| 1 + step.facts.len())).sum()
     }
 
     /// Every conjunction in it.
     pub(super) fn conjunctions(&self) -> impl Iterator<Item = &Conjunction> {
         let guards = self.chain.iter().filter_map(|guarded| guarded.when.as_ref()).flatten();
-        guards.chain(self.steps.iter().map(|step| &step.facts))
+        let borders = self.borders.iter().filter_map(|guarded| guarded.when.as_ref()).flatten();
+        guards.chain(borders).chain(self.steps.iter().map(|step| &step.facts))
     }
 
     /// With another pixel rule.
@@ -164,9 +236,19 @@ impl Model {
     }
 }
 
+fn guard_holds(when: Option<&Vec<Conjunction>>, facts: &[i64]) -> bool {
+    when.is_none_or(|when| when.iter().any(|all| all_hold(all, facts)))
+}
+
 impl GuardedStep {
     fn holds(&self, facts: &[i64]) -> bool {
-        self.when.as_ref().is_none_or(|when| when.iter().any(|all| all_hold(all, facts)))
+        guard_holds(self.when.as_ref(), facts)
+    }
+}
+
+impl GuardedBorder {
+    fn holds(&self, facts: &[i64]) -> bool {
+        guard_holds(self.when.as_ref(), facts)
     }
 }
 
@@ -191,13 +273,19 @@ impl Step {
             return after;
         }
         let scene = Scene::new(&a.question, before, drawer.sample());
-        let left_out = vocabulary.left_out(&of_pixel);
+        let stages = vocabulary.stages(&of_pixel);
         let (values, sizes) = (a.facts.clone(), vocabulary.sizes);
-        let mut row = Quantities { values, names: None, left_out, sizes };
+        let mut row = Quantities { values, sizes, ..Quantities::default() };
+        let mut holds = |at: [i32; 2]| {
+            stages.iter().all(|(left_out, facts)| {
+                row.left_out = *left_out;
+                row.values.truncate(vocabulary.of_question);
+                scene.of_pixel(at, &mut row);
+                all_hold(facts, &row.values)
+            })
+        };
         for at in before.all().filter(|at| self.wrong.may_befall(before.hits(*at))) {
-            row.values.truncate(vocabulary.of_question);
-            scene.of_pixel(at, &mut row);
-            if all_hold(&of_pixel, &row.values) {
+            if holds(at) {
                 after.set(at, self.wrong.hits());
             }
         }

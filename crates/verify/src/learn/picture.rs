@@ -60,6 +60,11 @@ impl Picture {
         self.pixels().filter(|at| self.hits(*at) != other.hits(*at)).count()
     }
 
+    /// Whether nothing is drawn in the window.
+    pub(super) fn is_empty(&self) -> bool {
+        !self.pixels().any(|at| self.has(at))
+    }
+
     /// Whether the window looks as in another picture.
     pub(super) fn is_as(&self, other: &Self) -> bool {
         self.pixels().all(|at| self.hits(at) == other.hits(at))

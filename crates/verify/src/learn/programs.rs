@@ -1,6 +1,7 @@
 //! Wrong programs as closures of the right answer: what is learned of each.
 
 use super::drawer::{Drawer, Lines, Triangles};
+use super::known::one_changes;
 use super::picture::{Picture, Runs};
 use super::question::AnyQuestion;
 use super::{Learned, Learner, SEED};
@@ -82,7 +83,7 @@ pub(super) fn learn_lines(draw: &dyn Fn(&AnyQuestion, Right<'_>) -> Picture) -> 
 }
 
 /// Programs after public bug reports, written before the quantities and the changes were.
-const TRIANGLES: [(&str, Draw); 15] = [
+const TRIANGLES: [(&str, Draw); 18] = [
     ("the row of the middle corner is missing", |q, right| {
         let middle = q.points[q.by_height()[1]][1].div_euclid(256);
         keep(q, right, &|_, [_, y]| i64::from(y) != middle)
@@ -142,9 +143,34 @@ const TRIANGLES: [(&str, Draw); 15] = [
         keep(q, right, &|runs, [_, y]| runs.row(y).is_some_and(|run| run.count > 1))
     }),
     ("1/16 px, toward 0", |q, right| moved(q, right, &|_, v| v / 16 * 16)),
+    ("the upper short edge is divided by one row too many", |q, right| {
+        // The edge from the top corner goes to a point one pixel below the middle corner.
+        let middle = q.by_height()[1];
+        let mut longer = q.clone();
+        longer.points[middle][1] += 256;
+        let (upper, mut picture) = (right(&longer, 0), right(q, 0));
+        let is_upper = |at: &[i32; 2]| i64::from(at[1]) * 256 + 128 < q.points[middle][1];
+        picture.all().filter(is_upper).for_each(|at| picture.set(at, upper.hits(at)));
+        picture
+    }),
+    ("the last pixel of the whole shape where it is counterclockwise", |q, right| {
+        let picture = right(q, 0);
+        let last = (q.range(1)[1] - 129).div_euclid(256);
+        keep(q, right, &|_, [x, y]| {
+            q.twice_area() > 0 || i64::from(y) != last || picture.has([x + 1, y])
+        })
+    }),
+    ("columns are written modulo 8", |q, right| {
+        let (before, mut after) = (right(q, 0), empty(q));
+        for at in before.pixels().filter(|at| before.has(*at)) {
+            let to = [at[0] % 8, at[1]];
+            after.set(to, (after.hits(to) + 1).min(2));
+        }
+        after
+    }),
 ];
 
-const LINES: [(&str, Draw); 5] = [
+const LINES: [(&str, Draw); 7] = [
     ("the last pixel", |q, right| keep(q, right, &|_, at| at.map(i64::from) != q.points[1])),
     ("the last pixel of diagonals", |q, right| {
         let [dx, dy] = q.side_of(0, 1);
@@ -154,6 +180,14 @@ const LINES: [(&str, Draw); 5] = [
     ("lines to the left are one pixel lower", |q, right| {
         let by = i64::from(q.side_of(0, 1)[0] < 0);
         moved(q, right, &|axis, v| if axis == 1 { v + by } else { v })
+    }),
+    ("ends are limited to 500 px", |q, right| moved(q, right, &|_, v| v.clamp(-500, 500))),
+    ("the shorter side is a word of 5 bits", |q, right| {
+        let side = q.side_of(0, 1);
+        let axis = usize::from(side[0].abs() >= side[1].abs());
+        let mut other = q.clone();
+        other.points[1][axis] = q.points[0][axis] + side[axis].signum() * (side[axis].abs() & 31);
+        right(&other, 0)
     }),
     ("lines that leave the window are not drawn", |q, right| {
         let is_in = |end: &[i64; 2]| (0..2).all(|i| (0..i64::from(q.side[i])).contains(&end[i]));
@@ -188,27 +222,23 @@ const PAIRS: [(&str, Draw); 4] = [
     }),
 ];
 
-/// Not explained, or not in every run of a few seconds: what is found of them is not asserted.
-const NOT_YET: [&str; 5] = [
-    "samples on a level bottom edge are drawn",
-    "1024 px wide or 512 px high ones are dropped",
-    "ties of lines to the left",
-    "clamped to the window, then the last row",
-    "odd rows in windows of even width",
-];
+/// Not explained to the pixel.
+const NOT_YET: [&str; 2] =
+    ["samples on a level bottom edge are drawn", "1024 px wide or 512 px high ones are dropped"];
 
 /// Programs of one mistake, and of two, are explained to the pixel.
 #[test]
 fn programs_are_explained() {
-    let is_meant = |(name, _): &(&str, Draw)| !NOT_YET.contains(name);
-    for (name, draw) in TRIANGLES.into_iter().chain(PAIRS).filter(is_meant) {
-        let learned = learn_triangles(&draw).unwrap();
-        assert!(learned.is_certain, "{name}: {learned:#?}");
-    }
-    for (name, draw) in LINES.into_iter().filter(is_meant) {
-        let learned = learn_lines(&draw).unwrap();
-        assert!(learned.is_certain, "{name}: {learned:#?}");
-    }
+    let triangles = TRIANGLES.into_iter().chain(PAIRS);
+    let learned = triangles.map(|(name, draw)| (name, learn_triangles(&draw)));
+    let of_lines = LINES.into_iter().map(|(name, draw)| (name, learn_lines(&draw)));
+    let is_certain = |learned: &Option<Learned>| learned.as_ref().is_some_and(|l| l.is_certain);
+    let missed: Vec<&str> = learned
+        .chain(of_lines)
+        .filter(|(_, learned)| !is_certain(learned))
+        .map(|(name, _)| name)
+        .collect();
+    assert_eq!(missed, NOT_YET);
 }
 
 /// A right program is asked, and nothing is learned.
@@ -216,4 +246,38 @@ fn programs_are_explained() {
 fn a_right_program_has_nothing_to_learn() {
     assert_eq!(learn_triangles(&|q, right| right(q, 0)), None);
     assert_eq!(learn_lines(&|q, right| right(q, 0)), None);
+}
+
+/// What is said to differ in one number does so, and the order of two corners is one thing.
+#[test]
+fn one_change_is_one_change() {
+    let q = AnyQuestion { points: vec![[8, 16], [1024, 0], [0, 2048]], side: [4, 1] };
+    let changes = one_changes(&q, 1);
+    assert!(changes.len() > 80);
+    for change in changes {
+        let other = &change.question;
+        let is_moved = |(a, b): &(&i64, &i64)| a != b;
+        let points = q.points.as_flattened().iter().zip(other.points.as_flattened());
+        let moved = points.filter(is_moved).count();
+        let sides = q.side.iter().zip(&other.side).filter(|(a, b)| a != b).count();
+        let is_exchanged = other.points == [q.points[1], q.points[0], q.points[2]];
+        assert!(moved + sides == 1 || is_exchanged, "{}: {}", change.says, other.request());
+        assert!(other.side.iter().all(|side| *side > 0), "{}", change.says);
+    }
+}
+
+/// Where no model predicts every answer, a right question is found beside a wrong one, and what is common to wrong answers
+/// is said.
+#[test]
+fn what_is_known_of_noise_is_said() {
+    let noisy: Draw = |q, right| {
+        // Nothing that is asked of explains which pixels are missing.
+        let mark = q.points.as_flattened().iter().fold(7, |n: i64, v| n.wrapping_mul(31) + v);
+        keep(q, right, &|_, [x, y]| q.side[0] < 8 || (mark ^ i64::from(x * 5 + y * 3)) % 7 != 0)
+    };
+    let learned = learn_triangles(&noisy).unwrap();
+    assert!(!learned.is_certain);
+    let said = learned.known.join(" ");
+    assert!(said.contains("right ones: the width of the window is 8 px or more"), "{said}");
+    assert!(said.contains("it comes out right."), "{said}");
 }

@@ -1,8 +1,9 @@
 //! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
 
-use super::picture::{Picture, Runs};
+use super::picture::{MARGIN, Picture, Runs};
 use super::question::{AnyQuestion, Unit};
 use rasterproof_core::geometry::greatest_divisor;
+use std::cell::OnceCell;
 
 /// The words of a quantity.
 #[derive(Clone, Debug)]
@@ -30,7 +31,7 @@ pub(super) struct Quantities {
 }
 
 /// Quantities of a pixel that are computed together.
-pub(super) const GROUPS: usize = 4;
+pub(super) const GROUPS: usize = 6;
 
 impl Quantities {
     /// Computes a group, unless it is left out.
@@ -51,6 +52,15 @@ impl Quantities {
         }
     }
 
+    /// The words are the noun, and what is said where it is 0.
+    fn named(&mut self, unit: Unit, value: i64, words: impl FnOnce() -> (String, String)) {
+        self.values.push(value);
+        if let Some(names) = &mut self.names {
+            let (noun, zero) = words();
+            names.push(Name { unit, noun, zero: [zero, String::new()] });
+        }
+    }
+
     fn flag(&mut self, value: bool, yes: &[&str], no: &str) {
         self.put(Unit::Flag, value.into(), yes, [no, ""]);
     }
@@ -60,9 +70,12 @@ impl Quantities {
     }
 }
 
-const AXES: [&str; 2] = ["x", "y"];
-const ORDINALS: [&str; 3] = ["first", "second", "third"];
-const SIDES: [&str; 2] = ["width", "height"];
+pub(super) const AXES: [&str; 2] = ["x", "y"];
+pub(super) const ORDINALS: [&str; 3] = ["first", "second", "third"];
+pub(super) const SIDES: [&str; 2] = ["width", "height"];
+
+/// Ratios are whole numbers of this part: fine enough to tell 4 from a little more.
+pub(super) const RATIO: i64 = 1 << 16;
 
 /// The quantities of a question.
 pub(super) fn of_question(q: &AnyQuestion, out: &mut Quantities) {
@@ -159,7 +172,7 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
     }
     let slopes = EDGES.map(|[a, b]| {
         let [dx, dy] = q.side_of(a, b).map(i64::abs);
-        if dy == 0 { NONE } else { dx * 256 / dy }
+        if dy == 0 { NONE } else { dx * RATIO / dy }
     });
     let known = || slopes.iter().copied().filter(|slope| *slope != NONE);
     out.number(Unit::Ratio, known().max().unwrap_or(NONE), &["the largest |dx|/|dy| of its edges"]);
@@ -171,16 +184,46 @@ fn of_triangle(q: &AnyQuestion, out: &mut Quantities) {
     for axis in [0, 1] {
         let of = |a: usize, b: usize| q.points[a][axis] == q.points[b][axis];
         let straight = EDGES.iter().any(|[a, b]| of(*a, *b));
-        let word = ["upright", "level"][axis];
+        let word = ["an upright", "a level"][axis];
         out.flag(
             straight,
-            &["it has an ", word, " edge"],
+            &["it has ", word, " edge"],
             ["it has no upright edge", "it has no level edge"][axis],
         );
     }
+    let [width, height] = q.extent();
+    let ratio = |a: i64, b: i64| if b == 0 { NONE } else { a.saturating_mul(RATIO) / b };
+    out.number(Unit::Ratio, ratio(width, height), &["its width over its height"]);
     let [top, middle, bottom] = q.by_height();
     out.number(Unit::Count, top as i64 + 1, &["the number of its top corner"]);
     out.number(Unit::Count, bottom as i64 + 1, &["the number of its bottom corner"]);
+    for axis in [0, 1] {
+        let [least, most] = q.range(axis);
+        for (limit, word) in [(least, "smallest"), (most, "largest")] {
+            let all = q.points.iter().filter(|point| point[axis] == limit).count();
+            let noun = ["the number of corners at its ", word, " ", AXES[axis]];
+            out.number(Unit::Count, all as i64, &noun);
+        }
+        for (i, ordinal) in ORDINALS.iter().enumerate() {
+            let here = q.points[i][axis];
+            let is_alone = q.points.iter().filter(|p| p[axis] == here).count() == 1;
+            for (limit, word) in [(least, "smallest"), (most, "largest")] {
+                let is_at = is_alone && here == limit;
+                let noun = ["the ", ordinal, " corner alone has its ", word, " ", AXES[axis]];
+                let no = [&["it is not so that "][..], &noun[..]].concat().concat();
+                out.flag(is_at, &noun, &no);
+            }
+        }
+    }
+    for (a, b, edge) in [
+        (top, middle, "the edge from the top to the middle corner"),
+        (top, bottom, "the edge from the top to the bottom corner"),
+        (middle, bottom, "the edge from the middle to the bottom corner"),
+    ] {
+        let [dx, dy] = q.side_of(a, b);
+        out.number(Unit::Subpixels, dx, &["dx of ", edge]);
+        out.number(Unit::Ratio, ratio(dx, dy), &["dx/dy of ", edge]);
+    }
     let height = |a: usize, b: usize| q.points[b][1] - q.points[a][1];
     out.number(Unit::Subpixels, height(top, middle), &["the height of its upper half"]);
     out.number(Unit::Subpixels, height(middle, bottom), &["the height of its lower half"]);
@@ -203,6 +246,8 @@ pub(super) struct Scene<'a> {
     sample: [i64; 2],
     /// Twice the edge functions begin at these corners, turned so that inside is positive.
     edges: Vec<Edge>,
+    /// Of each column and each row of the window and its margin, from the first on.
+    crossings: [OnceCell<Vec<Option<Crossings>>>; 2],
 }
 
 /// Whether an edge with this direction faces somewhere.
@@ -224,7 +269,8 @@ impl<'a> Scene<'a> {
             Edge { from: question.points[a], by, length: length(by).max(1) }
         });
         let edges = edges.collect();
-        Self { question, drawn, runs: Runs::of(drawn), sample, edges }
+        let crossings = [OnceCell::new(), OnceCell::new()];
+        Self { question, drawn, runs: Runs::of(drawn), sample, edges, crossings }
     }
 
     fn is_shown(&self, at: [i32; 2]) -> bool {
@@ -255,6 +301,15 @@ impl<'a> Scene<'a> {
         out.group(3, |out| match self.question.is_line() {
             true => self.along_the_line([column, row], out),
             false => self.by_edges([column, row], out),
+        });
+        out.group(4, |out| match self.question.is_line() {
+            true => self.along_its_run([x, y], out),
+            false => self.by_crossings(1, [column, row], out),
+        });
+        out.group(5, |out| {
+            if !self.question.is_line() {
+                self.by_crossings(0, [column, row], out);
+            }
         });
     }
 
@@ -321,6 +376,13 @@ impl<'a> Scene<'a> {
             of(columns.last.wrapping_sub(x)),
             &["the number of columns to the last column of the shape"],
             ["it is in the last column of the shape", "it is not in the last column of the shape"],
+        );
+        let first = rows.first.min(y);
+        let empty = (first..y).filter(|y| self.runs.row(*y).is_none()).count() as i64;
+        out.number(
+            Unit::Count,
+            empty,
+            &["the number of empty rows between the first row of the shape and its row"],
         );
         out.number(Unit::Paired, i64::from(rows.count), &["the number of rows of the shape"]);
         out.number(Unit::Paired, i64::from(columns.count), &["the number of columns of the shape"]);
@@ -446,7 +508,7 @@ impl<'a> Scene<'a> {
         );
         out.number(
             Unit::Ratio,
-            if du == 0 { 0 } else { off.abs().saturating_mul(256) / du },
+            if du == 0 { 0 } else { off.abs().saturating_mul(RATIO) / du },
             &["its distance from the line in px"],
         );
         out.number(
@@ -536,6 +598,177 @@ impl<'a> Scene<'a> {
             &["the number of rows from the first row below the middle corner"],
             ["it is in the first row below the middle corner", ""],
         );
+    }
+}
+
+/// Where two edges cross the line of samples of a row, or of a column with the axes exchanged: the whole shape, in the
+/// window or not.
+struct Crossings {
+    /// The first pixel and the last one between them.
+    ends: [i64; 2],
+    /// The edge at each end.
+    edges: [usize; 2],
+    /// From the crossing to the sample that follows it, in subpixels, rounded up.
+    ahead: [i64; 2],
+}
+
+impl Scene<'_> {
+    /// The same, each computed once.
+    fn crossed(&self, axis: usize, place: i64) -> Option<&Crossings> {
+        let margin = i64::from(MARGIN);
+        let all = self.crossings[axis].get_or_init(|| {
+            let places = -margin..i64::from(self.drawn.side[axis]) + margin;
+            places.map(|place| self.crossings(axis, place)).collect()
+        });
+        all.get(usize::try_from(place + margin).ok()?)?.as_ref()
+    }
+
+    /// The crossings of a row, axis 1, or of a column, axis 0.
+    fn crossings(&self, axis: usize, place: i64) -> Option<Crossings> {
+        let (along, sample) = (1 - axis, self.sample[1 - axis]);
+        let at = place * 256 + self.sample[axis];
+        let mut found: Vec<(i64, i64, usize)> = Vec::new();
+        for (number, [a, b]) in EDGES.iter().enumerate() {
+            let (from, to) = (self.question.points[*a], self.question.points[*b]);
+            if (from[axis] <= at) == (to[axis] <= at) {
+                continue;
+            }
+            let by = i128::from(to[axis] - from[axis]);
+            let run = i128::from(to[along] - from[along]) * i128::from(at - from[axis]);
+            // The crossing times `by`, and the first sample at or after it.
+            let crossing = i128::from(from[along] - sample) * by + run;
+            let (crossing, by) = if by < 0 { (-crossing, -by) } else { (crossing, by) };
+            let first = -(-crossing).div_euclid(256 * by) as i64;
+            let ahead = (i128::from(first) * 256 * by - crossing).div_euclid(by);
+            found.push((first, ahead as i64, number));
+        }
+        // Of two that are followed by the same sample, the one farther from it comes first.
+        found.sort_by_key(|(first, ahead, _)| (*first, -ahead));
+        let [left, right] = found[..] else { return None };
+        Some(Crossings {
+            ends: [left.0, right.0 - 1],
+            edges: [left.2, right.2],
+            ahead: [left.1, right.1],
+        })
+    }
+
+    /// Its place between the edges that cross its row, axis 1, or its column, axis 0, in the window or not, and what these
+    /// edges are.
+    fn by_crossings(&self, axis: usize, at: [i64; 2], out: &mut Quantities) {
+        const WHOLE: &str = "(also beyond the window)";
+        let q = self.question;
+        let order = q.by_height();
+        let [line, unit, before, after] = match axis {
+            1 => ["row", "column", "left", "right"],
+            _ => ["column", "row", "upper", "lower"],
+        };
+        let along = at[1 - axis];
+        let crossed = self.crossed(axis, at[axis]);
+        let of = |value: &dyn Fn(&Crossings) -> i64| crossed.map_or(NONE, value);
+        for (end, word) in [before, after].into_iter().enumerate() {
+            let nth = ["first", "last"][end];
+            let way = ["from", "to"][end];
+            out.named(Unit::Count, of(&|c| (along - c.ends[end]) * [1, -1][end]), || {
+                let zero = format!("it is the {nth} pixel of its whole {line} {WHOLE}");
+                let noun = format!("{unit}s {way} the {nth} pixel of its whole {line} {WHOLE}");
+                (format!("the number of {noun}"), zero)
+            });
+            out.named(Unit::Count, of(&|c| c.ends[end]), || {
+                let noun = format!("{unit} of the {nth} pixel of its whole {line} {WHOLE}");
+                (format!("the {noun}"), String::new())
+            });
+            // The edge there.
+            let edge = || format!("the edge at the {word} end of its {line}");
+            let is_long = |c: &Crossings| {
+                let [a, b] = EDGES[c.edges[end]];
+                i64::from(a != order[1] && b != order[1])
+            };
+            out.named(Unit::Flag, of(&is_long), || {
+                let [is, is_not] = ["", " not"]
+                    .map(|not| format!("{} does{not} join the top and the bottom corner", edge()));
+                (is.replace("does join", "joins"), is_not)
+            });
+            out.named(Unit::Count, of(&|c| c.edges[end] as i64 + 1), || {
+                (format!("the number of {}", edge()), String::new())
+            });
+            let vector = |c: &Crossings| q.side_of(EDGES[c.edges[end]][0], EDGES[c.edges[end]][1]);
+            for way in [0, 1] {
+                out.named(Unit::Subpixels, of(&|c| vector(c)[way]), || {
+                    let noun = format!("d{} of {} in the order given", AXES[way], edge());
+                    (noun, String::new())
+                });
+            }
+            let slope = |c: &Crossings| {
+                let v = vector(c);
+                v[1 - axis].saturating_mul(RATIO) / v[axis]
+            };
+            out.named(Unit::Ratio, of(&slope), || {
+                let [over, under] = [AXES[1 - axis], AXES[axis]];
+                (format!("d{over}/d{under} of {}", edge()), String::new())
+            });
+            out.named(Unit::Subpixels, of(&|c| c.ahead[end]), || {
+                (format!("the distance from {} to the next sample", edge()), String::new())
+            });
+        }
+        out.named(Unit::Count, of(&|c| c.ends[1] - c.ends[0] + 1), || {
+            (format!("the number of pixels of its whole {line} {WHOLE}"), String::new())
+        });
+        let [first, after] = q.range(axis).map(|v| -(self.sample[axis] - v).div_euclid(256));
+        for (value, way, nth) in
+            [(at[axis] - first, "from", "first"), (after - 1 - at[axis], "to", "last")]
+        {
+            out.named(Unit::Count, value, || {
+                let zero = format!("it is in the {nth} {line} of the whole shape {WHOLE}");
+                let noun = format!("{line}s {way} the {nth} {line} of the whole shape {WHOLE}");
+                (format!("the number of {noun}"), zero)
+            });
+        }
+    }
+
+    /// Its place in the pixels of a line that lie straight one behind another, as drawn from the first end to the second.
+    fn along_its_run(&self, [x, y]: [i32; 2], out: &mut Quantities) {
+        let [dx, dy] = self.question.side_of(0, 1);
+        let step = |v: i64| v.signum() as i32;
+        let axis = usize::from(dy.abs() > dx.abs());
+        let mut ahead = [0, 0];
+        ahead[axis] = [step(dx), step(dy)][axis];
+        let aside = [step(dx) - ahead[0], step(dy) - ahead[1]];
+        let places: [([i32; 2], &str, &str); 6] = [
+            (
+                ahead,
+                "the pixel straight after it is drawn",
+                "the pixel straight after it is not drawn",
+            ),
+            (
+                ahead.map(|v| -v),
+                "the pixel straight before it is drawn",
+                "the pixel straight before it is not drawn",
+            ),
+            (
+                [step(dx), step(dy)],
+                "the pixel diagonally after it is drawn",
+                "the pixel diagonally after it is not drawn",
+            ),
+            (
+                [-step(dx), -step(dy)],
+                "the pixel diagonally before it is drawn",
+                "the pixel diagonally before it is not drawn",
+            ),
+            (
+                aside,
+                "the pixel beside it, on the side that the line goes to, is drawn",
+                "the pixel beside it, on the side that the line goes to, is not drawn",
+            ),
+            (
+                aside.map(|v| -v),
+                "the pixel beside it, on the side that the line comes from, is drawn",
+                "the pixel beside it, on the side that the line comes from, is not drawn",
+            ),
+        ];
+        for ([right, down], yes, no) in places {
+            let is_drawn = [right, down] != [0, 0] && self.drawn.has([x + right, y + down]);
+            out.flag(is_drawn, &[yes], no);
+        }
     }
 }
 

@@ -50,10 +50,10 @@ impl AnyQuestion {
         ax * by - ay * bx
     }
 
-    /// The numbers of the corners from the top down, of one height from the left.
+    /// The numbers of the corners from the top down, of one height in the order given, as most programs sort them.
     pub(super) fn by_height(&self) -> [usize; 3] {
         let mut order = [0, 1, 2];
-        order.sort_by_key(|i| (self.points[*i][1], self.points[*i][0]));
+        order.sort_by_key(|i| self.points[*i][1]);
         order
     }
 
@@ -149,7 +149,8 @@ impl Room {
             |room: &mut Self| [0; 2].map(|_| room.rng.int(-reach / steps, reach / steps) * steps);
         let at = self.point(side, 0, 1);
         let (ahead, aside) = (off(self), off(self));
-        let back = self.rng.int(0, 256);
+        // Often the edge ends in the window.
+        let back = if self.rng.chance(3) { 0 } else { self.rng.int(0, 256) };
         let mut points = vec![
             [0, 1].map(|axis| at[axis] + ahead[axis]),
             [0, 1].map(|axis| at[axis] - ahead[axis] * back / 256 / steps * steps),
@@ -213,6 +214,12 @@ impl Room {
             q.points.iter_mut().for_each(|point| *point = point.map(near));
         }
         q
+    }
+
+    /// Whether a question keeps to the grid, the range and the largest window.
+    pub(super) fn may_ask(&self, q: &AnyQuestion) -> bool {
+        let is_small = (0..2).all(|axis| i64::from(q.side[axis]) <= self.side[axis]);
+        is_small && self.fitted(q.clone()) == *q
     }
 
     /// A question that differs from another one in little.

@@ -3,9 +3,10 @@
 //! A fact is a quantity with a test. The facts of all rows are a matrix of bits, so that a conjunction is an AND and its
 //! worth is a count of bits (as in CN2 and RIPPER, with a beam).
 
-use std::collections::{HashMap, HashSet};
+use std::borrow::Cow;
+use std::collections::HashSet;
 
-use super::quantity::{NONE, Name};
+use super::quantity::{NONE, Name, RATIO};
 use super::question::Unit;
 
 /// A quantity, or one compared with another.
@@ -16,7 +17,7 @@ pub(super) enum Of {
     Difference(usize, usize),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Test {
     Is(i64),
     IsNot(i64),
@@ -57,6 +58,27 @@ impl Test {
                 Self::NoMultiple(by) => value.rem_euclid(by) != 0,
             }
     }
+
+    /// The values that it holds of, as bits. One loop for each test, which the compiler turns into vectors.
+    fn bits(self, values: &[i64]) -> Vec<u64> {
+        match self {
+            Self::Is(v) => bits(values, |value| value == v),
+            Self::IsNot(v) => bits(values, |value| value != v),
+            Self::AtMost(v) => bits(values, |value| value <= v),
+            Self::AtLeast(v) => bits(values, |value| value >= v),
+            // Divisors are powers of two.
+            Self::Remainder(by, rest) => bits(values, |value| value & (by - 1) == rest),
+            Self::NoMultiple(by) => bits(values, |value| value & (by - 1) != 0),
+        }
+    }
+}
+
+fn bits(values: &[i64], holds: impl Fn(i64) -> bool) -> Vec<u64> {
+    let word = |chunk: &[i64]| {
+        let places = chunk.iter().zip(0..);
+        places.fold(0, |word, (&v, at)| word | u64::from((v != NONE) & holds(v)) << at)
+    };
+    values.chunks(64).map(word).collect()
 }
 
 impl Fact {
@@ -136,37 +158,100 @@ const LONGER: f64 = 0.86;
 /// Facts that are combined with each other.
 const MOST_FACTS: usize = 900;
 
+/// The values of some rows by quantity, so that a test of all rows is one loop.
+struct Values(Vec<Vec<i64>>);
+
+impl Values {
+    fn of(quantities: usize, rows: &[Vec<i64>]) -> Self {
+        Self((0..quantities).map(|i| rows.iter().map(|row| row[i]).collect()).collect())
+    }
+
+    fn rows(&self) -> usize {
+        self.0.first().map_or(0, Vec::len)
+    }
+
+    /// A quantity of some rows.
+    fn some(&self, of: Of, rows: &[usize]) -> Vec<i64> {
+        match of {
+            Of::One(i) => rows.iter().map(|&row| self.0[i][row]).collect(),
+            Of::Difference(i, j) => {
+                let (a, b) = (&self.0[i], &self.0[j]);
+                rows.iter().map(|&row| difference(a[row], b[row])).collect()
+            }
+        }
+    }
+
+    /// A quantity of all rows.
+    fn all(&self, of: Of) -> Cow<'_, [i64]> {
+        match of {
+            Of::One(i) => (&self.0[i]).into(),
+            Of::Difference(i, j) => {
+                self.0[i].iter().zip(&self.0[j]).map(|(a, b)| difference(*a, *b)).collect()
+            }
+        }
+    }
+
+    /// The rows that some facts hold of.
+    fn held(&self, facts: &[Fact]) -> Vec<u64> {
+        let mut held = ones(self.rows());
+        for fact in facts {
+            held = both(&held, &fact.test.bits(&self.all(fact.of)));
+        }
+        held
+    }
+}
+
+fn difference(a: i64, b: i64) -> i64 {
+    if a == NONE || b == NONE { NONE } else { a - b }
+}
+
+/// The places of the bits that are set.
+fn places(bits: &[u64]) -> impl Iterator<Item = usize> {
+    let is_set = |i: &usize| bits[i / 64] >> (i % 64) & 1 == 1;
+    (0..64 * bits.len()).filter(is_set)
+}
+
 /// The best rules: each the best for the rows that those before do not hold of.
 pub(super) fn best(names: &[Name], table: &Table, terms: Terms) -> Vec<Found> {
+    let [with, without] = [&table.yes, &table.no].map(|rows| Values::of(names.len(), rows));
     let mut all = Vec::new();
     let mut left: Vec<usize> = (0..table.yes.len()).collect();
     for _ in 0..terms.wanted {
-        let Some(mut rule) = best_of(names, table, terms, &left) else { break };
-        left.retain(|&i| !all_hold(&rule.facts, &table.yes[i]));
-        rule.rows = table.yes.iter().filter(|row| all_hold(&rule.facts, row)).count();
+        let rule = best_of(names, [&with, &without], &table.groups, terms, &left);
+        let Some(mut rule) = rule else { break };
+        let held = with.held(&rule.facts);
+        left.retain(|i| held[i / 64] >> (i % 64) & 1 == 0);
+        rule.rows = count(&held);
         all.push(rule);
     }
     all
 }
 
 /// The best rule for some rows. It is searched for among a part of them; a rule that another row refutes brings this row in.
-fn best_of(names: &[Name], table: &Table, terms: Terms, left: &[usize]) -> Option<Found> {
+fn best_of(
+    names: &[Name],
+    [with, without]: [&Values; 2],
+    groups: &[usize],
+    terms: Terms,
+    left: &[usize],
+) -> Option<Found> {
     let yes: Vec<usize> = spread(left.len(), MOST_YES).into_iter().map(|i| left[i]).collect();
-    let mut no = spread(table.no.len(), MOST_NO);
+    let mut no = spread(without.rows(), MOST_NO);
+    let mut is_left = vec![0; left.len().max(with.rows()).div_ceil(64)];
+    left.iter().for_each(|i| is_left[i / 64] |= 1 << (i % 64));
     for _ in 0..ROUNDS {
         let mut refuting = Vec::new();
-        for mut rule in Matrix::of(names, table, &yes, &no).search(terms) {
-            sharpen(&mut rule.facts, names, table);
-            let holds = |row: &Vec<i64>| all_hold(&rule.facts, row);
-            let held: Vec<usize> = left.iter().copied().filter(|&i| holds(&table.yes[i])).collect();
-            let bad: Vec<usize> = (0..table.no.len()).filter(|&i| holds(&table.no[i])).collect();
-            rule.rows = held.len();
-            let is_refuted = bad.len() * 1000 > terms.slack * rule.rows * 3 / 2;
-            if !is_refuted && distinct(held.iter().map(|&i| table.groups[i])) >= terms.need {
+        for mut rule in Matrix::of(names, [with, without], &yes, &no).search(terms) {
+            sharpen(&mut rule.facts, names, [with, without]);
+            let held = both(&with.held(&rule.facts), &is_left);
+            let bad = without.held(&rule.facts);
+            rule.rows = count(&held);
+            let is_refuted = count(&bad) * 1000 > terms.slack * rule.rows * 3 / 2;
+            if !is_refuted && distinct(places(&held).map(|i| groups[i])) >= terms.need {
                 return Some(rule);
             }
             if is_refuted {
-                refuting.extend(bad.into_iter().take(MOST_VIOLATIONS));
+                refuting.extend(places(&bad).take(MOST_VIOLATIONS));
             }
         }
         let before = no.len();
@@ -178,6 +263,38 @@ fn best_of(names: &[Name], table: &Table, terms: Terms, left: &[usize]) -> Optio
         }
     }
     None
+}
+
+/// Facts that hold of every row of `yes`, each of which leaves out as many rows of `no` as it can; and how many of these are
+/// left.
+pub(super) fn common(names: &[Name], table: &Table, most: usize) -> (Conjunction, usize) {
+    let [with, without] = [&table.yes, &table.no].map(|rows| Values::of(names.len(), rows));
+    let (yes, no) = (spread(with.rows(), MOST_YES), spread(without.rows(), MOST_NO));
+    let mut facts = Conjunction::new();
+    let mut left = without.rows();
+    if yes.is_empty() || no.is_empty() {
+        return (facts, left);
+    }
+    let matrix = Matrix::of(names, [&with, &without], &yes, &no);
+    let mut candidates: Vec<&Column> =
+        matrix.columns.iter().filter(|c| count(&c.yes) == yes.len()).collect();
+    let mut bits = ones(no.len());
+    while facts.len() < most && left > 0 {
+        let worth = |c: &Column| (count_both(&bits, &c.no) as f64 + 1.0) * c.cost;
+        candidates.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
+        // The first that holds of all rows, and not only of those that were looked at.
+        let is_common = |c: &&&Column| count(&with.held(&[c.fact])) == with.rows();
+        let Some(next) = candidates.iter().find(is_common) else { break };
+        bits = both(&bits, &next.no);
+        let mut more = facts.clone();
+        more.push(next.fact);
+        let held = count(&without.held(&more));
+        if held * 4 > left * 3 {
+            break;
+        }
+        (facts, left) = (more, held);
+    }
+    (facts, left)
 }
 
 /// So many numbers below `of`, evenly spread.
@@ -227,39 +344,33 @@ fn both(a: &[u64], b: &[u64]) -> Vec<u64> {
 }
 
 impl Matrix {
-    fn of(names: &[Name], table: &Table, yes: &[usize], no: &[usize]) -> Self {
-        let rows = |all: &[Vec<i64>], some: &[usize], of: Of| -> Vec<i64> {
-            some.iter().map(|&i| of.value(&all[i])).collect()
-        };
-        // Of facts that hold of the same rows, the cheapest is kept.
+    fn of(
+        names: &[Name],
+        [all_with, all_without]: [&Values; 2],
+        yes: &[usize],
+        no: &[usize],
+    ) -> Self {
         let mut columns: Vec<Column> = Vec::new();
-        let mut known: HashMap<(Vec<u64>, Vec<u64>), usize> = HashMap::new();
         for of in sources(names) {
-            let (with, without) = (rows(&table.yes, yes, of), rows(&table.no, no, of));
+            let (with, without) = (all_with.some(of, yes), all_without.some(of, no));
             for test in tests(names, of, &with, &without) {
-                let bits = |values: &[i64]| -> Vec<u64> {
-                    let word = |chunk: &[i64]| {
-                        chunk.iter().rev().fold(0, |word, v| word << 1 | u64::from(test.holds(*v)))
-                    };
-                    values.chunks(64).map(word).collect()
-                };
-                let held = bits(&with);
-                let is_rare = count(&held) < 3.max(yes.len() / 50);
-                if is_rare {
+                let held = test.bits(&with);
+                let all = count(&held);
+                if all < 3.max(yes.len() / 50) {
+                    continue;
+                }
+                let others = test.bits(&without);
+                if all == yes.len() && count(&others) == no.len() {
                     continue;
                 }
                 let fact = Fact { of, test };
-                let column = Column { fact, cost: fact.cost(names), yes: held, no: bits(&without) };
-                match known.get(&(column.yes.clone(), column.no.clone())) {
-                    Some(&i) if columns[i].cost <= column.cost => {}
-                    Some(&i) => columns[i] = column,
-                    None => {
-                        known.insert((column.yes.clone(), column.no.clone()), columns.len());
-                        columns.push(column);
-                    }
-                }
+                columns.push(Column { fact, cost: fact.cost(names), yes: held, no: others });
             }
         }
+        // Of facts that hold of the same rows, the cheapest is kept.
+        columns
+            .sort_by(|a, b| (&a.yes, &a.no).cmp(&(&b.yes, &b.no)).then(a.cost.total_cmp(&b.cost)));
+        columns.dedup_by(|a, b| a.yes == b.yes && a.no == b.no);
         let mut matrix = Self { columns, rows: yes.len(), others: no.len() };
         // A fact that tells a little is needed beside others.
         let share = |bits: &[u64], rows: usize| count(bits) as f64 / rows.max(1) as f64;
@@ -275,18 +386,27 @@ impl Matrix {
         let (yes, no) = (ones(self.rows), ones(self.others));
         let mut beam = vec![Partial { facts: Vec::new(), cost: 1.0, yes, no }];
         for length in 0..terms.most {
+            // All single facts are combined with each other.
+            let most_kept = if length == 0 { MOST_FACTS } else { BEAM };
             let mut grown = Vec::new();
+            let mut least = f64::NEG_INFINITY;
             for (number, partial) in beam.iter().enumerate() {
-                self.grow(partial, number, terms, &mut found, &mut grown);
+                self.grow(partial, number, terms, least, &mut found, &mut grown);
+                // The same facts come from each of them; what is far behind is forgotten.
+                let wanted = most_kept * (length + 1);
+                if grown.len() > 2 * wanted {
+                    grown.select_nth_unstable_by(wanted, Grown::before);
+                    least = grown[wanted].gain;
+                    grown.truncate(wanted);
+                }
             }
             // A longer rule cannot be worth more than all rows.
             let most = self.rows as f64 * LONGER.powi(length as i32 + 1);
             if found.first().is_some_and(|best: &Found| best.value >= most) {
                 break;
             }
-            grown.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-            // All single facts are combined with each other.
-            beam = self.kept(&beam, &grown, if length == 0 { MOST_FACTS } else { BEAM });
+            grown.sort_unstable_by(Grown::before);
+            beam = self.kept(&beam, &grown, most_kept);
         }
         found.sort_by(|a: &Found, b: &Found| b.value.total_cmp(&a.value));
         found.truncate(MOST_FOUND);
@@ -299,6 +419,7 @@ impl Matrix {
         partial: &Partial,
         parent: usize,
         terms: Terms,
+        least: f64,
         found: &mut Vec<Found>,
         grown: &mut Vec<Grown>,
     ) {
@@ -310,15 +431,21 @@ impl Matrix {
             if yes < LEAST_ROWS || partial.facts.contains(&fact) {
                 continue;
             }
+            let value = yes as f64 * LONGER.powi(length as i32) / (partial.cost * column.cost);
+            // Far behind the best one it is not wanted.
+            let is_behind = value < FAR_BEHIND * found.first().map_or(0.0, |best| best.value);
+            if is_behind && yes as f64 / (self.rows.max(1) as f64) < least {
+                continue;
+            }
             let no = count_both(&partial.no, &column.no);
             if no * 1000 > terms.slack * yes {
                 let gain = gain(yes, no, self.rows, self.others);
-                grown.push(Grown { parent, fact, gain });
+                if gain > least {
+                    grown.push(Grown { parent, fact, gain });
+                }
                 continue;
             }
-            let value = yes as f64 * LONGER.powi(length as i32) / (partial.cost * column.cost);
-            // Far behind the best one it is not wanted.
-            if value < FAR_BEHIND * found.first().map_or(0.0, |best| best.value) {
+            if is_behind {
                 continue;
             }
             let facts =
@@ -359,12 +486,20 @@ struct Grown {
     gain: f64,
 }
 
+impl Grown {
+    /// The larger gain comes first; of the same, the one that was found first.
+    fn before(&self, other: &Self) -> std::cmp::Ordering {
+        let place = |grown: &Self| (grown.parent, grown.fact);
+        other.gain.total_cmp(&self.gain).then(place(self).cmp(&place(other)))
+    }
+}
+
 /// Rows below which a rule says nothing.
 const LEAST_ROWS: usize = 3;
 /// The share of the best rule's worth below which a rule is left aside.
 const FAR_BEHIND: f64 = 0.4;
 /// Rules that are looked at, the best first.
-const MOST_FOUND: usize = 300;
+const MOST_FOUND: usize = 60;
 
 /// How promising a conjunction is that still holds of other rows: much of the rows, and few of the others.
 fn gain(yes: usize, no: usize, rows: usize, others: usize) -> f64 {
@@ -428,8 +563,8 @@ fn tests(names: &[Name], of: Of, with: &[i64], without: &[i64]) -> Vec<Test> {
     for limits in [&with, &without] {
         let places = [0, 10, 25, 50, 75, 90, 100].map(|p| limits.len().saturating_sub(1) * p / 100);
         for &limit in places.iter().filter_map(|&place| limits.get(place)) {
-            all.extend([-1, 0, 1].map(|by| Test::AtMost(limit.saturating_add(by))));
-            all.extend([-1, 0, 1].map(|by| Test::AtLeast(limit.saturating_add(by))));
+            all.extend([-1, 0].map(|by| Test::AtMost(limit.saturating_add(by))));
+            all.extend([0, 1].map(|by| Test::AtLeast(limit.saturating_add(by))));
         }
     }
     let multiples: &[i64] = match unit {
@@ -442,7 +577,7 @@ fn tests(names: &[Name], of: Of, with: &[i64], without: &[i64]) -> Vec<Test> {
         all.extend((0..rests).map(|rest| Test::Remainder(by, rest)));
         all.push(Test::NoMultiple(by));
     }
-    all.sort_by_key(|test| format!("{test:?}"));
+    all.sort_unstable();
     all.dedup();
     all
 }
@@ -455,7 +590,7 @@ fn ordered(values: &[i64]) -> Vec<i64> {
 
 /// Moves each limit as far as no other row is let in: between the last row and the next other one, to a round number where
 /// one lies there.
-fn sharpen(facts: &mut [Fact], names: &[Name], table: &Table) {
+fn sharpen(facts: &mut [Fact], names: &[Name], [with, without]: [&Values; 2]) {
     for i in 0..facts.len() {
         let fact = facts[i];
         let sign = match fact.test {
@@ -467,13 +602,13 @@ fn sharpen(facts: &mut [Fact], names: &[Name], table: &Table) {
             continue;
         }
         let rest: Vec<Fact> = facts.iter().copied().filter(|f| *f != fact).collect();
-        let values = |rows: &[Vec<i64>], with: &[Fact]| -> Vec<i64> {
-            let held = rows.iter().filter(|row| all_hold(with, row) && all_hold(&rest, row));
-            held.map(|row| fact.of.value(row)).filter(|v| *v != NONE).map(|v| sign * v).collect()
+        let signed = |values: &Values, held: Vec<u64>| -> Vec<i64> {
+            let all = values.all(fact.of);
+            places(&held).map(|row| all[row]).filter(|v| *v != NONE).map(|v| sign * v).collect()
         };
-        let Some(last) = values(&table.yes, &[fact]).into_iter().max() else { continue };
-        let next = values(&table.no, &[]).into_iter().filter(|v| *v > last).min();
-        let Some(next) = next else { continue };
+        let Some(last) = signed(with, with.held(facts)).into_iter().max() else { continue };
+        let others = signed(without, without.held(&rest));
+        let Some(next) = others.into_iter().filter(|v| *v > last).min() else { continue };
         let limit = sign * round(last, next - 1, sign, fact.of, names);
         facts[i].test = if sign == 1 { Test::AtMost(limit) } else { Test::AtLeast(limit) };
     }
@@ -488,7 +623,8 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
     // 'Below 8' and 'at least 8' are round where the limit is 7 and 8.
     let ahead = if sign == 1 { 1 } else { 0 };
     let step = match unit {
-        Unit::Subpixels | Unit::Ratio => 256,
+        Unit::Subpixels => 256,
+        Unit::Ratio => RATIO,
         Unit::Area => 131_072,
         _ => return low,
     };
@@ -502,6 +638,11 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
             break;
         }
         power /= 2;
+    }
+    // 'More than 4' is rounder than '4.03 or more'.
+    let strict = high + 1 - ahead;
+    if strict != 0 && strict.trailing_zeros() > (best + ahead).trailing_zeros() + 3 {
+        best = high;
     }
     best.clamp(low, high)
 }

@@ -1,18 +1,19 @@
 //! What is said of a model, in words.
 
-use super::change::{Change, How, Points, Toward};
+use super::border::{Crossing, Distance, From, Product, Slope, Tie, Toward};
+use super::change::{Change, How, Points};
 use super::drawer::Drawer;
-use super::model::{GuardedStep, Model, Step, Vocabulary, Wrong};
-use super::quantity::Name;
+use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
+use super::quantity::{Name, RATIO};
 use super::question::Unit;
 use super::rule::{Conjunction, Fact, Of, Test};
 
 /// A number of a quantity, in px or px² where it is one.
-fn number(unit: Unit, v: i64) -> String {
+pub(super) fn number(unit: Unit, v: i64) -> String {
     let (per, word) = match unit {
         Unit::Subpixels => (256.0, " px"),
         Unit::Area => (131_072.0, " square pixels"),
-        Unit::Ratio => (256.0, ""),
+        Unit::Ratio => (RATIO as f64, ""),
         Unit::Pixels => (1.0, " px"),
         Unit::Flag | Unit::Count | Unit::Paired | Unit::Involved => (1.0, ""),
     };
@@ -26,10 +27,21 @@ fn limited(noun: &str, unit: Unit, test: Test) -> String {
         Test::AtMost(-1) => format!("{noun} is negative"),
         Test::AtLeast(1) if !is_count => format!("{noun} is positive"),
         Test::AtMost(v) if is_count => format!("{noun} is at most {v}"),
+        // Between a number and the next one, the rounder one is said.
+        Test::AtMost(v) if is_rounder(v, v + 1) => {
+            format!("{noun} is {} or less", number(unit, v))
+        }
         Test::AtMost(v) => format!("{noun} is less than {}", number(unit, v + 1)),
+        Test::AtLeast(v) if !is_count && is_rounder(v - 1, v) => {
+            format!("{noun} is more than {}", number(unit, v - 1))
+        }
         Test::AtLeast(v) => format!("{noun} is {} or more", number(unit, v)),
         _ => unreachable!("other tests have words of their own"),
     }
+}
+
+fn is_rounder(a: i64, b: i64) -> bool {
+    a != 0 && a.trailing_zeros() > b.trailing_zeros()
 }
 
 fn modular(noun: &str, unit: Unit, test: Test) -> String {
@@ -102,6 +114,10 @@ pub(super) fn sentences(
     for (number, guarded) in model.chain.iter().enumerate() {
         out.push(base(guarded, number > 0, is_line, drawer, vocabulary));
     }
+    out.extend(model.borders.iter().map(|guarded| border(guarded, is_line, vocabulary)));
+    if model.exchanges_ends {
+        out.push("A row whose ends then come in the wrong order is drawn between them.".to_owned());
+    }
     for step in &model.steps {
         let said = pixels(step, vocabulary);
         // A step is about what the steps before it draw.
@@ -120,7 +136,7 @@ fn base(
 ) -> String {
     let parts: Vec<String> = guarded.base.changes.iter().map(|c| change(c, is_line)).collect();
     let rule = &drawer.rules()[guarded.base.rule];
-    let is_nothing = guarded.base.changes == [Change::Nothing];
+    let is_nothing = guarded.base.is_nothing();
     let parts = if is_nothing { Vec::new() } else { parts };
     let mut how = String::from(if is_nothing { "draws nothing" } else { "draws" });
     if !rule.is_empty() {
@@ -129,16 +145,135 @@ fn base(
     if !parts.is_empty() {
         how += &format!(" as if {}", parts.join(" and "));
     }
-    let when = |all: &Vec<Conjunction>| {
-        let all = all.iter().map(|f| facts(f, &vocabulary.names));
-        all.collect::<Vec<_>>().join("; or where ")
-    };
+    let when = |all: &[Conjunction]| any(all, vocabulary);
     match (&guarded.when, is_other) {
         (Some(all), false) => format!("It {how} where {}.", when(all)),
         (Some(all), true) => format!("Elsewhere, it {how} where {}.", when(all)),
         (None, false) => format!("It {how}."),
         (None, true) => format!("Elsewhere, it {how}."),
     }
+}
+
+/// Where one of some conjunctions holds.
+fn any(all: &[Conjunction], vocabulary: &Vocabulary) -> String {
+    let all = all.iter().map(|f| facts(f, &vocabulary.names));
+    all.collect::<Vec<_>>().join("; or where ")
+}
+
+fn border(guarded: &GuardedBorder, is_line: bool, vocabulary: &Vocabulary) -> String {
+    let what = match (is_line, guarded.end) {
+        (true, _) => "the side steps of its pixels",
+        (_, 0) => "the left ends of rows",
+        _ => "the right ends of rows",
+    };
+    let how = formula(&guarded.crossing, is_line).join(" and ");
+    match &guarded.when {
+        Some(when) => {
+            format!("It computes {what} as if {how}, where {}.", any(when, vocabulary))
+        }
+        None => format!("It computes {what} as if {how}."),
+    }
+}
+
+fn toward(toward: Toward) -> &'static str {
+    match toward {
+        Toward::Down => "down",
+        Toward::Nearest => "to the nearest",
+        Toward::NearestDown => "to the nearest (a half down)",
+        Toward::Up => "up",
+        Toward::Zero => "toward 0",
+    }
+}
+
+/// What is not as it should be in a formula of a border.
+fn formula(crossing: &Crossing, is_line: bool) -> Vec<String> {
+    let edge = if is_line { "the line" } else { "the edge" };
+    let side = if is_line { "side" } else { "x" };
+    let px = |v: i64| number(Unit::Subpixels, v);
+    let mut said = Vec::new();
+    match crossing.from {
+        From::Before => {}
+        From::After if is_line => said.push("it began at the right or lower end".to_owned()),
+        From::After => said.push("the edge began at its lower end".to_owned()),
+        From::First => said.push(format!("{edge} began at the end that is given first")),
+        From::Second => said.push(format!("{edge} began at the end that is given last")),
+    }
+    let names = ["its side place", if is_line { "its place" } else { "its height" }];
+    for (start, name) in crossing.start.iter().zip(names) {
+        said.extend(
+            start.map(|t| {
+                format!("the start of {edge} had {name} rounded {} to whole px", toward(t))
+            }),
+        );
+    }
+    if crossing.rise != 0 {
+        let length = if is_line { "its length" } else { "the height of the edge" };
+        said.push(format!("the slope were divided by {length} plus {} px", crossing.rise));
+    }
+    match crossing.slope {
+        Slope::Exact => {}
+        Slope::None => said.push(format!("the slope of {edge} were 0")),
+        Slope::Reversed => said.push(format!("the slope of {edge} had the other sign")),
+        Slope::Twice => said.push(format!("the slope of {edge} were doubled")),
+        Slope::Word { bits, is_signed } => {
+            let kind = if is_signed { "a signed" } else { "an unsigned" };
+            said.push(format!("the shorter side of {edge} were in {kind} word of {bits} bits"));
+        }
+        Slope::Fixed { fraction, toward: way, word } => {
+            let word = word.map_or_else(String::new, |bits| format!(", in a word of {bits} bits"));
+            said.push(format!(
+                "the slope of {edge} had {fraction} bits of fraction, rounded {}{word}",
+                toward(way)
+            ));
+        }
+    }
+    match crossing.distance {
+        Distance::Exact => {}
+        Distance::Rows => {
+            said.push("the way from the corner to the first sample were left out".into())
+        }
+        Distance::FromTop => {
+            said.push("the way were counted from the start of the whole shape".into())
+        }
+    }
+    match crossing.product {
+        Product::Exact => {}
+        Product::Word(bits) => {
+            said.push(format!("slope times distance were in a signed word of {bits} bits"));
+        }
+        Product::Rounded(step, way) => said.push(format!(
+            "slope times distance were rounded {}, to multiples of {}",
+            toward(way),
+            multiple(step, 256.0)
+        )),
+    }
+    if crossing.later != 0 {
+        said.push(format!("it were computed {} farther along", px(crossing.later)));
+    }
+    if crossing.shift != 0 {
+        said.push(format!("it were moved by {}", px(crossing.shift)));
+    }
+    if crossing.from_window {
+        said.push(format!("the part of {edge} before the window were left out"));
+    }
+    if crossing.exchanged {
+        said.push(format!("the ends of {edge} had exchanged their {side} coordinates"));
+    }
+    match (crossing.tie, is_line) {
+        (Tie::Down, _) => {}
+        (Tie::Up, false) => said.push("a sample exactly on it lay on its other side".to_owned()),
+        (tie, _) => said.extend((crossing.changes() == 0 || !is_line).then(|| {
+            let to = match tie {
+                Tie::Up => "up",
+                Tie::Back => "back, seen from the left or upper end",
+                Tie::On => "on, seen from the left or upper end",
+                Tie::BackFromFirst => "back, seen from the first end",
+                _ => "on, seen from the first end",
+            };
+            format!("a tie went {to}")
+        })),
+    }
+    said
 }
 
 fn pixels(step: &Step, vocabulary: &Vocabulary) -> String {
@@ -171,6 +306,26 @@ fn change(change: &Change, is_line: bool) -> String {
         Change::Nothing => return "nothing were given".to_owned(),
         Change::Exchange => return "x and y were exchanged".to_owned(),
         Change::Reverse => return "its ends were exchanged".to_owned(),
+        Change::Write { axes, how } => {
+            let axis = match axes {
+                [true, true] => "the column and the row of each pixel were",
+                [true, false] => "the column of each pixel was",
+                _ => "the row of each pixel was",
+            };
+            return format!("{axis}, when it is written, {}", transformed(*how, 1.0));
+        }
+        Change::Cut { points, toward: way, all_sides } => {
+            let beyond = if *all_sides { "" } else { " along the longer axis" };
+            let of = match points {
+                Points::All => "each end, where it is beyond the window",
+                Points::Given(0) => "the first end, where it is beyond the window",
+                _ => "the second end, where it is beyond the window",
+            };
+            let rounded = format!("rounded {} to a whole pixel", toward(*way));
+            return format!(
+                "{of}{beyond}, was replaced by the point where the line enters the window, {rounded}"
+            );
+        }
         Change::Move { points, axes, how } => (points, axes, how),
     };
     let axis = match axes {
@@ -192,16 +347,9 @@ fn transformed(how: How, one: f64) -> String {
     let px = |v: i64| format!("{} px", v as f64 / one);
     let power = |bits: u32| px(1 << bits);
     match how {
-        How::Snap(step, toward) => {
-            let toward = match toward {
-                Toward::Down => "down",
-                Toward::Nearest => "to the nearest",
-                Toward::Up => "up",
-                Toward::Zero => "toward 0",
-            };
-            let multiple =
-                if step as f64 >= one { px(step) } else { format!("1/{} px", one as i64 / step) };
-            format!("rounded {toward}, to multiples of {multiple}")
+        How::Snap(step, way) => {
+            let multiple = multiple(step, one);
+            format!("rounded {}, to multiples of {multiple}", toward(way))
         }
         How::Add(by) => format!("moved by {}", px(by)),
         How::AtLeast(least) => format!("at least {}", px(least)),
@@ -219,6 +367,7 @@ fn transformed(how: How, one: f64) -> String {
         How::Saturate(bits) => {
             format!("limited to the range from -{} to {}", power(bits - 1), power(bits - 1))
         }
+        How::Limit(most) => format!("limited to the range from -{} to {}", px(most), px(most)),
         How::Absolute => "without its sign".to_owned(),
         How::Mirror(less) => format!(
             "mirrored: the side of the window{} less the coordinate",
@@ -226,6 +375,13 @@ fn transformed(how: How, one: f64) -> String {
         ),
         How::AboutFirst => "on the other side of the first point".to_owned(),
         How::Scale(times) => format!("multiplied by {}", times as f64 / 256.0),
+    }
+}
+
+fn multiple(step: i64, one: f64) -> String {
+    match step as f64 >= one {
+        true => format!("{} px", step as f64 / one),
+        false => format!("1/{} px", one as i64 / step),
     }
 }
 

@@ -1,17 +1,22 @@
 //! The search for a model: pixel rules, guarded changes of the question, and one on another.
 
+use super::border::{self, Crossing, Site, Tie};
 use super::change::{self, Base, Nearness};
 use super::drawer::Drawer;
 use super::drawer::LearnedAnswer;
-use super::model::{GuardedStep, Model, Step, Vocabulary, Wrong};
+use super::model::{GuardedBorder, GuardedStep, Model, Step, Vocabulary, Wrong};
 use super::picture::Picture;
-use super::quantity::{Quantities, Scene};
+use super::quantity::{Name, Quantities, Scene};
 use super::rule::{self, Conjunction, Table, Terms, all_hold};
+use std::rc::Rc;
 
 /// Answers that rules are learned from, wrong and right.
 const LEARNED_FROM: [usize; 2] = [90, 70];
 /// Answers that changed questions are ranked by.
 const RANKED_BY: usize = 36;
+/// Changed questions that are ranked under a model, and the answers that choose them.
+const RANKED_UNDER: usize = 150;
+const FEW: usize = 8;
 /// Pixels of one answer that are looked at, of those that are not wrong.
 const MOST_OF_ONE: usize = 240;
 /// The most steps of a model.
@@ -82,6 +87,10 @@ impl Search<'_> {
             return self.pruned(best(&tried).model.clone());
         }
         tried.push(self.tried(self.with_steps(&Model::default(), MOST_STEPS, 2)));
+        // A long model may be a formula in other words.
+        if !best(&tried).is_whole() || best(&tried).model.cost() > 5 {
+            self.move_borders(&mut tried);
+        }
         if !best(&tried).is_whole() {
             self.add_bases(&mut tried);
         }
@@ -116,10 +125,10 @@ impl Search<'_> {
         answers: &[&LearnedAnswer],
         under: &Model,
     ) -> Vec<(Nearness, Base)> {
-        let near = |base: &Base| match under.steps.is_empty() {
+        let near = |base: &Base| match under.steps.is_empty() && under.borders.is_empty() {
             true => change::nearness(base, answers, self.drawer),
             false => {
-                let model = Model { chain: vec![always(base)], steps: under.steps.clone() };
+                let model = Model { chain: vec![always(base)], ..under.clone() };
                 let fitting =
                     |some: &[&LearnedAnswer]| some.iter().filter(|a| self.fits(&model, a)).count();
                 let (first, rest) = answers.split_at(answers.len().min(4));
@@ -130,6 +139,14 @@ impl Search<'_> {
                 Nearness { exact, pixels: 0 }
             }
         };
+        // Under a model only those are looked at that come nearest without it.
+        let few = &answers[..answers.len().min(FEW)];
+        let rough = |base: &Base| std::cmp::Reverse(change::nearness(base, few, self.drawer));
+        let mut bases = bases;
+        if *under != Model::default() {
+            bases.sort_by_cached_key(rough);
+            bases.truncate(RANKED_UNDER);
+        }
         let mut ranked: Vec<(Nearness, Base)> = bases.into_iter().map(|b| (near(&b), b)).collect();
         ranked.sort_by(|(a, x), (b, y)| b.cmp(a).then(x.cost().cmp(&y.cost())));
         ranked
@@ -162,13 +179,136 @@ impl Search<'_> {
                 return;
             }
             let bases = change::all(left[0].question.is_line(), self.drawer.rules().len());
-            let under = Model { steps: model.steps.clone(), ..Model::default() };
+            let under = Model { chain: Vec::new(), ..model.clone() };
             for (near, base) in self.rank(bases, &left, &under).into_iter().take(4) {
                 if near.exact * 5 >= left.len() {
                     tried.extend(self.guarded(&model, &base).map(|model| self.tried(model)));
                 }
             }
         }
+    }
+
+    /// Formulas of borders, one after another, and then pixel rules.
+    fn move_borders(&self, tried: &mut Vec<Tried>) {
+        let mut model = Model::default();
+        let mut score = self.tried(model.clone()).score();
+        for _ in 0..MOST_BORDERS {
+            let candidates = self.bordered(&model).into_iter().flat_map(|model| {
+                let exchanged = Model { exchanges_ends: !model.exchanges_ends, ..model.clone() };
+                [model, exchanged].map(|model| self.tried(model))
+            });
+            let next = candidates.reduce(|a, b| if b.score() > a.score() { b } else { a });
+            let Some(next) = next.filter(|next| next.score() > score) else { break };
+            (model, score) = (next.model.clone(), next.score());
+            let is_whole = next.is_whole();
+            tried.push(next);
+            if is_whole {
+                return;
+            }
+        }
+        if !model.borders.is_empty() {
+            tried.push(self.tried(self.with_steps(&model, 2, 1)));
+        }
+    }
+
+    /// A model with another formula of borders: for each end of a row those that explain most of what is wrong there.
+    fn bordered(&self, model: &Model) -> Vec<Model> {
+        let mut all = Vec::new();
+        for end in [0, 1] {
+            let seen = self.borders_seen(model, end);
+            let (wrong, right): (Vec<&BorderSeen<'_>>, Vec<_>) =
+                seen.iter().partition(|seen| seen.drawn != seen.predicted);
+            if wrong.len() < 2 * NEED {
+                continue;
+            }
+            let some = |all: &[&BorderSeen<'_>], most: usize| -> Vec<usize> {
+                let step = all.len().div_ceil(most).max(1);
+                (0..all.len()).step_by(step).collect()
+            };
+            let (few_wrong, few_right) = (some(&wrong, 120), some(&right, 60));
+            let sample = self.drawer.sample();
+            let worth = |crossing: &Crossing| {
+                let drawn = few_wrong.iter().filter(|&&i| wrong[i].is_drawn_by(crossing, sample));
+                let broken = few_right.iter().filter(|&&i| !right[i].is_drawn_by(crossing, sample));
+                let broken = 0.1 * broken.count() as f64;
+                drawn.count() as f64 - broken - 0.3 * crossing.changes() as f64
+            };
+            // The ties are those of the right answers.
+            let agrees = |tie: &Tie| {
+                let crossing = Crossing { tie: *tie, ..Crossing::RIGHT };
+                right.iter().filter(|seen| seen.is_drawn_by(&crossing, sample)).count()
+            };
+            let tie = Tie::ALL.into_iter().rev().max_by_key(agrees).unwrap_or(Tie::Down);
+            for crossing in climbed(Crossing { tie, ..Crossing::RIGHT }, &worth) {
+                let is_drawn = |seen: &&&BorderSeen<'_>| seen.is_drawn_by(&crossing, sample);
+                let mut table = Table::default();
+                for seen in wrong.iter().filter(is_drawn) {
+                    table.yes.push(self.border_facts(seen));
+                    table.groups.push(seen.group);
+                }
+                for seen in right.iter().filter(|seen| !is_drawn(seen)) {
+                    table.no.push(self.border_facts(seen));
+                }
+                if table.yes.len() < 2 * NEED {
+                    continue;
+                }
+                let when = match table.no.is_empty() {
+                    true => None,
+                    false => match self.guard(table, &self.vocabulary.unpaired()) {
+                        Some(guard) => Some(guard),
+                        None => continue,
+                    },
+                };
+                let mut more = model.clone();
+                more.borders.push(GuardedBorder { when, end, crossing });
+                all.push(more);
+            }
+        }
+        all
+    }
+
+    fn border_facts(&self, seen: &BorderSeen<'_>) -> Vec<i64> {
+        let (a, scene) = &*seen.answer;
+        let mut row = Quantities { values: a.facts.clone(), ..Quantities::default() };
+        scene.of_pixel(seen.site.pixel(seen.right, &a.right), &mut row);
+        row.values
+    }
+
+    /// The borders that can be read off some answers, with what a model predicts of them.
+    fn borders_seen(&self, model: &Model, end: usize) -> Vec<BorderSeen<'_>> {
+        let mut all = Vec::new();
+        let sample = self.drawer.sample();
+        let some = [self.some(true, LEARNED_FROM[0]), self.some(false, LEARNED_FROM[1])];
+        for (group, a) in some.into_iter().flatten().enumerate() {
+            let Some(predicted) = model.predict(a, self.drawer, self.vocabulary) else { continue };
+            let answer = Rc::new((a, Scene::new(&a.question, &a.right, sample)));
+            let is_line = a.question.is_line();
+            let right_of = |site: &Site| match is_line {
+                true => site.seen(&a.right, true),
+                false => site.evaluate(&Crossing::RIGHT, &a.question, sample),
+            };
+            let sites = border::sites(&a.question, sample);
+            for row in sites.chunks(if is_line { 1 } else { 2 }) {
+                let Some(site) = row.iter().find(|site| site.end == end) else { continue };
+                let [drawn, predicted] =
+                    [&a.drawn, &predicted].map(|picture| site.seen(picture, is_line));
+                // An empty row tells something where it is to be empty.
+                let is_blank = !is_line && row_is_empty(site, &a.drawn);
+                let is_known = drawn.is_some() || is_blank && row_is_empty(site, &a.right);
+                if !is_known || predicted.is_none() && !is_blank {
+                    continue;
+                }
+                let (Some(right), Some(other)) =
+                    (right_of(site), right_of(&row[(row.len() - 1).saturating_sub(end)]))
+                else {
+                    continue;
+                };
+                let site = *site;
+                let answer = Rc::clone(&answer);
+                all.push(BorderSeen { group, answer, site, right, predicted, drawn, other });
+            }
+        }
+        all
     }
 
     /// Takes the best rule that is nearly true, and looks for the changed question under it.
@@ -251,7 +391,7 @@ impl Search<'_> {
     }
 
     /// The pixels that a model predicts wrongly in one way, and those that it predicts well and that could be.
-    fn table(&self, model: &Model, wrong: Wrong) -> Table {
+    pub(super) fn table(&self, model: &Model, wrong: Wrong) -> Table {
         let mut table = Table::default();
         let some =
             [true, false].map(|is_wrong| self.some(is_wrong, LEARNED_FROM[usize::from(!is_wrong)]));
@@ -297,7 +437,7 @@ impl Search<'_> {
 
     /// A model with a base before its others: where it holds is learned from the answers that one of both predicts alone.
     fn guarded(&self, model: &Model, base: &Base) -> Option<Model> {
-        let alone = Model { chain: vec![always(base)], steps: model.steps.clone() };
+        let alone = Model { chain: vec![always(base)], ..model.clone() };
         let mut table = Table::default();
         for (number, a) in self.answered.iter().enumerate() {
             match [self.fits(&alone, a), self.fits(model, a)] {
@@ -317,13 +457,17 @@ impl Search<'_> {
         match (table.yes.is_empty(), table.no.is_empty()) {
             (true, _) => None,
             (_, true) => Some(with(None)),
-            _ => self.guard(table).map(|guard| with(Some(guard))),
+            _ => self.guard(table, self.of_question()).map(|guard| with(Some(guard))),
         }
     }
 
-    /// Up to three conjunctions of facts of the question that cover what they should.
-    fn guard(&self, mut table: Table) -> Option<Vec<Conjunction>> {
-        let names = &self.vocabulary.names[..self.vocabulary.of_question];
+    /// The names of the facts of a question.
+    fn of_question(&self) -> &[Name] {
+        &self.vocabulary.names[..self.vocabulary.of_question]
+    }
+
+    /// Up to three conjunctions of facts that cover what they should.
+    fn guard(&self, mut table: Table, names: &[Name]) -> Option<Vec<Conjunction>> {
         let mut guard = Vec::new();
         while !table.yes.is_empty() && guard.len() < 3 {
             let terms = Terms { most: 3, need: 2, slack: 0, wanted: 1 };
@@ -355,6 +499,58 @@ impl Search<'_> {
     }
 }
 
+/// A border that was read off an answer.
+struct BorderSeen<'a> {
+    group: usize,
+    answer: Rc<(&'a LearnedAnswer, Scene<'a>)>,
+    site: Site,
+    /// In the window or not.
+    right: i64,
+    /// In the window; nothing where the row is empty.
+    predicted: Option<i64>,
+    drawn: Option<i64>,
+    /// The other end of the row.
+    other: i64,
+}
+
+impl BorderSeen<'_> {
+    /// Whether a formula gives what is drawn, in the window.
+    fn is_drawn_by(&self, crossing: &Crossing, sample: [i64; 2]) -> bool {
+        let q = &self.answer.0.question;
+        let side = i64::from(q.side[1 - self.site.axis]);
+        let Some(value) = self.site.evaluate(crossing, q, sample) else { return false };
+        match self.drawn {
+            Some(drawn) => value.clamp(0, side) == drawn,
+            None if self.site.end == 0 => value >= self.other,
+            None => value <= self.other,
+        }
+    }
+}
+
+fn row_is_empty(site: &Site, picture: &Picture) -> bool {
+    !(0..picture.side[0]).any(|x| picture.has([x, site.place as i32]))
+}
+
+/// Formulas of the largest worth: the best of one change, and those of the best with another one.
+fn climbed(start: Crossing, worth: &dyn Fn(&Crossing) -> f64) -> Vec<Crossing> {
+    let mut best: Vec<(f64, Crossing)> = vec![(0.0, start)];
+    for wanted in [FIRST_FORMULAS, FORMULAS] {
+        let more: Vec<Crossing> = best.iter().flat_map(|(_, c)| c.neighbours()).collect();
+        best.extend(more.into_iter().map(|c| (worth(&c), c)));
+        best.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        best.dedup_by(|(_, a), (_, b)| a == b);
+        best.truncate(wanted);
+    }
+    best.retain(|(_, crossing)| *crossing != start);
+    best.into_iter().map(|(_, crossing)| crossing).collect()
+}
+
+/// Formulas that are changed in another field, and those whose guard is learned.
+const FIRST_FORMULAS: usize = 12;
+const FORMULAS: usize = 2;
+/// The most formulas of borders in a model.
+const MOST_BORDERS: usize = 4;
+
 fn best(tried: &[Tried]) -> &Tried {
     let better = |a, b: _| if Tried::score(b) > Tried::score(a) { b } else { a };
     tried.iter().skip(1).fold(&tried[0], better)
@@ -371,30 +567,46 @@ fn shorter(model: &Model) -> Vec<Model> {
         let mut less = model.clone();
         less.chain.remove(i);
         all.push(less);
-        let Some(when) = &model.chain[i].when else { continue };
-        let mut changed = |when: Option<Vec<Conjunction>>| {
+        for when in shorter_guards(model.chain[i].when.as_ref()) {
             let mut less = model.clone();
             less.chain[i].when = when;
             all.push(less);
-        };
-        changed(None);
-        for (j, conjunction) in when.iter().enumerate() {
-            if when.len() > 1 {
-                changed(Some(without(when, j)));
-            }
-            for k in (0..conjunction.len()).filter(|_| conjunction.len() > 1) {
-                let mut less = when.clone();
-                less[j].remove(k);
-                changed(Some(less));
-            }
         }
     }
+    for i in 0..model.borders.len() {
+        all.push(Model { borders: without(&model.borders, i), ..model.clone() });
+        for when in shorter_guards(model.borders[i].when.as_ref()) {
+            let mut less = model.clone();
+            less.borders[i].when = when;
+            all.push(less);
+        }
+    }
+    if model.exchanges_ends {
+        all.push(Model { exchanges_ends: false, ..model.clone() });
+    }
     for (i, step) in model.steps.iter().enumerate() {
-        all.push(Model { chain: model.chain.clone(), steps: without(&model.steps, i) });
+        all.push(Model { steps: without(&model.steps, i), ..model.clone() });
         for k in (0..step.facts.len()).filter(|_| step.facts.len() > 1) {
             let mut less = model.clone();
             less.steps[i].facts.remove(k);
             all.push(less);
+        }
+    }
+    all
+}
+
+/// No guard, and all guards without one conjunction or one fact.
+fn shorter_guards(when: Option<&Vec<Conjunction>>) -> Vec<Option<Vec<Conjunction>>> {
+    let Some(when) = when else { return Vec::new() };
+    let mut all = vec![None];
+    for (j, conjunction) in when.iter().enumerate() {
+        if when.len() > 1 {
+            all.push(Some(without(when, j)));
+        }
+        for k in (0..conjunction.len()).filter(|_| conjunction.len() > 1) {
+            let mut less = when.clone();
+            less[j].remove(k);
+            all.push(Some(less));
         }
     }
     all

@@ -1,0 +1,454 @@
+//! Borders computed otherwise: where an edge crosses the samples of a row, or which pixel a line has in a column.
+//!
+//! What a program computes is a formula, `start + slope * distance`, and each part of it has a format. A formula is tried on
+//! single borders, which are read off the answers, so that it is found even where it holds for some edges alone: which these
+//! are is learned as any other fact.
+
+use super::picture::{MARGIN, Picture};
+use super::quantity::EDGES;
+use super::question::AnyQuestion;
+
+/// Where a number is rounded to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Toward {
+    Down,
+    Nearest,
+    /// The same, but a half goes down.
+    NearestDown,
+    Up,
+    Zero,
+}
+
+/// Which of two pixels of a line is taken that are as near: of a row, whether a sample exactly on its border lies in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tie {
+    Down,
+    Up,
+    /// The one that the line comes from or goes to, seen from its left or upper end.
+    Back,
+    On,
+    /// The same, seen from the end that is given first.
+    BackFromFirst,
+    OnFromFirst,
+}
+
+impl Tie {
+    pub(super) const ALL: [Self; 6] =
+        [Self::Down, Self::Up, Self::Back, Self::On, Self::BackFromFirst, Self::OnFromFirst];
+}
+
+/// The point that the distance is counted from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum From {
+    /// The end that comes first in the order of rows, or of columns.
+    Before,
+    After,
+    /// The end that is given first.
+    First,
+    Second,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Slope {
+    Exact,
+    /// So many bits of fraction, and so many bits in all if they are limited.
+    Fixed {
+        fraction: u32,
+        toward: Toward,
+        word: Option<u32>,
+    },
+    /// The shorter side in a word of so many bits.
+    Word {
+        bits: u32,
+        is_signed: bool,
+    },
+    /// It is as if the edge went straight.
+    None,
+    /// The other way.
+    Reversed,
+    Twice,
+}
+
+/// How far the row is from the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Distance {
+    Exact,
+    /// Rows from the first one: the way from the corner to the first sample is left out.
+    Rows,
+    /// From the top of the whole shape.
+    FromTop,
+}
+
+/// The format of slope times distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Product {
+    Exact,
+    /// A signed word of so many bits.
+    Word(u32),
+    /// A multiple of so many 1/256 px.
+    Rounded(i64, Toward),
+}
+
+/// A formula of a border. All lengths are in 1/256 px.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Crossing {
+    pub(super) from: From,
+    /// The coordinates of the start along the border's axis and across it, rounded to whole pixels.
+    pub(super) start: [Option<Toward>; 2],
+    /// Pixels that the length of the edge is too long by.
+    pub(super) rise: i64,
+    pub(super) slope: Slope,
+    pub(super) distance: Distance,
+    pub(super) product: Product,
+    /// Whether what lies between the start and the window is left out.
+    pub(super) from_window: bool,
+    /// Whether its two ends have each other's place along the row.
+    pub(super) exchanged: bool,
+    /// What is added to the distance and to the result.
+    pub(super) later: i64,
+    pub(super) shift: i64,
+    pub(super) tie: Tie,
+}
+
+impl Crossing {
+    pub(super) const RIGHT: Self = Self {
+        from: From::Before,
+        start: [None; 2],
+        rise: 0,
+        slope: Slope::Exact,
+        distance: Distance::Exact,
+        product: Product::Exact,
+        from_window: false,
+        exchanged: false,
+        later: 0,
+        shift: 0,
+        tie: Tie::Down,
+    };
+
+    /// Fields that are not as in the right formula, apart from its ties.
+    pub(super) fn changes(&self) -> usize {
+        let right = Self::RIGHT;
+        [
+            self.from != right.from,
+            self.start[0].is_some(),
+            self.start[1].is_some(),
+            self.rise != 0,
+            self.slope != right.slope,
+            self.distance != right.distance,
+            self.product != right.product,
+            self.from_window,
+            self.exchanged,
+            self.later != 0,
+            self.shift != 0,
+        ]
+        .into_iter()
+        .filter(|is_changed| *is_changed)
+        .count()
+    }
+
+    /// All formulas with one more field changed.
+    pub(super) fn neighbours(&self) -> Vec<Self> {
+        const TOWARD: [Toward; 4] = [Toward::Down, Toward::Nearest, Toward::Up, Toward::Zero];
+        let mut all = Vec::new();
+        let mut with = |change: &dyn Fn(&mut Self)| {
+            let mut other = *self;
+            change(&mut other);
+            if other.changes() == self.changes() + 1 {
+                all.push(other);
+            }
+        };
+        for from in [From::After, From::First, From::Second] {
+            with(&|c| c.from = from);
+        }
+        for toward in TOWARD {
+            with(&|c| c.start[0] = Some(toward));
+            with(&|c| c.start[1] = Some(toward));
+        }
+        for rise in [-2, -1, 1, 2] {
+            with(&|c| c.rise = rise);
+        }
+        for slope in [Slope::None, Slope::Reversed, Slope::Twice] {
+            with(&|c| c.slope = slope);
+        }
+        for fraction in [0, 1, 2, 4, 6, 8, 10, 12, 14, 16] {
+            for toward in TOWARD {
+                with(&|c| c.slope = Slope::Fixed { fraction, toward, word: None });
+                for word in [fraction + 8, 16, 32] {
+                    let word = Some(word);
+                    with(&|c| c.slope = Slope::Fixed { fraction, toward, word });
+                }
+            }
+        }
+        for bits in 4..=20 {
+            with(&|c| c.slope = Slope::Word { bits, is_signed: false });
+            with(&|c| c.slope = Slope::Word { bits, is_signed: true });
+        }
+        for distance in [Distance::Rows, Distance::FromTop] {
+            with(&|c| c.distance = distance);
+        }
+        with(&|c| c.from_window = true);
+        with(&|c| c.exchanged = true);
+        for bits in [16, 20, 24, 28, 31, 32] {
+            with(&|c| c.product = Product::Word(bits));
+        }
+        for step in [1, 16, 256] {
+            for toward in TOWARD {
+                with(&|c| c.product = Product::Rounded(step, toward));
+            }
+        }
+        for by in [128, 256, 512, 1024, 2048].into_iter().flat_map(|by| [by, -by]) {
+            with(&|c| c.later = by);
+            with(&|c| c.shift = by);
+        }
+        // Ties are no change, but which they are may change with the rest.
+        let ties = Tie::ALL.into_iter().filter(|tie| *tie != self.tie);
+        all.extend(ties.map(|tie| Self { tie, ..*self }));
+        all
+    }
+}
+
+/// A fraction as a whole number.
+pub(super) fn round(num: i128, den: i128, toward: Toward) -> i128 {
+    let (num, den) = if den < 0 { (-num, -den) } else { (num, den) };
+    match toward {
+        Toward::Down => num.div_euclid(den),
+        Toward::Up => -(-num).div_euclid(den),
+        Toward::Nearest => (2 * num + den).div_euclid(2 * den),
+        Toward::NearestDown => -(den - 2 * num).div_euclid(2 * den),
+        Toward::Zero => num / den,
+    }
+}
+
+fn wrap(v: i128, bits: u32) -> i128 {
+    let half = 1 << (bits - 1);
+    (v + half).rem_euclid(1 << bits) - half
+}
+
+/// A border of a question: an edge where it crosses a row, or a line where it crosses a column or a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Site {
+    /// 1 where the place is a row, 0 where it is a column.
+    pub(super) axis: usize,
+    pub(super) place: i64,
+    /// Which end of the row it is; of a line, its pixel.
+    pub(super) end: usize,
+    /// The points of the edge.
+    points: [usize; 2],
+}
+
+impl Site {
+    /// The pixel: the first of a row, or the first after it; of a line, the one that it has. Nothing where the formula has no
+    /// number.
+    pub(super) fn evaluate(
+        &self,
+        formula: &Crossing,
+        q: &AnyQuestion,
+        sample: [i64; 2],
+    ) -> Option<i64> {
+        let (axis, along) = (self.axis, 1 - self.axis);
+        let one = 256 / q.one();
+        let point = |i: usize| [0, 1].map(|axis| i128::from(q.points[i][axis] * one));
+        let [mut a, mut b] = self.points.map(point);
+        let is_turned = match formula.from {
+            From::Before => a[axis] > b[axis],
+            From::After => a[axis] < b[axis],
+            From::First => false,
+            From::Second => true,
+        };
+        if is_turned {
+            std::mem::swap(&mut a, &mut b);
+        }
+        if formula.exchanged {
+            (a[along], b[along]) = (b[along], a[along]);
+        }
+        let mut rise = b[axis] - a[axis];
+        rise += rise.signum() * 256 * i128::from(formula.rise);
+        let run = b[along] - a[along];
+        if rise == 0 {
+            return None;
+        }
+        let snapped =
+            |v: i128, toward: Option<Toward>| toward.map_or(v, |t| round(v, 256, t) * 256);
+        let start = [snapped(a[along], formula.start[0]), snapped(a[axis], formula.start[1])];
+        let at = i128::from(self.place * 256 + sample[axis]);
+        // The place of the start: the first sample that is not before it.
+        let place = -(i128::from(sample[axis]) - start[1]).div_euclid(256);
+        let mut distance = match formula.distance {
+            Distance::Exact => at - start[1],
+            Distance::Rows => 256 * (i128::from(self.place) - place),
+            Distance::FromTop => at - i128::from(q.range(axis)[0] * one),
+        } + i128::from(formula.later);
+        if formula.from_window {
+            let seen = place.clamp(0, i128::from(q.side[axis]) - 1);
+            distance -= 256 * (seen - place);
+        }
+        let (num, den) = match formula.slope {
+            Slope::Exact => (run * distance, rise),
+            Slope::None => (0, 1),
+            Slope::Reversed => (-run * distance, rise),
+            Slope::Twice => (2 * run * distance, rise),
+            Slope::Word { bits, is_signed } => {
+                // Lines count whole pixels.
+                let unit = i128::from(one);
+                let size = run.abs() / unit;
+                let size = if is_signed { wrap(size, bits) } else { size & ((1 << bits) - 1) };
+                (run.signum() * size * unit * distance, rise)
+            }
+            Slope::Fixed { fraction, toward, word } => {
+                let slope = round(run << fraction, rise, toward);
+                (word.map_or(slope, |bits| wrap(slope, bits)) * distance, 1 << fraction)
+            }
+        };
+        let (num, den) = match formula.product {
+            Product::Exact => (num, den),
+            Product::Word(bits) => (wrap(num, bits), den),
+            Product::Rounded(step, toward) => {
+                let step = i128::from(step);
+                (round(num, den * step, toward) * step, 1)
+            }
+        };
+        let value = start[0] * den + num + i128::from(formula.shift) * den;
+        let (value, den) = if den < 0 { (-value, -den) } else { (value, den) };
+        // A row begins at the first sample that is not before the crossing; a line has the pixel that is nearest.
+        let sample = i128::from(if q.is_line() { 128 } else { sample[along] });
+        // Whether the line goes up in its shorter direction, seen from its left or upper end.
+        let climbs = (run > 0) == (b[axis] > a[axis]);
+        let is_forward = {
+            let [first, second] = self.points.map(point);
+            first[axis] < second[axis]
+        };
+        let is_up = match formula.tie {
+            Tie::Down => false,
+            Tie::Up => true,
+            Tie::On => climbs,
+            Tie::Back => !climbs,
+            Tie::OnFromFirst => climbs == is_forward,
+            Tie::BackFromFirst => climbs != is_forward,
+        };
+        let pixel = match (is_up, q.is_line()) {
+            (true, true) => (value + 128 * den).div_euclid(256 * den),
+            (true, false) => (value - sample * den).div_euclid(256 * den) + 1,
+            (false, _) => -(sample * den - value).div_euclid(256 * den),
+        };
+        i64::try_from(pixel).ok()
+    }
+
+    /// What a picture has there: of a row of which no pixel is drawn, or which has a gap, nothing.
+    pub(super) fn seen(&self, picture: &Picture, is_line: bool) -> Option<i64> {
+        let [first, after] = span(picture, self.axis, self.place as i32)?;
+        if is_line && after != first + 1 {
+            return None;
+        }
+        Some(i64::from([first, after][self.end]))
+    }
+
+    /// A pixel beside it, of which facts are looked at.
+    pub(super) fn pixel(&self, border: i64, picture: &Picture) -> [i32; 2] {
+        let along = 1 - self.axis;
+        let last = i64::from(picture.side[along] + MARGIN - 1);
+        let at = (border - self.end as i64).clamp(i64::from(-MARGIN), last) as i32;
+        let mut pixel = [self.place as i32; 2];
+        pixel[along] = at;
+        pixel
+    }
+}
+
+/// The first pixel of a row or a column in the window, and the first after it.
+fn span(picture: &Picture, axis: usize, place: i32) -> Option<[i32; 2]> {
+    let at = |v: i32| if axis == 1 { [v, place] } else { [place, v] };
+    let mut drawn = (0..picture.side[1 - axis]).filter(|v| picture.has(at(*v)));
+    let first = drawn.next()?;
+    let (mut after, mut count) = (first + 1, 1);
+    for v in drawn {
+        (after, count) = (v + 1, count + 1);
+    }
+    (after - first == count).then_some([first, after])
+}
+
+/// All borders of a question in its window and its margin.
+pub(super) fn sites(q: &AnyQuestion, sample: [i64; 2]) -> Vec<Site> {
+    let mut all = Vec::new();
+    if q.is_line() {
+        let [dx, dy] = q.side_of(0, 1).map(i64::abs);
+        let axis = usize::from(dy > dx);
+        let [least, most] = q.range(axis);
+        let window = i64::from(q.side[axis] + MARGIN);
+        for place in least.max(i64::from(-MARGIN))..=most.min(window - 1) {
+            all.push(Site { axis, place, end: 0, points: [0, 1] });
+        }
+        return all;
+    }
+    for place in i64::from(-MARGIN)..i64::from(q.side[1] + MARGIN) {
+        let at = place * 256 + sample[1];
+        let is_crossed = |edge: &&[usize; 2]| {
+            let [a, b] = edge.map(|i| q.points[i][1] <= at);
+            a != b
+        };
+        let crossed: Vec<Site> = EDGES
+            .iter()
+            .filter(is_crossed)
+            .map(|points| Site { axis: 1, place, end: 0, points: *points })
+            .collect();
+        let [mut a, mut b] = crossed[..] else { continue };
+        if left_of(&b, &a, q, at) {
+            std::mem::swap(&mut a, &mut b);
+        }
+        all.extend([a, Site { end: 1, ..b }]);
+    }
+    all
+}
+
+/// Whether one edge crosses a row left of another.
+fn left_of(a: &Site, b: &Site, q: &AnyQuestion, at: i64) -> bool {
+    let crossing = |site: &Site| {
+        let [from, to] = site.points.map(|i| q.points[i].map(i128::from));
+        let (rise, distance) = (to[1] - from[1], i128::from(at) - from[1]);
+        let sign = rise.signum();
+        (sign * (from[0] * rise + (to[0] - from[0]) * distance), sign * rise)
+    };
+    let ((x, by), (other, other_by)) = (crossing(a), crossing(b));
+    x * other_by < other * by
+}
+
+/// A picture whose borders are moved: `moved` gives the new place of a border, if it has one. A row whose ends come in the
+/// wrong order is empty, unless they are exchanged.
+pub(super) fn redrawn(
+    q: &AnyQuestion,
+    before: &Picture,
+    sample: [i64; 2],
+    exchanges_ends: bool,
+    moved: &dyn Fn(&Site, i64) -> Option<i64>,
+) -> Picture {
+    let all = sites(q, sample);
+    let mut after = before.clone();
+    let right = |site: &Site| site.evaluate(&Crossing::RIGHT, q, sample);
+    let is_line = q.is_line();
+    for row in all.chunks(if is_line { 1 } else { 2 }) {
+        let mut borders = Vec::new();
+        for site in row {
+            // Of a line, the picture says which of two pixels as near is the right one.
+            let seen = if is_line { site.seen(before, true) } else { None };
+            borders.extend(seen.or_else(|| right(site)));
+        }
+        if borders.len() < row.len() {
+            continue;
+        }
+        let new: Vec<Option<i64>> = row.iter().zip(&borders).map(|(s, b)| moved(s, *b)).collect();
+        if new.iter().all(Option::is_none) {
+            continue;
+        }
+        let ends: Vec<i64> =
+            new.iter().zip(&borders).map(|(new, old)| new.unwrap_or(*old)).collect();
+        let (first, end) = match ends[..] {
+            [first, end] if end < first && exchanges_ends => (end, first),
+            [first, end] => (first, end),
+            _ => (ends[0], ends[0] + 1),
+        };
+        let (axis, place) = (row[0].axis, row[0].place as i32);
+        for v in -MARGIN..q.side[1 - axis] + MARGIN {
+            let at = if axis == 1 { [v, place] } else { [place, v] };
+            after.set(at, u8::from((first..end).contains(&i64::from(v))));
+        }
+    }
+    after
+}
