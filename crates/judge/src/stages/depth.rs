@@ -349,19 +349,20 @@ const MOST_LAYERS: usize = 8;
 
 /// A triangle at a pixel.
 pub struct Layer<'a> {
-    number: usize,
-    /// At the centre of the pixel.
-    depth: f64,
-    /// The first pixel of its row.
-    first: i32,
-    triangle: &'a Triangle,
+    pub(super) number: usize,
+    /// At the sample of the pixel.
+    pub(super) depth: f64,
+    /// The first pixel of its row, and the one after the last.
+    pub(super) first: i32,
+    pub(super) end: i32,
+    pub(super) triangle: &'a Triangle,
 }
 
 /// A pixel with all that covers it, in drawing order, and what is shown: its number and one, or 0.
 pub struct Pile<'a> {
     pub(super) spot: Spot,
-    layers: Vec<Layer<'a>>,
-    shown: usize,
+    pub(super) layers: Vec<Layer<'a>>,
+    pub(super) shown: usize,
     noise: f64,
 }
 
@@ -597,7 +598,8 @@ impl Stage for DepthTest {
                     let at = [x, span.y_px].map(|v| f64::from(v) + 0.5);
                     let depth = sum(weights(&corners, at), depths(triangle));
                     let pile: &mut Pile<'_> = &mut piles[row + (x - window.x0) as usize];
-                    pile.layers.push(Layer { number, depth, first: span.x0_px, triangle });
+                    let (first, end) = (span.x0_px, span.x1_px);
+                    pile.layers.push(Layer { number, depth, first, end, triangle });
                 }
             });
         }

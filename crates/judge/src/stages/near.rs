@@ -484,19 +484,29 @@ impl Field for Edges {
 
 /// An edge that is cut: the corner that stays, the one that goes, the part of the way between them, and whether the one that
 /// stays comes first.
-struct Edge {
-    kept: ClipCorner,
-    lost: ClipCorner,
-    t: f64,
-    is_forward: bool,
+#[derive(Clone)]
+pub(super) struct Edge {
+    pub(super) kept: ClipCorner,
+    pub(super) lost: ClipCorner,
+    pub(super) t: f64,
+    pub(super) is_forward: bool,
 }
 
 /// A triangle and what was left of it.
+#[derive(Clone)]
 pub struct Cut<'a> {
-    corners: [ClipCorner; 3],
-    left: &'a [ClipCorner],
+    pub(super) corners: [ClipCorner; 3],
+    pub(super) left: &'a [ClipCorner],
     is_zero: bool,
     tolerance: f64,
+}
+
+/// A new corner of what is left, with the number of its edge.
+pub(super) struct NewCorner {
+    /// Its place in what is left, by the right clipper.
+    pub(super) place: usize,
+    pub(super) number: usize,
+    pub(super) edge: Edge,
 }
 
 impl Cut<'_> {
@@ -521,6 +531,58 @@ impl Cut<'_> {
         let has_area = |polygon: &[ClipCorner]| polygon.len() > 2;
         (!has_area(polygon) && !has_area(self.left))
             || is_round(polygon.len(), self.left.len(), |i, j| near(&polygon[i], &self.left[j]))
+    }
+
+    /// The corners that are left by the right clipper, each with the one that is given in its place; nothing where there are
+    /// others, or another number of them.
+    pub(super) fn aligned(&self) -> Option<Vec<ClipCorner>> {
+        let right = NearCut::default().polygon(self, true);
+        let count = right.len();
+        if count < 3 || self.left.len() != count {
+            return None;
+        }
+        let bounds = bounds(&self.corners, self.tolerance);
+        let near =
+            |p: &ClipCorner, q: &ClipCorner| (0..5).all(|k| (p[k] - q[k]).abs() <= bounds[k]);
+        let is_old = |p: &&ClipCorner| self.corners.iter().any(|corner| corner == *p);
+        let turned = (0..count).map(|turn| [&self.left[turn..], &self.left[..turn]].concat());
+        let fit = |given: &Vec<ClipCorner>| {
+            let both = right.iter().zip(given);
+            both.clone().filter(|(p, _)| is_old(p)).all(|(p, q)| near(p, q))
+        };
+        let matching =
+            |given: &Vec<ClipCorner>| right.iter().zip(given).filter(|(p, q)| near(p, q)).count();
+        turned.filter(fit).max_by_key(matching)
+    }
+
+    /// The new corners of the right clipper.
+    pub(super) fn new_of_right(&self) -> Vec<NewCorner> {
+        let mut all = Vec::new();
+        let mut place = 0;
+        let distance = |p: ClipCorner| Plane::Near.distance(p, self.is_zero);
+        for number in 0..3 {
+            let [from, to] = [number, (number + 1) % 3].map(|i| self.corners[i]);
+            let [a, b] = [from, to].map(distance);
+            place += usize::from(a >= 0.0);
+            if (a >= 0.0) != (b >= 0.0) {
+                let is_forward = a >= 0.0;
+                let (kept, lost, a, b) =
+                    if is_forward { (from, to, a, b) } else { (to, from, b, a) };
+                all.push(NewCorner {
+                    place,
+                    number,
+                    edge: Edge { kept, lost, t: a / (a - b), is_forward },
+                });
+                place += 1;
+            }
+        }
+        all
+    }
+
+    /// Whether two numbers of a corner are the same.
+    pub(super) fn is_number(&self, k: usize, given: f64, predicted: f64) -> bool {
+        let bound = bounds(&self.corners, self.tolerance)[k];
+        (given - predicted).abs() <= bound.max(self.tolerance * predicted.abs())
     }
 
     /// The corners that the triangle does not have.

@@ -19,6 +19,7 @@ mod picture;
 mod programs;
 mod quantity;
 mod question;
+pub mod rows;
 mod rule;
 mod say;
 mod search;

@@ -70,7 +70,7 @@ impl Fact {
             Of::One(i) => match names[i].unit {
                 Unit::Flag => 1.0,
                 Unit::Count | Unit::Paired | Unit::Pixels => 1.03,
-                Unit::Subpixels | Unit::Area | Unit::Ratio => 1.06,
+                Unit::Subpixels | Unit::Area | Unit::Ratio | Unit::Value => 1.06,
                 Unit::Involved => 1.2,
             },
             Of::Difference(..) => 1.15,
@@ -490,6 +490,7 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
     let step = match unit {
         Unit::Subpixels | Unit::Ratio => 256,
         Unit::Area => 131_072,
+        Unit::Value => return ahead_of_decimal(low + ahead, high + ahead) - ahead,
         _ => return low,
     };
     let mut best = low;
@@ -504,4 +505,19 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
         power /= 2;
     }
     best.clamp(low, high)
+}
+
+/// Of values in 1/2^20, one in a range with few digits after the point.
+fn ahead_of_decimal(low: i64, high: i64) -> i64 {
+    let mut unit = 1_i64 << 40;
+    // From about a million down, by tens.
+    while unit > 1 {
+        let multiple =
+            low.div_euclid(unit) * unit + if low.rem_euclid(unit) == 0 { 0 } else { unit };
+        if multiple <= high {
+            return multiple;
+        }
+        unit = if unit > 1 << 20 { unit / 2 } else { unit / 10 };
+    }
+    low
 }
