@@ -3,13 +3,14 @@
 use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
+use crate::expected::Expect as _;
 use crate::pixels::masks_of;
 use rasterproof_core::geometry::twice_area;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::Expectation;
 use rasterproof_verify::mistakes::values::{self, depths, sum, weights};
 use rasterproof_verify::mistakes::{Format, MistakeId};
-use rasterproof_verify::oracle::Oracle;
 
 composed! {
     /// A test of depth.
@@ -81,46 +82,51 @@ pub enum Key {
     FromHalf,
 }
 
+const SORTED: &str = "compare depths at every pixel";
+/// The numbers, with their words and the repair.
+const KEYS: [(Key, &str, &str); 10] = [
+    (Key::Mean, MistakeId::SortedByMeanDepth.name(), SORTED),
+    (Key::Nearest, "sorts whole triangles by their nearest corner", SORTED),
+    (Key::Farthest, "sorts whole triangles by their farthest corner", SORTED),
+    (Key::Middle, "sorts whole triangles by their middle corner", SORTED),
+    (
+        Key::TimesArea,
+        MistakeId::UndividedDepthsCompared.name(),
+        "divide the weighted sum by the area",
+    ),
+    (
+        Key::FromHalf,
+        "compares how far depths lie from 1/2, as where the sign of depths from -1 to 1 is lost",
+        "compare the depths themselves",
+    ),
+    (Key::Negated, "turns the sign of depths", "divide the weighted sum by the area with its sign"),
+    (
+        Key::Corner(0),
+        "compares the depth of the first corner for the whole triangle",
+        "interpolate depth",
+    ),
+    (
+        Key::Corner(1),
+        "compares the depth of the second corner for the whole triangle",
+        "interpolate depth",
+    ),
+    (
+        Key::Corner(2),
+        "compares the depth of the last corner for the whole triangle",
+        "interpolate depth",
+    ),
+];
+
 impl Field for Key {
     const NAME: &'static str = "order of depths";
 
     fn options() -> Vec<Self> {
-        use Key::{Corner, Farthest, FromHalf, Mean, Middle, Nearest, Negated, TimesArea};
-        let corners = [0, 1, 2].map(Corner);
-        [Mean, Nearest, Farthest, Middle, TimesArea, FromHalf, Negated]
-            .into_iter()
-            .chain(corners)
-            .collect()
+        KEYS.iter().map(|(key, ..)| *key).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let sorted = "compare depths at every pixel";
-        Some(match self {
-            Self::Depth => return None,
-            Self::Mean => (MistakeId::SortedByMeanDepth.name().to_owned(), sorted),
-            Self::Nearest => ("sorts whole triangles by their nearest corner".to_owned(), sorted),
-            Self::Middle => ("sorts whole triangles by their middle corner".to_owned(), sorted),
-            Self::Farthest => ("sorts whole triangles by their farthest corner".to_owned(), sorted),
-            Self::Corner(i) => (
-                format!(
-                    "compares the depth of the {} corner for the whole triangle",
-                    ["first", "second", "last"][*i]
-                ),
-                "interpolate depth",
-            ),
-            Self::TimesArea => (
-                MistakeId::UndividedDepthsCompared.name().to_owned(),
-                "divide the weighted sum by the area",
-            ),
-            Self::Negated => (
-                "turns the sign of depths".to_owned(),
-                "divide the weighted sum by the area with its sign",
-            ),
-            Self::FromHalf => (
-                "compares how far depths lie from 1/2, as where the sign of depths from -1 to 1 is lost".to_owned(),
-                "compare the depths themselves",
-            ),
-        })
+        let (_, does, repair) = KEYS.iter().find(|(key, ..)| key == self)?;
+        Some(((*does).to_owned(), repair))
     }
 }
 
@@ -247,31 +253,34 @@ impl Default for Compare {
     }
 }
 
+const TURNED: &str =
+    "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth";
+const COMPARED: &str = "compare depths before a pixel is written";
+/// The comparisons, with their words and the repair.
+const COMPARISONS: [(u8, &str, &str); 7] = [
+    (GREATER, MistakeId::FarthestShown.name(), TURNED),
+    (7, MistakeId::LastShown.name(), COMPARED),
+    (0, "shows the triangle that was drawn first, without a test of depth", COMPARED),
+    (
+        LESS | EQUAL,
+        "of equal depths shows the last drawn",
+        "keep what is there where depths are equal",
+    ),
+    (GREATER | EQUAL, "shows the farthest triangle, and of equal depths the last drawn", TURNED),
+    (LESS | GREATER, "shows the triangle that was drawn last, unless depths are equal", COMPARED),
+    (EQUAL, "shows a later triangle only where depths are equal", COMPARED),
+];
+
 impl Field for Compare {
     const NAME: &'static str = "the comparison of depths";
 
     fn options() -> Vec<Self> {
-        [GREATER, 7, 0, LESS | EQUAL, GREATER | EQUAL, LESS | GREATER, EQUAL].map(Self).to_vec()
+        COMPARISONS.iter().map(|(orders, ..)| Self(*orders)).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let does = match self.0 {
-            0 => "shows the triangle that was drawn first, without a test of depth",
-            EQUAL => "shows a later triangle only where depths are equal",
-            3 => "of equal depths shows the last drawn",
-            GREATER => MistakeId::FarthestShown.name(),
-            5 => "shows the triangle that was drawn last, unless depths are equal",
-            6 => "shows the farthest triangle, and of equal depths the last drawn",
-            _ => MistakeId::LastShown.name(),
-        };
-        let repair = match self.0 {
-            3 => "keep what is there where depths are equal",
-            4 | 6 => {
-                "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth"
-            }
-            _ => "compare depths before a pixel is written",
-        };
-        Some((does.to_owned(), repair))
+        let (_, does, repair) = COMPARISONS.iter().find(|(orders, ..)| *orders == self.0)?;
+        Some(((*does).to_owned(), repair))
     }
 }
 
@@ -574,7 +583,7 @@ impl Stage for DepthTest {
     fn parts<'a>(
         question: &'a Question,
         answer: &'a Answer,
-        _: &Declared,
+        declared: &Declared,
         noise: f64,
     ) -> Vec<Pile<'a>> {
         let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else {
@@ -590,24 +599,41 @@ impl Stage for DepthTest {
                 piles.push(Pile { spot, layers: Vec::new(), shown, noise });
             }
         }
+        let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
+        let place = |x: i32, y: i32| {
+            (y - window.y0) as usize * window.width() as usize + (x - window.x0) as usize
+        };
+        // Pixels that a triangle may cover or not tell nothing.
+        let mut is_open = vec![false; piles.len()];
         for (number, triangle) in list.iter().enumerate() {
             let corners = triangle.corners();
-            Oracle.spans(corners, window, &mut |span| {
-                let row = (span.y_px - window.y0) as usize * window.width() as usize;
+            let Some(Expectation { must, may }) = declared.picture(&corners, window) else {
+                return Vec::new();
+            };
+            for span in must {
                 for x in span.x0_px..span.x1_px {
-                    let at = [x, span.y_px].map(|v| f64::from(v) + 0.5);
+                    let at = [x, span.y_px];
+                    let at = [0, 1].map(|axis| f64::from(at[axis]) + sample[axis]);
                     let depth = sum(weights(&corners, at), depths(triangle));
-                    let pile: &mut Pile<'_> = &mut piles[row + (x - window.x0) as usize];
+                    let pile: &mut Pile<'_> = &mut piles[place(x, span.y_px)];
                     let (first, end) = (span.x0_px, span.x1_px);
                     pile.layers.push(Layer { number, depth, first, end, triangle });
                 }
-            });
+            }
+            for span in may.into_iter().flatten() {
+                for at in (span.x0_px..span.x1_px).map(|x| place(x, span.y_px)) {
+                    is_open[at] |= piles[at].layers.last().is_none_or(|l| l.number != number);
+                }
+            }
         }
         for pile in &mut piles {
             let nearest = pile.layers.iter().min_by(|a, b| a.depth.total_cmp(&b.depth));
             pile.spot.is_clockwise = nearest.is_some_and(|l| twice_area(&l.triangle.corners()) > 0);
         }
-        piles.retain(|pile| pile.shown > 0 || !pile.layers.is_empty());
+        let mut open = is_open.into_iter();
+        piles.retain(|pile| {
+            open.next() == Some(false) && (pile.shown > 0 || !pile.layers.is_empty())
+        });
         piles
     }
 

@@ -51,6 +51,8 @@ impl Field for Pattern {
             of("tests {} mirrored upside down", |(x, y)| (x, 16 - y)),
             of("tests {} with x and y exchanged", |(x, y)| (y, x)),
             of("tests {} around the upper left corner of the pixel", |(x, y)| (x - 8, y - 8)),
+            of("tests {} at the height of the centre", |(x, _)| (x, 8)),
+            of("tests {} in the column of the centre", |(_, y)| (8, y)),
         ]
     }
 
@@ -321,6 +323,11 @@ pub struct Masked<'a> {
 }
 
 impl Masked<'_> {
+    /// Whether a point of the pixel in 1/16 px is covered.
+    pub(super) fn has_point(&self, at: (i32, i32)) -> bool {
+        covers(self.corners, self.spot.at, at, &TIES[0])
+    }
+
     /// How far a sample lies inside the nearest edge in steps of the lattice, below 0 outside; and whether it is exactly on one.
     pub(super) fn inside(&self, bit: u8) -> (i64, bool) {
         let (x, y) = SAMPLES[usize::from(bit)];

@@ -20,7 +20,12 @@ pub use super::question::Unit;
 /// A number in steps of [`Unit::Value`].
 #[must_use]
 pub fn value(v: f64) -> i64 {
-    if v.is_nan() { NONE } else { (v * f64::from(1 << 20)).clamp(-9e18, 9e18).floor() as i64 }
+    if v.is_nan() {
+        return NONE;
+    }
+    let steps = (v * f64::from(1 << 20)).clamp(-9e18, 9e18).floor() as i64;
+    // Only 0 is 0.
+    if steps == 0 && v > 0.0 { 1 } else { steps }
 }
 
 impl Quantities {
@@ -108,6 +113,9 @@ impl Condition {
     }
 }
 
+/// The part of all rows that each of several conditions must hold of.
+const FEWEST: usize = 12;
+
 /// Rows that a condition should hold of, and others.
 #[derive(Default)]
 pub struct Examples(Table);
@@ -163,6 +171,11 @@ impl Examples {
         let mut left = Self(Table { yes: yes.clone(), no: no.clone(), groups: groups.clone() });
         while !left.0.yes.is_empty() && all.len() < most {
             let Some(best) = left.best(names, wanted) else { break };
+            // What needs many conditions is none.
+            let is_much = |rows: usize| FEWEST * rows >= yes.len();
+            if !is_much(left.held(&best)[0]) {
+                break;
+            }
             let is_left: Vec<bool> = left.0.yes.iter().map(|row| !best.holds(row)).collect();
             let mut marks = is_left.iter();
             left.0.yes.retain(|_| marks.next() == Some(&true));

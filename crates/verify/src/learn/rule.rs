@@ -507,17 +507,15 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
     best.clamp(low, high)
 }
 
-/// Of values in 1/2^20, one in a range with few digits after the point.
+/// Of values in 1/2^20, one in a range with few digits.
 fn ahead_of_decimal(low: i64, high: i64) -> i64 {
-    let mut unit = 1_i64 << 40;
-    // From about a million down, by tens.
-    while unit > 1 {
-        let multiple =
-            low.div_euclid(unit) * unit + if low.rem_euclid(unit) == 0 { 0 } else { unit };
-        if multiple <= high {
+    // From 10^12 down by tens, to the digits that a step has.
+    for digits in -12..7 {
+        let unit = f64::from(1 << 20) * f64::from(10).powi(-digits);
+        let multiple = ((low as f64 / unit).ceil() * unit).ceil() as i64;
+        if (low..=high).contains(&multiple) {
             return multiple;
         }
-        unit = if unit > 1 << 20 { unit / 2 } else { unit / 10 };
     }
     low
 }

@@ -193,13 +193,13 @@ impl Learnable for Depths {
     type Part<'a> = PixelOfList<'a>;
     type Change = Change;
     const TOPIC: Topic = depth::TOPIC;
-    const WHOM: &'static str = "pixels";
+    const PART: &'static str = "pixel";
 
     fn of_question(_: &Case, _: &mut Quantities) {}
 
     fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<PixelOfList<'a>> {
         let Asked::Depth(list) = &asked.question.of else { return Vec::new() };
-        let largest = list.iter().flat_map(|t| depths(t)).fold(0.0, |m: f64, v| m.max(v.abs()));
+        let largest = list.iter().flat_map(depths).fold(0.0, |m: f64, v| m.max(v.abs()));
         let allowance = (2.0 * declared.tolerance + 16.0 * f64::EPSILON) * largest;
         let noise = declared.tolerance.clamp(DepthTest::NOISE[0], DepthTest::NOISE[1]);
         let piles = DepthTest::parts(&asked.question, &asked.answer, declared, noise);

@@ -12,12 +12,15 @@ mod programs;
 mod samples;
 mod values;
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
 
+use glam::DVec2;
+use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::random::Rng;
+use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::facts::Topic;
-use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::cases::{Case, Shape, Triangle};
 use rasterproof_verify::learn::Learned;
 use rasterproof_verify::learn::rows::{Condition, Examples, Quantities, Vocabulary, Wanted};
 
@@ -27,6 +30,7 @@ use crate::ask::{Answer, Question, Subject};
 use crate::check::{Check, Truth};
 use crate::declared::Declared;
 use crate::run::MOST_DEATHS;
+use crate::shrink::smaller;
 
 /// A question with its answer.
 pub struct LearnedCase {
@@ -48,8 +52,8 @@ pub trait Learnable {
     type Change: Clone + 'static;
     /// The kind of question, with its facts.
     const TOPIC: Topic;
-    /// What parts are, in the plural.
-    const WHOM: &'static str;
+    /// What a part is, in the singular.
+    const PART: &'static str;
 
     /// The quantities of a question beyond those of its kind.
     fn of_question(case: &Case, out: &mut Quantities);
@@ -115,6 +119,8 @@ const AT_ONCE: usize = 100;
 /// Cases beside those nearest to a limit that are looked at, and those of them that are asked.
 const NEAR_TRIED: usize = 200;
 const NEAR_ASKED: usize = 16;
+/// Questions for the nearest right case: two thirds make the wrong one smaller.
+const NEAREST_ASKED: usize = 180;
 /// The largest window, in square pixels.
 const MOST_AREA: i32 = 4096;
 /// The questions are the same in every run.
@@ -406,23 +412,102 @@ impl<'a, L: Learnable> Learner<'a, L> {
         found.into_iter().take(NEAR_ASKED).map(|(_, case)| case).collect()
     }
 
-    fn learned(&self, round: &Round, chain: &Chain<L>) -> Learned {
+    /// The smallest wrong case that is reached from the shortest one, and one beside it that differs in one number, or lacks one
+    /// triangle, and comes out right.
+    fn nearest_right(&mut self) -> Option<String> {
+        let shortest =
+            self.wrong().into_iter().min_by_key(|&i| self.answered[i].question.text(1).len())?;
+        let case = self.answered[shortest].case.clone();
+        let (check, left) = (self.check, Cell::new(NEAREST_ASKED));
+        let this = RefCell::new(self);
+        let case = smaller(check, case, |case| {
+            left.set(left.get().saturating_sub(1));
+            left.get() > NEAREST_ASKED / 3 && this.borrow_mut().is_wrong_now(case) == Some(true)
+        });
+        let this = this.into_inner();
+        let wrong = this.text(&case)?;
+        let mut right = None;
+        for other in beside(&case).into_iter().take(left.get()) {
+            if right.is_none() && this.is_wrong_now(&other) == Some(false) {
+                right = Some(other);
+            }
+        }
+        let right = right?;
+        let right = this.text(&right)?;
+        Some(format!("'{wrong}' comes out wrong; beside it, '{right}' comes out right."))
+    }
+
+    /// How the question of a case is asked.
+    fn text(&self, case: &Case) -> Option<String> {
+        let mut questions = Vec::new();
+        self.check.questions(case, self.truth, &mut questions);
+        Some(questions.first()?.text(1))
+    }
+
+    /// Asks a case, and says whether the answer is wrong; nothing where there is none.
+    fn is_wrong_now(&mut self, case: &Case) -> Option<bool> {
+        if !adapt_case::holds(case, &self.truth.declared) {
+            return None;
+        }
+        let mut questions = Vec::new();
+        self.check.questions(case, self.truth, &mut questions);
+        let answer = self.program.ask(&questions, 1).pop()?;
+        let (number, case, question) = (0, case.clone(), questions.pop()?);
+        let asked =
+            LearnedCase { number, case, question, answer, facts: Vec::new(), is_refuting: false };
+        let parts = L::parts(&asked, &self.truth.declared);
+        (!parts.is_empty()).then(|| !parts.iter().all(L::is_right))
+    }
+
+    fn learned(&mut self, round: &Round, chain: &Chain<L>) -> Learned {
         let (wrong, right) = (round.wrong, round.right);
-        let search = Search::<L>::of(&self.answered, &self.truth.declared);
         let mut learned = Learned::default();
+        learned.part = L::PART;
         learned.is_certain = round.missed() == 0
             && wrong.of + right.of >= CERTAIN[0]
             && wrong.of >= CERTAIN[1]
             && round.independent >= CERTAIN[2];
+        let nearest = if learned.is_certain { None } else { self.nearest_right() };
+        let search = Search::<L>::of(&self.answered, &self.truth.declared);
         if round.explains() {
             learned.does = search.sentences(chain);
         }
         (learned.wrong, learned.right) = (wrong, right);
         if !learned.is_certain {
             learned.known = search.known();
+            learned.known.extend(nearest);
         }
         learned
     }
+}
+
+/// Cases that differ from one in one number, or lack one triangle.
+fn beside(case: &Case) -> Vec<Case> {
+    let list = case.triangles();
+    let with = |list: Vec<Triangle>| Case {
+        window: case.window,
+        shape: Shape::Triangles { list, disjoint: false },
+    };
+    let mut all = Vec::new();
+    if list.len() > 1 {
+        all.extend((0..list.len()).map(|i| with([&list[..i], &list[i + 1..]].concat())));
+    }
+    for (i, corner) in (0..list.len()).flat_map(|i| [0, 1, 2].map(|corner| (i, corner))) {
+        let mut change = |change: &dyn Fn(&mut ScreenVertex<DVec2>)| {
+            let mut list = list.to_vec();
+            change(&mut list[i].vertices[corner]);
+            all.push(with(list));
+        };
+        for sign in [-1, 1] {
+            change(&|v| v.position.x += sign * SUBPIXELS);
+            change(&|v| v.position.y += sign * SUBPIXELS);
+            change(&|v| v.depth += f64::from(sign) / 4.0);
+            change(&|v| v.varying.x += f64::from(sign));
+            change(&|v| v.varying.y += f64::from(sign));
+            change(&|v| v.inv_w *= f64::from(2).powi(sign));
+        }
+    }
+    all
 }
 
 /// The quantities of a case, with their names or without.
@@ -609,6 +694,9 @@ impl<'a, L: Learnable> Search<'a, L> {
                 examples.should_not(row::<L>(&self.answered[i], part, Some(change)));
             }
             let conditions = examples.any_of(&self.names, WHEN, MOST_CONDITIONS);
+            if conditions.is_empty() {
+                return None;
+            }
             // What a condition holds of that it should not is learned from, too.
             let broken = spread(&no, CHECKED).into_iter().filter(|Numbered(i, part)| {
                 let row = row::<L>(&self.answered[*i], part, Some(change));
@@ -616,7 +704,7 @@ impl<'a, L: Learnable> Search<'a, L> {
             });
             some = broken.take(LEARNED_FROM[0]).collect();
             if some.is_empty() || round + 1 == CORRECTIONS {
-                return (!conditions.is_empty()).then_some(conditions);
+                return Some(conditions);
             }
         }
         None
@@ -683,38 +771,13 @@ impl<'a, L: Learnable> Search<'a, L> {
             let ([wrong, right], [of_wrong, of_right]) = (of_parts.held(&place), of_parts.counts());
             if 2 * wrong >= of_wrong && of_right > 0 {
                 said.push(format!(
-                    "In wrong answers, the wrong {} are mostly those where {}: {wrong} of {of_wrong} wrong ones and {right} of {of_right} right ones.",
-                    L::WHOM,
+                    "In wrong answers, the wrong {}s are mostly those where {}: {wrong} of {of_wrong} wrong ones and {right} of {of_right} right ones.",
+                    L::PART,
                     place.words(&self.names)
                 ));
             }
         }
-        said.extend(self.nearest_right());
         said
-    }
-
-    /// The shortest wrong question, and the right one that differs from one like it in the fewest numbers.
-    fn nearest_right(&self) -> Option<String> {
-        let texts: Vec<String> = self.answered.iter().map(|asked| asked.question.text(1)).collect();
-        let (right, wrong): (Vec<usize>, Vec<usize>) =
-            (0..texts.len()).partition(|&i| self.is_whole_right(i));
-        let mut wrong: Vec<_> = wrong.into_iter().collect();
-        wrong.sort_by_key(|&i| texts[i].len());
-        let mut best: Option<(usize, usize, usize)> = None;
-        for &i in wrong.iter().take(20) {
-            let numbers: Vec<&str> = texts[i].split(' ').collect();
-            for &j in &right {
-                let others = texts[j].split(' ');
-                if others.clone().count() == numbers.len() {
-                    let differing = others.zip(&numbers).filter(|(a, b)| a != *b).count();
-                    if best.is_none_or(|(least, ..)| differing < least) {
-                        best = Some((differing, i, j));
-                    }
-                }
-            }
-        }
-        let (_, i, j) = best?;
-        Some(format!("'{}' comes out wrong; beside it, '{}' comes out right.", texts[i], texts[j]))
     }
 }
 
@@ -722,7 +785,10 @@ impl<'a, L: Learnable> Search<'a, L> {
 const CORRECTIONS: usize = 2;
 
 /// Changes whose conditions are learned in one search.
-const MOST_LEARNED: usize = 12;
+const MOST_LEARNED: usize = 8;
+
+/// Wrong parts of which a change explains one, or is left aside.
+const FEW: usize = 16;
 
 /// How many of some wrong parts a change explains, which ones, and the change.
 type RankedChange<C> = (usize, Vec<bool>, C);
@@ -733,7 +799,7 @@ fn rank<L: Learnable>(
     wrong: &[&L::Part<'_>],
 ) -> Vec<RankedChange<L::Change>> {
     let mut ranked = Vec::new();
-    let few = spread(wrong, 40);
+    let few = spread(wrong, FEW);
     for change in changes {
         if !few.iter().any(|part| L::explains(&change, part)) {
             continue;

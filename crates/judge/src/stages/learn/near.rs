@@ -38,7 +38,7 @@ impl Learnable for Polygons {
     type Part<'a> = PartOfPolygon<'a>;
     type Change = NearCut;
     const TOPIC: Topic = near::TOPIC;
-    const WHOM: &'static str = "polygons and numbers of new corners";
+    const PART: &'static str = "corner";
 
     fn of_question(case: &Case, out: &mut Quantities) {
         let Some(triangle) = case.triangles().first() else { return };
@@ -60,7 +60,10 @@ impl Learnable for Polygons {
         out.number(Unit::Count, count, &["the number of corners behind z = -w"]);
         let single: [Combined; 2] = [("z", |p| p[2]), ("w", |p| p[3])];
         for (name, of) in single.into_iter().chain(COMBINED) {
-            let [a, b, c] = corners.map(of);
+            let all = corners.map(of);
+            // Of 0 / 0 there is no order.
+            let is_ordered = !all.iter().any(|v| v.is_nan());
+            let [a, b, c] = if is_ordered { all } else { [f64::NAN; 3] };
             out.number(Unit::Value, value(a.min(b).min(c)), &["the smallest ", name]);
             out.number(Unit::Value, value(a.max(b).max(c)), &["the largest ", name]);
         }

@@ -1,7 +1,8 @@
 //! Wrong programs as altered answers of a right engine: what is learned of each.
 
+use glam::DVec2;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::Span;
+use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_registry::engines;
 use rasterproof_verify::cases::Triangle;
 
@@ -9,6 +10,8 @@ use super::{Learned, MOST_TO_LEARN, learn};
 use crate::ask::{Answer, Asked, Question, Subject};
 use crate::check::{Check, Truth};
 use crate::declared::Declared;
+use crate::depth::Pile;
+use crate::expected::{Expect as _, exact_values};
 use crate::in_process::Inside;
 use crate::pixels::masks_of;
 
@@ -164,6 +167,69 @@ fn a_fraction_of_depth_is_added_in_the_right_half() {
         each_value(answer, &|which, [x, _], v| if which == 0 && x >= 10 { v + 0.125 } else { v });
     };
     explains(Check::Values, alter, "gives the right value plus 0.125");
+}
+
+/// A program that is right by what it declares.
+struct Conventional(Declared);
+
+impl Subject for Conventional {
+    fn declared(&self) -> &Declared {
+        &self.0
+    }
+
+    fn ask(&mut self, questions: &[Question], _: u64) -> Vec<Answer> {
+        questions.iter().map(|question| self.answer(question)).collect()
+    }
+}
+
+impl Conventional {
+    fn answer(&self, question: &Question) -> Answer {
+        let window = PixelRect::window(question.width, question.height);
+        match &question.of {
+            Asked::Depth(list) => {
+                let pile = Pile::new(list, window, &self.0, &self.0);
+                Answer::Seen(pile.map_or_else(Vec::new, |pile| pile.runs()))
+            }
+            Asked::Values(triangle) => {
+                let covered = self.0.picture(&triangle.corners(), window);
+                let exact = exact_values(triangle, &self.0);
+                let mut fragments = Vec::new();
+                for (exact, span) in exact.iter().flat_map(|exact| {
+                    covered.iter().flat_map(|c| &c.must).map(move |span| (exact, span))
+                }) {
+                    fragments.extend((span.x0_px..span.x1_px).map(|x_px| {
+                        let (depth, [a, b]) = exact.at(x_px, span.y_px);
+                        let varying = DVec2::new(a.to_f64(), b.to_f64());
+                        let depth = depth.to_f64();
+                        Fragment { x_px, y_px: span.y_px, depth, varying }
+                    }));
+                }
+                Answer::Values(fragments)
+            }
+            _ => Answer::Refused("unsupported".to_owned()),
+        }
+    }
+}
+
+/// Right programs of other conventions have no wrong answer to learn from.
+#[test]
+fn right_programs_of_other_conventions_are_not_explained() {
+    for words in [
+        "",
+        "origin=0,0",
+        "origin=0.25,1 rule=bottom-right grid=16",
+        "rule=strict winding=cw",
+        "rule=inclusive window=20x20",
+        "rule=none tolerance=1e-6",
+    ] {
+        let words = format!("HELLO 2 x depth attributes tolerance=1e-9 {words}");
+        let mut program = Conventional(Declared::parse(&words).unwrap());
+        let truth = Truth::of(&program.0);
+        for check in [Check::Depth, Check::Values] {
+            let learned = learn(&mut program, check, &truth, 700);
+            assert!(learned.is_none(), "{words}: {:?}", learned.map(|l| l.sentences()));
+        }
+    }
 }
 
 #[test]

@@ -22,11 +22,23 @@ pub struct Sample<'a> {
     triangle: Rc<TriangleInWindow>,
 }
 
+/// Points of a pixel in 1/16 px that may be tested in place of its samples.
+const POINTS: [((i32, i32), &str); 8] = [
+    ((0, 0), "the upper left corner"),
+    ((16, 0), "the upper right corner"),
+    ((0, 16), "the lower left corner"),
+    ((16, 16), "the lower right corner"),
+    ((0, 8), "the middle of the left side"),
+    ((16, 8), "the middle of the right side"),
+    ((8, 0), "the middle of the upper side"),
+    ((8, 16), "the middle of the lower side"),
+];
+
 impl Learnable for Samples {
     type Part<'a> = Sample<'a>;
     type Change = SampleMask;
     const TOPIC: Topic = triangles::TOPIC;
-    const WHOM: &'static str = "samples";
+    const PART: &'static str = "sample";
 
     fn of_question(case: &Case, out: &mut Quantities) {
         let Some(triangle) = case.triangles().first() else { return };
@@ -77,6 +89,10 @@ impl Learnable for Samples {
                 name,
                 [" of the pixel is covered", " of the pixel is not covered"],
             );
+        }
+        for (at, name) in POINTS {
+            let no = " of the pixel is not covered";
+            out.holds(part.pixel.has_point(at), name, [" of the pixel is covered", no]);
         }
         let (inside, is_on) = part.pixel.inside(part.bit);
         out.flag(

@@ -205,7 +205,7 @@ impl Learnable for Values {
     type Part<'a> = ValueOfPixel<'a>;
     type Change = Change;
     const TOPIC: Topic = facts::values::TOPIC;
-    const WHOM: &'static str = "values";
+    const PART: &'static str = "value";
 
     fn of_question(case: &Case, out: &mut Quantities) {
         let Some(t) = case.triangles().first() else { return };
@@ -215,10 +215,20 @@ impl Learnable for Values {
         out.number(Unit::Value, value(most / least), &["the largest w over the smallest"]);
         out.number(Unit::Value, value(least), &["the smallest w"]);
         out.number(Unit::Value, value(most), &["the largest w"]);
-        for (v, ordinal) in t.vertices.iter().zip(["first", "second", "third"]) {
-            let of = [v.depth, v.varying.x, v.varying.y];
-            for (number, name) in of.into_iter().zip(NAMES) {
-                out.number(Unit::Value, value(number), &[name, " of the ", ordinal, " corner"]);
+        const ORDINALS: [&str; 3] = ["first", "second", "third"];
+        let corners = t.vertices.map(|v| [1.0 / v.inv_w, v.depth, v.varying.x, v.varying.y]);
+        let names = ["w", NAMES[0], NAMES[1], NAMES[2]];
+        for (k, name) in names.into_iter().enumerate() {
+            for (i, ordinal) in ORDINALS.iter().enumerate() {
+                let next = (i + 1) % 3;
+                let (v, other) = (corners[i][k], corners[next][k]);
+                out.number(Unit::Value, value(v), &[name, " of the ", ordinal, " corner"]);
+                let pair = [ordinal, " corner less that of the ", ORDINALS[next]];
+                out.number(
+                    Unit::Value,
+                    value(v - other),
+                    &[&[name, " of the "], &pair[..]].concat(),
+                );
             }
         }
     }
@@ -275,8 +285,8 @@ impl Learnable for Values {
 
     fn of_part(part: &ValueOfPixel<'_>, _: Option<&Change>, out: &mut Quantities) {
         part.of.facts.of_pixel(part.at, out);
-        for k in 0..3 {
-            out.holds(part.which == k, "the value", IS[k]);
+        for (k, is) in IS.into_iter().enumerate() {
+            out.holds(part.which == k, "the value", is);
         }
         let real = |term: Term| value(part.term(term));
         out.number(Unit::Value, real(Term::Right), &["the right value"]);
