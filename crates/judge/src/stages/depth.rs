@@ -353,8 +353,15 @@ impl Field for Whose {
     }
 }
 
-/// Triangles of a pixel that are looked at; piles have five at most.
-const MOST_LAYERS: usize = 8;
+/// Triangles of a pixel at most: a question has no more.
+const MOST_LAYERS: usize = 64;
+
+/// What may be shown, and the layer whose depth may be kept meanwhile.
+#[derive(Clone, Copy, PartialEq)]
+struct DepthState {
+    shown: usize,
+    buffer: usize,
+}
 
 /// A triangle at a pixel.
 pub struct Layer<'a> {
@@ -444,43 +451,43 @@ impl DepthTest {
     }
 
     /// The triangles that may be shown, one bit each.
-    pub(super) fn shown(&self, pile: &Pile<'_>) -> u64 {
+    pub(super) fn shown(&self, pile: &Pile<'_>) -> u128 {
         let Range([least, most]) = self.range;
         let is_drawn = |layer: &&Layer<'_>| {
             !self.whose.holds(layer) || (layer.depth >= least && layer.depth < most)
         };
+        let drawn = || pile.layers.iter().filter(is_drawn).take(MOST_LAYERS);
         let mut kept = [[0.0; 2]; MOST_LAYERS];
-        // What may be shown, and whose depth may be kept meanwhile: a bit for each pair.
-        let mut states = 0_u64;
-        for (i, layer) in pile.layers.iter().filter(is_drawn).take(MOST_LAYERS).enumerate() {
+        let mut states = Vec::new();
+        for (i, layer) in drawn().enumerate() {
             kept[i] = self.compared(layer, pile, false);
             if i == 0 {
-                states = 1;
+                states.push(DepthState { shown: 0, buffer: 0 });
                 continue;
             }
             let new = self.compared(layer, pile, true);
             let compare = if self.whose.holds(layer) { self.compare.0 } else { LESS };
-            let mut next = 0;
-            for state in (0..MOST_LAYERS * MOST_LAYERS).filter(|state| states >> state & 1 == 1) {
-                let (shown, buffer) = (state / MOST_LAYERS, state % MOST_LAYERS);
+            let mut next = Vec::new();
+            let mut add = |may_be: bool, state: DepthState| {
+                if may_be && !next.contains(&state) {
+                    next.push(state);
+                }
+            };
+            for DepthState { shown, buffer } in states {
                 let order = orders(new, kept[buffer]);
-                let is_written = self.write != Write::Never;
-                let passed = i * MOST_LAYERS + if is_written { i } else { buffer };
-                let is_always = self.write == Write::Always;
-                let failed = shown * MOST_LAYERS + if is_always { i } else { buffer };
-                next |= u64::from(order & compare != 0) << passed;
-                next |= u64::from(order & !compare != 0) << failed;
+                let passed = if self.write == Write::Never { buffer } else { i };
+                let failed = if self.write == Write::Always { i } else { buffer };
+                add(order & compare != 0, DepthState { shown: i, buffer: passed });
+                add(order & !compare != 0, DepthState { shown, buffer: failed });
             }
             states = next;
         }
-        if states == 0 {
+        if states.is_empty() {
             return 1;
         }
-        let drawn = pile.layers.iter().filter(is_drawn).take(MOST_LAYERS).enumerate();
-        let may_be = |i: usize| states >> (i * MOST_LAYERS) & ((1 << MOST_LAYERS) - 1) != 0;
-        drawn
-            .filter(|(i, _)| may_be(*i))
-            .fold(0, |all, (_, layer)| all | 2_u64.checked_shl(layer.number as u32).unwrap_or(0))
+        let may_be = |i: usize| states.iter().any(|state| state.shown == i);
+        let seen = drawn().enumerate().filter(|(i, _)| may_be(*i));
+        seen.fold(0, |all, (_, layer)| all | 2_u128.checked_shl(layer.number as u32).unwrap_or(0))
     }
 
     /// The bias of each kind with which all is as it is shown, and the same of some triangles alone.

@@ -122,7 +122,7 @@ pub struct Examples(Table);
 
 /// What a condition must be.
 #[derive(Clone, Copy)]
-pub struct Wanted {
+pub struct ConditionTerms {
     /// The most facts.
     pub facts: usize,
     /// Questions that it must hold in.
@@ -157,15 +157,20 @@ impl Examples {
 
     /// The best condition for the rows that it should hold of.
     #[must_use]
-    pub fn best(&self, names: &Vocabulary, wanted: Wanted) -> Option<Condition> {
-        let Wanted { facts, questions, slack } = wanted;
+    pub fn best(&self, names: &Vocabulary, wanted: ConditionTerms) -> Option<Condition> {
+        let ConditionTerms { facts, questions, slack } = wanted;
         let terms = Terms { most: facts, need: questions, slack, wanted: 1 };
         rule::best(&names.0, &self.0, terms).into_iter().next().map(|found| Condition(found.facts))
     }
 
     /// Conditions of which one should hold: each is the best for the rows of which none before it does.
     #[must_use]
-    pub fn any_of(&self, names: &Vocabulary, wanted: Wanted, most: usize) -> Vec<Condition> {
+    pub fn any_of(
+        &self,
+        names: &Vocabulary,
+        wanted: ConditionTerms,
+        most: usize,
+    ) -> Vec<Condition> {
         let mut all = Vec::new();
         let Table { yes, no, groups } = &self.0;
         let mut left = Self(Table { yes: yes.clone(), no: no.clone(), groups: groups.clone() });

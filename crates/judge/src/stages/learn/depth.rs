@@ -10,7 +10,7 @@ use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_verify::cases::Case;
 use rasterproof_verify::cases::facts::{Topic, depth};
 use rasterproof_verify::learn::rows::{
-    Condition, Examples, NONE, Quantities, Unit, Vocabulary, Wanted, value,
+    Condition, ConditionTerms, Examples, NONE, Quantities, Unit, Vocabulary, value,
 };
 use rasterproof_verify::mistakes::values::depths;
 
@@ -289,7 +289,7 @@ fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>]) -> Option<Ch
     part.of_place(&mut out);
     part.of_layer(part.pile.layers.first(), IT, &mut out);
     let names = Vocabulary::of(out);
-    let wanted = Wanted { facts: 3, questions: 3, slack: 0 };
+    let wanted = ConditionTerms { facts: 3, questions: 3, slack: 0 };
     let condition = examples.best(&names, wanted)?;
     let words = condition.words(&names);
     Some(Change::Without(condition, words))

@@ -22,7 +22,9 @@ use rasterproof_core::triangle::ScreenVertex;
 use rasterproof_verify::cases::facts::Topic;
 use rasterproof_verify::cases::{Case, Shape, Triangle};
 use rasterproof_verify::learn::Learned;
-use rasterproof_verify::learn::rows::{Condition, Examples, Quantities, Vocabulary, Wanted};
+use rasterproof_verify::learn::rows::{
+    Condition, ConditionTerms, Examples, Quantities, Vocabulary,
+};
 
 use super::families;
 use crate::adapt_case;
@@ -219,7 +221,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
             program,
             check,
             truth,
-            left: most,
+            left: most.saturating_sub(NEAREST_ASKED),
             rng: Rng::new(L::TOPIC.name, SEED, 0),
             number: 0,
             answered: Vec::new(),
@@ -531,7 +533,7 @@ const LEARNED_FROM: [usize; 2] = [220, 440];
 const CHECKED: usize = 4000;
 /// Conditions of a step at most.
 const MOST_CONDITIONS: usize = 3;
-const WHEN: Wanted = Wanted { facts: 3, questions: 3, slack: 0 };
+const WHEN: ConditionTerms = ConditionTerms { facts: 3, questions: 3, slack: 0 };
 
 /// Parts of one answer that are looked at, wrong ones and right ones; of one that refuted a chain so many times as many.
 const PARTS_OF_ONE: [usize; 2] = [60, 30];
@@ -747,7 +749,7 @@ impl<'a, L: Learnable> Search<'a, L> {
             }
         }
         let names = self.names.first(self.of_question);
-        let mostly = Wanted { facts: 2, questions: 3, slack: 30 };
+        let mostly = ConditionTerms { facts: 2, questions: 3, slack: 30 };
         if let Some(when) = of_questions.best(&names, mostly) {
             let ([wrong, right], [of_wrong, of_right]) =
                 (of_questions.held(&when), of_questions.counts());

@@ -18,9 +18,9 @@ use crate::pixels::masks_of;
 /// What is wrong of an answer to a question.
 type Alter = fn(&Question, &mut Answer, &mut Inside);
 
-struct Altered(Inside, Alter);
+struct AlteredEngine(Inside, Alter);
 
-impl Subject for Altered {
+impl Subject for AlteredEngine {
     fn declared(&self) -> &Declared {
         self.0.declared()
     }
@@ -35,7 +35,7 @@ impl Subject for Altered {
 }
 
 fn learned(check: Check, alter: Alter) -> Learned {
-    let mut program = Altered(Inside::new(engines::find("scanline").unwrap()), alter);
+    let mut program = AlteredEngine(Inside::new(engines::find("scanline").unwrap()), alter);
     let truth = Truth::of(program.declared());
     let learned = learn(&mut program, check, &truth, MOST_TO_LEARN).unwrap();
     println!("{}", learned.sentences().join("\n"));

@@ -18,7 +18,7 @@ use rasterproof_verify::mistakes::values::{self, ValueHypothesis, sum, weights};
 pub struct Values;
 
 /// A triangle with what is the same in all of its pixels.
-struct Drawn<'a> {
+struct TriangleOfValues<'a> {
     triangle: &'a Triangle,
     /// The values of the corners: depths and both attributes.
     corners: [[f64; 3]; 3],
@@ -29,7 +29,7 @@ struct Drawn<'a> {
 
 /// A value of a pixel.
 pub struct ValueOfPixel<'a> {
-    of: Rc<Drawn<'a>>,
+    of: Rc<TriangleOfValues<'a>>,
     at: [i32; 2],
     /// 0 is depth, 1 and 2 are the attributes.
     which: usize,
@@ -118,7 +118,7 @@ const IS: [[&str; 2]; 3] = [
 ];
 const NAMES: [&str; 3] = ["depth", "the first attribute", "the second attribute"];
 
-impl Drawn<'_> {
+impl TriangleOfValues<'_> {
     /// Values at a place, in pixels.
     fn values(&self, at: [f64; 2]) -> [f64; 3] {
         let linear = weights(&self.triangle.corners(), at);
@@ -247,7 +247,7 @@ impl Learnable for Values {
         let corners = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)];
         let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
         let bounds = value_bounds(triangle, declared.tolerance.max(1e-12));
-        let of = Rc::new(Drawn { triangle, corners, sample, facts });
+        let of = Rc::new(TriangleOfValues { triangle, corners, sample, facts });
         let step = fragments.len().div_ceil(MOST_PIXELS).max(1);
         let mut parts = Vec::new();
         for f in fragments.iter().step_by(step).filter(|f| is_in(f.x_px, f.y_px)) {
