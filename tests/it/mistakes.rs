@@ -2436,8 +2436,7 @@ fn programs_of_values_and_samples(most: usize) {
         },
         &["w-100", "uniform"],
     );
-    let wanted =
-        "no known mistake explains them. All wrong pixels are of counterclockwise triangles.";
+    let wanted = "It gives minus the right value where the value is not depth, and its winding: anticlockwise.";
     assert!(said.contains(wanted), "{said}");
     // Values of which no mistake is known: what all wrong pixels have in common is said.
     let said = judged(

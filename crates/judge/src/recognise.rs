@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::Options;
 use super::adapt_case;
@@ -372,14 +372,11 @@ fn pixels_of(answer: Answer) -> Option<Vec<[i32; 2]>> {
 struct Bench<'a> {
     program: Timed<'a>,
     deaths_left: u64,
-    /// Answers so far, and how long they took.
-    answered: u32,
-    took: Duration,
 }
 
 impl<'a> Bench<'a> {
     fn new(program: Timed<'a>) -> Self {
-        Self { program, deaths_left: MOST_DEATHS, answered: 0, took: Duration::ZERO }
+        Self { program, deaths_left: MOST_DEATHS }
     }
 
     /// Limits its answers from the first wrong one on.
@@ -393,23 +390,11 @@ impl<'a> Bench<'a> {
         left.map_or(Duration::ZERO, |(patience, left)| patience.saturating_sub(left))
     }
 
-    /// As many questions as are answered in the time that is left. Only of a slow program does the number depend on the
-    /// machine.
-    fn most_to_learn(&self) -> usize {
-        let Some(rest) = self.program.rest() else { return convention::MOST_TO_LEARN };
-        let each = self.took / self.answered.max(1);
-        let most = rest.as_nanos() / each.as_nanos().max(1);
-        convention::MOST_TO_LEARN.min(most as usize)
-    }
-
     fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
         if self.deaths_left == 0 || self.program.is_late {
             return Vec::new();
         }
-        let start = Instant::now();
         let answers = self.program.ask(questions, self.deaths_left);
-        self.took += start.elapsed();
-        self.answered += answers.len() as u32;
         let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
         self.deaths_left = self.deaths_left.saturating_sub(deaths);
         self.program.is_late |= answers.len() < questions.len() && deaths == 0;
@@ -445,7 +430,7 @@ impl<'a> Bench<'a> {
 
 impl convention::Ask for Bench<'_> {
     fn most_to_learn(&self) -> usize {
-        self.most_to_learn()
+        self.program.at_most(convention::MOST_TO_LEARN)
     }
 
     fn ask(&mut self, questions: &[convention::TriangleQuestion]) -> Vec<Option<Coverage>> {
@@ -457,7 +442,7 @@ impl convention::Ask for Bench<'_> {
 
 impl convention::AskLine for Bench<'_> {
     fn most_to_learn(&self) -> usize {
-        self.most_to_learn()
+        self.program.at_most(convention::MOST_TO_LEARN)
     }
 
     fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {

@@ -21,13 +21,17 @@ pub struct Timed<'a> {
     pub left: Option<Duration>,
     /// Requests of the next batch.
     batch: usize,
+    /// Answers so far, and how long they took.
+    answered: u32,
+    took: Duration,
     /// Whether something was not asked, or not answered, because the time was up.
     pub is_late: bool,
 }
 
 impl<'a> Timed<'a> {
     pub fn new(asked: &'a mut dyn Subject, end: Option<Instant>) -> Self {
-        Self { asked, end, left: None, batch: 1, is_late: false }
+        let took = Duration::ZERO;
+        Self { asked, end, left: None, batch: 1, answered: 0, took, is_late: false }
     }
 
     /// The same, whose answers may take so long in all.
@@ -41,6 +45,15 @@ impl<'a> Timed<'a> {
     pub fn rest(&self) -> Option<Duration> {
         let until_end = self.end.map(|end| end.saturating_duration_since(Instant::now()));
         until_end.into_iter().chain(self.left).min()
+    }
+
+    /// As many questions of these as are answered in the time that is left. Only of a slow program does the number depend on
+    /// the machine.
+    #[must_use]
+    pub fn at_most(&self, most: usize) -> usize {
+        let Some(rest) = self.rest() else { return most };
+        let each = self.took / self.answered.max(1);
+        most.min((rest.as_nanos() / each.as_nanos().max(1)) as usize)
     }
 }
 
@@ -67,6 +80,8 @@ impl Subject for Timed<'_> {
             let (count, is_whole) = (answered.len(), answered.len() == some.len());
             answers.extend(answered);
             let took = start.elapsed();
+            self.answered += count as u32;
+            self.took += took;
             self.left = self.left.map(|left| left.saturating_sub(took));
             let rest = self.rest().unwrap_or_default();
             if !is_whole {

@@ -206,7 +206,8 @@ pub mod comparison;
 #[doc(hidden)]
 pub mod convention;
 pub mod judge;
-mod learn;
+#[doc(hidden)]
+pub mod learn;
 #[doc(hidden)]
 pub mod mistakes;
 pub mod partition;

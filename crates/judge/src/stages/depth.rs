@@ -3,13 +3,14 @@
 use super::search::{Field, Quantity, Says, Spot, Stage, composed, of_pixels};
 use crate::ask::{Answer, Asked, Question};
 use crate::declared::Declared;
+use crate::expected::Expect as _;
 use crate::pixels::masks_of;
 use rasterproof_core::geometry::twice_area;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::Expectation;
 use rasterproof_verify::mistakes::values::{self, depths, sum, weights};
 use rasterproof_verify::mistakes::{Format, MistakeId};
-use rasterproof_verify::oracle::Oracle;
 
 composed! {
     /// A test of depth.
@@ -81,46 +82,51 @@ pub enum Key {
     FromHalf,
 }
 
+const SORTED: &str = "compare depths at every pixel";
+/// The numbers, with their words and the repair.
+const KEYS: [(Key, &str, &str); 10] = [
+    (Key::Mean, MistakeId::SortedByMeanDepth.name(), SORTED),
+    (Key::Nearest, "sorts whole triangles by their nearest corner", SORTED),
+    (Key::Farthest, "sorts whole triangles by their farthest corner", SORTED),
+    (Key::Middle, "sorts whole triangles by their middle corner", SORTED),
+    (
+        Key::TimesArea,
+        MistakeId::UndividedDepthsCompared.name(),
+        "divide the weighted sum by the area",
+    ),
+    (
+        Key::FromHalf,
+        "compares how far depths lie from 1/2, as where the sign of depths from -1 to 1 is lost",
+        "compare the depths themselves",
+    ),
+    (Key::Negated, "turns the sign of depths", "divide the weighted sum by the area with its sign"),
+    (
+        Key::Corner(0),
+        "compares the depth of the first corner for the whole triangle",
+        "interpolate depth",
+    ),
+    (
+        Key::Corner(1),
+        "compares the depth of the second corner for the whole triangle",
+        "interpolate depth",
+    ),
+    (
+        Key::Corner(2),
+        "compares the depth of the last corner for the whole triangle",
+        "interpolate depth",
+    ),
+];
+
 impl Field for Key {
     const NAME: &'static str = "order of depths";
 
     fn options() -> Vec<Self> {
-        use Key::{Corner, Farthest, FromHalf, Mean, Middle, Nearest, Negated, TimesArea};
-        let corners = [0, 1, 2].map(Corner);
-        [Mean, Nearest, Farthest, Middle, TimesArea, FromHalf, Negated]
-            .into_iter()
-            .chain(corners)
-            .collect()
+        KEYS.iter().map(|(key, ..)| *key).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let sorted = "compare depths at every pixel";
-        Some(match self {
-            Self::Depth => return None,
-            Self::Mean => (MistakeId::SortedByMeanDepth.name().to_owned(), sorted),
-            Self::Nearest => ("sorts whole triangles by their nearest corner".to_owned(), sorted),
-            Self::Middle => ("sorts whole triangles by their middle corner".to_owned(), sorted),
-            Self::Farthest => ("sorts whole triangles by their farthest corner".to_owned(), sorted),
-            Self::Corner(i) => (
-                format!(
-                    "compares the depth of the {} corner for the whole triangle",
-                    ["first", "second", "last"][*i]
-                ),
-                "interpolate depth",
-            ),
-            Self::TimesArea => (
-                MistakeId::UndividedDepthsCompared.name().to_owned(),
-                "divide the weighted sum by the area",
-            ),
-            Self::Negated => (
-                "turns the sign of depths".to_owned(),
-                "divide the weighted sum by the area with its sign",
-            ),
-            Self::FromHalf => (
-                "compares how far depths lie from 1/2, as where the sign of depths from -1 to 1 is lost".to_owned(),
-                "compare the depths themselves",
-            ),
-        })
+        let (_, does, repair) = KEYS.iter().find(|(key, ..)| key == self)?;
+        Some(((*does).to_owned(), repair))
     }
 }
 
@@ -247,31 +253,34 @@ impl Default for Compare {
     }
 }
 
+const TURNED: &str =
+    "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth";
+const COMPARED: &str = "compare depths before a pixel is written";
+/// The comparisons, with their words and the repair.
+const COMPARISONS: [(u8, &str, &str); 7] = [
+    (GREATER, MistakeId::FarthestShown.name(), TURNED),
+    (7, MistakeId::LastShown.name(), COMPARED),
+    (0, "shows the triangle that was drawn first, without a test of depth", COMPARED),
+    (
+        LESS | EQUAL,
+        "of equal depths shows the last drawn",
+        "keep what is there where depths are equal",
+    ),
+    (GREATER | EQUAL, "shows the farthest triangle, and of equal depths the last drawn", TURNED),
+    (LESS | GREATER, "shows the triangle that was drawn last, unless depths are equal", COMPARED),
+    (EQUAL, "shows a later triangle only where depths are equal", COMPARED),
+];
+
 impl Field for Compare {
     const NAME: &'static str = "the comparison of depths";
 
     fn options() -> Vec<Self> {
-        [GREATER, 7, 0, LESS | EQUAL, GREATER | EQUAL, LESS | GREATER, EQUAL].map(Self).to_vec()
+        COMPARISONS.iter().map(|(orders, ..)| Self(*orders)).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let does = match self.0 {
-            0 => "shows the triangle that was drawn first, without a test of depth",
-            EQUAL => "shows a later triangle only where depths are equal",
-            3 => "of equal depths shows the last drawn",
-            GREATER => MistakeId::FarthestShown.name(),
-            5 => "shows the triangle that was drawn last, unless depths are equal",
-            6 => "shows the farthest triangle, and of equal depths the last drawn",
-            _ => MistakeId::LastShown.name(),
-        };
-        let repair = match self.0 {
-            3 => "keep what is there where depths are equal",
-            4 | 6 => {
-                "less depth is nearer: turn the comparison round, or clear the buffer with the farthest depth"
-            }
-            _ => "compare depths before a pixel is written",
-        };
-        Some((does.to_owned(), repair))
+        let (_, does, repair) = COMPARISONS.iter().find(|(orders, ..)| *orders == self.0)?;
+        Some(((*does).to_owned(), repair))
     }
 }
 
@@ -344,24 +353,32 @@ impl Field for Whose {
     }
 }
 
-/// Triangles of a pixel that are looked at; piles have five at most.
-const MOST_LAYERS: usize = 8;
+/// Triangles of a pixel at most: a question has no more.
+const MOST_LAYERS: usize = 64;
+
+/// What may be shown, and the layer whose depth may be kept meanwhile.
+#[derive(Clone, Copy, PartialEq)]
+struct DepthState {
+    shown: usize,
+    buffer: usize,
+}
 
 /// A triangle at a pixel.
 pub struct Layer<'a> {
-    number: usize,
-    /// At the centre of the pixel.
-    depth: f64,
-    /// The first pixel of its row.
-    first: i32,
-    triangle: &'a Triangle,
+    pub(super) number: usize,
+    /// At the sample of the pixel.
+    pub(super) depth: f64,
+    /// The first pixel of its row, and the one after the last.
+    pub(super) first: i32,
+    pub(super) end: i32,
+    pub(super) triangle: &'a Triangle,
 }
 
 /// A pixel with all that covers it, in drawing order, and what is shown: its number and one, or 0.
 pub struct Pile<'a> {
     pub(super) spot: Spot,
-    layers: Vec<Layer<'a>>,
-    shown: usize,
+    pub(super) layers: Vec<Layer<'a>>,
+    pub(super) shown: usize,
     noise: f64,
 }
 
@@ -434,43 +451,43 @@ impl DepthTest {
     }
 
     /// The triangles that may be shown, one bit each.
-    pub(super) fn shown(&self, pile: &Pile<'_>) -> u64 {
+    pub(super) fn shown(&self, pile: &Pile<'_>) -> u128 {
         let Range([least, most]) = self.range;
         let is_drawn = |layer: &&Layer<'_>| {
             !self.whose.holds(layer) || (layer.depth >= least && layer.depth < most)
         };
+        let drawn = || pile.layers.iter().filter(is_drawn).take(MOST_LAYERS);
         let mut kept = [[0.0; 2]; MOST_LAYERS];
-        // What may be shown, and whose depth may be kept meanwhile: a bit for each pair.
-        let mut states = 0_u64;
-        for (i, layer) in pile.layers.iter().filter(is_drawn).take(MOST_LAYERS).enumerate() {
+        let mut states = Vec::new();
+        for (i, layer) in drawn().enumerate() {
             kept[i] = self.compared(layer, pile, false);
             if i == 0 {
-                states = 1;
+                states.push(DepthState { shown: 0, buffer: 0 });
                 continue;
             }
             let new = self.compared(layer, pile, true);
             let compare = if self.whose.holds(layer) { self.compare.0 } else { LESS };
-            let mut next = 0;
-            for state in (0..MOST_LAYERS * MOST_LAYERS).filter(|state| states >> state & 1 == 1) {
-                let (shown, buffer) = (state / MOST_LAYERS, state % MOST_LAYERS);
+            let mut next = Vec::new();
+            let mut add = |may_be: bool, state: DepthState| {
+                if may_be && !next.contains(&state) {
+                    next.push(state);
+                }
+            };
+            for DepthState { shown, buffer } in states {
                 let order = orders(new, kept[buffer]);
-                let is_written = self.write != Write::Never;
-                let passed = i * MOST_LAYERS + if is_written { i } else { buffer };
-                let is_always = self.write == Write::Always;
-                let failed = shown * MOST_LAYERS + if is_always { i } else { buffer };
-                next |= u64::from(order & compare != 0) << passed;
-                next |= u64::from(order & !compare != 0) << failed;
+                let passed = if self.write == Write::Never { buffer } else { i };
+                let failed = if self.write == Write::Always { i } else { buffer };
+                add(order & compare != 0, DepthState { shown: i, buffer: passed });
+                add(order & !compare != 0, DepthState { shown, buffer: failed });
             }
             states = next;
         }
-        if states == 0 {
+        if states.is_empty() {
             return 1;
         }
-        let drawn = pile.layers.iter().filter(is_drawn).take(MOST_LAYERS).enumerate();
-        let may_be = |i: usize| states >> (i * MOST_LAYERS) & ((1 << MOST_LAYERS) - 1) != 0;
-        drawn
-            .filter(|(i, _)| may_be(*i))
-            .fold(0, |all, (_, layer)| all | 2_u64.checked_shl(layer.number as u32).unwrap_or(0))
+        let may_be = |i: usize| states.iter().any(|state| state.shown == i);
+        let seen = drawn().enumerate().filter(|(i, _)| may_be(*i));
+        seen.fold(0, |all, (_, layer)| all | 2_u128.checked_shl(layer.number as u32).unwrap_or(0))
     }
 
     /// The bias of each kind with which all is as it is shown, and the same of some triangles alone.
@@ -573,7 +590,7 @@ impl Stage for DepthTest {
     fn parts<'a>(
         question: &'a Question,
         answer: &'a Answer,
-        _: &Declared,
+        declared: &Declared,
         noise: f64,
     ) -> Vec<Pile<'a>> {
         let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else {
@@ -589,23 +606,41 @@ impl Stage for DepthTest {
                 piles.push(Pile { spot, layers: Vec::new(), shown, noise });
             }
         }
+        let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
+        let place = |x: i32, y: i32| {
+            (y - window.y0) as usize * window.width() as usize + (x - window.x0) as usize
+        };
+        // Pixels that a triangle may cover or not tell nothing.
+        let mut is_open = vec![false; piles.len()];
         for (number, triangle) in list.iter().enumerate() {
             let corners = triangle.corners();
-            Oracle.spans(corners, window, &mut |span| {
-                let row = (span.y_px - window.y0) as usize * window.width() as usize;
+            let Some(Expectation { must, may }) = declared.picture(&corners, window) else {
+                return Vec::new();
+            };
+            for span in must {
                 for x in span.x0_px..span.x1_px {
-                    let at = [x, span.y_px].map(|v| f64::from(v) + 0.5);
+                    let at = [x, span.y_px];
+                    let at = [0, 1].map(|axis| f64::from(at[axis]) + sample[axis]);
                     let depth = sum(weights(&corners, at), depths(triangle));
-                    let pile: &mut Pile<'_> = &mut piles[row + (x - window.x0) as usize];
-                    pile.layers.push(Layer { number, depth, first: span.x0_px, triangle });
+                    let pile: &mut Pile<'_> = &mut piles[place(x, span.y_px)];
+                    let (first, end) = (span.x0_px, span.x1_px);
+                    pile.layers.push(Layer { number, depth, first, end, triangle });
                 }
-            });
+            }
+            for span in may.into_iter().flatten() {
+                for at in (span.x0_px..span.x1_px).map(|x| place(x, span.y_px)) {
+                    is_open[at] |= piles[at].layers.last().is_none_or(|l| l.number != number);
+                }
+            }
         }
         for pile in &mut piles {
             let nearest = pile.layers.iter().min_by(|a, b| a.depth.total_cmp(&b.depth));
             pile.spot.is_clockwise = nearest.is_some_and(|l| twice_area(&l.triangle.corners()) > 0);
         }
-        piles.retain(|pile| pile.shown > 0 || !pile.layers.is_empty());
+        let mut open = is_open.into_iter();
+        piles.retain(|pile| {
+            open.next() == Some(false) && (pile.shown > 0 || !pile.layers.is_empty())
+        });
         piles
     }
 

@@ -6,6 +6,7 @@
 //! field, with its words.
 
 mod depth;
+mod learn;
 mod near;
 mod samples;
 mod search;
@@ -20,12 +21,15 @@ use super::check::{Check, Truth};
 use super::declared::Declared;
 use super::in_process::Inside;
 use super::run::MOST_DEATHS;
+use super::timed::Timed;
 use depth::DepthTest;
 use glam::DVec2;
 use near::NearCut;
 use rasterproof_core::geometry::twice_area;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::Fragment;
+use rasterproof_verify::cases::facts::{self, TOPICS};
 use rasterproof_verify::cases::{Case, Triangle};
 use rasterproof_verify::comparison::pixels::few;
 use rasterproof_verify::mistakes::values::{self, ValueHypothesis};
@@ -65,12 +69,18 @@ fn answered(
         if seed > SEED && (wrong == 0 || wrong >= ENOUGH_WRONG) {
             break;
         }
-        let Some(family) = adapt_case::family(name) else { continue };
+        let family = adapt_case::family(name);
+        let mut rng = Rng::new(name, seed, 0);
         for index in 0..CASES / families.len() as u64 {
             if deaths >= MOST_DEATHS {
                 return all;
             }
-            let case: Case = adapt_case::case(family, seed, index, &truth.declared);
+            let case: Case = match (family, TOPICS.iter().find(|topic| topic.name == *name)) {
+                // Questions like those of the design, which itself takes seconds.
+                (_, Some(topic)) => adapt_case::put(topic.any(&mut rng), &truth.declared),
+                (Some(family), _) => adapt_case::case(family, seed, index, &truth.declared),
+                _ => break,
+            };
             let mut questions = Vec::new();
             check.questions(&case, truth, &mut questions);
             let answers = program.ask(&questions, MOST_DEATHS);
@@ -103,19 +113,39 @@ fn families(check: Check) -> &'static [&'static str] {
     }
 }
 
-/// The mistake of a program in what this check judges, where it is wrong.
+/// The mistake of a program in what this check judges, where it is wrong. Where none of those that are known explains it, it is
+/// learned what it does and when.
 pub fn mistakes(
-    program: &mut dyn Subject,
+    program: &mut Timed<'_>,
     check: Check,
     truth: &Truth,
     programs: &[(RefCell<Inside>, String)],
 ) -> Option<Mistakes> {
-    let all = answered(program, check, families(check), truth);
+    let mut all = answered(program, check, families(check), truth);
+    // Piles of many triangles are those of the design alone.
+    if check == Check::Depth {
+        all.extend(answered(program, check, &[facts::depth::TOPIC.name], truth));
+    }
+    let mut found = known(check, &all, truth, programs)?;
+    if !found.is_known() {
+        let most = program.at_most(learn::MOST_TO_LEARN);
+        found.learned = learn::learn(program, check, truth, most);
+    }
+    Some(found)
+}
+
+/// The mistake of those that are known.
+fn known(
+    check: Check,
+    all: &[Answered],
+    truth: &Truth,
+    programs: &[(RefCell<Inside>, String)],
+) -> Option<Mistakes> {
     match check {
-        Check::Values => of_values(&all, &truth.declared, programs),
-        Check::Samples => of_stage::<SampleMask>(&all, &truth.declared, programs),
-        Check::Depth => of_stage::<DepthTest>(&all, &truth.declared, programs),
-        Check::Near | Check::Carried => of_stage::<NearCut>(&all, &truth.declared, programs),
+        Check::Values => of_values(all, &truth.declared, programs),
+        Check::Samples => of_stage::<SampleMask>(all, &truth.declared, programs),
+        Check::Depth => of_stage::<DepthTest>(all, &truth.declared, programs),
+        Check::Near | Check::Carried => of_stage::<NearCut>(all, &truth.declared, programs),
         _ => None,
     }
 }

@@ -136,39 +136,38 @@ pub enum KeptCorners {
     },
 }
 
+/// What becomes of triangles, with its words and the repair.
+const KEPT: [(KeptCorners, &str, &str); 6] = [
+    (KeptCorners::Nothing, "drops the triangle", "keep the part before the plane"),
+    (KeptCorners::All, MistakeId::NotClipped.name(), "clip at the near plane before the division"),
+    (KeptCorners::Whole, MistakeId::CutTrianglesDropped.name(), "keep the part before the plane"),
+    (
+        KeptCorners::Seen,
+        "drops triangles that lie wholly behind and clips no others",
+        "cut what crosses the plane",
+    ),
+    (
+        KeptCorners::Clamped { is_culled: false },
+        "moves corners behind the plane onto it (clamps z) and cuts nothing",
+        "divide the edges",
+    ),
+    (
+        KeptCorners::Clamped { is_culled: true },
+        "moves corners behind the plane onto it (clamps z) and cuts nothing, and drops what lies wholly behind",
+        "divide the edges",
+    ),
+];
+
 impl Field for KeptCorners {
     const NAME: &'static str = "what is clipped";
 
     fn options() -> Vec<Self> {
-        let clamped = [false, true].map(|is_culled| Self::Clamped { is_culled });
-        [Self::Nothing, Self::All, Self::Whole, Self::Seen].into_iter().chain(clamped).collect()
+        KEPT.iter().map(|(kept, ..)| *kept).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        Some(match self {
-            Self::Clipped => return None,
-            Self::All => (
-                MistakeId::NotClipped.name().to_owned(),
-                "clip at the near plane before the division",
-            ),
-            Self::Nothing => ("drops the triangle".to_owned(), "keep the part before the plane"),
-            Self::Whole => {
-                (MistakeId::CutTrianglesDropped.name().to_owned(), "keep the part before the plane")
-            }
-            Self::Seen => (
-                "drops triangles that lie wholly behind and clips no others".to_owned(),
-                "cut what crosses the plane",
-            ),
-            Self::Clamped { is_culled } => {
-                let culled = if *is_culled { ", and drops what lies wholly behind" } else { "" };
-                (
-                    format!(
-                        "moves corners behind the plane onto it (clamps z) and cuts nothing{culled}"
-                    ),
-                    "divide the edges",
-                )
-            }
-        })
+        let (_, does, repair) = KEPT.iter().find(|(kept, ..)| kept == self)?;
+        Some(((*does).to_owned(), repair))
     }
 }
 
@@ -192,30 +191,30 @@ pub enum Part {
     Divided,
 }
 
+/// The parts, with their words.
+const PARTS: [(Part, &str); 8] = [
+    (Part::Back, "a part that is counted from the wrong end (t is 1 - t)"),
+    (Part::Squared, "a part that is squared"),
+    (Part::AtMostHalf, "a part that is 1/2 at most"),
+    (Part::AtLeastHalf, "a part that is 1/2 at least"),
+    (Part::OfSum, "a part of the sum of the distances, where their difference is right"),
+    (Part::ByZ, "z alone, as if the plane were z = 0"),
+    (Part::ByW, "w alone, as if the plane were w = 0"),
+    (Part::Divided, "distances after the division by w"),
+];
+
 impl Field for Part {
     const NAME: &'static str = "the part of an edge";
 
     fn options() -> Vec<Self> {
-        use Part::{AtLeastHalf, AtMostHalf, Back, ByW, ByZ, Divided, OfSum, Squared};
-        let mut all = vec![Back, Squared, AtMostHalf, AtLeastHalf, OfSum, ByZ, ByW, Divided];
-        all.extend(Format::options().into_iter().map(Self::Kept));
-        all
+        let formats = Format::options().into_iter().map(Self::Kept);
+        PARTS.iter().map(|(part, _)| *part).chain(formats).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
         let part = match self {
-            Self::Right => return None,
             Self::Kept(format) => format!("a part that is kept in {format}"),
-            Self::Back => "a part that is counted from the wrong end (t is 1 - t)".to_owned(),
-            Self::Squared => "a part that is squared".to_owned(),
-            Self::AtMostHalf => "a part that is 1/2 at most".to_owned(),
-            Self::AtLeastHalf => "a part that is 1/2 at least".to_owned(),
-            Self::OfSum => {
-                "a part of the sum of the distances, where their difference is right".to_owned()
-            }
-            Self::ByZ => "z alone, as if the plane were z = 0".to_owned(),
-            Self::ByW => "w alone, as if the plane were w = 0".to_owned(),
-            Self::Divided => "distances after the division by w".to_owned(),
+            part => (*PARTS.iter().find(|(known, _)| known == part)?.1).to_owned(),
         };
         Some((format!("divides {{}} of an edge by {part}"), NEW_REPAIR))
     }
@@ -313,72 +312,52 @@ impl New {
     }
 }
 
+/// What a new corner gets, with its words.
+const NEW: [(New, &str); 19] = [
+    (New::Kept, "keeps {} of the corner that stays at a new corner"),
+    (New::Lost, "keeps {} of the corner that is cut off at a new corner"),
+    (New::First, "keeps {} of the first end of an edge at a new corner"),
+    (New::Second, "keeps {} of the second end of an edge at a new corner"),
+    (New::Mean, "gives a new corner the mean of both ends for {}"),
+    (New::Perspective, "interpolates {} at a new corner with a correction for perspective"),
+    (
+        New::OverWAndBack,
+        "divides {} by w before it interpolates at a new corner, and multiplies by the new w",
+    ),
+    (New::Is(0.0), "gives a new corner 0 for {}"),
+    (New::Is(1.0), "gives a new corner 1 for {}"),
+    (
+        New::OverW,
+        "divides {} by w before it interpolates at a new corner, and does not multiply back",
+    ),
+    (
+        New::TimesWAndBack,
+        "multiplies {} by w before it interpolates at a new corner, and divides by the new w",
+    ),
+    (New::Unsigned, "loses the sign of {} of a new corner"),
+    (New::DividedByW, "divides {} of a new corner by its w"),
+    (New::TimesW, "multiplies {} of a new corner by its w"),
+    (New::AtLeast(0.1), "raises {} of a new corner to 0.1 at least"),
+    (New::AtLeast(0.01), "raises {} of a new corner to 0.01 at least"),
+    (New::AtLeast(1.0), "raises {} of a new corner to 1 at least"),
+    (New::InUnit, "clamps {} of a new corner to 0 to 1"),
+    (New::Exchanged, "exchanges {} of a new corner"),
+];
+
 impl Field for New {
     const NAME: &'static str = "a new corner";
 
     fn options() -> Vec<Self> {
-        let mut all = vec![
-            Self::Kept,
-            Self::Lost,
-            Self::First,
-            Self::Second,
-            Self::Mean,
-            Self::Perspective,
-            Self::OverWAndBack,
-            Self::Is(0.0),
-            Self::Is(1.0),
-            Self::OverW,
-            Self::TimesWAndBack,
-            Self::Unsigned,
-            Self::DividedByW,
-            Self::TimesW,
-            Self::AtLeast(0.1),
-            Self::AtLeast(0.01),
-            Self::AtLeast(1.0),
-            Self::InUnit,
-            Self::Exchanged,
-        ];
-        all.extend(Format::options().into_iter().map(Self::Format));
-        all
+        let formats = Format::options().into_iter().map(Self::Format);
+        NEW.iter().map(|(new, _)| *new).chain(formats).collect()
     }
 
     fn says(&self) -> Option<(String, &'static str)> {
-        let does = match self {
-            Self::Right => return None,
-            Self::Kept => "keeps {} of the corner that stays at a new corner",
-            Self::Lost => "keeps {} of the corner that is cut off at a new corner",
-            Self::First => "keeps {} of the first end of an edge at a new corner",
-            Self::Second => "keeps {} of the second end of an edge at a new corner",
-            Self::Mean => "gives a new corner the mean of both ends for {}",
-            Self::Perspective => {
-                "interpolates {} at a new corner with a correction for perspective"
-            }
-            Self::OverWAndBack => {
-                "divides {} by w before it interpolates at a new corner, and multiplies by the new w"
-            }
-            Self::OverW => {
-                "divides {} by w before it interpolates at a new corner, and does not multiply back"
-            }
-            Self::TimesWAndBack => {
-                "multiplies {} by w before it interpolates at a new corner, and divides by the new w"
-            }
-            Self::Unsigned => "loses the sign of {} of a new corner",
-            Self::DividedByW => "divides {} of a new corner by its w",
-            Self::TimesW => "multiplies {} of a new corner by its w",
-            Self::InUnit => "clamps {} of a new corner to 0 to 1",
-            Self::Exchanged => "exchanges {} of a new corner",
-            Self::Is(v) => return Some((format!("gives a new corner {v} for {{}}"), NEW_REPAIR)),
-            Self::AtLeast(least) => {
-                return Some((
-                    format!("raises {{}} of a new corner to {least} at least"),
-                    NEW_REPAIR,
-                ));
-            }
-            Self::Format(format) => {
-                return Some((format!("keeps {{}} of a new corner in {format}"), NEW_REPAIR));
-            }
-        };
-        Some((does.to_owned(), NEW_REPAIR))
+        if let Self::Format(format) = self {
+            return Some((format!("keeps {{}} of a new corner in {format}"), NEW_REPAIR));
+        }
+        let (_, does) = NEW.iter().find(|(new, _)| new == self)?;
+        Some(((*does).to_owned(), NEW_REPAIR))
     }
 }
 
@@ -484,19 +463,29 @@ impl Field for Edges {
 
 /// An edge that is cut: the corner that stays, the one that goes, the part of the way between them, and whether the one that
 /// stays comes first.
-struct Edge {
-    kept: ClipCorner,
-    lost: ClipCorner,
-    t: f64,
-    is_forward: bool,
+#[derive(Clone)]
+pub(super) struct Edge {
+    pub(super) kept: ClipCorner,
+    pub(super) lost: ClipCorner,
+    pub(super) t: f64,
+    pub(super) is_forward: bool,
 }
 
 /// A triangle and what was left of it.
+#[derive(Clone)]
 pub struct Cut<'a> {
-    corners: [ClipCorner; 3],
-    left: &'a [ClipCorner],
+    pub(super) corners: [ClipCorner; 3],
+    pub(super) left: &'a [ClipCorner],
     is_zero: bool,
     tolerance: f64,
+}
+
+/// A new corner of what is left, with the number of its edge.
+pub(super) struct NewCorner {
+    /// Its place in what is left, by the right clipper.
+    pub(super) place: usize,
+    pub(super) number: usize,
+    pub(super) edge: Edge,
 }
 
 impl Cut<'_> {
@@ -521,6 +510,58 @@ impl Cut<'_> {
         let has_area = |polygon: &[ClipCorner]| polygon.len() > 2;
         (!has_area(polygon) && !has_area(self.left))
             || is_round(polygon.len(), self.left.len(), |i, j| near(&polygon[i], &self.left[j]))
+    }
+
+    /// The corners that are left by the right clipper, each with the one that is given in its place; nothing where there are
+    /// others, or another number of them.
+    pub(super) fn aligned(&self) -> Option<Vec<ClipCorner>> {
+        let right = NearCut::default().polygon(self, true);
+        let count = right.len();
+        if count < 3 || self.left.len() != count {
+            return None;
+        }
+        let bounds = bounds(&self.corners, self.tolerance);
+        let near =
+            |p: &ClipCorner, q: &ClipCorner| (0..5).all(|k| (p[k] - q[k]).abs() <= bounds[k]);
+        let is_old = |p: &&ClipCorner| self.corners.iter().any(|corner| corner == *p);
+        let turned = (0..count).map(|turn| [&self.left[turn..], &self.left[..turn]].concat());
+        let fit = |given: &Vec<ClipCorner>| {
+            let both = right.iter().zip(given);
+            both.clone().filter(|(p, _)| is_old(p)).all(|(p, q)| near(p, q))
+        };
+        let matching =
+            |given: &Vec<ClipCorner>| right.iter().zip(given).filter(|(p, q)| near(p, q)).count();
+        turned.filter(fit).max_by_key(matching)
+    }
+
+    /// The new corners of the right clipper.
+    pub(super) fn new_of_right(&self) -> Vec<NewCorner> {
+        let mut all = Vec::new();
+        let mut place = 0;
+        let distance = |p: ClipCorner| Plane::Near.distance(p, self.is_zero);
+        for number in 0..3 {
+            let [from, to] = [number, (number + 1) % 3].map(|i| self.corners[i]);
+            let [a, b] = [from, to].map(distance);
+            place += usize::from(a >= 0.0);
+            if (a >= 0.0) != (b >= 0.0) {
+                let is_forward = a >= 0.0;
+                let (kept, lost, a, b) =
+                    if is_forward { (from, to, a, b) } else { (to, from, b, a) };
+                all.push(NewCorner {
+                    place,
+                    number,
+                    edge: Edge { kept, lost, t: a / (a - b), is_forward },
+                });
+                place += 1;
+            }
+        }
+        all
+    }
+
+    /// Whether two numbers of a corner are the same.
+    pub(super) fn is_number(&self, k: usize, given: f64, predicted: f64) -> bool {
+        let bound = bounds(&self.corners, self.tolerance)[k];
+        (given - predicted).abs() <= bound.max(self.tolerance * predicted.abs())
     }
 
     /// The corners that the triangle does not have.

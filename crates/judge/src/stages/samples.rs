@@ -51,6 +51,8 @@ impl Field for Pattern {
             of("tests {} mirrored upside down", |(x, y)| (x, 16 - y)),
             of("tests {} with x and y exchanged", |(x, y)| (y, x)),
             of("tests {} around the upper left corner of the pixel", |(x, y)| (x - 8, y - 8)),
+            of("tests {} at the height of the centre", |(x, _)| (x, 8)),
+            of("tests {} in the column of the centre", |(_, y)| (8, y)),
         ]
     }
 
@@ -315,9 +317,35 @@ impl Field for Only {
 pub struct Masked<'a> {
     pub(super) spot: Spot,
     corners: &'a Corners,
-    drawn: u8,
-    right: u8,
-    is_centre_covered: bool,
+    pub(super) drawn: u8,
+    pub(super) right: u8,
+    pub(super) is_centre_covered: bool,
+}
+
+impl Masked<'_> {
+    /// Whether a point of the pixel in 1/16 px is covered.
+    pub(super) fn has_point(&self, at: (i32, i32)) -> bool {
+        covers(self.corners, self.spot.at, at, &TIES[0])
+    }
+
+    /// How far a sample lies inside the nearest edge in steps of the lattice, below 0 outside; and whether it is exactly on one.
+    pub(super) fn inside(&self, bit: u8) -> (i64, bool) {
+        let (x, y) = SAMPLES[usize::from(bit)];
+        let at = [(self.spot.at[0], x), (self.spot.at[1], y)]
+            .map(|(v, part)| i64::from(v * SUBPIXELS + part * (SUBPIXELS / 16)));
+        let turn = i64::from(twice_area(self.corners).signum() as i8);
+        let (mut nearest, mut is_on) = (i64::MAX, false);
+        for i in 0..3 {
+            let [a, b] =
+                [i, (i + 1) % 3].map(|i| self.corners[i]).map(|c| [c.x, c.y].map(i64::from));
+            let by = [0, 1].map(|k| (b[k] - a[k]) * turn);
+            let side = by[0] * (at[1] - a[1]) - by[1] * (at[0] - a[0]);
+            let length = ((by[0] as f64).powi(2) + (by[1] as f64).powi(2)).sqrt() as i64;
+            nearest = nearest.min(side.div_euclid(length.max(1)));
+            is_on |= side == 0;
+        }
+        (nearest, is_on && nearest >= 0)
+    }
 }
 
 impl AsRef<Spot> for Masked<'_> {

@@ -21,7 +21,8 @@ pub struct Count {
 }
 
 impl Count {
-    pub(crate) fn add(&mut self, yes: bool) {
+    /// Counts one more.
+    pub fn add(&mut self, yes: bool) {
         self.drawn += u64::from(yes);
         self.of += 1;
     }

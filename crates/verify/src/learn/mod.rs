@@ -20,6 +20,7 @@ mod picture;
 mod programs;
 mod quantity;
 mod question;
+pub mod rows;
 mod rule;
 mod say;
 mod search;
@@ -45,6 +46,9 @@ pub struct Learned {
     pub wrong: Count,
     /// New answers that are right, and those of them that were predicted.
     pub right: Count,
+    /// What is predicted of an answer, in the singular; a pixel where it is empty.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub part: &'static str,
     /// What is known where not every answer was predicted: when it is wrong, where, and what comes out right beside it.
     pub known: Vec<String>,
 }
@@ -59,7 +63,8 @@ impl Learned {
             self.wrong.drawn, self.wrong.of, self.right.drawn, self.right.of
         );
         if self.is_certain {
-            said.push(format!("Of new answers, this predicts every pixel of {counts}."));
+            let part = if self.part.is_empty() { "pixel" } else { self.part };
+            said.push(format!("Of new answers, this predicts every {part} of {counts}."));
             return said;
         }
         if let Some(first) = said.first_mut() {
@@ -356,7 +361,7 @@ impl<'a> Learner<'a> {
             false => Vec::new(),
         };
         let known = if is_certain { Vec::new() } else { known::sentences(&self.search()) };
-        Learned { is_certain, does, wrong, right, known }
+        Learned { is_certain, does, wrong, right, part: "", known }
     }
 }
 

@@ -1,13 +1,15 @@
 //! The quantities of a question and of a pixel, from which all facts are derived: every quantity gets every test.
 
+use std::cell::OnceCell;
+use std::sync::Arc;
+
 use super::picture::{MARGIN, Picture, Runs};
 use super::question::{AnyQuestion, Unit};
 use rasterproof_core::geometry::greatest_divisor;
-use std::cell::OnceCell;
 
 /// The words of a quantity.
 #[derive(Clone, Debug)]
-pub(super) struct Name {
+pub struct Name {
     pub(super) unit: Unit,
     /// Such as 'its column'; of a flag, what is said where it holds.
     pub(super) noun: String,
@@ -16,14 +18,16 @@ pub(super) struct Name {
 }
 
 /// A quantity that a pixel does not have, such as its place in a row without pixels: no test of it holds.
-pub(super) const NONE: i64 = i64::MIN;
+pub const NONE: i64 = i64::MIN;
 
 /// Takes the quantities in their order: their values, and their names where these are wanted. Names come in pieces, which
 /// are joined only for those who want them.
 #[derive(Default)]
-pub(super) struct Quantities {
-    pub(super) values: Vec<i64>,
-    pub(super) names: Option<Vec<Name>>,
+pub struct Quantities {
+    /// The values.
+    pub values: Vec<i64>,
+    /// The names of the same, where they are wanted.
+    pub names: Option<Vec<Name>>,
     /// Groups of quantities of a pixel that are left out: their values are not looked at.
     pub(super) left_out: [bool; GROUPS],
     /// How many quantities each group has.
@@ -61,11 +65,13 @@ impl Quantities {
         }
     }
 
-    fn flag(&mut self, value: bool, yes: &[&str], no: &str) {
+    /// Whether something holds: what is said where it does, in pieces, and where it does not.
+    pub fn flag(&mut self, value: bool, yes: &[&str], no: &str) {
         self.put(Unit::Flag, value.into(), yes, [no, ""]);
     }
 
-    fn number(&mut self, unit: Unit, value: i64, noun: &[&str]) {
+    /// A number with its noun, in pieces.
+    pub fn number(&mut self, unit: Unit, value: i64, noun: &[&str]) {
         self.put(unit, value, noun, ["", ""]);
     }
 }
@@ -241,7 +247,7 @@ pub(super) struct Scene<'a> {
     pub(super) question: &'a AnyQuestion,
     /// What is drawn within the window; beyond it, what would be.
     pub(super) drawn: &'a Picture,
-    runs: Runs,
+    runs: Arc<Runs>,
     /// Where samples lie in their pixel, in subpixels.
     sample: [i64; 2],
     /// Twice the edge functions begin at these corners, turned so that inside is positive.
@@ -262,6 +268,16 @@ struct Edge {
 
 impl<'a> Scene<'a> {
     pub(super) fn new(question: &'a AnyQuestion, drawn: &'a Picture, sample: [i64; 2]) -> Self {
+        Self::with_runs(question, drawn, Arc::new(Runs::of(drawn)), sample)
+    }
+
+    /// With the runs of the picture, for whoever looks at it again and again.
+    pub(super) fn with_runs(
+        question: &'a AnyQuestion,
+        drawn: &'a Picture,
+        runs: Arc<Runs>,
+        sample: [i64; 2],
+    ) -> Self {
         let turn = if question.is_line() { 0 } else { question.twice_area() };
         let edges = EDGES.iter().filter(|_| turn != 0).map(|[a, b]| {
             let (a, b) = if turn > 0 { (*a, *b) } else { (*b, *a) };
@@ -270,7 +286,7 @@ impl<'a> Scene<'a> {
         });
         let edges = edges.collect();
         let crossings = [OnceCell::new(), OnceCell::new()];
-        Self { question, drawn, runs: Runs::of(drawn), sample, edges, crossings }
+        Self { question, drawn, runs, sample, edges, crossings }
     }
 
     fn is_shown(&self, at: [i32; 2]) -> bool {

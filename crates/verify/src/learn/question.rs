@@ -260,7 +260,7 @@ impl Room {
 
 /// How a quantity is tested and printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
+pub enum Unit {
     /// 1 or 0.
     Flag,
     /// Pixels, rows or other things that are counted.
@@ -277,4 +277,6 @@ pub(super) enum Unit {
     Area,
     /// 1/256.
     Ratio,
+    /// 1/2^20 of a value.
+    Value,
 }

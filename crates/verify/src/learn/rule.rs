@@ -92,7 +92,7 @@ impl Fact {
             Of::One(i) => match names[i].unit {
                 Unit::Flag => 1.0,
                 Unit::Count | Unit::Paired | Unit::Pixels => 1.03,
-                Unit::Subpixels | Unit::Area | Unit::Ratio => 1.06,
+                Unit::Subpixels | Unit::Area | Unit::Ratio | Unit::Value => 1.06,
                 Unit::Involved => 1.2,
             },
             Of::Difference(..) => 1.15,
@@ -626,6 +626,7 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
         Unit::Subpixels => 256,
         Unit::Ratio => RATIO,
         Unit::Area => 131_072,
+        Unit::Value => return ahead_of_decimal(low + ahead, high + ahead) - ahead,
         _ => return low,
     };
     let mut best = low;
@@ -645,4 +646,17 @@ fn round(low: i64, high: i64, sign: i64, of: Of, names: &[Name]) -> i64 {
         best = high;
     }
     best.clamp(low, high)
+}
+
+/// Of values in 1/2^20, one in a range with few digits.
+fn ahead_of_decimal(low: i64, high: i64) -> i64 {
+    // From 10^12 down by tens, to the digits that a step has.
+    for digits in -12..7 {
+        let unit = f64::from(1 << 20) * f64::from(10).powi(-digits);
+        let multiple = ((low as f64 / unit).ceil() * unit).ceil() as i64;
+        if (low..=high).contains(&multiple) {
+            return multiple;
+        }
+    }
+    low
 }

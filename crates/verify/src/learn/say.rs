@@ -14,11 +14,15 @@ pub(super) fn number(unit: Unit, v: i64) -> String {
         Unit::Subpixels => (256.0, " px"),
         Unit::Area => (131_072.0, " square pixels"),
         Unit::Ratio => (RATIO as f64, ""),
+        Unit::Value => return format!("{}", (v as f64 / VALUE * 1e6).round() / 1e6),
         Unit::Pixels => (1.0, " px"),
         Unit::Flag | Unit::Count | Unit::Paired | Unit::Involved => (1.0, ""),
     };
     format!("{}{word}", v as f64 / per)
 }
+
+/// Steps of [`Unit::Value`].
+const VALUE: f64 = (1_i64 << 20) as f64;
 
 /// Counts read better as 'at most 7', lengths as 'less than 8 px'.
 fn limited(noun: &str, unit: Unit, test: Test) -> String {

@@ -7,14 +7,14 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
-use super::{Read, Test, Topic, Unit, classes, exponent, fact, facts_of};
+use super::{Read, Test, Topic, Unit, exponent, fact, facts_of, numbers};
 use crate::cases::{Case, Shape, Triangle};
 
 /// Triangles before and behind each other.
 pub const TOPIC: Topic = Topic {
     name: "depth-design",
     facts: &facts_of(&FACTS),
-    measure: |case, _| Some(classes(&FACTS, &PileFacts::of_case(case)?)),
+    measure: |case, _| Some(numbers(&FACTS, &PileFacts::of_case(case)?)),
     impossible: include_str!("impossible/depth-design.txt"),
     draw,
     vary,

@@ -8,7 +8,7 @@ use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 
 use super::{
-    Read, Test, Topic, Unit, WINDOW_WAYS, classes, draw_window, fact, facts_of, saturated,
+    Read, Test, Topic, Unit, WINDOW_WAYS, draw_window, fact, facts_of, numbers, saturated,
     vary_window,
 };
 use crate::cases::{Case, Shape};
@@ -17,7 +17,7 @@ use crate::cases::{Case, Shape};
 pub const TOPIC: Topic = Topic {
     name: "line-design",
     facts: &facts_of(&FACTS),
-    measure: |case, _| Some(classes(&FACTS, &LineFacts::of_case(case)?)),
+    measure: |case, _| Some(numbers(&FACTS, &LineFacts::of_case(case)?)),
     impossible: include_str!("impossible/line-design.txt"),
     draw,
     vary,

@@ -162,15 +162,9 @@ const fn facts_of<M, const N: usize>(table: &[Read<M>; N]) -> [Fact; N] {
     facts
 }
 
-/// The classes of what was measured. Those of all facts of a table are numbered one after the other.
-fn classes<M>(table: &[Read<M>], measured: &M) -> Vec<u16> {
-    let mut start = 0;
-    let mut classes = Vec::with_capacity(table.len());
-    for Read { fact, of } in table {
-        classes.push((start + fact.test.class(of(measured))) as u16);
-        start += fact.test.count();
-    }
-    classes
+/// The numbers of a table, read off what was measured.
+fn numbers<M>(table: &[Read<M>], measured: &M) -> Vec<i64> {
+    table.iter().map(|read| (read.of)(measured)).collect()
 }
 
 /// A kind of question: what can be measured of it, and how such questions are drawn.
@@ -180,7 +174,7 @@ pub struct Topic {
     pub name: &'static str,
     /// Its facts.
     pub facts: &'static [Fact],
-    measure: fn(&Case, &Limits) -> Option<Vec<u16>>,
+    measure: fn(&Case, &Limits) -> Option<Vec<i64>>,
     /// The pairs of classes that cannot occur: on each line the number of a class, and those of others.
     impossible: &'static str,
     /// Draws a case.
@@ -218,10 +212,34 @@ impl Topic {
         self.facts.iter().map(|fact| fact.test.count()).sum()
     }
 
-    /// The class of each fact of a question, for a rasterizer with limits; nothing where the case is of another kind.
+    /// The number of each fact of a question, for a rasterizer with limits; nothing where the case is of another kind.
+    #[must_use]
+    pub fn numbers(&self, case: &Case, limits: &Limits) -> Option<Vec<i64>> {
+        (self.measure)(case, limits)
+    }
+
+    /// The class of each of these numbers. Those of all facts are numbered one after the other.
     #[must_use]
     pub fn classes(&self, case: &Case, limits: &Limits) -> Option<Vec<u16>> {
-        (self.measure)(case, limits)
+        let mut start = 0;
+        let mut classes = Vec::with_capacity(self.facts.len());
+        for (fact, number) in self.facts.iter().zip(self.numbers(case, limits)?) {
+            classes.push((start + fact.test.class(number)) as u16);
+            start += fact.test.count();
+        }
+        Some(classes)
+    }
+
+    /// A case at random.
+    #[must_use]
+    pub fn any(&self, rng: &mut Rng) -> Case {
+        (self.draw)(rng)
+    }
+
+    /// A case beside the first one, that may take something of the second.
+    #[must_use]
+    pub fn beside(&self, rng: &mut Rng, one: &Case, other: &Case) -> Case {
+        (self.vary)(rng, one, other)
     }
 
     /// A class with the name of its fact.

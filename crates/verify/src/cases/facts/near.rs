@@ -6,7 +6,7 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
-use super::{Read, Test, Topic, Unit, classes, fact, facts_of};
+use super::{Read, Test, Topic, Unit, fact, facts_of, numbers};
 use crate::cases::clip::clip_corners;
 use crate::cases::{Case, Limits, Shape};
 
@@ -14,7 +14,7 @@ use crate::cases::{Case, Limits, Shape};
 pub const TOPIC: Topic = Topic {
     name: "near-design",
     facts: &facts_of(&FACTS),
-    measure: |case, _: &Limits| Some(classes(&FACTS, &ClipFacts::of_case(case)?)),
+    measure: |case, _: &Limits| Some(numbers(&FACTS, &ClipFacts::of_case(case)?)),
     impossible: include_str!("impossible/near-design.txt"),
     draw,
     vary,

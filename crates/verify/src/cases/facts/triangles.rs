@@ -8,7 +8,7 @@ use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 use glam::DVec2;
 
 use super::{
-    Read, Test, Topic, Unit, WINDOW_WAYS, classes, draw_window, fact, facts_of, saturated,
+    Read, Test, Topic, Unit, WINDOW_WAYS, draw_window, fact, facts_of, numbers, saturated,
     vary_window,
 };
 use crate::cases::{Case, Limits, Shape};
@@ -22,7 +22,7 @@ const SQUARE_PX: i64 = 2 * PX * PX;
 pub const TOPIC: Topic = Topic {
     name: "design",
     facts: &facts_of(&FACTS),
-    measure: |case, limits| Some(classes(&FACTS, &TriangleFacts::of_case(case, limits)?)),
+    measure: |case, limits| Some(numbers(&FACTS, &TriangleFacts::of_case(case, limits)?)),
     impossible: include_str!("impossible/design.txt"),
     draw,
     vary,

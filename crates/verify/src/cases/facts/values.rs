@@ -6,14 +6,14 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::ScreenVertex;
 
-use super::{Read, Test, Topic, Unit, classes, exponent, fact, facts_of, triangles};
+use super::{Read, Test, Topic, Unit, exponent, fact, facts_of, numbers, triangles};
 use crate::cases::{Case, Limits, Shape, Triangle};
 
 /// Values of triangles.
 pub const TOPIC: Topic = Topic {
     name: "w-design",
     facts: &facts_of(&FACTS),
-    measure: |case, limits| Some(classes(&FACTS, &ValueFacts::of_case(case, limits)?)),
+    measure: |case, limits| Some(numbers(&FACTS, &ValueFacts::of_case(case, limits)?)),
     impossible: include_str!("impossible/w-design.txt"),
     draw,
     vary,

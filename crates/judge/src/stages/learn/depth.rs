@@ -1,0 +1,296 @@
+//! Pixels that show one of several triangles, as a test of depth shows it.
+
+use super::{Learnable, LearnedCase, spread};
+use crate::ask::Asked;
+use crate::declared::Declared;
+use crate::stages::depth::{DepthTest, Layer, Pile};
+use crate::stages::search::{Composed as _, Mistake, Stage as _, singles};
+use rasterproof_core::geometry::twice_area;
+use rasterproof_core::grid::SUBPIXELS;
+use rasterproof_verify::cases::Case;
+use rasterproof_verify::cases::facts::{Topic, depth};
+use rasterproof_verify::learn::rows::{
+    Condition, ConditionTerms, Examples, NONE, Quantities, Unit, Vocabulary, value,
+};
+use rasterproof_verify::mistakes::values::depths;
+
+pub struct Depths;
+
+/// A pixel with the triangles that cover it, of which the nearest may be shown.
+pub struct PixelOfList<'a> {
+    asked: &'a LearnedCase,
+    pile: Pile<'a>,
+    /// How much farther than the nearest a triangle may be that is shown.
+    allowance: f64,
+}
+
+#[derive(Clone)]
+pub enum Change {
+    Test(DepthTest),
+    /// Triangles of which something holds are left out.
+    /// What holds is said, too.
+    Without(Condition, String),
+    Nothing,
+    /// The nearest but one.
+    Second,
+}
+
+impl PixelOfList<'_> {
+    /// The nearest of some layers.
+    fn nearest<'l>(layers: impl Iterator<Item = &'l Layer<'l>>) -> Option<&'l Layer<'l>> {
+        layers.min_by(|a, b| a.depth.total_cmp(&b.depth))
+    }
+
+    fn is_shown(&self, layer: &Layer<'_>) -> bool {
+        layer.number + 1 == self.pile.shown
+    }
+
+    /// Whether what is shown is the nearest of some layers, or nothing where there are none.
+    fn shows_nearest(&self, is_kept: &dyn Fn(&Layer<'_>) -> bool) -> bool {
+        let kept = || self.pile.layers.iter().filter(|layer| is_kept(layer));
+        let Some(nearest) = Self::nearest(kept()) else { return self.pile.shown == 0 };
+        kept().any(|l| self.is_shown(l) && l.depth <= nearest.depth + self.allowance)
+    }
+
+    fn first(&self) -> Option<&Layer<'_>> {
+        Self::nearest(self.pile.layers.iter())
+    }
+
+    fn second(&self) -> Option<&Layer<'_>> {
+        let first = self.first()?.number;
+        Self::nearest(self.pile.layers.iter().filter(|layer| layer.number != first))
+    }
+
+    /// The triangle that a change shows; without one, that which is shown.
+    fn alternative(&self, change: Option<&Change>) -> Option<&Layer<'_>> {
+        let by_number = |number: usize| self.pile.layers.iter().find(|l| l.number == number);
+        match change {
+            None => by_number(self.pile.shown.checked_sub(1)?),
+            Some(Change::Test(test)) => {
+                by_number((test.shown(&self.pile).trailing_zeros() as usize).checked_sub(1)?)
+            }
+            Some(Change::Without(condition, _)) => {
+                Self::nearest(self.pile.layers.iter().filter(|l| !condition.holds(&self.row_of(l))))
+            }
+            Some(Change::Nothing) => None,
+            Some(Change::Second) => self.second(),
+        }
+    }
+
+    /// The quantities of the question and of one of the triangles.
+    fn row_of(&self, layer: &Layer<'_>) -> Vec<i64> {
+        let mut out = Quantities::after(self.asked.facts.clone());
+        self.of_place(&mut out);
+        self.of_layer(Some(layer), IT, &mut out);
+        out.values
+    }
+
+    /// The quantities of the pixel.
+    fn of_place(&self, out: &mut Quantities) {
+        let [x, y] = self.pile.spot.at.map(i64::from);
+        let window = self.pile.spot.window;
+        out.number(Unit::Paired, x, &["the column"]);
+        out.number(Unit::Paired, y, &["the row"]);
+        let right = i64::from(window.x1) - 1 - x;
+        out.number(Unit::Paired, right, &["the number of columns to its right in the window"]);
+        let below = i64::from(window.y1) - 1 - y;
+        out.number(Unit::Paired, below, &["the number of rows below it in the window"]);
+        let count = self.pile.layers.len() as i64;
+        out.number(Unit::Count, count, &["the number of triangles at the pixel"]);
+    }
+
+    /// The quantities of a triangle at the pixel; `whose` is said before them, such as 'its ', or after them.
+    fn of_layer(
+        &self,
+        layer: Option<&Layer<'_>>,
+        [whose, who, of_whom]: Whose,
+        out: &mut Quantities,
+    ) {
+        let Some(l) = layer else { return self.of_no_layer([whose, who, of_whom], out) };
+        let [x, y] = self.pile.spot.at;
+        let others = || self.pile.layers.iter().map(|other| other.number);
+        let before = others().filter(|other| *other < l.number).count() as i64;
+        let after = others().filter(|other| *other > l.number).count() as i64;
+        let corners = l.triangle.corners().map(|c| [c.x, c.y]);
+        let least = [0, 1].map(|axis| corners.iter().map(|c| c[axis]).min().unwrap_or(0));
+        let most = [0, 1].map(|axis| corners.iter().map(|c| c[axis]).max().unwrap_or(0));
+        let row = |v: i32| i64::from(v.div_euclid(SUBPIXELS));
+        let number = l.number as i64;
+        for (v, noun) in [
+            (number + 1, "place in the list (from 1)"),
+            (self.list_length() - number, "place in the list, counted from its end,"),
+            (before + 1, "place among the triangles at the pixel (from 1)"),
+            (after, "number of later triangles at the pixel"),
+            ((x - l.first).into(), "number of columns from the first pixel of the row"),
+            ((l.end - 1 - x).into(), "number of columns to the last pixel of the row"),
+            (i64::from(y) - row(least[1]), "number of rows from the top corner"),
+            (row(most[1]) - i64::from(y), "number of rows to the bottom corner"),
+        ] {
+            out.number(Unit::Count, v, &[whose, noun, of_whom]);
+        }
+        // Who draws by groups may forget the last ones.
+        for (group, noun) in [
+            (2, "place in the list (from 1) beyond the whole groups of 2"),
+            (4, "place in the list (from 1) beyond the whole groups of 4"),
+            (8, "place in the list (from 1) beyond the whole groups of 8"),
+            (16, "place in the list (from 1) beyond the whole groups of 16"),
+        ] {
+            let beyond = number + 1 - self.list_length() / group * group;
+            out.number(Unit::Count, beyond, &[whose, noun, of_whom]);
+        }
+        let area = twice_area(&l.triangle.corners());
+        out.number(Unit::Subpixels, (most[0] - least[0]).into(), &[whose, "width", of_whom]);
+        out.number(Unit::Subpixels, (most[1] - least[1]).into(), &[whose, "height", of_whom]);
+        out.number(Unit::Area, area.unsigned_abs() as i64, &[whose, "area", of_whom]);
+        let [a, b, c] = depths(l.triangle);
+        let sides = [self.pile.spot.window.x1, self.pile.spot.window.y1];
+        let leaves = (0..2).any(|i| least[i] < 0 || most[i] > sides[i] * SUBPIXELS);
+        for (holds, yes, no) in [
+            (area > 0, " is clockwise", " is not clockwise"),
+            (a == b && b == c, " has one depth everywhere", " has different depths at its corners"),
+            (leaves, " leaves the window", " lies within the window"),
+        ] {
+            out.holds(holds, who, [yes, no]);
+        }
+        let (near, far) = (a.min(b).min(c), a.max(b).max(c));
+        for (v, noun) in [
+            (l.depth, "depth at the pixel"),
+            (near, "least depth"),
+            (far, "greatest depth"),
+            (far - near, "difference of depths between corners"),
+        ] {
+            out.number(Unit::Value, value(v), &[whose, noun, of_whom]);
+        }
+    }
+
+    /// As many quantities of no triangle, of which no test holds.
+    fn of_no_layer(&self, whose: Whose, out: &mut Quantities) {
+        let start = out.values.len();
+        match self.pile.layers.first() {
+            Some(any) => self.of_layer(Some(any), whose, out),
+            None => out.values.extend([NONE; OF_LAYER]),
+        }
+        out.values[start..].fill(NONE);
+    }
+
+    fn list_length(&self) -> i64 {
+        match &self.asked.question.of {
+            Asked::Depth(list) => list.len() as i64,
+            _ => 0,
+        }
+    }
+}
+
+/// What is said before a quantity of a triangle, for the triangle, and after the quantity.
+type Whose = [&'static str; 3];
+const IT: Whose = ["its ", "it", ""];
+const NEAREST: Whose = ["the ", "the nearest triangle", " of the nearest triangle"];
+const SHOWN: Whose = ["the ", "the one shown instead", " of the one shown instead"];
+/// Quantities of a triangle.
+const OF_LAYER: usize = 22;
+
+impl Learnable for Depths {
+    type Part<'a> = PixelOfList<'a>;
+    type Change = Change;
+    const TOPIC: Topic = depth::TOPIC;
+    const PART: &'static str = "pixel";
+
+    fn of_question(_: &Case, _: &mut Quantities) {}
+
+    fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<PixelOfList<'a>> {
+        let Asked::Depth(list) = &asked.question.of else { return Vec::new() };
+        let largest = list.iter().flat_map(depths).fold(0.0, |m: f64, v| m.max(v.abs()));
+        let allowance = (2.0 * declared.tolerance + 16.0 * f64::EPSILON) * largest;
+        let noise = declared.tolerance.clamp(DepthTest::NOISE[0], DepthTest::NOISE[1]);
+        let piles = DepthTest::parts(&asked.question, &asked.answer, declared, noise);
+        piles.into_iter().map(|pile| PixelOfList { asked, pile, allowance }).collect()
+    }
+
+    fn is_right(part: &PixelOfList<'_>) -> bool {
+        part.shows_nearest(&|_| true)
+    }
+
+    fn explains(change: &Change, part: &PixelOfList<'_>) -> bool {
+        match change {
+            Change::Test(test) => test.explains(&part.pile),
+            Change::Without(condition, _) => {
+                part.shows_nearest(&|layer| !condition.holds(&part.row_of(layer)))
+            }
+            Change::Nothing => part.pile.shown == 0,
+            Change::Second => {
+                let first = part.first().map(|layer| layer.number);
+                part.shows_nearest(&|layer| Some(layer.number) != first)
+            }
+        }
+    }
+
+    fn of_part(part: &PixelOfList<'_>, change: Option<&Change>, out: &mut Quantities) {
+        part.of_place(out);
+        let (first, other) = (part.first(), part.alternative(change));
+        part.of_layer(first, NEAREST, out);
+        part.of_layer(other, SHOWN, out);
+        let both = first.zip(other);
+        let between =
+            |of: &dyn Fn(&Layer<'_>, &Layer<'_>) -> i64| both.map_or(NONE, |(a, b)| of(a, b));
+        out.number(
+            Unit::Count,
+            between(&|a, b| b.number as i64 - a.number as i64),
+            &["the place in the list of the one shown instead less that of the nearest"],
+        );
+        out.number(
+            Unit::Value,
+            between(&|a, b| value(b.depth - a.depth)),
+            &["the depth of the one shown instead less that of the nearest"],
+        );
+    }
+
+    fn changes(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>]) -> Vec<Change> {
+        let piles: Vec<&Pile<'_>> = wrong.iter().map(|part| &part.pile).collect();
+        let tests = singles::<DepthTest>(&piles).into_iter().map(Change::Test);
+        let left_out = left_out(wrong, right);
+        [Change::Nothing, Change::Second].into_iter().chain(left_out).chain(tests).collect()
+    }
+
+    fn both(a: &Change, b: &Change) -> Option<Change> {
+        let (Change::Test(a), Change::Test(b)) = (a, b) else { return None };
+        let both = a.with(b);
+        (both != *b).then_some(Change::Test(both))
+    }
+
+    fn says(change: &Change) -> String {
+        match change {
+            Change::Test(test) => Mistake::plain(test.clone()).says().does,
+            Change::Without(_, words) => format!("does not draw a triangle where {words}"),
+            Change::Nothing => "shows no triangle".to_owned(),
+            Change::Second => "shows the nearest triangle but one, or nothing,".to_owned(),
+        }
+    }
+}
+
+/// Which triangles are left out, where those that should be seen and are not have something in common.
+fn left_out(wrong: &[&PixelOfList<'_>], right: &[&PixelOfList<'_>]) -> Option<Change> {
+    let mut examples = Examples::default();
+    for part in wrong {
+        let shown = part.pile.layers.iter().find(|layer| part.is_shown(layer));
+        let lost =
+            part.pile.layers.iter().filter(|layer| {
+                shown.is_none_or(|shown| layer.depth + part.allowance < shown.depth)
+            });
+        for layer in lost {
+            examples.should(part.row_of(layer), part.asked.number);
+        }
+    }
+    for part in wrong.iter().chain(&spread(right, 2 * wrong.len())) {
+        let shown = part.pile.layers.iter().find(|layer| part.is_shown(layer));
+        shown.into_iter().for_each(|layer| examples.should_not(part.row_of(layer)));
+    }
+    let part = wrong.first()?;
+    let mut out = super::of_case::<Depths>(&part.asked.case, &Declared::default(), true);
+    part.of_place(&mut out);
+    part.of_layer(part.pile.layers.first(), IT, &mut out);
+    let names = Vocabulary::of(out);
+    let wanted = ConditionTerms { facts: 3, questions: 3, slack: 0 };
+    let condition = examples.best(&names, wanted)?;
+    let words = condition.words(&names);
+    Some(Change::Without(condition, words))
+}

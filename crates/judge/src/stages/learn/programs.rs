@@ -1,0 +1,246 @@
+//! Wrong programs as altered answers of a right engine: what is learned of each.
+
+use glam::DVec2;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_registry::engines;
+use rasterproof_verify::cases::Triangle;
+
+use super::{Learned, MOST_TO_LEARN, learn};
+use crate::ask::{Answer, Asked, Question, Subject};
+use crate::check::{Check, Truth};
+use crate::declared::Declared;
+use crate::depth::Pile;
+use crate::expected::{Expect as _, exact_values};
+use crate::in_process::Inside;
+use crate::pixels::masks_of;
+
+/// What is wrong of an answer to a question.
+type Alter = fn(&Question, &mut Answer, &mut Inside);
+
+struct AlteredEngine(Inside, Alter);
+
+impl Subject for AlteredEngine {
+    fn declared(&self) -> &Declared {
+        self.0.declared()
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        let mut answers = self.0.ask(questions, most_deaths);
+        for (question, answer) in questions.iter().zip(&mut answers) {
+            (self.1)(question, answer, &mut self.0);
+        }
+        answers
+    }
+}
+
+fn learned(check: Check, alter: Alter) -> Learned {
+    let mut program = AlteredEngine(Inside::new(engines::find("scanline").unwrap()), alter);
+    let truth = Truth::of(program.declared());
+    let learned = learn(&mut program, check, &truth, MOST_TO_LEARN).unwrap();
+    println!("{}", learned.sentences().join("\n"));
+    learned
+}
+
+/// That all is predicted, and what is said of it first.
+fn explains(check: Check, alter: Alter, said: &str) {
+    let learned = learned(check, alter);
+    assert!(learned.is_certain, "{:?}", learned.sentences());
+    assert!(learned.does.iter().any(|does| does.contains(said)), "{:?}", learned.does);
+}
+
+/// The answer to another question.
+fn ask(engine: &mut Inside, question: &Question, of: Asked) -> Answer {
+    engine.ask(&[Question { of, ..question.clone() }], 1).remove(0)
+}
+
+/// The triangles that are seen without some of them.
+fn without(
+    question: &Question,
+    engine: &mut Inside,
+    is_kept: &dyn Fn(usize, &Triangle) -> bool,
+) -> Answer {
+    let Asked::Depth(list) = &question.of else { panic!("depth") };
+    let kept: Vec<usize> = (0..list.len()).filter(|&i| is_kept(i, &list[i])).collect();
+    if kept.is_empty() {
+        return Answer::Seen(Vec::new());
+    }
+    let some = kept.iter().map(|&i| list[i]).collect();
+    match ask(engine, question, Asked::Depth(some)) {
+        Answer::Seen(runs) => Answer::Seen(
+            runs.into_iter().map(|(run, t)| (run, kept[usize::from(t)] as u8)).collect(),
+        ),
+        other => other,
+    }
+}
+
+/// Each value of each pixel: which one, at which column and row.
+fn each_value(answer: &mut Answer, alter: &dyn Fn(usize, [i32; 2], f64) -> f64) {
+    let Answer::Values(fragments) = answer else { return };
+    for f in fragments {
+        let at = [f.x_px, f.y_px];
+        f.depth = alter(0, at, f.depth);
+        f.varying.x = alter(1, at, f.varying.x);
+        f.varying.y = alter(2, at, f.varying.y);
+    }
+}
+
+#[test]
+fn triangles_from_the_seventeenth_on_are_not_drawn() {
+    let alter: Alter = |question, answer, engine| {
+        *answer = without(question, engine, &|number, _| number < 16);
+    };
+    explains(
+        Check::Depth,
+        alter,
+        "does not draw a triangle where its place in the list (from 1) is 17 or more",
+    );
+}
+
+#[test]
+fn the_last_triangle_is_shown_in_wide_windows() {
+    let alter: Alter = |question, answer, engine| {
+        let Asked::Depth(list) = &question.of else { return };
+        if question.width <= 12 {
+            return;
+        }
+        // Of each pixel the last triangle that covers it: each is asked alone.
+        let mut seen = std::collections::BTreeMap::new();
+        for (number, triangle) in list.iter().enumerate() {
+            let Answer::Seen(runs) = ask(engine, question, Asked::Depth(vec![*triangle])) else {
+                return;
+            };
+            for (run, _) in runs {
+                seen.extend((run.x0_px..run.x1_px).map(|x| ((run.y_px, x), number as u8)));
+            }
+        }
+        let run = |(y_px, x): (i32, i32)| Span { y_px, x0_px: x, x1_px: x + 1 };
+        *answer = Answer::Seen(seen.into_iter().map(|(at, number)| (run(at), number)).collect());
+    };
+    explains(Check::Depth, alter, "the width of the window");
+}
+
+#[test]
+fn the_last_sample_is_lost_in_odd_rows() {
+    let alter: Alter = |question, answer, _| {
+        let Answer::Samples(runs) = answer else { return };
+        let window = PixelRect::window(question.width, question.height);
+        let mut changed = Vec::new();
+        for (y_px, row) in masks_of(runs, window).rows() {
+            for (x, mask) in (0..).zip(row) {
+                let mask = if y_px % 2 == 1 { mask & 7 } else { *mask };
+                if mask > 0 {
+                    changed.push((Span { y_px, x0_px: x, x1_px: x + 1 }, mask));
+                }
+            }
+        }
+        *runs = changed;
+    };
+    explains(Check::Samples, alter, "its row is odd");
+}
+
+#[test]
+fn a_triangle_with_one_corner_behind_is_dropped_where_w_is_negative() {
+    let alter: Alter = |question, answer, _| {
+        let (Asked::Near(t), Answer::Polygon(corners)) = (&question.of, answer) else { return };
+        if t.vertices[1].varying.x < 0.0 {
+            corners.clear();
+        }
+    };
+    explains(Check::Near, alter, "w of the second corner");
+}
+
+#[test]
+fn the_second_attribute_is_the_first_in_odd_columns() {
+    let alter: Alter = |_, answer, _| {
+        let Answer::Values(fragments) = answer else { return };
+        for f in fragments.iter_mut().filter(|f| f.x_px % 2 == 1) {
+            f.varying.y = f.varying.x;
+        }
+    };
+    explains(Check::Values, alter, "gives the first attribute");
+}
+
+#[test]
+fn a_fraction_of_depth_is_added_in_the_right_half() {
+    let alter: Alter = |_, answer, _| {
+        each_value(answer, &|which, [x, _], v| if which == 0 && x >= 10 { v + 0.125 } else { v });
+    };
+    explains(Check::Values, alter, "gives the right value plus 0.125");
+}
+
+/// A program that is right by what it declares.
+struct Conventional(Declared);
+
+impl Subject for Conventional {
+    fn declared(&self) -> &Declared {
+        &self.0
+    }
+
+    fn ask(&mut self, questions: &[Question], _: u64) -> Vec<Answer> {
+        questions.iter().map(|question| self.answer(question)).collect()
+    }
+}
+
+impl Conventional {
+    fn answer(&self, question: &Question) -> Answer {
+        let window = PixelRect::window(question.width, question.height);
+        match &question.of {
+            Asked::Depth(list) => {
+                let pile = Pile::new(list, window, &self.0, &self.0);
+                Answer::Seen(pile.map_or_else(Vec::new, |pile| pile.runs()))
+            }
+            Asked::Values(triangle) => {
+                let covered = self.0.picture(&triangle.corners(), window);
+                let exact = exact_values(triangle, &self.0);
+                let mut fragments = Vec::new();
+                for (exact, span) in exact.iter().flat_map(|exact| {
+                    covered.iter().flat_map(|c| &c.must).map(move |span| (exact, span))
+                }) {
+                    fragments.extend((span.x0_px..span.x1_px).map(|x_px| {
+                        let (depth, [a, b]) = exact.at(x_px, span.y_px);
+                        let varying = DVec2::new(a.to_f64(), b.to_f64());
+                        let depth = depth.to_f64();
+                        Fragment { x_px, y_px: span.y_px, depth, varying }
+                    }));
+                }
+                Answer::Values(fragments)
+            }
+            _ => Answer::Refused("unsupported".to_owned()),
+        }
+    }
+}
+
+/// Right programs of other conventions have no wrong answer to learn from.
+#[test]
+fn right_programs_of_other_conventions_are_not_explained() {
+    for words in [
+        "",
+        "origin=0,0",
+        "origin=0.25,1 rule=bottom-right grid=16",
+        "rule=strict winding=cw",
+        "rule=inclusive window=20x20",
+        "rule=none tolerance=1e-6",
+    ] {
+        let words = format!("HELLO 2 x depth attributes tolerance=1e-9 {words}");
+        let mut program = Conventional(Declared::parse(&words).unwrap());
+        let truth = Truth::of(&program.0);
+        for check in [Check::Depth, Check::Values] {
+            let learned = learn(&mut program, check, &truth, 700);
+            assert!(learned.is_none(), "{words}: {:?}", learned.map(|l| l.sentences()));
+        }
+    }
+}
+
+#[test]
+fn what_is_random_is_not_explained() {
+    let alter: Alter = |_, answer, _| {
+        each_value(answer, &|which, [x, y], v| {
+            let mixed = (x * 7919 + y * 104_729).wrapping_mul(31) % 17 + (v * 1e6) as i32 % 13;
+            if which == 1 && mixed % 5 == 0 { v + f64::from(mixed) / 64.0 } else { v }
+        });
+    };
+    let learned = learned(Check::Values, alter);
+    assert!(!learned.is_certain);
+    assert!(!learned.known.is_empty());
+}

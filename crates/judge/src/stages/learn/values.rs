@@ -1,0 +1,456 @@
+//! Values of pixels: depth and both attributes, each on its own.
+//!
+//! A change is a recipe of [`values`], or a *relation*: the value is a number times a term, which may be added to the right
+//! value. Terms are what a program has at hand in a pixel; the number is read off the answers.
+
+use std::rc::Rc;
+
+use super::{Learnable, LearnedCase};
+use crate::ask::{Answer, Asked};
+use crate::declared::Declared;
+use crate::expected::value_bounds;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
+use rasterproof_verify::cases::facts::{self, Topic};
+use rasterproof_verify::cases::{Case, Triangle};
+use rasterproof_verify::learn::rows::{NONE, Quantities, TriangleInWindow, Unit, value};
+use rasterproof_verify::mistakes::values::{self, ValueHypothesis, sum, weights};
+
+pub struct Values;
+
+/// A triangle with what is the same in all of its pixels.
+struct TriangleOfValues<'a> {
+    triangle: &'a Triangle,
+    /// The values of the corners: depths and both attributes.
+    corners: [[f64; 3]; 3],
+    /// Where samples lie in their pixel, in pixels.
+    sample: [f64; 2],
+    facts: TriangleInWindow,
+}
+
+/// A value of a pixel.
+pub struct ValueOfPixel<'a> {
+    of: Rc<TriangleOfValues<'a>>,
+    at: [i32; 2],
+    /// 0 is depth, 1 and 2 are the attributes.
+    which: usize,
+    given: f64,
+    right: [f64; 3],
+    allowed: f64,
+}
+
+/// What a program has at hand in a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Term {
+    One,
+    Right,
+    /// Another one of the three values.
+    Other(usize),
+    /// Depth corrected for perspective; an attribute that is not.
+    Uncorrected,
+    Corner(usize),
+    Least,
+    Most,
+    Mean,
+    /// How the value changes to the next pixel along x or y.
+    Slope(usize),
+    /// The same for each pixel from the left side of the window, or from the top.
+    SlopeFromSide(usize),
+    W,
+    InverseW,
+    TimesW,
+    OverW,
+    Squared,
+    /// The place of the sample, in pixels.
+    Place(usize),
+}
+
+const TERMS: [Term; 22] = [
+    Term::Right,
+    Term::One,
+    Term::Other(0),
+    Term::Other(1),
+    Term::Other(2),
+    Term::Uncorrected,
+    Term::Corner(0),
+    Term::Corner(1),
+    Term::Corner(2),
+    Term::Least,
+    Term::Most,
+    Term::Mean,
+    Term::Slope(0),
+    Term::Slope(1),
+    Term::SlopeFromSide(0),
+    Term::SlopeFromSide(1),
+    Term::W,
+    Term::InverseW,
+    Term::TimesW,
+    Term::OverW,
+    Term::Squared,
+    Term::Place(0),
+];
+
+/// What a term is added to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Base {
+    Nothing,
+    Right,
+    /// The right value with its other sign.
+    Negated,
+    Uncorrected,
+}
+
+#[derive(Clone)]
+pub enum Change {
+    Relation {
+        base: Base,
+        by: f64,
+        term: Term,
+    },
+    /// No number: not finite.
+    NoNumber,
+    Recipe(Rc<ValueHypothesis>),
+}
+
+const IS: [[&str; 2]; 3] = [
+    [" is depth", " is not depth"],
+    [" is the first attribute", " is not the first attribute"],
+    [" is the second attribute", " is not the second attribute"],
+];
+const NAMES: [&str; 3] = ["depth", "the first attribute", "the second attribute"];
+
+impl TriangleOfValues<'_> {
+    /// Values at a place, in pixels.
+    fn values(&self, at: [f64; 2]) -> [f64; 3] {
+        let linear = weights(&self.triangle.corners(), at);
+        let parts = [0, 1, 2].map(|i| linear[i] * self.triangle.vertices[i].inv_w);
+        let whole: f64 = parts.iter().sum();
+        let corrected = parts.map(|part| part / whole);
+        [0, 1, 2].map(|k| sum(if k == 0 { linear } else { corrected }, self.corners[k]))
+    }
+
+    fn inverse_w(&self, at: [f64; 2]) -> f64 {
+        sum(weights(&self.triangle.corners(), at), self.triangle.vertices.map(|v| v.inv_w))
+    }
+}
+
+impl ValueOfPixel<'_> {
+    fn place(&self) -> [f64; 2] {
+        [0, 1].map(|axis| f64::from(self.at[axis]) + self.of.sample[axis])
+    }
+
+    fn right(&self) -> f64 {
+        self.right[self.which]
+    }
+
+    fn term(&self, term: Term) -> f64 {
+        let corners = self.of.corners[self.which];
+        let at = self.place();
+        let slope = |axis: usize| {
+            let mut next = at;
+            next[axis] += 1.0;
+            self.of.values(next)[self.which] - self.right()
+        };
+        match term {
+            Term::One => 1.0,
+            Term::Right => self.right(),
+            Term::Other(k) => self.right[k],
+            Term::Uncorrected => {
+                let linear = weights(&self.of.triangle.corners(), at);
+                match self.which {
+                    0 => {
+                        let parts =
+                            [0, 1, 2].map(|i| linear[i] * self.of.triangle.vertices[i].inv_w);
+                        sum(parts, corners) / parts.iter().sum::<f64>()
+                    }
+                    _ => sum(linear, corners),
+                }
+            }
+            Term::Corner(i) => corners[i],
+            Term::Least => corners.into_iter().fold(f64::MAX, f64::min),
+            Term::Most => corners.into_iter().fold(f64::MIN, f64::max),
+            Term::Mean => corners.iter().sum::<f64>() / 3.0,
+            Term::Slope(axis) => slope(axis),
+            Term::SlopeFromSide(axis) => slope(axis) * f64::from(self.at[axis]),
+            Term::W => 1.0 / self.of.inverse_w(at),
+            Term::InverseW => self.of.inverse_w(at),
+            Term::TimesW => self.right() / self.of.inverse_w(at),
+            Term::OverW => self.right() * self.of.inverse_w(at),
+            Term::Squared => self.right() * self.right(),
+            Term::Place(axis) => at[axis],
+        }
+    }
+
+    fn base(&self, base: Base) -> f64 {
+        match base {
+            Base::Nothing => 0.0,
+            Base::Right => self.right(),
+            Base::Negated => -self.right(),
+            Base::Uncorrected => self.term(Term::Uncorrected),
+        }
+    }
+
+    /// Whether a predicted value is the given one: predictions are rounded too, but what is as near to the right value explains
+    /// nothing.
+    fn is(&self, predicted: f64) -> bool {
+        let off = (self.given - predicted).abs();
+        let allowed = self.allowed.max(1e-12 * predicted.abs());
+        off <= allowed || (off <= 10.0 * allowed && 2.0 * off <= (self.given - self.right()).abs())
+    }
+}
+
+/// Fragments of one answer that are looked at.
+const MOST_PIXELS: usize = 60;
+
+impl Learnable for Values {
+    type Part<'a> = ValueOfPixel<'a>;
+    type Change = Change;
+    const TOPIC: Topic = facts::values::TOPIC;
+    const PART: &'static str = "value";
+
+    fn of_question(case: &Case, out: &mut Quantities) {
+        let Some(t) = case.triangles().first() else { return };
+        TriangleInWindow::new(&t.corners(), case.window, &mut std::iter::empty()).of_question(out);
+        let w = t.vertices.map(|v| 1.0 / v.inv_w);
+        let (least, most) = w.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+        out.number(Unit::Value, value(most / least), &["the largest w over the smallest"]);
+        out.number(Unit::Value, value(least), &["the smallest w"]);
+        out.number(Unit::Value, value(most), &["the largest w"]);
+        const ORDINALS: [&str; 3] = ["first", "second", "third"];
+        let corners = t.vertices.map(|v| [1.0 / v.inv_w, v.depth, v.varying.x, v.varying.y]);
+        let names = ["w", NAMES[0], NAMES[1], NAMES[2]];
+        for (k, name) in names.into_iter().enumerate() {
+            for (i, ordinal) in ORDINALS.iter().enumerate() {
+                let next = (i + 1) % 3;
+                let (v, other) = (corners[i][k], corners[next][k]);
+                out.number(Unit::Value, value(v), &[name, " of the ", ordinal, " corner"]);
+                let pair = [ordinal, " corner less that of the ", ORDINALS[next]];
+                out.number(
+                    Unit::Value,
+                    value(v - other),
+                    &[&[name, " of the "], &pair[..]].concat(),
+                );
+            }
+        }
+    }
+
+    fn parts<'a>(asked: &'a LearnedCase, declared: &Declared) -> Vec<ValueOfPixel<'a>> {
+        let (Asked::Values(triangle), Answer::Values(fragments)) =
+            (&asked.question.of, &asked.answer)
+        else {
+            return Vec::new();
+        };
+        let window = PixelRect::window(asked.question.width, asked.question.height);
+        let is_in = |x: i32, y: i32| window.contains(x, y);
+        let mut covered = fragments.iter().map(|f| [f.x_px, f.y_px]).filter(|[x, y]| is_in(*x, *y));
+        let facts = TriangleInWindow::new(&triangle.corners(), window, &mut covered);
+        let v = &triangle.vertices;
+        let corners = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)];
+        let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
+        let bounds = value_bounds(triangle, declared.tolerance.max(1e-12));
+        let of = Rc::new(TriangleOfValues { triangle, corners, sample, facts });
+        let step = fragments.len().div_ceil(MOST_PIXELS).max(1);
+        let mut parts = Vec::new();
+        for f in fragments.iter().step_by(step).filter(|f| is_in(f.x_px, f.y_px)) {
+            let at = [f.x_px, f.y_px];
+            let right = of.values([0, 1].map(|axis| f64::from(at[axis]) + sample[axis]));
+            let given = [f.depth, f.varying.x, f.varying.y];
+            parts.extend([0, 1, 2].map(|which| ValueOfPixel {
+                of: Rc::clone(&of),
+                at,
+                which,
+                given: given[which],
+                right,
+                allowed: bounds[which],
+            }));
+        }
+        parts
+    }
+
+    fn is_right(part: &ValueOfPixel<'_>) -> bool {
+        (part.given - part.right()).abs() <= part.allowed
+    }
+
+    fn explains(change: &Change, part: &ValueOfPixel<'_>) -> bool {
+        match change {
+            Change::Relation { base, by, term } => {
+                part.is(part.base(*base) + by * part.term(*term))
+            }
+            Change::NoNumber => !part.given.is_finite(),
+            Change::Recipe(recipe) => {
+                let predicted = recipe.predict(part.of.triangle, (part.at[0], part.at[1]));
+                predicted.is_some_and(|values| part.is(values[part.which]))
+            }
+        }
+    }
+
+    fn of_part(part: &ValueOfPixel<'_>, _: Option<&Change>, out: &mut Quantities) {
+        part.of.facts.of_pixel(part.at, out);
+        for (k, is) in IS.into_iter().enumerate() {
+            out.holds(part.which == k, "the value", is);
+        }
+        let real = |term: Term| value(part.term(term));
+        out.number(Unit::Value, real(Term::Right), &["the right value"]);
+        out.number(Unit::Value, value(part.right().abs()), &["the right value without sign"]);
+        let whole = part.right() == part.right().round() && part.right().abs() < 1e15;
+        out.flag(
+            whole,
+            &["the right value is a whole number"],
+            "the right value is no whole number",
+        );
+        out.number(Unit::Value, real(Term::Least), &["the least of its values at the corners"]);
+        out.number(Unit::Value, real(Term::Most), &["the greatest of its values at the corners"]);
+        let spread = part.term(Term::Most) - part.term(Term::Least);
+        out.number(Unit::Value, value(spread), &["the difference of its values at the corners"]);
+        out.number(Unit::Value, real(Term::W), &["w at the pixel"]);
+        for (axis, name) in ["x", "y"].iter().enumerate() {
+            out.number(
+                Unit::Value,
+                real(Term::Slope(axis)),
+                &["its change to the next pixel along ", name],
+            );
+        }
+        let weights = weights(&part.of.triangle.corners(), part.place());
+        let (mut most, mut least) = (0, f64::MAX);
+        for (i, weight) in weights.into_iter().enumerate() {
+            let ordinal = ["first", "second", "third"][i];
+            out.number(Unit::Value, value(weight), &["the weight of the ", ordinal, " corner"]);
+            most = if weight > weights[most] { i } else { most };
+            least = least.min(weight);
+        }
+        out.number(
+            Unit::Count,
+            most as i64 + 1,
+            &["the number of the corner with the largest weight"],
+        );
+        out.number(
+            Unit::Value,
+            if least.is_finite() { value(least) } else { NONE },
+            &["the smallest weight of a corner"],
+        );
+    }
+
+    fn changes(wrong: &[&ValueOfPixel<'_>], _: &[&ValueOfPixel<'_>]) -> Vec<Change> {
+        let mut all = vec![Change::NoNumber];
+        for base in [Base::Nothing, Base::Right, Base::Uncorrected, Base::Negated] {
+            for term in TERMS {
+                all.extend(related(base, term, wrong));
+            }
+        }
+        let is_centred = wrong.first().is_some_and(|part| {
+            part.of.sample == [f64::from(HALF_PIXEL) / f64::from(SUBPIXELS); 2]
+        });
+        if is_centred {
+            let recipes = values::of_values([[1.0, 0.0]; 3], &[]).into_iter();
+            all.extend(recipes.map(|recipe| Change::Recipe(Rc::new(recipe))));
+        }
+        all
+    }
+
+    fn says(change: &Change) -> String {
+        let (base, by, term) = match change {
+            Change::NoNumber => return "gives a value that is no number".to_owned(),
+            Change::Recipe(recipe) => return recipe.says.does.clone(),
+            Change::Relation { base, by, term } => (*base, *by, *term),
+        };
+        let word = match term {
+            Term::One => String::new(),
+            Term::Right => "the right value".to_owned(),
+            Term::Other(k) => NAMES[k].to_owned(),
+            Term::Uncorrected => UNCORRECTED.to_owned(),
+            Term::Corner(i) => {
+                format!("the value of the {} corner", ["first", "second", "third"][i])
+            }
+            Term::Least => "the least value of the corners".to_owned(),
+            Term::Most => "the greatest value of the corners".to_owned(),
+            Term::Mean => "the mean of the corners".to_owned(),
+            Term::Slope(axis) => format!("the change to the next pixel along {}", ["x", "y"][axis]),
+            Term::SlopeFromSide(0) => {
+                "the column times the change to the next pixel along x".to_owned()
+            }
+            Term::SlopeFromSide(_) => {
+                "the row times the change to the next pixel along y".to_owned()
+            }
+            Term::W => "w".to_owned(),
+            Term::InverseW => "1/w".to_owned(),
+            Term::TimesW => "the right value times w".to_owned(),
+            Term::OverW => "the right value over w".to_owned(),
+            Term::Squared => "the square of the right value".to_owned(),
+            Term::Place(axis) => format!("the {} of the sample", ["x", "y"][axis]),
+        };
+        let size = by.abs();
+        let product = match (word.is_empty(), size == 1.0) {
+            (true, _) => format!("{size}"),
+            (_, true) => word,
+            _ => format!("{size} times {word}"),
+        };
+        let sign = if by < 0.0 { "less" } else { "plus" };
+        match base {
+            Base::Nothing if by < 0.0 => format!("gives minus {product}"),
+            Base::Nothing => format!("gives {product}"),
+            Base::Right => format!("gives the right value {sign} {product}"),
+            Base::Negated => format!("gives minus the right value {sign} {product}"),
+            Base::Uncorrected => format!("gives {UNCORRECTED} {sign} {product}"),
+        }
+    }
+}
+
+const UNCORRECTED: &str =
+    "the value interpolated the other way (depth with perspective, attributes without)";
+
+/// Numbers of a term that are read off at most, and values that one must explain.
+const MOST_NUMBERS: usize = 2;
+const LEAST_VALUES: usize = 6;
+/// How well a value must tell a number.
+const TELLING: f64 = 0.02;
+
+/// The numbers with which most of some wrong values are such a term, added to something. Each value allows a range of numbers,
+/// and a number is one that lies in most of the ranges.
+fn related(base: Base, term: Term, wrong: &[&ValueOfPixel<'_>]) -> Vec<Change> {
+    let mut ranges: Vec<[f64; 2]> = Vec::new();
+    for part in wrong {
+        let (of, start) = (part.term(term), part.given - part.base(base));
+        let both = [(start - part.allowed) / of, (start + part.allowed) / of];
+        let range = [both[0].min(both[1]), both[0].max(both[1])];
+        let is_telling = range[1] - range[0] <= TELLING * range[0].abs().max(range[1].abs());
+        // A range that holds 0 tells nothing: without the term the value would be as it is.
+        if range.iter().all(|v| v.is_finite()) && is_telling && range[0] * range[1] > 0.0 {
+            ranges.push(range);
+        }
+    }
+    let mut found = Vec::new();
+    while found.len() < MOST_NUMBERS && ranges.len() >= LEAST_VALUES {
+        let (count, range) = densest(&ranges);
+        if count < LEAST_VALUES || 10 * count < ranges.len() {
+            break;
+        }
+        let by = values::simplest(range[0], range[1]);
+        // What is added to nothing and is the right value is no change.
+        if !(base == Base::Nothing && term == Term::Right && by == 1.0) {
+            found.push(Change::Relation { base, by, term });
+        }
+        ranges.retain(|[low, high]| *high < range[0] || *low > range[1]);
+    }
+    found
+}
+
+/// The part of a line that most ranges share, and how many do.
+fn densest(ranges: &[[f64; 2]]) -> (usize, [f64; 2]) {
+    let mut ends: Vec<(f64, bool)> = Vec::new();
+    for [low, high] in ranges {
+        ends.extend([(*low, false), (*high, true)]);
+    }
+    // Where one begins as another ends, they share a point.
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let (mut open, mut best) = (0_usize, (0, [0.0; 2]));
+    for (i, (at, is_end)) in ends.iter().enumerate() {
+        if *is_end {
+            open -= 1;
+            continue;
+        }
+        open += 1;
+        if open > best.0 {
+            best = (open, [*at, ends[i + 1].0]);
+        }
+    }
+    best
+}
