@@ -5,11 +5,11 @@
 //! triangle of its own around the pixel's centre, with the values that the whole one has there. What is drawn is that scene, with all
 //! effects, by the same two engines. Nothing of the engines is changed, and neither engine decides alone what the other one draws.
 
-use std::time::Instant;
+use std::cell::Cell;
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{Rasterize as _, RasterizeExact};
+use rasterproof_core::contract::{Rasterize, RasterizeExact};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
@@ -17,6 +17,7 @@ use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::triangle::{Corners, FreeCorners, ScreenTriangle, Span, Varying};
+use rasterproof_precision::cost::{Pass, Timing, compare};
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::scene::{Attribute, Corner, Hidden, Item, Mesh, Normals, Scene};
 use rasterproof_render::scene::{Shading, Triangles};
@@ -266,9 +267,9 @@ pub struct GridPrice {
     pub edge_function_ms: f64,
 }
 
-/// The price of each grid, coverage measured so many times.
+/// The price of each grid. The coverage of all grids is timed in the same rounds, so many times.
 pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<GridPrice>, BadScene> {
-    let mut prices = Vec::new();
+    let (mut prices, mut outlines) = (Vec::new(), Vec::new());
     let mut unsnapped: Option<Frame<u32>> = None;
     for grid in CornerGrid::ALL.into_iter().rev() {
         let (pieces, _) = pieces_and_lost(scene, window, grid)?;
@@ -283,11 +284,76 @@ pub fn prices(scene: &Scene, window: PixelRect, rounds: usize) -> Result<Vec<Gri
                 }
             }
         }
-        let [scanline_ms, edge_function_ms] = times(&pieces, window, grid, rounds);
+        outlines.push(Outlines::new(&pieces, grid));
+        let [scanline_ms, edge_function_ms] = [0.0; 2];
         prices.push(GridPrice { bits: grid.bits(), changed, first, scanline_ms, edge_function_ms });
     }
+    // The pixels that were covered, so that no pass is left out as idle.
+    let covered = Cell::new(0);
+    let add = |pixels: usize| covered.set(covered.get() + pixels);
+    let mut passes = Vec::new();
+    for outlines in &outlines {
+        passes.push(Pass::new(move || add(outlines.covered(&Scanline, &ScanlineExact, window))));
+        passes.push(Pass::new(move || {
+            add(outlines.covered(&EdgeFunction, &EdgeFunctionExact, window))
+        }));
+    }
+    let timing = Timing { rounds: Some(rounds.max(1)), ..Timing::USUAL };
+    let times = compare(&mut passes, timing, &|_| Vec::new(), &|_| ());
+    for (price, times) in prices.iter_mut().zip(times.chunks(2)) {
+        [price.scanline_ms, price.edge_function_ms] = [0, 1].map(|at| times[at].median() / 1e6);
+    }
+    std::hint::black_box(covered.get());
     prices.reverse();
     Ok(prices)
+}
+
+/// The corners of all pieces on a grid: whole numbers where the engines' words hold them, else floats.
+enum Outlines {
+    Whole(Vec<Corners>),
+    Free(Vec<FreeCorners>),
+}
+
+impl Outlines {
+    fn new(pieces: &[Piece], grid: CornerGrid) -> Self {
+        let (mut whole, mut free) = (Vec::new(), Vec::new());
+        for piece in pieces {
+            let placed = grid.place(piece.px);
+            if grid.is_whole() {
+                let points = placed.map_array(|[x, y]| SubpixelPoint::from_px(x, y).ok());
+                if let [Some(a), Some(b), Some(c)] = points {
+                    whole.push([a, b, c]);
+                }
+            } else {
+                free.extend(FreeCorners::new(placed).ok());
+            }
+        }
+        if grid.is_whole() { Self::Whole(whole) } else { Self::Free(free) }
+    }
+
+    /// Pixels that an engine covers.
+    fn covered(
+        &self,
+        whole: &impl Rasterize,
+        free: &impl RasterizeExact,
+        window: PixelRect,
+    ) -> usize {
+        let mut count = 0;
+        let mut add = |span: Span| count += span.pixels();
+        match self {
+            Self::Whole(all) => {
+                for corners in all {
+                    whole.cover(*corners, window, &mut add);
+                }
+            }
+            Self::Free(all) => {
+                for corners in all {
+                    free.cover_exact(corners, window, &mut add);
+                }
+            }
+        }
+        count
+    }
 }
 
 /// Which triangle is seen in each pixel, by the depths of the planes before corners are put on a grid.
@@ -308,44 +374,4 @@ fn seen(pieces: &[Piece], window: PixelRect, grid: CornerGrid) -> Frame<u32> {
         });
     }
     seen
-}
-
-/// Median times of the coverage of all pieces by both engines, in ms: by whole numbers where the engines' words hold the grid, else by the
-/// exact engines. Putting corners on the grid is no part of it.
-fn times(pieces: &[Piece], window: PixelRect, grid: CornerGrid, rounds: usize) -> [f64; 2] {
-    let free = pieces.iter().filter_map(|piece| FreeCorners::new(grid.place(piece.px)).ok());
-    let free: Vec<FreeCorners> = free.collect();
-    let whole = pieces.iter().filter_map(|piece| {
-        let [a, b, c] = grid.place(piece.px).map_array(|[x, y]| SubpixelPoint::from_px(x, y).ok());
-        Some([a?, b?, c?])
-    });
-    let whole: Vec<Corners> = if grid.is_whole() { whole.collect() } else { Vec::new() };
-    let mut count = 0;
-    let mut add = |span: Span| count += span.pixels();
-    let mut all = [Vec::new(), Vec::new()];
-    for _ in 0..rounds.max(1) {
-        let start = Instant::now();
-        if grid.is_whole() {
-            whole.iter().for_each(|corners| Scanline.cover(*corners, window, &mut add));
-        } else {
-            for corners in &free {
-                ScanlineExact.cover_exact(corners, window, &mut add);
-            }
-        }
-        all[0].push(start.elapsed().as_secs_f64() * 1e3);
-        let start = Instant::now();
-        if grid.is_whole() {
-            whole.iter().for_each(|corners| EdgeFunction.cover(*corners, window, &mut add));
-        } else {
-            for corners in &free {
-                EdgeFunctionExact.cover_exact(corners, window, &mut add);
-            }
-        }
-        all[1].push(start.elapsed().as_secs_f64() * 1e3);
-    }
-    std::hint::black_box(count);
-    all.map(|mut times| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    })
 }
