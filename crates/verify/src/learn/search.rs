@@ -21,6 +21,8 @@ const FEW: usize = 8;
 const MOST_OF_ONE: usize = 240;
 /// The most steps of a model.
 const MOST_STEPS: usize = 3;
+/// The share of answers from which a model is nearly whole.
+const NEARLY: f64 = 0.9;
 /// Questions that a pixel rule must explain, and that a guard must.
 const NEED: usize = 4;
 
@@ -98,10 +100,12 @@ impl Search<'_> {
             let model = best(&tried).model.clone();
             tried.push(self.tried(self.with_steps(&model, 2, 1)));
         }
-        if !best(&tried).is_whole() {
+        // What is nearly whole is not begun anew: what refutes it goes into the next search.
+        let is_near = |tried: &[Tried]| best(tried).wrong > NEARLY && best(tried).right > NEARLY;
+        if !is_near(&tried) {
             self.under_a_rule(&mut tried);
         }
-        if !best(&tried).is_whole() {
+        if !is_near(&tried) {
             for (_, base) in ranked.iter().take(2) {
                 let model = Model { chain: vec![always(base)], ..Model::default() };
                 tried.push(self.tried(self.with_steps(&model, 2, 1)));
