@@ -138,15 +138,15 @@ fn answers(
     all.map(answer).collect()
 }
 
-/// A choice of coverage with its group.
+/// A choice that was timed, with its group.
 #[derive(Clone, Copy)]
-struct OfCoverage<'a> {
+struct TimedChoice<'a> {
     group: &'a Group,
     judged: &'a JudgedChoice,
     time: &'a Times,
 }
 
-impl OfCoverage<'_> {
+impl TimedChoice<'_> {
     fn name(&self) -> String {
         format!("{} by {}", self.judged.name(), self.group.title.trim_start_matches(COVERAGE))
     }
@@ -182,11 +182,11 @@ fn accuracy(groups: &[Group]) -> String {
         let timed = group.choices.iter().filter(|judged| judged.refused.is_none());
         all.extend(
             timed.filter_map(|judged| {
-                Some(OfCoverage { group, judged, time: judged.time.as_ref()? })
+                Some(TimedChoice { group, judged, time: judged.time.as_ref()? })
             }),
         );
     }
-    let least = |of: &dyn Fn(&OfCoverage<'_>) -> bool| {
+    let least = |of: &dyn Fn(&TimedChoice<'_>) -> bool| {
         let of = all.iter().filter(|one| of(one));
         of.min_by(|a, b| a.time.median().total_cmp(&b.time.median()))
     };
@@ -377,44 +377,57 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     let safe = listed("paid for to be safe, though no pixel changes here", &safe);
     let called = short(columns, called.into_iter().map(row).collect(), safe);
     let mut rows = Vec::new();
-    for group in found.costs {
-        for (number, measure) in group.measures.iter().enumerate() {
-            let of_measure = if group.measures.len() > 1 {
-                format!("{}, {}", group.title.trim_start_matches(COVERAGE), measure.short)
-            } else {
-                group.title.to_owned()
-            };
-            rows.push(cheapest_row(found.costs, group, number, of_measure));
+    let is_coverage = |group: &&Group| group.title.starts_with(COVERAGE);
+    let coverage: Vec<&Group> = found.costs.iter().filter(is_coverage).collect();
+    if let Some(first) = coverage.first() {
+        for (number, measure) in first.measures.iter().enumerate() {
+            rows.push(cheapest_row(&coverage, number, &format!("Coverage, {}", measure.short)));
         }
     }
+    for group in found.costs.iter().filter(|group| !is_coverage(group)) {
+        rows.push(cheapest_row(&[group], 0, group.title));
+    }
     let columns =
-        "what exactness costs 31 | cheapest exact 22 | >ms 7 | times 16 the cheapest of all";
+        "what exactness costs 27 | cheapest exact 27 | >ms 7 | times 14 the cheapest of all";
     let note = "same: no difference; 2-12?: cannot be told; +2: two as fast; more: --all";
     let costs = Table::new("", columns, rows).noted(vec![note.to_owned()]);
     vec![seen, called, costs]
 }
 
-/// The cheapest choice that a measure calls exact, and what it takes.
-fn cheapest_row(groups: &[Group], group: &Group, measure: usize, title: String) -> Row {
-    let Some(best) = group.compared(measure) else {
-        let none = if group.judged.part == 0 { "no pixel was compared" } else { "none" };
+/// The cheapest choice that a measure calls exact of groups that do the same job, and what it takes.
+fn cheapest_row(groups: &[&Group], measure: usize, title: &str) -> Row {
+    let (mut exact, mut all) = (Vec::new(), Vec::new());
+    for &group in groups {
+        for judged in &group.choices {
+            let Some(time) = judged.time.as_ref() else { continue };
+            all.push(time);
+            if group.is_exact(judged, measure) {
+                exact.push(TimedChoice { group, judged, time });
+            }
+        }
+    }
+    let least = all.into_iter().min_by(|a, b| a.median().total_cmp(&b.median()));
+    let best = exact.iter().min_by(|a, b| a.time.median().total_cmp(&b.time.median()));
+    let Some((best, least)) = best.zip(least) else {
+        let is_compared = groups.iter().any(|group| group.judged.part > 0);
+        let none = if is_compared { "none" } else { "no pixel was compared" };
         return Row::of(&[&title, &none, &"-", &"-"]);
     };
-    let others = match best.equal.len() + best.undecided.len() {
-        0 => String::new(),
-        others => format!(" +{others}"),
+    let is_rival = |other: &&TimedChoice<'_>| {
+        let ratio = other.over(best);
+        ratio != Ratio::ONE && ratio.said() != RatioKind::Holds && ratio.low <= 1.0
     };
-    let choice = &group.choices[best.choice];
-    let least = group.cheapest_of_job(groups);
-    let over = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
-    let times = over.map_or("-".to_owned(), |ratio| ratio.to_string());
-    let name = format!("{}{others}", choice.name());
-    Row::of(&[
-        &title,
-        &name,
-        &choice.time.as_ref().map_or("-".to_owned(), |time| ms(time.median())),
-        &times,
-    ])
+    let rivals = exact.iter().filter(is_rival).count();
+    let mut name = best.judged.name().to_owned();
+    if groups.len() > 1 {
+        let kind = best.group.title.trim_start_matches(COVERAGE).split(' ').next();
+        name = format!("{} {name}", kind.unwrap_or_default());
+    }
+    if rivals > 0 {
+        let _ = write!(name, " +{rivals}");
+    }
+    let times = best.time.over(least).map_or("-".to_owned(), |ratio| ratio.to_string());
+    Row::of(&[&title, &name, &ms(best.time.median()), &times])
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
