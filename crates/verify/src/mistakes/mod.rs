@@ -199,6 +199,12 @@ impl Mistakes {
     /// With what is learned where no mistake of the tables explains it.
     fn or_learned(self, learn: impl FnOnce() -> Option<Learned>) -> Self {
         let learned = if self.is_known() { None } else { learn() };
+        self.with_learned(learned)
+    }
+
+    /// With what was learned.
+    #[must_use]
+    pub fn with_learned(self, learned: Option<Learned>) -> Self {
         Self { learned, ..self }
     }
 
