@@ -3,7 +3,7 @@
 //!
 //! Two exact engines count how many pieces cover each sample: one with the corners as they are given, one with the snapped ones. Where the
 //! counts differ, an outline of the model may just have moved across the sample, which is no fault. A corner moves by at most half a step
-//! of the grid in x and in y. The eight points of a square around the sample, [`RING`] steps from it, therefore tell: an outline that can
+//! of the grid in x and in y. The eight points of a square around the sample, `RING` steps from it, therefore tell: an outline that can
 //! reach the sample runs between them, so that not all of them are covered equally often. Where they are, the sample lies inside a
 //! surface, and a crack or a fold is what snapping made there.
 //!

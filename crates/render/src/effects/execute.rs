@@ -33,6 +33,16 @@ pub struct Rendered {
     pub plan: Plan,
 }
 
+impl Rendered {
+    /// Whether no triangle covers a sample. What has one colour is drawn without fragments, so the picture is looked at, too.
+    #[must_use]
+    pub fn is_blank(&self) -> bool {
+        let mut pixels = self.picture.rows().flat_map(|(_, row)| row);
+        let first = pixels.next();
+        self.counters.fragments == 0 && pixels.all(|pixel| Some(pixel) == first)
+    }
+}
+
 /// Why a plan cannot be followed. Nothing was drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlanError {

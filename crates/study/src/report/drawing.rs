@@ -61,7 +61,7 @@ pub fn names(drawings: &[Drawing]) -> Vec<&'static str> {
 
 /// Whether two rasterizers have drawn no pixel at all, so that two backgrounds would be compared.
 pub fn is_nothing_drawn(drawings: &[Drawing]) -> bool {
-    drawings.len() > 1 && drawings.iter().all(|drawing| drawing.rendered.counters.fragments == 0)
+    drawings.len() > 1 && drawings.iter().all(|drawing| drawing.rendered.is_blank())
 }
 
 /// Pixels that the plan of a file, or effects that were switched off, change.

@@ -118,7 +118,7 @@ impl Measurement<'_> {
     /// What the measurement comes to, on the screen and in the data.
     fn outcome(&self) -> Outcome {
         let same = self.is_same();
-        if same && self.frames[0].counters.fragments == 0 {
+        if same && self.frames[0].is_blank() {
             return Outcome::nothing_drawn();
         }
         let sentence = match same {
@@ -179,7 +179,7 @@ impl Measurement<'_> {
     /// The data of the report, with a plan that holds its scene, so that `render --plan` can draw by it.
     pub fn data(&self) -> Value {
         let Self { scene, frames: [everything, planned], savings, survey_us, .. } = *self;
-        let is_compared = everything.counters.fragments > 0 || !self.is_same();
+        let is_compared = !everything.is_blank() || !self.is_same();
         let Outcome { word, sentence, .. } = self.outcome();
         value(&Data {
             scene: &scene.name,
