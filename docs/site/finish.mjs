@@ -421,7 +421,7 @@ write(path.join(site, '404.html'), `<!DOCTYPE html>
 <meta name="color-scheme" content="light dark">
 <title>No such page - rasterproof</title>
 <link rel="icon" href="data:,">
-<style>body { font-family: sans-serif; max-width: 40em; margin: 3em auto; padding: 0 1em; line-height: 1.5; }</style>
+<style>html { background: canvas; color: canvastext; } body { font-family: sans-serif; max-width: 40em; margin: 3em auto; padding: 0 1em; line-height: 1.5; }</style>
 </head>
 <body>
 <main>

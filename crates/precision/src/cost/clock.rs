@@ -172,11 +172,11 @@ const BETWEEN: f64 = 1.075;
 /// The probability that an interval does not contain the median of what it is of.
 const ERROR: f64 = 0.01;
 
-/// An interval is wide where an end of it is farther than this from the median: as much again as [`BETWEEN`] makes of it.
+/// An interval is wide where an end of it is farther than this from the median: as much again as `BETWEEN` makes of it.
 const WIDE: f64 = 1.15;
 
 /// How many times as long one pass takes as another one: the median of the ratios in the rounds in which both ran, and an interval
-/// around it, which the noise of the comparison widens, and [`BETWEEN`].
+/// around it, which the noise of the comparison widens, and `BETWEEN`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "ThreeNumbers")]
 pub struct Ratio {
@@ -391,7 +391,7 @@ pub struct Timing {
     /// How long a pass is repeated within a round: shorter than what a scheduler grants at once.
     pub slice: Duration,
     /// After so much processor time no more rounds begin, once there are as many as an interval needs. Those may take three times
-    /// as much. Where other programs run, this takes longer, but at most [`LONGER`] times.
+    /// as much. Where other programs run, this takes longer, but at most `LONGER` times.
     pub budget: Duration,
     /// As many rounds instead.
     pub rounds: Option<usize>,
