@@ -55,6 +55,9 @@ pub struct Said {
     pub declare: String,
     /// Whether there is something to score it by.
     pub is_explained: bool,
+    /// Whether samples on edges are drawn in no fixed way, so that the convention explains whatever happens there.
+    #[serde(skip)]
+    pub is_open: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -126,10 +129,11 @@ pub fn recognise(program: &mut dyn Subject, scope: Scope) -> Option<Recognised> 
     sentences.extend(lines.as_ref().map(|l| clause("Lines", &l.sentence())));
     let compass = triangles.as_ref().and_then(compass);
     let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
+    let is_open = triangles.as_ref().is_some_and(|t| !t.compass.is_decided());
     let mut found =
         Recognition { declaration: declared.convention, triangles, lines, otherwise: [false; 2] };
     found.look_at_leaving(&mut bench, &declared, &mut sentences);
-    let said = Said { sentences, compass, declare, is_explained };
+    let said = Said { sentences, compass, declare, is_explained, is_open };
     let (triangles, lines) = (found.triangles.clone(), found.lines.clone());
     let expect = is_explained.then(|| Box::new(found) as Box<dyn Expect>);
     let spent = bench.spent(scope.patience);

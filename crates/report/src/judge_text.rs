@@ -129,11 +129,16 @@ fn why_in_short(verdict: &Verdict) -> String {
     if verdict.failures.iter().any(|failure| failure.evidence.changes) {
         return ": its answers change from one time to the next".to_owned();
     }
-    let mistake = verdict.cause.iter().find_map(|Why { why, .. }| why.does());
+    if let Some(does) = verdict.cause.iter().find_map(|Why { why, .. }| why.does()) {
+        return format!(": it {does}");
+    }
+    // A convention that says nothing of edges explains whatever happens there. What was learned says more.
     let convention = verdict.more.recognised.as_ref().filter(|found| found.is_explained);
-    match (mistake, convention) {
-        (Some(does), _) => format!(": it {does}"),
-        (None, Some(found)) => format!(". {}", found.sentences.join(" ")),
+    let mostly = verdict.cause.iter().find_map(|Why { why, .. }| why.mostly_does());
+    match (convention, mostly) {
+        (Some(found), Some(does)) if found.is_open => format!(": mostly, it {does}"),
+        (Some(found), _) => format!(". {}", found.sentences.join(" ")),
+        (None, Some(does)) => format!(": mostly, it {does}"),
         (None, None) => {
             let incidents = verdict.more.found.incidents.iter().map(|incident| &incident.what);
             let first = incidents.chain(&verdict.more.found.strays).next();

@@ -54,6 +54,22 @@ pub struct Learned {
 }
 
 impl Learned {
+    /// All steps in one sentence, after 'it'; nothing where no step was found.
+    pub(crate) fn in_short(&self) -> Option<String> {
+        let mut steps = self.does.iter().map(|step| step.trim_end_matches('.'));
+        let mut said = steps.next()?.strip_prefix("It ")?.to_owned();
+        for step in steps {
+            said += &format!("; {}{}", step[..1].to_ascii_lowercase(), &step[1..]);
+        }
+        Some(said)
+    }
+
+    /// Whether nine tenths of the new answers were predicted, of wrong and of right ones.
+    pub(crate) fn predicts_most(&self) -> bool {
+        let is_most = |count: Count| count.of > 0 && 10 * count.drawn >= 9 * count.of;
+        is_most(self.wrong) && (self.right.of == 0 || is_most(self.right))
+    }
+
     /// What is said of it: first what the program does and when.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {

@@ -186,14 +186,20 @@ impl Mistakes {
         self.learned.as_ref().is_some_and(|learned| learned.is_certain)
     }
 
-    /// What the program does, after 'it': the first mistake that explains it, or the first step of what was learned.
+    /// What the program does, after 'it': the first mistake that explains it, or what was learned.
     #[must_use]
-    pub fn does(&self) -> Option<&str> {
-        let learned = self.learned.as_ref().filter(|learned| learned.is_certain);
-        let step = learned.and_then(|learned| learned.does.first());
-        let learned = step.and_then(|step| step.strip_prefix("It "));
-        let known = self.causes.first().map(|cause| cause.does.as_str());
-        known.or(learned.map(|does| does.trim_end_matches('.')))
+    pub fn does(&self) -> Option<String> {
+        let known = self.causes.first().map(|cause| cause.does.clone());
+        known.or_else(|| self.learned.as_ref().filter(|learned| learned.is_certain)?.in_short())
+    }
+
+    /// What was learned, after 'it', where it is no certain cause and still predicts most new answers, wrong and right ones.
+    #[must_use]
+    pub fn mostly_does(&self) -> Option<String> {
+        self.learned
+            .as_ref()
+            .filter(|learned| !learned.is_certain && learned.predicts_most())?
+            .in_short()
     }
 
     /// With what is learned where no mistake of the tables explains it.
