@@ -546,7 +546,8 @@ fn values(
         let (depth, [a, b]) = exact.at(f.x_px, f.y_px);
         let bounds = truth.expect.bounds(triangle, (f.x_px, f.y_px)).unwrap_or(bounds);
         let errors = [depth.distance(f.depth), a.distance(f.varying.x), b.distance(f.varying.y)];
-        judged.off(f, [0, 1, 2].map(|i| errors[i] / bounds[i]));
+        // Where nothing may be off, the smallest number keeps a quotient of 0 and 0 defined.
+        judged.off(f, [0, 1, 2].map(|i| errors[i] / bounds[i].max(f64::MIN_POSITIVE)));
     }
 }
 
