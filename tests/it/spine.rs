@@ -6,6 +6,7 @@ use rasterproof_teaching::quiz::{self, page::HEADINGS};
 use rasterproof_teaching::spine::{self, CHAPTERS};
 
 use crate::pages::{Renewal, page, read, root};
+use crate::workspace::anchor;
 
 /// The words of the last line of a lesson.
 struct Words {
@@ -44,13 +45,6 @@ const CHINESE: Words = Words {
     quiz: "测验",
     evidence: ["依据", "没有单独的依据"],
 };
-
-/// Where a browser finds a heading: small letters, hyphens for spaces, no punctuation.
-fn anchor(heading: &str) -> String {
-    let small = heading.to_lowercase();
-    let kept = small.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
-    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
-}
 
 /// A link to the heading of a page that begins with this number, shown as the number.
 fn link(words: &Words, to: &str, [before, after]: [&str; 2], number: &str) -> Option<String> {

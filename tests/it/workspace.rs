@@ -346,16 +346,18 @@ pub fn pages() -> Vec<(PathBuf, String)> {
     pages.into_iter().map(|page| (page.clone(), read(page))).collect()
 }
 
+/// The anchor that GitHub gives a heading: small letters, hyphens for spaces, no punctuation.
+pub fn anchor(heading: &str) -> String {
+    let small = heading.to_lowercase();
+    let kept = small.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
 /// The anchors that GitHub gives the headings of a page.
 pub fn anchors(text: &str) -> Vec<String> {
-    let heading = |line: &str| {
-        let words = line.strip_prefix('#')?.trim_start_matches('#').trim().to_lowercase();
-        let kept = words.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
-        Some(kept.map(|c| if c == ' ' { '-' } else { c }).collect())
-    };
     let mut anchors: Vec<String> = Vec::new();
-    for anchor in text.lines().filter_map(heading) {
-        let anchor: String = anchor;
+    for heading in text.lines().filter_map(|line| line.strip_prefix('#')) {
+        let anchor = anchor(heading.trim_start_matches('#').trim());
         // A heading that stands twice is told apart by a number.
         let before = anchors.iter().filter(|a| **a == anchor).count();
         let numbered = (1..).map(|n| format!("{anchor}-{n}")).find(|a| !anchors.contains(a));

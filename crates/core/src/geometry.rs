@@ -10,6 +10,18 @@ use crate::triangle::Corners;
 pub const ORDERS: [[usize; 3]; 6] =
     [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
 
+/// The corners of a square around a point and the middles of its sides, from -1 to 1, once around.
+pub const AROUND: [[f64; 2]; 8] = [
+    [-1.0, -1.0],
+    [0.0, -1.0],
+    [1.0, -1.0],
+    [1.0, 0.0],
+    [1.0, 1.0],
+    [0.0, 1.0],
+    [-1.0, 1.0],
+    [-1.0, 0.0],
+];
+
 /// Twice the signed area in square subpixels: positive where the corners run clockwise on a screen with y down. If the third
 /// corner is a sample, the sign says on which side of the edge from the first to the second it lies.
 ///

@@ -14,6 +14,7 @@
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::RasterizeExact as _;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::AROUND;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::triangle::Span;
@@ -30,18 +31,6 @@ use crate::winding::{Change, area};
 /// How far the points around a sample are from it in x and in y, in steps of the grid: more than half of one, which is how far a corner
 /// moves, and no multiple of one, so that edges on the grid seldom run through them.
 const RING: f64 = 256.0 / 300.0;
-
-/// The points around a sample, from -1 to 1.
-const AROUND: [[f64; 2]; 8] = [
-    [-1.0, -1.0],
-    [0.0, -1.0],
-    [1.0, -1.0],
-    [1.0, 0.0],
-    [1.0, 1.0],
-    [0.0, 1.0],
-    [-1.0, 1.0],
-    [-1.0, 0.0],
-];
 
 /// A sample inside a surface that snapping broke.
 pub(crate) struct BrokenSample<'a> {

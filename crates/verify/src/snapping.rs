@@ -31,6 +31,7 @@ use std::fmt;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::RasterizeExact as _;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::geometry::AROUND;
 use rasterproof_core::grid::{PixelRect, Refusal};
 use rasterproof_core::triangle::FreeCorners;
 
@@ -101,18 +102,6 @@ impl fmt::Display for BadMesh {
 }
 
 impl std::error::Error for BadMesh {}
-
-/// The points around a sample, from -1 to 1.
-const AROUND: [[f64; 2]; 8] = [
-    [-1.0, -1.0],
-    [0.0, -1.0],
-    [1.0, -1.0],
-    [1.0, 0.0],
-    [1.0, 1.0],
-    [0.0, 1.0],
-    [-1.0, 1.0],
-    [-1.0, 0.0],
-];
 
 /// Finds what is broken between a mesh as it was given and as it was snapped, triangle by triangle, in a window.
 ///
