@@ -366,7 +366,7 @@ struct DepthState {
 /// A triangle at a pixel.
 pub struct Layer<'a> {
     pub(super) number: usize,
-    /// At the sample of the pixel.
+    /// The depth of the triangle at the sample of the pixel.
     pub(super) depth: f64,
     /// The first pixel of its row, and the one after the last.
     pub(super) first: i32,

@@ -24,14 +24,15 @@ pub mod rows;
 mod rule;
 mod say;
 mod search;
+pub mod trial;
 
 use crate::convention::{Ask, AskLine, Count, Declarations, LineConvention, TriangleConvention};
 use drawer::LearnedAnswer;
 use drawer::{Drawer, Lines, Triangles};
 use model::{Model, Vocabulary, facts_of};
 use question::AnyQuestion;
-use rule::{Of, Test};
 use search::Search;
+use trial::{AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Trial};
 
 /// What was learned of a wrong program.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -94,11 +95,8 @@ impl Learned {
     }
 }
 
-/// Questions that are asked first, and at most before the first search.
-const FIRST: usize = 400;
+/// Questions before the first search, at most.
 const MOST_FIRST: usize = 1200;
-/// Wrong answers that are wanted before the first search.
-const ENOUGH_WRONG: usize = 60;
 /// New questions of each round, and those beside wrong ones.
 const FRESH: [usize; 2] = [200, 150];
 /// How often the first are asked, as long as too few of them are wrong.
@@ -107,12 +105,6 @@ const MOST_FRESH: usize = 4;
 const MOST_ROUNDS: usize = 3;
 /// Of so many new answers, one that is not predicted after the second search ends it.
 const HOPELESS: u64 = 8;
-/// New answers below which nothing is called the cause, wrong ones among them, and those of these that are independent.
-const CERTAIN: [u64; 3] = [300, 50, 12];
-/// Wrong answers below which nothing is learned.
-const LEAST_WRONG: usize = 6;
-/// Questions that are asked at once, so that a slow program can be left in time.
-const AT_ONCE: usize = 100;
 
 /// Learns from a rasterizer of triangles, as [`of_triangles`] does.
 pub type LearnTriangles = fn(&mut dyn Ask, &Declarations, &TriangleConvention) -> Option<Learned>;
@@ -146,35 +138,22 @@ struct Learner<'a> {
     answered: Vec<LearnedAnswer>,
 }
 
-/// How many of some new answers a model predicts.
+/// What came of new questions.
 #[derive(Default)]
 struct Round {
-    /// Wrong answers to questions that are beside no other one.
-    independent: u64,
+    trial: Trial,
     /// Wrong answers that are predicted and in which something is drawn: where nothing is, much predicts the same.
     visible: u64,
-    wrong: Count,
-    right: Count,
     /// Numbers of those that it does not predict.
     missed: Vec<usize>,
 }
 
 impl Round {
-    fn missed(&self) -> u64 {
-        self.wrong.of - self.wrong.drawn + self.right.of - self.right.drawn
-    }
-
-    /// Whether there are enough answers to call something the cause.
-    fn is_enough(&self) -> bool {
-        self.wrong.of + self.right.of >= CERTAIN[0]
-            && self.wrong.of >= CERTAIN[1]
-            && self.independent >= CERTAIN[2]
-    }
-
     fn add(&mut self, other: &Self) {
-        self.independent += other.independent;
         self.visible += other.visible;
-        for (count, more) in [(&mut self.wrong, other.wrong), (&mut self.right, other.right)] {
+        let (trial, more) = (&mut self.trial, other.trial);
+        trial.independent += more.independent;
+        for (count, more) in [(&mut trial.wrong, more.wrong), (&mut trial.right, more.right)] {
             count.drawn += more.drawn;
             count.of += more.of;
         }
@@ -203,20 +182,21 @@ impl<'a> Learner<'a> {
             };
             let mut round = self.try_out(&model)?;
             let was_right = !refuted;
-            refuted = round.missed() > 0;
+            refuted = round.trial.missed() > 0;
             self.put_first(&round.missed);
             if was_right {
                 // What was not refuted before is asked for more.
                 best.iter().for_each(|(before, _)| round.add(before));
             }
-            let is_enough = round.is_enough();
-            let is_better =
-                best.as_ref().is_none_or(|(before, _)| round.missed() <= before.missed());
+            let is_enough = round.trial.is_enough();
+            let is_better = best
+                .as_ref()
+                .is_none_or(|(before, _)| round.trial.missed() <= before.trial.missed());
             if is_better {
                 best = Some((round, model));
             }
-            let is_hopeless = best.as_ref().is_some_and(|(round, _)| {
-                round.missed() > (round.wrong.of + round.right.of) / HOPELESS
+            let is_hopeless = best.as_ref().is_some_and(|(Round { trial, .. }, _)| {
+                trial.missed() > (trial.wrong.of + trial.right.of) / HOPELESS
             });
             searches += usize::from(!was_right);
             if !refuted && is_enough || self.left == 0 || searches > 1 && is_hopeless {
@@ -301,7 +281,7 @@ impl<'a> Learner<'a> {
             let questions = (0..FRESH[0]).map(|_| self.question(&[], false)).collect();
             self.ask(questions)?;
             independent += self.answered[from..].iter().filter(|a| a.is_wrong()).count() as u64;
-            if independent >= CERTAIN[2] {
+            if independent >= ENOUGH_INDEPENDENT {
                 break;
             }
         }
@@ -309,13 +289,13 @@ impl<'a> Learner<'a> {
         questions.extend((0..FRESH[1]).map(|_| self.question(&wrong, true)));
         questions.extend(self.at_limits(model));
         self.ask(questions)?;
-        let mut round = Round { independent, ..Round::default() };
+        let trial = Trial { independent, ..Trial::default() };
+        let mut round = Round { trial, ..Round::default() };
         let search = self.search();
         for i in before..self.answered.len() {
             let a = &self.answered[i];
             let fits = search.fits(model, a);
-            let count = if a.is_wrong() { &mut round.wrong } else { &mut round.right };
-            count.add(fits);
+            round.trial.add(a.is_wrong(), fits);
             round.visible += u64::from(fits && a.is_wrong() && !a.drawn.is_empty());
             round.missed.extend((!fits).then_some(i));
         }
@@ -325,13 +305,9 @@ impl<'a> Learner<'a> {
     /// Questions near both sides of each limit of a fact of the question.
     fn at_limits(&mut self, model: &Model) -> Vec<AnyQuestion> {
         let mut questions = Vec::new();
-        for fact in model.conjunctions().flatten() {
-            let (Of::One(i), Test::AtMost(limit) | Test::AtLeast(limit)) = (fact.of, fact.test)
-            else {
-                continue;
-            };
-            if i < self.vocabulary.of_question {
-                questions.extend(self.near_limit(i, limit));
+        for (quantity, limit) in model.conjunctions().flatten().filter_map(|fact| fact.limit()) {
+            if quantity < self.vocabulary.of_question {
+                questions.extend(self.near_limit(quantity, limit));
             }
         }
         questions
@@ -366,13 +342,12 @@ impl<'a> Learner<'a> {
     }
 
     fn learned(&self, round: &Round, model: &Model) -> Learned {
-        let (wrong, right) = (round.wrong, round.right);
-        let is_certain = round.missed() == 0
-            && round.is_enough()
+        let Trial { wrong, right, .. } = round.trial;
+        let is_certain = round.trial.missed() == 0
+            && round.trial.is_enough()
             && (model.chain.iter().all(|step| step.base.is_nothing())
-                || round.visible >= CERTAIN[2]);
-        let explains = 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of;
-        let does = match explains && wrong.drawn > 0 {
+                || round.visible >= ENOUGH_INDEPENDENT);
+        let does = match round.trial.explains() {
             true => say::sentences(model, &*self.drawer, &self.vocabulary),
             false => Vec::new(),
         };

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::picture::{Picture, Runs};
 use super::quantity::{self, Name, Scene};
 use super::question::AnyQuestion;
-use super::rule::{self, Conjunction, Of, Table, Terms, Test, all_hold};
+use super::rule::{self, Conjunction, Table, Terms, all_hold};
 use super::say;
 use crate::cases::facts::{self, Topic};
 use rasterproof_core::grid::PixelRect;
@@ -106,10 +106,7 @@ impl Condition {
 
     /// The quantities that have a limit, with it.
     pub fn limits(&self) -> impl Iterator<Item = (usize, i64)> + '_ {
-        self.0.iter().filter_map(|fact| match (fact.of, fact.test) {
-            (Of::One(i), Test::AtMost(limit) | Test::AtLeast(limit)) => Some((i, limit)),
-            _ => None,
-        })
+        self.0.iter().filter_map(|fact| fact.limit())
     }
 }
 

@@ -36,6 +36,16 @@ pub(super) struct Fact {
     pub(super) test: Test,
 }
 
+impl Fact {
+    /// The quantity that has a limit, with it.
+    pub(super) fn limit(&self) -> Option<(usize, i64)> {
+        match (self.of, self.test) {
+            (Of::One(i), Test::AtMost(limit) | Test::AtLeast(limit)) => Some((i, limit)),
+            _ => None,
+        }
+    }
+}
+
 impl Of {
     pub(super) fn value(self, row: &[i64]) -> i64 {
         match self {

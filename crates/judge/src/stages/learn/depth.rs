@@ -27,16 +27,15 @@ pub struct PixelOfList<'a> {
 #[derive(Clone)]
 pub enum Change {
     Test(DepthTest),
-    /// Triangles of which something holds are left out.
-    /// What holds is said, too.
+    /// Triangles of which a condition holds are left out; the words say which.
     Without(Condition, String),
     Nothing,
-    /// The nearest but one.
+    /// The second nearest triangle is shown, or nothing where there is one alone.
     Second,
 }
 
 impl PixelOfList<'_> {
-    /// The nearest of some layers.
+    /// The layer with the least depth, if there is any.
     fn nearest<'l>(layers: impl Iterator<Item = &'l Layer<'l>>) -> Option<&'l Layer<'l>> {
         layers.min_by(|a, b| a.depth.total_cmp(&b.depth))
     }
@@ -85,7 +84,7 @@ impl PixelOfList<'_> {
         out.values
     }
 
-    /// The quantities of the pixel.
+    /// The place of the pixel in the window, and how many triangles it has.
     fn of_place(&self, out: &mut Quantities) {
         let [x, y] = self.pile.spot.at.map(i64::from);
         let window = self.pile.spot.window;
@@ -129,14 +128,10 @@ impl PixelOfList<'_> {
             out.number(Unit::Count, v, &[whose, noun, of_whom]);
         }
         // Who draws by groups may forget the last ones.
-        for (group, noun) in [
-            (2, "place in the list (from 1) beyond the whole groups of 2"),
-            (4, "place in the list (from 1) beyond the whole groups of 4"),
-            (8, "place in the list (from 1) beyond the whole groups of 8"),
-            (16, "place in the list (from 1) beyond the whole groups of 16"),
-        ] {
+        let noun = "place in the list (from 1) beyond the whole groups of ";
+        for (group, word) in [(2, "2"), (4, "4"), (8, "8"), (16, "16")] {
             let beyond = number + 1 - self.list_length() / group * group;
-            out.number(Unit::Count, beyond, &[whose, noun, of_whom]);
+            out.number(Unit::Count, beyond, &[whose, noun, word, of_whom]);
         }
         let area = twice_area(&l.triangle.corners());
         out.number(Unit::Subpixels, (most[0] - least[0]).into(), &[whose, "width", of_whom]);
@@ -186,7 +181,7 @@ type Whose = [&'static str; 3];
 const IT: Whose = ["its ", "it", ""];
 const NEAREST: Whose = ["the ", "the nearest triangle", " of the nearest triangle"];
 const SHOWN: Whose = ["the ", "the one shown instead", " of the one shown instead"];
-/// Quantities of a triangle.
+/// How many quantities `of_layer` gives of a triangle.
 const OF_LAYER: usize = 22;
 
 impl Learnable for Depths {

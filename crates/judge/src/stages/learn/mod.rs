@@ -25,6 +25,9 @@ use rasterproof_verify::learn::Learned;
 use rasterproof_verify::learn::rows::{
     Condition, ConditionTerms, Examples, Quantities, Vocabulary,
 };
+use rasterproof_verify::learn::trial::{
+    AT_ONCE, ENOUGH_INDEPENDENT, ENOUGH_WRONG, FIRST, LEAST_WRONG, Trial,
+};
 
 use super::families;
 use crate::adapt_case;
@@ -34,19 +37,19 @@ use crate::declared::Declared;
 use crate::run::MOST_DEATHS;
 use crate::shrink::smaller;
 
-/// A question with its answer.
+/// A question that the program was given, with its answer and what is computed of both.
 pub struct LearnedCase {
     number: usize,
     case: Case,
     question: Question,
     answer: Answer,
-    /// The quantities of the question.
+    /// The numbers of the question that conditions are about.
     facts: Vec<i64>,
     /// Whether it refuted a chain: more of its parts are then looked at.
     is_refuting: bool,
 }
 
-/// A stage of which is learned.
+/// A stage of the pipeline whose mistakes are learned: how an answer is taken apart, and what may be done wrongly.
 pub trait Learnable {
     /// What is answered at once, with the answer.
     type Part<'a>;
@@ -54,7 +57,7 @@ pub trait Learnable {
     type Change: Clone + 'static;
     /// The kind of question, with its facts.
     const TOPIC: Topic;
-    /// What a part is, in the singular.
+    /// The word for a part, in the singular, as messages have it.
     const PART: &'static str;
 
     /// The quantities of a question beyond those of its kind.
@@ -73,7 +76,7 @@ pub trait Learnable {
     /// The changes that may explain wrong parts, the simplest first; what is read off is read off these, and off right ones.
     fn changes(wrong: &[&Self::Part<'_>], right: &[&Self::Part<'_>]) -> Vec<Self::Change>;
 
-    /// Two changes at once.
+    /// The program that makes two mistakes at once, if there is one.
     fn both(_: &Self::Change, _: &Self::Change) -> Option<Self::Change> {
         None
     }
@@ -100,25 +103,17 @@ pub fn learn(
     }
 }
 
-/// Questions that are asked at most.
+/// All questions that a program gets, at most.
 pub const MOST_TO_LEARN: usize = 2400;
-/// Questions that are asked first, and at most before the first search.
-const FIRST: usize = 400;
+/// Questions before the first search, at most.
 const MOST_FIRST: usize = 900;
-/// Wrong answers that are wanted before the first search.
-const ENOUGH_WRONG: usize = 60;
-/// New questions of each round: independent ones, those beside wrong ones, and how often the first are asked at most.
+/// New questions of each round: independent ones, and those beside wrong ones.
 const FRESH: [usize; 2] = [180, 150];
+/// How many times the independent ones are repeated with new ones, as long as too few of them are wrong.
 const MOST_FRESH: usize = 3;
 /// Searches at most: what refutes one is learned from by the next.
 const MOST_ROUNDS: usize = 4;
-/// New answers below which nothing is called the cause, wrong ones among them, and independent ones of these.
-const CERTAIN: [u64; 3] = [300, 50, 12];
-/// Wrong answers below which nothing is learned.
-const LEAST_WRONG: usize = 6;
-/// Questions that are asked at once, so that a slow program can be left in time.
-const AT_ONCE: usize = 100;
-/// Cases beside those nearest to a limit that are looked at, and those of them that are asked.
+/// Cases beside those nearest to a limit that are made, and those of them that the program gets.
 const NEAR_TRIED: usize = 200;
 const NEAR_ASKED: usize = 16;
 /// Questions for the nearest right case: two thirds make the wrong one smaller.
@@ -158,7 +153,7 @@ fn row<L: Learnable>(
     out.values
 }
 
-/// Whether a chain predicts a part.
+/// Whether a program that follows a chain gives this part of its answer.
 fn predicts<L: Learnable>(
     chain: &[GuardedChange<L>],
     asked: &LearnedCase,
@@ -174,31 +169,10 @@ fn predicts<L: Learnable>(
     if first.when.iter().any(|condition| condition.holds(&row)) { with } else { without }
 }
 
-/// Some of many, evenly spread.
+/// At most so many of some values, evenly spread over all of them.
 fn spread<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let count = all.len().min(most);
     (0..count).map(|i| all[i * all.len() / count]).collect()
-}
-
-/// How many of some new answers a chain predicts.
-#[derive(Default)]
-struct Round {
-    /// Wrong answers to questions that are beside no other one.
-    independent: u64,
-    wrong: rasterproof_verify::convention::Count,
-    right: rasterproof_verify::convention::Count,
-}
-
-impl Round {
-    fn missed(&self) -> u64 {
-        self.wrong.of - self.wrong.drawn + self.right.of - self.right.drawn
-    }
-
-    /// Whether most is predicted.
-    fn explains(&self) -> bool {
-        let (wrong, right) = (self.wrong, self.right);
-        wrong.drawn > 0 && 2 * wrong.drawn >= wrong.of && 10 * right.drawn >= 9 * right.of
-    }
 }
 
 struct Learner<'a, L: Learnable> {
@@ -235,28 +209,29 @@ impl<'a, L: Learnable> Learner<'a, L> {
         if self.wrong().len() < LEAST_WRONG {
             return None;
         }
-        let mut best: Option<(Round, Chain<L>)> = None;
+        let mut best: Option<(Trial, Chain<L>)> = None;
         let mut is_refuted = true;
         for searches in 1..=MOST_ROUNDS {
             let chain = match &best {
                 Some((_, chain)) if !is_refuted => chain.clone(),
                 _ => Search::<L>::of(&self.answered, &self.truth.declared).explain(),
             };
-            let round = self.try_out(&chain)?;
-            is_refuted = round.missed() > 0;
+            let trial = self.try_out(&chain)?;
+            is_refuted = trial.missed() > 0;
             let is_better =
-                best.as_ref().is_none_or(|(before, _)| round.missed() <= before.missed());
+                best.as_ref().is_none_or(|(before, _)| trial.missed() <= before.missed());
             if is_better {
-                best = Some((round, chain));
+                best = Some((trial, chain));
             }
             // Where most is not predicted, another look at more answers seldom helps.
-            let is_hopeless = searches > 1 && best.as_ref().is_some_and(|(r, _)| !r.explains());
+            let is_hopeless =
+                searches > 1 && best.as_ref().is_some_and(|(trial, _)| !trial.explains());
             if !is_refuted || is_hopeless || self.left == 0 {
                 break;
             }
         }
-        let (round, chain) = best?;
-        Some(self.learned(&round, &chain))
+        let (trial, chain) = best?;
+        Some(self.learned(trial, &chain))
     }
 
     fn wrong(&self) -> Vec<usize> {
@@ -338,7 +313,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
         Some(())
     }
 
-    /// A case of each question.
+    /// A case for each question that a case leads to.
     fn singles(&self, case: Case) -> Vec<Case> {
         match (&case.shape, self.check) {
             (_, Check::Depth) => vec![case],
@@ -353,7 +328,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
     }
 
     /// Asks new questions, questions beside wrong ones, and questions at the limits of a chain.
-    fn try_out(&mut self, chain: &Chain<L>) -> Option<Round> {
+    fn try_out(&mut self, chain: &Chain<L>) -> Option<Trial> {
         let start = self.answered.len();
         let mut independent = 0;
         for _ in 0..MOST_FRESH {
@@ -361,7 +336,7 @@ impl<'a, L: Learnable> Learner<'a, L> {
             let cases = (0..FRESH[0]).map(|_| self.case(&[], false)).collect();
             self.ask_in_batches(cases)?;
             independent += self.is_wrong[from..].iter().filter(|wrong| **wrong).count() as u64;
-            if independent >= CERTAIN[2] {
+            if independent >= ENOUGH_INDEPENDENT {
                 break;
             }
         }
@@ -369,15 +344,15 @@ impl<'a, L: Learnable> Learner<'a, L> {
         let mut cases: Vec<Case> = (0..FRESH[1]).map(|_| self.case(&wrong, true)).collect();
         cases.extend(self.at_limits(chain));
         self.ask_in_batches(cases)?;
-        let mut round = Round { independent, ..Round::default() };
+        let mut trial = Trial { independent, ..Trial::default() };
         for (asked, is_wrong) in self.answered.iter_mut().zip(&self.is_wrong).skip(start) {
             let parts = L::parts(asked, &self.truth.declared);
             let fits = parts.iter().all(|part| predicts(chain, asked, part));
             drop(parts);
             asked.is_refuting = !fits;
-            if *is_wrong { &mut round.wrong } else { &mut round.right }.add(fits);
+            trial.add(*is_wrong, fits);
         }
-        Some(round)
+        Some(trial)
     }
 
     fn ask_in_batches(&mut self, mut cases: Vec<Case>) -> Option<()> {
@@ -428,18 +403,13 @@ impl<'a, L: Learnable> Learner<'a, L> {
         });
         let this = this.into_inner();
         let wrong = this.text(&case)?;
-        let mut right = None;
-        for other in beside(&case).into_iter().take(left.get()) {
-            if right.is_none() && this.is_wrong_now(&other) == Some(false) {
-                right = Some(other);
-            }
-        }
-        let right = right?;
+        let mut others = beside(&case).into_iter().take(left.get());
+        let right = others.find(|other| this.is_wrong_now(other) == Some(false))?;
         let right = this.text(&right)?;
         Some(format!("'{wrong}' comes out wrong; beside it, '{right}' comes out right."))
     }
 
-    /// How the question of a case is asked.
+    /// The first request that a case leads to, as the protocol writes it.
     fn text(&self, case: &Case) -> Option<String> {
         let mut questions = Vec::new();
         self.check.questions(case, self.truth, &mut questions);
@@ -461,20 +431,16 @@ impl<'a, L: Learnable> Learner<'a, L> {
         (!parts.is_empty()).then(|| !parts.iter().all(L::is_right))
     }
 
-    fn learned(&mut self, round: &Round, chain: &Chain<L>) -> Learned {
-        let (wrong, right) = (round.wrong, round.right);
+    fn learned(&mut self, trial: Trial, chain: &Chain<L>) -> Learned {
         let mut learned = Learned::default();
         learned.part = L::PART;
-        learned.is_certain = round.missed() == 0
-            && wrong.of + right.of >= CERTAIN[0]
-            && wrong.of >= CERTAIN[1]
-            && round.independent >= CERTAIN[2];
+        learned.is_certain = trial.missed() == 0 && trial.is_enough();
         let nearest = if learned.is_certain { None } else { self.nearest_right() };
         let search = Search::<L>::of(&self.answered, &self.truth.declared);
-        if round.explains() {
+        if trial.explains() {
             learned.does = search.sentences(chain);
         }
-        (learned.wrong, learned.right) = (wrong, right);
+        (learned.wrong, learned.right) = (trial.wrong, trial.right);
         if !learned.is_certain {
             learned.known = search.known();
             learned.known.extend(nearest);

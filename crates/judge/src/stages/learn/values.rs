@@ -89,6 +89,10 @@ const TERMS: [Term; 22] = [
     Term::Place(0),
 ];
 
+/// Predictions are computed in doubles. A difference below this share of a value is taken for their rounding. It is chosen, and not
+/// derived: some thousand times what a few operations are rounded by.
+const ROUNDING: f64 = 1e-12;
+
 /// What a term is added to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Base {
@@ -193,7 +197,7 @@ impl ValueOfPixel<'_> {
     /// nothing.
     fn is(&self, predicted: f64) -> bool {
         let off = (self.given - predicted).abs();
-        let allowed = self.allowed.max(1e-12 * predicted.abs());
+        let allowed = self.allowed.max(ROUNDING * predicted.abs());
         off <= allowed || (off <= 10.0 * allowed && 2.0 * off <= (self.given - self.right()).abs())
     }
 }
@@ -246,7 +250,7 @@ impl Learnable for Values {
         let v = &triangle.vertices;
         let corners = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)];
         let sample = declared.convention.sample.map(|at| f64::from(at) / f64::from(SUBPIXELS));
-        let bounds = value_bounds(triangle, declared.tolerance.max(1e-12));
+        let bounds = value_bounds(triangle, declared.tolerance.max(ROUNDING));
         let of = Rc::new(TriangleOfValues { triangle, corners, sample, facts });
         let step = fragments.len().div_ceil(MOST_PIXELS).max(1);
         let mut parts = Vec::new();
