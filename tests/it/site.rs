@@ -384,7 +384,7 @@ fn site_figures_do_not_wait_for_engines() {
             get() { return (text) => window.held.push(text); }, configurable: true });
             window.moved = [];
             const place = ({ node, previousRect: from, currentRect: to }) =>
-                `${node?.nodeName} ${node?.className ?? node?.textContent}: ${from.y}+${from.height} to ${to.y}+${to.height}`;
+                `${node?.nodeName} ${node?.className ?? node?.textContent}: ${[from.x, from.y, from.width, from.height]} to ${[to.x, to.y, to.width, to.height]}`;
             // The contents beside the text, in which mdBook opens the headings of the page, are left out.
             const isText = ({ sources }) => sources.some(({ node }) => document.getElementById('text')?.contains(node));
             new PerformanceObserver((list) => window.moved.push(...list.getEntries().filter(isText).map((entry) => [entry.value, ...entry.sources.map(place)])))
