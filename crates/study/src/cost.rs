@@ -810,7 +810,8 @@ mod tests {
         let vertices = [0, 1, 2]
             .map(|i| ScreenVertex::new(px[i][0], px[i][1], depths[i], 1.0, DVec2::ZERO).unwrap());
         let triangle = ScreenTriangle { vertices };
-        Piece { face, item: 0, px, w: [1.0; 3], px_error: 0.0, depth_error: 0.0, triangle }
+        let shares = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        Piece { face, item: 0, px, w: [1.0; 3], px_error: 0.0, depth_error: 0.0, triangle, shares }
     }
 
     const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 32, y1: 32 };

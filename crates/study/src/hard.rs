@@ -25,8 +25,8 @@ use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 
 use crate::effects::differing;
 use crate::face_of;
-use crate::grid::Value;
 use crate::shape::{Edge, Gap, SLIVER, Shape};
+use crate::shift::{Shift, shift};
 use crate::snapping;
 use crate::ties::{Class, Classes, Surfaces, TiedPair, blends};
 use crate::view::{NOTHING, Piece, Sampled, pieces};
@@ -125,31 +125,6 @@ pub struct HardCase {
     pub triangles: Vec<u32>,
 }
 
-/// What corners on a grid change at most in the values of a picture; nothing where no value changes.
-#[derive(Clone, Copy, Debug, Default, serde::Serialize)]
-pub struct Shift {
-    pub depth: Option<Shifted>,
-    /// In texels of the texture of the face.
-    pub texels: Option<Shifted>,
-}
-
-/// A value that corners on a grid change, by how much and where.
-#[derive(Clone, Copy, Debug, serde::Serialize)]
-pub struct Shifted {
-    pub by: f64,
-    pub pixel: [i32; 2],
-    /// The triangle that is seen there, from 0 in drawing order.
-    pub triangle: u32,
-}
-
-impl Shifted {
-    fn keep(largest: &mut Option<Self>, other: Self) {
-        if other.by > largest.map_or(0.0, |largest| largest.by) {
-            *largest = Some(other);
-        }
-    }
-}
-
 /// The hard cases of a scene, and what else was found on the way.
 #[derive(Clone, Debug)]
 pub struct HardCases {
@@ -234,7 +209,7 @@ pub fn find(
         search.samples_on_edges();
         search.broken();
         search.turned();
-        let shift = search.shift();
+        let shift = shift(scene, &search.surfaces, sampled);
         search.wide_w();
         search.far_textures();
         let picture = draw(scene, target)?;
@@ -631,42 +606,6 @@ impl Search<'_> {
         }
         let note = format!("{} turned over, {flat} flattened", noted.count - flat);
         self.note(noted, note);
-    }
-
-    /// By how much values at samples differ from those of the same faces with corners as they are given.
-    fn shift(&self) -> Shift {
-        let mut shift = Shift::default();
-        for (surfaces, pieces) in self.surfaces.iter().zip(&self.sampled.planes) {
-            let window = self.sampled.window;
-            for (y, x) in
-                (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (y, x)))
-            {
-                let Some(piece) = surfaces.front([x, y]).map(|front| &pieces[front as usize])
-                else {
-                    continue;
-                };
-                let centre = [x, y].map_array(|at| f64::from(at) + 0.5);
-                let value = |corners| Value::at(centre, &piece.triangle, corners);
-                let (Some(given), Some(snapped)) =
-                    (value(piece.px), value(self.sampled.grid.place(piece.px)))
-                else {
-                    continue;
-                };
-                let seen =
-                    Shifted { pixel: self.sampled.pixel([x, y]), triangle: piece.face, by: 0.0 };
-                Shifted::keep(
-                    &mut shift.depth,
-                    Shifted { by: (snapped.depth - given.depth).abs(), ..seen },
-                );
-                let texture = &self.scene.items[piece.item as usize].material.texture;
-                if let Some((width, height)) = texture.as_ref().map(|texture| texture.size()) {
-                    let uv = (snapped.varying - given.varying).abs();
-                    let by = (uv.x * f64::from(width)).max(uv.y * f64::from(height));
-                    Shifted::keep(&mut shift.texels, Shifted { by, ..seen });
-                }
-            }
-        }
-        shift
     }
 
     fn wide_w(&mut self) {

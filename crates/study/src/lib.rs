@@ -12,6 +12,7 @@ pub mod memory;
 pub mod report;
 pub mod savings;
 mod shape;
+mod shift;
 pub mod snapping;
 pub mod ties;
 pub mod view;

@@ -1,6 +1,6 @@
 //! The triangles of a scene in the window, with their corners before they are snapped and after.
 
-use glam::{DMat4, DVec2, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4, Vec4Swizzles as _};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate as _;
 use rasterproof_core::frame::Frame;
@@ -33,6 +33,8 @@ pub struct Piece {
     pub depth_error: f64,
     /// With texture coordinates.
     pub triangle: ScreenTriangle<DVec2>,
+    /// How much of the second and of the third corner of its face each of its corners has.
+    pub shares: [DVec2; 3],
 }
 
 impl Piece {
@@ -76,7 +78,13 @@ pub(crate) fn pieces_and_lost(
     let mut lost = Vec::new();
     for (index, item) in scene.items.iter().enumerate() {
         let sums = absolute(scene, index);
-        each_cut(scene, index, window, |corner, _| corner.uv, &mut |cut: Cut<'_, DVec2>| {
+        // Of each corner its texture coordinates and its shares.
+        let varying = |corner: &Corner, number: usize| {
+            let DVec2 { x, y } = corner.uv;
+            let [_, second, third] = DVec3::AXES[number].to_array();
+            DVec4::new(x, y, second, third)
+        };
+        each_cut(scene, index, window, varying, &mut |cut: Cut<'_, DVec4>| {
             let positions = cut.corners.map_array(|c| item.mesh.positions[c.position as usize]);
             let most = positions.map_array(|position| sums * position.abs().extend(1.0));
             let [a, b, c] = most;
@@ -86,8 +94,15 @@ pub(crate) fn pieces_and_lost(
             let px_error = (off.x.max(off.y) + off.w) * width.max(height) / 2.0;
             let depth_error = (off.z + off.w) / 2.0;
             let Cut { face, px, w, triangle, .. } = cut;
-            let number = index as u32;
-            let piece = Piece { face, item: number, px, w, px_error, depth_error, triangle };
+            let item_number = index as u32;
+            let shares = triangle.vertices.map_array(|vertex| vertex.varying.zw());
+            let vertices = triangle.vertices.map_array(|vertex| {
+                let ScreenVertex { position, depth, inv_w, varying } = vertex;
+                ScreenVertex { position, depth, inv_w, varying: varying.xy() }
+            });
+            let triangle = ScreenTriangle { vertices };
+            let piece =
+                Piece { face, item: item_number, px, w, px_error, depth_error, triangle, shares };
             if !grid.is_removed(item.cull, px) {
                 pieces.push(piece);
             } else if piece.change(grid) == Change::Over {

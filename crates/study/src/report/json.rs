@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 use super::{Places, StudyFindings};
 use crate::cost::{Group, JudgedChoice};
 use crate::effects::{Adds, Need, Needs, State};
-use crate::hard::{HardCases, Shifted};
+use crate::hard::HardCases;
+use crate::shift::Shifted;
 use crate::{face_of, triangle_of};
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the choices that others beat in error and time.
@@ -103,6 +104,8 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
         "is_cut_short": found.is_cut_short,
         "moved_depth": found.shift.depth.as_ref().map(shifted),
         "moved_texels": found.shift.texels.as_ref().map(shifted),
+        "moved_colour": found.shift.colour.as_ref().map(shifted),
+        "moved_normal": found.shift.normal.as_ref().map(shifted),
     })
 }
 

@@ -14,7 +14,8 @@ use std::fmt::Write as _;
 use crate::cost::{FRAMES, Group, JudgedChoice, Part};
 use crate::effects::{Adds, Need, Needs, State};
 use crate::grid::GridPrice;
-use crate::hard::{HardCase, HardCases, Kind, Shifted};
+use crate::hard::{HardCase, HardCases, Kind};
+use crate::shift::Shifted;
 use crate::ties::{Class, Classes, TiedPair};
 use crate::{face_of, triangle_of};
 use image::{Rgb, RgbImage};
@@ -101,12 +102,16 @@ fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) ->
         let Shifted { by, pixel: [x, y], triangle } = shifted;
         format!("by {by:.1e}{unit} at {x},{y} on {}", subject.face(triangle))
     };
-    let depth = found.shift.depth.map(|depth| format!("a depth {}", shifted(depth, "")));
-    let texels = found
-        .shift
-        .texels
-        .map(|texels| format!("texture coordinates {}", shifted(texels, " texels")));
-    let values: Vec<String> = depth.into_iter().chain(texels).collect();
+    let shift = &found.shift;
+    let values: Vec<String> = [
+        ("a depth", shift.depth, ""),
+        ("texture coordinates", shift.texels, " texels"),
+        ("a colour of corners", shift.colour, " of 255"),
+        ("a normal", shift.normal, " degrees"),
+    ]
+    .into_iter()
+    .filter_map(|(what, largest, unit)| Some(format!("{what} {}", shifted(largest?, unit))))
+    .collect();
     if !values.is_empty() {
         lines.push(format!(
             "the most that snapped corners change of what is seen: {}",
