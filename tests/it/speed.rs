@@ -207,7 +207,8 @@ fn limits(run: &Value, peers: &Value, words: &Words) -> String {
     write!(page, "\n{}{}\n\n{}|", words.limits[1], colon.trim_end(), head.join("|")).unwrap();
     terms.iter().for_each(|(term, _)| write!(page, " {term} |").unwrap());
     page += &("\n|---|---".to_owned() + &"|---".repeat(terms.len()) + "|\n");
-    for row in frames {
+    // With four samples the parts are in the data alone.
+    for row in frames.iter().filter(|row| row["samples"] == 1) {
         page += &named(row);
         for (term, _) in &terms {
             let share = number(&row["terms"][*term]) / number(&row["instructions"]) * 100.0;
@@ -298,7 +299,9 @@ fn power(points: &[[f64; 3]], of: usize) -> f64 {
 
 fn growth(run: &Value, words: &Words) -> String {
     let mut page = machine(run, words) + words.growth + "\n|---|---|---|---|---|---|---|---|\n";
-    for Curve { what, engine, points } in &curves(run) {
+    // The plots have all engines; two show in the table what the others do alike.
+    let shown = ["scanline", "tiles, 1 sample, 1 core"];
+    for Curve { what, engine, points } in curves(run).iter().filter(|c| shown.contains(&&*c.engine)) {
         let ([from, ..], [to, ..]) = (points[0], points[points.len() - 1]);
         let ends = |of: usize| format!("{:.1}, {:.1}", points[0][of], points[points.len() - 1][of]);
         let last = power(&points[points.len() - 2..], 1);
