@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec3, DVec4, Vec4};
-use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_faults::published::PublishedLine as _;
