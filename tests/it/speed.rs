@@ -301,7 +301,8 @@ fn growth(run: &Value, words: &Words) -> String {
     let mut page = machine(run, words) + words.growth + "\n|---|---|---|---|---|---|---|---|\n";
     // The plots have all engines; two show in the table what the others do alike.
     let shown = ["scanline", "tiles, 1 sample, 1 core"];
-    for Curve { what, engine, points } in curves(run).iter().filter(|c| shown.contains(&&*c.engine)) {
+    for Curve { what, engine, points } in curves(run).iter().filter(|c| shown.contains(&&*c.engine))
+    {
         let ([from, ..], [to, ..]) = (points[0], points[points.len() - 1]);
         let ends = |of: usize| format!("{:.1}, {:.1}", points[0][of], points[points.len() - 1][of]);
         let last = power(&points[points.len() - 2..], 1);
