@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec3, DVec4, Vec4};
-use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_faults::published::PublishedLine as _;
@@ -113,6 +113,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("hand-turns", by_hand::turns),
     ("hand-light", by_hand::light),
     ("hand-exercises", by_hand::exercises),
+    ("lessons", crate::terms::lessons),
     ("hand-shares", by_hand::shares),
     ("hand-share-errors", by_hand::share_errors),
     ("hand-shadings", by_hand::shadings),
@@ -146,7 +147,6 @@ pub const ALL: &[(&str, Values)] = &[
         let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;
         vec![hits[0].covered() as f64, hits[1].covered() as f64, row(&hits[0]) + row(&hits[1])]
     }),
-    ("pitch-1024", || vec![Frame::new(PixelRect::window(1024, 4), 0u32).pitch() as f64]),
     ("calls-outside", || vec![bug("oob")["oob_calls"].as_f64().unwrap()]),
     ("drifting-lines", drifting_lines),
     ("t6-pixels", || vec![named("T6").iter().map(Coverage::covered).sum::<u64>() as f64]),

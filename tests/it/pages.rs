@@ -289,17 +289,17 @@ fn pages_specimens_are_as_surveyed() {
             let wanted = survey.lines().find(|l| l.split_whitespace().next() == Some(name));
             let wanted: Vec<_> =
                 wanted.unwrap_or_else(|| panic!("no {name}")).split_whitespace().collect();
-            let rates = cells[7].replace(',', "");
-            let figures: Vec<_> = [cells[6]]
+            let rates = cells[6].replace(',', "");
+            let figures: Vec<_> = [cells[5]]
                 .into_iter()
                 .chain(rates.split(" / "))
-                .chain(cells[8].split(" / "))
+                .chain(cells[7].split(" / "))
                 .collect();
             assert_eq!(figures, wanted[1..7], "{folder}: {name}");
             let card = &survey[survey.find(&format!("\n  {name} ")).unwrap() + 1..];
             let shown = card.lines().find(|line| line.contains("shown by: ")).unwrap();
             let shown = shown.trim_end_matches(" pixels");
-            let pixels = cells[5].trim_end_matches(" px").rsplit([' ', '：']).next().unwrap();
+            let pixels = cells[4].trim_end_matches(" px").rsplit([' ', '：']).next().unwrap();
             assert!(shown.ends_with(&format!(" {pixels}")), "{folder}: {name}: {pixels}, {shown}");
             checked += 1;
         }

@@ -18,7 +18,7 @@ struct Words {
     by: &'static str,
     growth: &'static str,
     /// What bounds a frame; the parts of a frame; what fills take.
-    limits: [&'static str; 3],
+    limits: [&'static str; 2],
     ends: [&'static str; 2],
 }
 
@@ -42,7 +42,6 @@ const ENGLISH: Words = Words {
     growth: "| what grows | from, to | drawn by | ms | power of it | in the last step | MB | power of it |",
     limits: [
         "| mesh | samples | ms | instructions, millions | at the highest rate, ms | of the time | picture and mesh, MB | at the rate of a copy, ms | of the time | fetched, MB |",
-        "Parts of the instructions of a frame",
         "Instructions of antialiased fills, for each triangle",
     ],
     ends: [": ", "."],
@@ -68,7 +67,6 @@ const CHINESE: Words = Words {
     growth: "| 增长的是 | 从，到 | 由谁画 | 毫秒 | 它的几次方 | 最后一步 | MB | 它的几次方 |",
     limits: [
         "| 网格 | 采样点 | 毫秒 | 指令，百万 | 以最高速率，毫秒 | 占时间 | 画面和网格，MB | 以复制的速率，毫秒 | 占时间 | 取入，MB |",
-        "一帧的指令各占多少",
         "抗锯齿填充的指令数，每个三角形",
     ],
     ends: ["：", "。"],
@@ -200,28 +198,13 @@ fn limits(run: &Value, peers: &Value, words: &Words) -> String {
         let (millions, moved, fetched) = (instructions / 1e6, moved / 1e6, fetched / 1e6);
         writeln!(page, "{} {ms:.2} | {millions:.0} | {computed:.2} | {of_computed:.0}% | {moved:.1} | {copied:.2} | {of_copied:.0}% | {fetched:.1} |", named(row)).unwrap();
     }
-    let mut terms: Vec<_> = frames[0]["terms"].as_object().unwrap().iter().collect();
-    terms.sort_by(|a, b| number(b.1).total_cmp(&number(a.1)));
-    let [colon, _] = words.ends;
-    let head: Vec<&str> = words.limits[0].split('|').take(3).collect();
-    write!(page, "\n{}{}\n\n{}|", words.limits[1], colon.trim_end(), head.join("|")).unwrap();
-    terms.iter().for_each(|(term, _)| write!(page, " {term} |").unwrap());
-    page += &("\n|---|---".to_owned() + &"|---".repeat(terms.len()) + "|\n");
-    for row in frames {
-        page += &named(row);
-        for (term, _) in &terms {
-            let share = number(&row["terms"][*term]) / number(&row["instructions"]) * 100.0;
-            write!(page, " {share:.0}% |").unwrap();
-        }
-        page.push('\n');
-    }
     let fills: Vec<_> = run["fills"].as_array().unwrap().iter().collect();
     let triangles = |row: &Value| {
         let mut like = peers["fills"].as_array().unwrap().iter();
         number(&like.find(|other| other["class"] == row["class"]).unwrap()["triangles"])
     };
     page.push('\n');
-    page + &table(&fills, "class", words.limits[2], words, &|row| {
+    page + &table(&fills, "class", words.limits[1], words, &|row| {
         format!("{:.0}", number(&row["instructions"]) / triangles(row))
     })
 }
@@ -298,7 +281,10 @@ fn power(points: &[[f64; 3]], of: usize) -> f64 {
 
 fn growth(run: &Value, words: &Words) -> String {
     let mut page = machine(run, words) + words.growth + "\n|---|---|---|---|---|---|---|---|\n";
-    for Curve { what, engine, points } in &curves(run) {
+    // The plots have all engines; two show in the table what the others do alike.
+    let shown = ["scanline", "tiles, 1 sample, 1 core"];
+    for Curve { what, engine, points } in curves(run).iter().filter(|c| shown.contains(&&*c.engine))
+    {
         let ([from, ..], [to, ..]) = (points[0], points[points.len() - 1]);
         let ends = |of: usize| format!("{:.1}, {:.1}", points[0][of], points[points.len() - 1][of]);
         let last = power(&points[points.len() - 2..], 1);

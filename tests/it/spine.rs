@@ -142,3 +142,37 @@ fn spine_numbers_everything() {
         }
     }
 }
+
+/// The points of a row of the sheet: what its steps, its hard exercises and the rest are worth.
+fn points(row: &[&str]) -> u32 {
+    let steps = row[2].split(',').filter(|step| !step.trim().is_empty()).count() as u32;
+    let others = row[4].split(": ").skip(1).map(|rest| {
+        let digits = rest.split(|c: char| !c.is_ascii_digit()).next();
+        digits.and_then(|digits| digits.parse::<u32>().ok()).unwrap_or(0)
+    });
+    3 * steps + 2 + others.sum::<u32>()
+}
+
+/// The sheet of ten weeks has each chapter and each step once, in order, and 100 points.
+#[test]
+fn spine_sheet_has_all_and_100_points() {
+    for folder in [ENGLISH.folder, CHINESE.folder] {
+        let text = page(folder, "teaching");
+        let rows: Vec<Vec<&str>> = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"))
+            .map(|line| line.split('|').map(str::trim).collect::<Vec<_>>())
+            .filter(|row| row.len() == 6 && row[0].parse::<u32>().is_ok())
+            .collect();
+        assert_eq!(rows.len(), 10, "{folder}");
+        let column = |at: usize| {
+            let cells = rows.iter().flat_map(|row| row[at].split(','));
+            cells.map(str::trim).filter(|cell| !cell.is_empty()).collect::<Vec<_>>()
+        };
+        assert_eq!(column(1), CHAPTERS.map(|(_, number)| number), "{folder}");
+        assert_eq!(column(2), STEPS.iter().map(course::number).collect::<Vec<_>>(), "{folder}");
+        let sums: Vec<_> = rows.iter().map(|row| points(row)).collect();
+        assert_eq!(sums.iter().map(u32::to_string).collect::<Vec<_>>(), column(5), "{folder}");
+        assert_eq!(sums.iter().sum::<u32>(), 100, "{folder}");
+    }
+}

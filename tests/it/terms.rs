@@ -2,6 +2,8 @@
 //! explains the word. What is in a link is free, since the link leads to the explanation; so is what is in the box
 //! about the book, in code and in the generated exercises. What a lesson need not say is on its page of evidence.
 
+use rasterproof_teaching::course::STEPS;
+use rasterproof_teaching::quiz;
 use rasterproof_teaching::spine::CHAPTERS;
 
 use crate::pages::page;
@@ -121,6 +123,25 @@ fn terms_of_a_lesson_are_few() {
     }
     let page = "one ![two](a.png) [three](b.md) <!-- 4 -->\n| 5 |\n```text\n6\n```\n+ four\n## Predict\nsix";
     assert_eq!(lesson_words(page), 3);
+}
+
+/// What the page for teachers says of the lessons beside other texts: how many begin with a picture, how many have live figures,
+/// the fewest and the most words, stages in three languages, steps of the course, and quizzes.
+pub fn lessons() -> Vec<f64> {
+    let pages: Vec<_> = CHAPTERS.iter().map(|(chapter, _)| page("docs", chapter)).collect();
+    let begins = |page: &&String| page.split("\n## ").next().unwrap_or("").contains("![");
+    let words: Vec<_> = pages.iter().map(|page| lesson_words(page)).collect();
+    let quizzes = CHAPTERS.iter().filter(|(_, number)| quiz::chapter(number).is_some());
+    let counts = [
+        pages.iter().filter(begins).count(),
+        pages.iter().filter(|page| page.contains("<rp-figure")).count(),
+        words.iter().copied().min().unwrap(),
+        words.iter().copied().max().unwrap(),
+        page("docs", "own").matches("<summary>Python").count(),
+        STEPS.len(),
+        quizzes.count(),
+    ];
+    counts.map(|count| count as f64).to_vec()
 }
 
 /// A lesson ends with four exercises, two of them hard, each with its answer and the hard ones with hints.

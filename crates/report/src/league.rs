@@ -17,8 +17,6 @@ struct Words {
     mistake: &'static str,
     /// Before the name of an earlier library that does the same.
     as_first: &'static str,
-    unscored: &'static str,
-    unanswered: &'static str,
     kinds: [&'static str; 2],
     /// What stands after what a line is about, and at its end.
     marks: [&'static str; 2],
@@ -35,8 +33,6 @@ const ENGLISH: Words = Words {
     by_mistake: "a mistake",
     mistake: "By mistake it ",
     as_first: "as",
-    unscored: "Left out",
-    unanswered: "Requests refused, and not answered",
     kinds: ["Triangles", "Lines"],
     marks: [": ", "."],
     say: str::to_owned,
@@ -55,8 +51,6 @@ const CHINESE: Words = Words {
     by_mistake: "已知的错误",
     mistake: "它错在：",
     as_first: "同",
-    unscored: "未计入",
-    unanswered: "被拒绝的请求与没有回答的请求",
     kinds: ["三角形", "直线"],
     marks: ["：", "。"],
     say: phrases::chinese,
@@ -95,45 +89,47 @@ pub fn tables(league: &League, chinese: bool) -> String {
 
 /// How a library was called, and what it does. Where an earlier one does the same, as `said` holds it, its name is enough.
 fn one<'a>(out: &mut String, row: &'a Ranked, words: &Words, said: &mut BTreeMap<String, &'a str>) {
-    let Ranked { name, call, unanswered: [refused, died], .. } = row;
     let [colon, stop] = words.marks;
-    let call = (words.say)(call);
-    let _ = writeln!(out, "- **{name}**{colon}{call}{stop}");
+    let call = (words.say)(&row.call);
+    let _ = writeln!(out, "- **{}**{colon}{call}{stop}", row.name);
     let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
     for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
-        let gap = if stop == "." { " " } else { "" };
-        let left_out = match kind.by_convention {
-            Some(Score { unscored: n @ 1.., .. }) => {
-                format!("{gap}{}{colon}{n}{stop}", words.unscored)
-            }
-            _ => String::new(),
+        let does = match &kind.mistake {
+            // A mistake that is known explains more than a convention beside it.
+            Some(mistake) => format!("{}{}{stop}", words.mistake, (words.say)(mistake)),
+            None => (words.say)(&beyond_the_table(&kind.sentence)),
         };
-        let mistake = kind.mistake.as_ref().map_or_else(String::new, |does| {
-            format!("{gap}{}{}{stop}", words.mistake, (words.say)(does))
-        });
-        if !kind.sentence.is_empty() {
-            // A mistake that is known explains more than the nearest of the conventions that do not.
-            let does = match kind.by_convention {
-                None if !mistake.is_empty() => mistake.trim_start().to_owned(),
-                _ => (words.say)(&beyond_the_table(&kind.sentence)) + &left_out + &mistake,
-            };
-            let line = format!("{about}{colon}{does}");
-            let _ = match said.get(&line) {
-                Some(first) => writeln!(out, "  - {about}{colon}{} {first}{stop}", words.as_first),
-                None => writeln!(out, "  - {line}"),
-            };
-            said.entry(line).or_insert(name);
+        if does.is_empty() {
+            continue;
         }
-    }
-    if refused + died > 0 {
-        let _ = writeln!(out, "  - {}{colon}{refused}, {died}{stop}", words.unanswered);
+        let line = format!("{about}{colon}{does}");
+        let _ = match said.get(&line) {
+            Some(first) => writeln!(out, "  - {about}{colon}{} {first}{stop}", words.as_first),
+            None => writeln!(out, "  - {line}"),
+        };
+        said.entry(line).or_insert(&row.name);
     }
 }
 
-/// A convention without the share of lines that are the same from either end, of which the table has the rest.
+/// How sentences begin that the table makes needless, or that are of single shapes and stand in the data alone.
+const IN_THE_DATA: [&str; 8] = [
+    "unexplained.",
+    "The nearest hypothesis",
+    "Triangles without area",
+    "Triangles that leave the window",
+    "Lines that leave the window",
+    "It may as well be",
+    "The order of the corners",
+    "Its pixels do not come in order",
+];
+
+/// A convention without what the table or the data says better.
 fn beyond_the_table(sentence: &str) -> String {
-    let is_in_table = |one: &&str| one.ends_with("of its lines are the same from either end.");
-    let kept: String = sentence.split_inclusive(". ").filter(|one| !is_in_table(one)).collect();
+    let is_kept = |one: &&str| {
+        !one.contains("of its lines are the same from either end.")
+            && !IN_THE_DATA.iter().any(|begin| one.starts_with(begin))
+    };
+    let kept: String = sentence.split_inclusive(". ").filter(is_kept).collect();
     kept.trim_end().to_owned()
 }
 
