@@ -138,7 +138,7 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
     let picture = picture::png(&picture::of_frame(&drawings[0].rendered.picture));
     let mut comparison = compare(scene, &drawings, arguments.plan.is_some())?;
     let as_given = usual.as_ref().map_or(scene, |usual| &usual.scene);
-    let looked = || undecided_and_broken(as_given, &drawings[0].target, grid);
+    let looked = || undecided_and_broken(as_given, &maker.model.origins, &drawings[0].target, grid);
     let looked = (!arguments.wireframe).then(looked).transpose()?;
     let changed = usual.as_ref().map(|usual| usual.changed(&drawings[0])).transpose()?;
     if let (Some(usual), Some(comparison)) = (&usual, &mut comparison) {

@@ -148,6 +148,8 @@ fn each_pixel_that_snapping_breaks_is_named() {
         let turned = triangles(name).into_iter().filter(|&of| area(of, None) != area(of, Some(8)));
         let (turned, told) = (turned.count(), found(cases, "triangles turned by snapping"));
         seen[2] += turned;
+        let by_snapping = |key: &str| drawn["by_snapping"][key].as_u64().unwrap();
+        assert_eq!(by_snapping("turned_over") + by_snapping("flattened"), turned as u64, "{name}");
         assert_eq!(told.map_or(0, |case| case["count"].as_u64().unwrap()), turned as u64, "{name}");
     }
     assert!(seen.iter().all(|count| *count > 2), "{seen:?}");
@@ -243,5 +245,8 @@ fn corners_that_nearly_meet_are_no_borders() {
             case.map_or(0, |case| case["count"].as_u64().unwrap())
         };
         assert_eq!([count("corners that nearly meet"), count("open borders")], [8, borders]);
+        folder
+            .run(&*format!("render {file} --size 64x48"))
+            .prints("SEAMS: corners nearly meet in 8 places");
     }
 }

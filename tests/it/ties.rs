@@ -371,7 +371,7 @@ fn covered(picture: &Frame<Colour>) -> u64 {
 /// Pixels that rounding decides: by snapping alone, which every rasterizer does, and in tiles.
 fn by_rounding(scene: &Scene, antialias: Antialias) -> [u64; 2] {
     let target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
-    let (classes, _) = look(scene, &target, CornerGrid::USUAL).unwrap();
+    let (classes, _) = look(scene, &[], &target, CornerGrid::USUAL).unwrap();
     assert_eq!(classes.first.is_some(), classes.by_rounding > 0);
     let tiles = TiedPieces::new(scene, &target).unwrap().by_planes_in_f32();
     assert_eq!(tiles.first.is_some(), tiles.pixels > 0);

@@ -91,10 +91,45 @@ struct Triangle {
 /// A border as vertices, with its triangle.
 type Border = ([u32; 2], u32);
 
+/// A mesh without what is no face and without faces that repeat an earlier one.
+struct Welded {
+    points: Vec<DVec3>,
+    triangles: Vec<Triangle>,
+    /// For each triangle of the scene whether it has an area.
+    is_solid: Vec<bool>,
+    /// What is open once corners that nearly meet are merged.
+    border: Vec<Border>,
+    /// How far apart two points may be that count as one.
+    grain: f64,
+}
+
 impl Shape {
     pub fn of(scene: &Scene, origins: &[Origin]) -> Self {
         let mut shape = Self { face_of: first_triangles(scene, origins), ..Self::default() };
-        let (points, mut triangles) = weld(scene, &shape.face_of);
+        let Welded { points, mut triangles, is_solid, border, grain } = shape.weld(scene);
+        shape.find_t_junctions(&points, &border, grain);
+        let in_gaps = shape.find_gaps(&points, (&triangles, &border), grain);
+        let rest = border.iter().filter(|(ends, _)| in_gaps.binary_search(ends).is_err());
+        shape.borders =
+            rest.map(|(ends, triangle)| edge(&points, *ends, vec![*triangle])).collect();
+        shape.borders.sort_by_key(|edge| edge.triangles[0]);
+        triangles.retain(|triangle| is_solid[triangle.number as usize]);
+        let at = |triangle: &Triangle| triangle.vertices.map_array(|v| points[v as usize]);
+        let corners: Vec<[DVec3; 3]> = triangles.iter().map(at).collect();
+        shape.find_overlaps(&triangles, &corners, grain);
+        shape
+    }
+
+    /// The places where corners nearly meet, and nothing that is looked for after them.
+    pub fn nearly_meeting(scene: &Scene, origins: &[Origin]) -> Vec<Edge> {
+        let mut shape = Self { face_of: first_triangles(scene, origins), ..Self::default() };
+        shape.weld(scene);
+        shape.near
+    }
+
+    /// Welds the mesh, and finds triangles without area, slivers, duplicates, crowded edges and corners that nearly meet.
+    fn weld(&mut self, scene: &Scene) -> Welded {
+        let (points, mut triangles) = weld(scene, &self.face_of);
         let at = |triangle: &Triangle| triangle.vertices.map_array(|v| points[v as usize]);
         let mut is_solid = Vec::with_capacity(triangles.len());
         for triangle in &triangles {
@@ -102,42 +137,33 @@ impl Shape {
             let has_area = !has_no_area(corners);
             is_solid.push(has_area);
             if !has_area {
-                shape.no_area.push(triangle.number);
+                self.no_area.push(triangle.number);
             } else if aspect(corners) > SLIVER {
-                shape.slivers.push((aspect(corners), triangle.number));
+                self.slivers.push((aspect(corners), triangle.number));
             }
         }
-        shape.slivers.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        self.slivers.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         // What has no area is no face, but it may be a part of one.
         let mut is_face = vec![false; triangles.len()];
         for triangle in triangles.iter().filter(|triangle| is_solid[triangle.number as usize]) {
             is_face[triangle.face as usize] = true;
         }
         triangles.retain(|triangle| is_face[triangle.face as usize]);
-        shape.find_duplicates(&triangles);
+        self.find_duplicates(&triangles);
         let is_later = |triangle: &Triangle| {
-            shape.duplicates.binary_search_by_key(&triangle.face, |[later, _]| *later).is_ok()
+            self.duplicates.binary_search_by_key(&triangle.face, |[later, _]| *later).is_ok()
         };
         triangles.retain(|triangle| !is_later(triangle));
-        let size = size(&points);
-        let mut border = shape.edges(&points, &triangles);
-        if let Some(met) = shape.find_near(&points, (&triangles, &border), GRAIN * size) {
+        let grain = GRAIN * size(&points);
+        let mut border = self.edges(&points, &triangles);
+        if let Some(met) = self.find_near(&points, (&triangles, &border), grain) {
             // With these corners merged, borders are those that are open still.
             for triangle in &mut triangles {
                 triangle.vertices = triangle.vertices.map_array(|v| met[v as usize]);
             }
-            border = shape.edges(&points, &triangles);
+            border = self.edges(&points, &triangles);
         }
-        shape.find_t_junctions(&points, &border, GRAIN * size);
-        let in_gaps = shape.find_gaps(&points, (&triangles, &border), GRAIN * size);
-        let rest = border.iter().filter(|(ends, _)| in_gaps.binary_search(ends).is_err());
-        shape.borders =
-            rest.map(|(ends, triangle)| edge(&points, *ends, vec![*triangle])).collect();
-        shape.borders.sort_by_key(|edge| edge.triangles[0]);
-        triangles.retain(|triangle| is_solid[triangle.number as usize]);
-        let corners: Vec<[DVec3; 3]> = triangles.iter().map(at).collect();
-        shape.find_overlaps(&triangles, &corners, GRAIN * size);
-        shape
+        Welded { points, triangles, is_solid, border, grain }
     }
 
     /// Finds faces with the vertices of an earlier face.

@@ -16,16 +16,20 @@ use rasterproof_core::contract::RasterizeExact as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::geometry::AROUND;
 use rasterproof_core::grid::PixelRect;
+use rasterproof_core::parallel;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::triangle::Span;
+use rasterproof_models::Origin;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::assemble::Cull;
-use rasterproof_render::pipeline::target::Target;
+use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::Scene;
 
 use crate::corner_grid::CornerGrid;
+use crate::face_of;
+use crate::shape::Shape;
 use crate::ties::{Classes, Surfaces};
-use crate::view::{Piece, each_plane};
+use crate::view::{Piece, each_plane, pieces_and_lost};
 use crate::winding::{Change, area};
 
 /// How far the points around a sample are from it in x and in y, in steps of the grid: more than half of one, which is how far a corner
@@ -135,18 +139,58 @@ pub(crate) fn broken<'a>(
     broken
 }
 
-/// Pixels that lie in cracks and folds by snapping and are seen, with the first of each.
+/// What snapping breaks in a picture, with the first of each kind. Pixels of cracks and folds are those that are seen; a
+/// triangle is told by the number of its face.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct BySnapping {
     pub cracks: u64,
     pub folds: u64,
     pub first_crack: Option<[i32; 2]>,
     pub first_fold: Option<[i32; 2]>,
+    /// Parts of triangles in the window that snapping turns over, and those that it flattens.
+    pub turned_over: u64,
+    pub flattened: u64,
+    pub first_turned: Option<u32>,
+    /// Places where corners nearly meet, which may be snapped apart.
+    pub nearly_meeting: u64,
+    pub first_nearly_meeting: Option<u32>,
+}
+
+impl BySnapping {
+    /// Counts the pieces that snapping turns over or flattens.
+    fn count_turned(&mut self, pieces: &[Piece], lost: &[Piece], grid: CornerGrid) {
+        for piece in pieces.iter().chain(lost) {
+            match piece.change(grid) {
+                Change::None => continue,
+                Change::Flat => self.flattened += 1,
+                Change::Over => self.turned_over += 1,
+            }
+            let first = self.first_turned.map_or(piece.face, |first| first.min(piece.face));
+            self.first_turned = Some(first);
+        }
+    }
 }
 
 /// What decides the pixels of a scene as a target shows it: which of them snapping breaks, and [`Classes`]. One plane of samples after
 /// the other is held.
 pub fn look(
+    scene: &Scene,
+    origins: &[Origin],
+    target: &Target,
+    grid: CornerGrid,
+) -> Result<(Classes, BySnapping), BadScene> {
+    let near = || Shape::nearly_meeting(scene, origins);
+    let (near, looked) = parallel::join(near, || look_at_planes(scene, target, grid));
+    let (classes, mut found) = looked?;
+    let face = |triangle: u32| face_of(scene, origins, triangle);
+    found.nearly_meeting = near.len() as u64;
+    found.first_nearly_meeting = near.first().map(|place| face(place.triangles[0]));
+    found.first_turned = found.first_turned.map(face);
+    Ok((classes, found))
+}
+
+/// The same without corners that nearly meet; the first triangle that is turned is its number in drawing order.
+fn look_at_planes(
     scene: &Scene,
     target: &Target,
     grid: CornerGrid,
@@ -154,6 +198,8 @@ pub fn look(
     let scale = target.antialias().scale() as i32;
     let mut classes = Classes::new(target.size());
     let mut pixels = [Vec::new(), Vec::new()];
+    let mut found = BySnapping::default();
+    let is_antialiased = target.antialias() != Antialias::None;
     each_plane(scene, target, grid, &mut |pieces, lost| {
         let surfaces = Surfaces::of(scene, pieces, target.bounds());
         classes.look(&surfaces, scale);
@@ -163,20 +209,24 @@ pub fn look(
             let [x, y] = broken.sample.map_array(|at| at.div_euclid(scale));
             pixels[usize::from(broken.is_crack)].push([y, x]);
         }
+        if !is_antialiased {
+            found.count_turned(pieces, lost, grid);
+        }
     })?;
+    if is_antialiased {
+        // Triangles are counted in pixels, whatever the samples are.
+        let (pieces, lost) = pieces_and_lost(scene, target.size(), grid)?;
+        found.count_turned(&pieces, &lost, grid);
+    }
     for pixels in &mut pixels {
         pixels.sort_unstable();
         pixels.dedup();
     }
     let [folds, cracks] = &pixels;
     let first = |pixels: &[[i32; 2]]| pixels.first().map(|[y, x]| [*x, *y]);
-    let by_snapping = BySnapping {
-        cracks: cracks.len() as u64,
-        folds: folds.len() as u64,
-        first_crack: first(cracks),
-        first_fold: first(folds),
-    };
-    Ok((classes.counted(), by_snapping))
+    (found.cracks, found.first_crack) = (cracks.len() as u64, first(cracks));
+    (found.folds, found.first_fold) = (folds.len() as u64, first(folds));
+    Ok((classes.counted(), found))
 }
 
 /// The pixels whose samples a piece may cover as it is given or snapped.

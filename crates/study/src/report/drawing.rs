@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use rasterproof_core::frame::Frame;
 use rasterproof_host::text::printable_path;
+use rasterproof_models::Origin;
 use rasterproof_registry::engines::Engine;
 use rasterproof_registry::undecided::{self, EngineFrame};
 use rasterproof_render::effects::Effect;
@@ -101,13 +102,14 @@ pub fn compare(
 /// Pixels in which rounding alone decides which surface is seen, and those that snapping breaks, as `study` counts them.
 pub fn undecided_and_broken(
     scene: &Scene,
+    origins: &[Origin],
     target: &Target,
     grid: CornerGrid,
 ) -> Result<(ByRounding, BySnapping), Box<dyn Error + Send + Sync>> {
     if scene.hidden == Hidden::Painter {
         return Ok(Default::default());
     }
-    let (classes, by_snapping) = snapping::look(scene, target, grid)?;
+    let (classes, by_snapping) = snapping::look(scene, origins, target, grid)?;
     let first = classes.first.map(|pair| pair.pixel.into());
     Ok((ByRounding { pixels: classes.by_rounding, first }, by_snapping))
 }
@@ -179,6 +181,19 @@ pub fn snapped(found: BySnapping, grid: CornerGrid, study: &str) -> Vec<String> 
         ))
     };
     let mut lines: Vec<String> = kinds.into_iter().filter_map(line).collect();
+    if let Some(first) = found.first_turned {
+        let BySnapping { turned_over, flattened, .. } = found;
+        lines.push(format!(
+            "SNAPPING: once corners are {grid}, {} turned over and {flattened} flattened; the first is of face {first}",
+            words::count(turned_over, "triangle is", "triangles are")
+        ));
+    }
+    if let Some(first) = found.first_nearly_meeting {
+        lines.push(format!(
+            "SEAMS: corners nearly meet in {}, which are open borders for whoever compares bits; the first is at face {first}",
+            words::count(found.nearly_meeting, "place", "places")
+        ));
+    }
     if !lines.is_empty() {
         lines.push(format!("the faces there, and what mends them: {study}"));
     }
