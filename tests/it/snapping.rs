@@ -155,6 +155,25 @@ fn each_pixel_that_snapping_breaks_is_named() {
     assert!(seen.iter().all(|count| *count > 2), "{seen:?}");
 }
 
+/// A triangle that culling removes since snapping has turned it over is counted, by `verify` and by `render`.
+#[test]
+fn turned_triangles_that_are_culled_are_counted() {
+    let folder = folder("snapping-culled");
+    let mut turned = 0;
+    for (name, [width, height]) in PLANES {
+        // As given all of them are clockwise.
+        let view = format!("{name}.gltf --camera 1 --size {width}x{height} --cull ccw --json");
+        let [verified, drawn] = ["verify", "render"]
+            .map(|command| folder.check(&*format!("{command} {view}"), 0).json());
+        let told = found(&verified["hard_cases"]["cases"], "triangles turned by snapping");
+        let told = told.map_or(0, |case| case["count"].as_u64().unwrap());
+        let by_snapping = |key: &str| drawn["by_snapping"][key].as_u64().unwrap();
+        assert_eq!(by_snapping("turned_over") + by_snapping("flattened"), told, "{name}");
+        turned += by_snapping("turned_over");
+    }
+    assert!(turned > 2, "{turned}");
+}
+
 /// On every grid, and on none, the picture has the pixels that are covered on it, and cracks and folds are those of this grid.
 #[test]
 fn each_grid_has_its_own_pixels() {
