@@ -377,6 +377,28 @@ fn course_names_misconceptions() {
     assert!(unseen.is_empty(), "{unseen:?}");
 }
 
+/// What no list of mistakes has is learned from the answers, and said.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn course_says_what_was_learned() {
+    if !has("python3") {
+        return;
+    }
+    let folder = Folder::new("course-learned");
+    course(&folder, "start --language python --solution", 0);
+    let path = folder.join("starter.py");
+    let right = fs::read_to_string(&path).unwrap();
+    let fill = "        set_pixel(x, y)\n";
+    assert_eq!(right.matches(fill).count(), 1);
+    fs::write(&path, right.replace(fill, &format!("        (y % 2 and x0 > x1) or{}", &fill[7..])))
+        .unwrap();
+    let out = course(&folder, ["check", "top-left"], 1).out.replace("\n  ", " ");
+    assert!(
+        out.contains("it leaves out each pixel where its row is odd, only where dx of the first edge is negative"),
+        "{out}"
+    );
+}
+
 #[test]
 fn course_page_lists_misconceptions() {
     let page = crate::pages::page("docs", "course");

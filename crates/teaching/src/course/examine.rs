@@ -183,7 +183,7 @@ fn truth(exercise: &Exercise) -> Truth {
     Truth::of(&declared)
 }
 
-/// The mistake of a program that answers, where a known one explains it.
+/// What is known of the mistake of a program that answers.
 fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> Option<Mistakes> {
     if !failing.asked.judged.died.is_empty() {
         return None;
@@ -191,7 +191,7 @@ fn cause(program: &mut dyn Subject, failing: &Wrong<'_>, patience: Duration) -> 
     let checks = [failing.exercise.check.of_its_cause()];
     let mut asked = Timed::new(program, None).within(Some(patience));
     let (found, _) = recognise::mistakes(&mut asked, &checks, &failing.truth, None);
-    found.into_iter().map(|found| found.why).find(Mistakes::is_known)
+    found.into_iter().map(|found| found.why).next()
 }
 
 /// A note of the last line of a program's standard error, if it wrote any.

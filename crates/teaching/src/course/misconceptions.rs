@@ -51,6 +51,10 @@ macro_rules! known {
 
 /// Every misconception that is known, the more particular ones first.
 const KNOWN: &[KnownMisconception] = known![
+    "nothing", "you draw nothing",
+    "Your function returns and has set no pixel. Which pixel should the request above set first?",
+    [|q, _| nothing(q)];
+
     "twice", "you draw a pixel twice where both ends of a line are the same pixel",
     "Both ends are drawn. How many pixels has a line that begins and ends in the same pixel?",
     [|q, t| point_twice(q, t)];
@@ -256,7 +260,7 @@ fn is_same(question: &Question, a: &Answer, b: &Answer) -> bool {
         (Answer::Coverage(_), Answer::Coverage(_)) => {
             picture_of(a, window) == picture_of(b, window)
         }
-        _ => false,
+        _ => a == b,
     }
 }
 
@@ -276,6 +280,18 @@ fn as_line(pixels: Vec<[i32; 2]>) -> Answer {
 
 fn line(question: &Question, convention: LineConvention) -> Option<Answer> {
     convention.pixels(&line_question(question)?).map(as_line)
+}
+
+/// The answer of a function without a body, where it is to set pixels.
+fn nothing(question: &Question) -> Option<Answer> {
+    Some(match question.of {
+        Asked::Coverage(_) => Answer::Coverage(Vec::new()),
+        Asked::Values(_) => Answer::Values(Vec::new()),
+        Asked::Samples(_) => Answer::Samples(Vec::new()),
+        Asked::Line { .. } => Answer::Line(Vec::new()),
+        Asked::Depth(_) => Answer::Seen(Vec::new()),
+        Asked::Near(_) | Asked::Carried(_) | Asked::Polygon(_) => return None,
+    })
 }
 
 /// The right pixels, and that of a line between a pixel and itself once for each end.

@@ -6,6 +6,7 @@ use super::{STEPS, Step, number};
 use rasterproof_judge::failures::{Exchange, Exchanged, Failure};
 use rasterproof_report::html::{Excerpt, Report};
 use rasterproof_report::judge_text;
+use rasterproof_verify::mistakes::Mistakes;
 
 /// How a step came out, with its smallest failing case and how to ask for it again.
 pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
@@ -35,12 +36,17 @@ pub fn report(step: &Step, outcome: &Outcome, command: &str) -> Report {
         notes.push(format!("think about: {}", misconception.ask));
     }
     // What it does, and not what repairs it: that is the exercise.
-    let known = outcome.cause.as_ref().and_then(|cause| cause.causes.first());
-    if let Some(cause) = known {
-        notes.push(format!("it looks as if it {}", cause.does));
-        notes.push(format!("read: docs/{}.md", cause.page));
+    let cause = outcome.cause.as_ref();
+    if let Some(does) = cause.and_then(Mistakes::does) {
+        notes.push(format!("it looks as if it {does}"));
+    } else if let Some(mostly) = cause.and_then(Mistakes::mostly_does) {
+        notes.push(format!("mostly, it looks as if it {mostly}"));
     } else if outcome.misconception.is_none() {
         notes.push("no known mistake explains its answers".to_owned());
+        notes.extend(cause.iter().flat_map(|cause| cause.common.iter().cloned()));
+    }
+    if let Some(known) = cause.and_then(|cause| cause.causes.first()) {
+        notes.push(format!("read: docs/{}.md", known.page));
     }
     Report { about, excerpts: vec![Excerpt { title, ..excerpt }], notes, ..Report::default() }
 }
