@@ -15,6 +15,7 @@ use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
 use rasterproof_faults::published::sysu_strict_t::clip_strict;
 use rasterproof_invariants::CATALOGUE;
 use rasterproof_judge::league::League;
+use rasterproof_precision::cost::{Price, Priced, Recorded, prices};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_registry::published_check::{free_truth, specimen_coverage};
 use rasterproof_render::effects::render::Rendered;
@@ -464,13 +465,11 @@ pub fn cost_cell(reference: &str) -> f64 {
 
 /// The prices that the picture at the top states, by class: of the cheapest float, and of what is exact as given.
 fn drawn_prices() -> [[f64; 2]; 8] {
-    let plot = include_str!("../../docs/cost-price.svg");
-    let labels = plot.split("</text>").filter_map(|text| text.rsplit_once('>'));
-    let prices = labels.filter_map(|(_, label)| label.rsplit_once(' ')?.1.strip_suffix('x'));
-    let prices: Vec<f64> = prices.filter_map(|price| price.parse().ok()).collect();
-    let (pairs, rest) = prices.as_chunks();
-    assert!(rest.is_empty(), "two for each class: {prices:?}");
-    pairs.try_into().expect("eight classes")
+    let recorded = Recorded::read(&read("docs/cost.json")).unwrap();
+    let median = |priced: Option<Priced>| priced.expect("a price").ratio.median;
+    let price = |price: Price| [median(price.unpromised), median(price.given)];
+    let prices: Vec<_> = prices(&recorded.boards).into_iter().map(price).collect();
+    prices.try_into().expect("eight classes")
 }
 
 fn edges(choice: &str, column: usize) -> f64 {

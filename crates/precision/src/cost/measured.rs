@@ -139,49 +139,38 @@ pub fn measure_with(
         {
             choices.extend(external.into_iter().map(coverage::external));
         }
+        // A round of both groups takes longer than that of any other, as the slowest choice takes hundreds of times as long as the
+        // fastest.
+        let longer = if options.quick { 1.0 } else { 8.0 };
+        let timing = options.timing.map(|timing| timing.within(longer));
+        let options = &CostOptions { timing, ..*options };
         boards = boards_of(&groups, &coverage::columns(options), options, &told);
         done.set(1);
     }
     for ladder in others {
-        let one = |boards: Vec<Board>| boards.into_iter().next();
+        let how = (ladder, options, &told as Progress<'_>);
         boards.extend(match ladder {
-            Ladder::Interpolation => {
-                let groups = [(ladder, interpolation::choices())];
-                one(boards_of(&groups, &interpolation::columns(options), options, &told))
-            }
-            Ladder::Depth => one(boards_of(
-                &[(ladder, depth::choices())],
-                &depth::columns(options),
-                options,
-                &told,
-            )),
-            Ladder::Shadows => one(boards_of(
-                &[(ladder, shadow::choices())],
-                &shadow::columns(options),
-                options,
-                &told,
-            )),
-            Ladder::Levels => one(boards_of(
-                &[(ladder, levels::choices())],
-                &levels::columns(options),
-                options,
-                &told,
-            )),
-            Ladder::Lines => one(boards_of(
-                &[(ladder, lines::choices())],
-                &lines::columns(options),
-                options,
-                &told,
-            )),
-            Ladder::Antialiasing => {
-                let groups = [(ladder, antialiasing::choices())];
-                one(boards_of(&groups, &antialiasing::columns(options), options, &told))
-            }
-            Ladder::Scanline | Ladder::EdgeFunction | Ladder::Frames => None,
+            Ladder::Interpolation => group(how, interpolation::choices(), interpolation::columns),
+            Ladder::Depth => group(how, depth::choices(), depth::columns),
+            Ladder::Shadows => group(how, shadow::choices(), shadow::columns),
+            Ladder::Levels => group(how, levels::choices(), levels::columns),
+            Ladder::Lines => group(how, lines::choices(), lines::columns),
+            Ladder::Antialiasing => group(how, antialiasing::choices(), antialiasing::columns),
+            Ladder::Scanline | Ladder::EdgeFunction | Ladder::Frames => Vec::new(),
         });
         done.set(done.get() + 1);
     }
     boards
+}
+
+type Progress<'a> = &'a dyn Fn(f64, &str);
+
+fn group<I>(
+    (ladder, options, progress): (Ladder, &CostOptions, Progress<'_>),
+    choices: Vec<Entry<'_, I>>,
+    columns: fn(&CostOptions) -> Columns<I>,
+) -> Vec<Board> {
+    boards_of(&[(ladder, choices)], &columns(options), options, progress)
 }
 
 /// The boards of groups that do the same job on the same columns.

@@ -1,0 +1,105 @@
+//! The boards of `docs/cost.md` are those that were recorded in `docs/cost.json`, and not older than the code that they time.
+//!
+//! To measure again: `cargo run --release -- cost --json > target/cost.json`, then
+//! `RASTERPROOF_BOARDS=target/cost.json cargo test --test it boards`, which records it with the digest of the code, and then
+//! the same with `RASTERPROOF_RENEW=1`.
+
+use std::fs;
+
+use rasterproof_precision::cost::{Board, Recorded};
+use rasterproof_report::text;
+use rasterproof_study::report::board;
+use sha2::{Digest as _, Sha256};
+
+use crate::pages::{Renewal, files, page, read, root};
+
+/// Where what the boards time is written: the choices, the engines among them, the scenes that they draw, and the clock.
+const TIMED: [&str; 15] = [
+    "crates/core/src/line",
+    "crates/core/src/raster",
+    "crates/tiles/src/coverage",
+    "crates/tiles/src/frames/planes.rs",
+    "crates/precision/src/ladder",
+    "crates/precision/src/cost/antialiasing.rs",
+    "crates/precision/src/cost/clock.rs",
+    "crates/precision/src/cost/coverage.rs",
+    "crates/precision/src/cost/depth.rs",
+    "crates/precision/src/cost/interpolation.rs",
+    "crates/precision/src/cost/levels.rs",
+    "crates/precision/src/cost/lines.rs",
+    "crates/precision/src/cost/scene.rs",
+    "crates/precision/src/cost/shadow.rs",
+    "crates/precision/src/cost/tiles.rs",
+];
+
+/// The code of a file, without its tests and its comments, which take no time.
+fn code(text: &str) -> String {
+    let text = text.split("\n#[cfg(test)]").next().unwrap_or("");
+    let lines = text.lines().map(str::trim);
+    lines.filter(|line| !line.starts_with("//")).collect::<Vec<_>>().join(" ")
+}
+
+fn digest() -> String {
+    let mut hash = Sha256::new();
+    for place in TIMED {
+        let path = root().join(place);
+        let sources = if path.is_dir() { files(&path, ".rs") } else { vec![path] };
+        assert!(!sources.is_empty(), "{place}");
+        for source in sources {
+            hash.update(code(&fs::read_to_string(source).unwrap()));
+        }
+    }
+    hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+const RECORD: &str = "docs/cost.json";
+
+/// A board that is older than the code that it times is measured again.
+#[test]
+fn boards_are_not_older_than_the_code_that_they_time() {
+    if let Some(measured) = std::env::var_os("RASTERPROOF_BOARDS") {
+        let mut boards: serde_json::Value = serde_json::from_str(&read(measured)).unwrap();
+        for derived in ["verdicts", "price_of_exact_coverage"] {
+            boards.as_object_mut().unwrap().remove(derived);
+        }
+        boards["timed"] = digest().into();
+        fs::write(root().join(RECORD), boards.to_string() + "\n").unwrap();
+    }
+    let boards: serde_json::Value = serde_json::from_str(&read(RECORD)).unwrap();
+    assert_eq!(boards["timed"], digest(), "{}", include_str!("boards.rs").lines().nth(2).unwrap());
+}
+
+#[test]
+fn code_is_without_tests_and_comments() {
+    let text = "//! a\n\nfn f() {\n    // b\n    g(); // c\n}\n\n#[cfg(test)]\nmod tests {}\n";
+    assert_eq!(code(text), " fn f() { g(); // c }");
+}
+
+/// A page with the times that were recorded for a board in the block of text below its heading.
+fn renewed(page: &str, board: &Board) -> String {
+    const HEAD: &str = "ns for each covered pixel, median of";
+    let tables = board::tables(board);
+    let times = tables.iter().find(|table| table.caption.starts_with(HEAD)).expect("times");
+    let times = text::tables(std::slice::from_ref(times), text::WIDTH, false);
+    let times: String = times.lines().map(|line| line.trim_end().to_owned() + "\n").collect();
+    let plot = format!("{}.svg)", board::plot_name(board.ladder));
+    let end = page.find(&plot).unwrap_or_else(|| panic!("no plot {plot}"));
+    let start = page[..end].rfind(HEAD).expect("a table of times");
+    let fence = start + page[start..].find("```").expect("the end of a block");
+    format!("{}{times}{}", &page[..start], &page[fence..])
+}
+
+#[test]
+fn boards_are_those_that_were_recorded() {
+    let recorded = Recorded::read(&read(RECORD)).unwrap();
+    let mut renewal = Renewal::default();
+    for folder in ["docs", "docs/zh"] {
+        let renewed =
+            recorded.boards.iter().fold(page(folder, "cost"), |page, board| renewed(&page, board));
+        renewal.is(format!("{folder}/cost.md"), &renewed);
+    }
+    for (name, figure) in board::plots(&recorded.boards) {
+        renewal.is(format!("docs/{name}.svg"), &figure.svg);
+    }
+    renewal.check("boards_are_those");
+}
