@@ -14,6 +14,9 @@ use rasterproof_core::triangle::{Corners, Span};
 
 pub use crate::ladder::interpolation::CoveredTriangle;
 
+/// Emits the values of a choice on a triangle.
+pub(super) type Emit<'a, T> = &'a dyn Fn(&CoveredTriangle<T>, &mut dyn FnMut(i32, i32, f64));
+
 /// Frames to which all passes of a column paint, made when the first pass is.
 pub(super) struct Canvas<T> {
     pub bounds: PixelRect,

@@ -4,7 +4,7 @@
 //! against quotients of big integers; each choice with a derived bound is also held to that.
 
 use super::bounds::{Bound, Place, largest};
-use super::drawn::{Canvas, CoveredTriangle, dress, pixels};
+use super::drawn::{Canvas, CoveredTriangle, Emit, dress, pixels};
 use super::entry::{Columns, Entry};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::Planes;
@@ -86,9 +86,6 @@ impl Input {
         Part { part: self.samples.len() as u64, of: pixels(&self.drawn) as u64 }
     }
 }
-
-/// Emits the values of a choice on a triangle.
-type Emit<'a> = &'a dyn Fn(&CoveredTriangle<Valued>, &mut dyn FnMut(i32, i32, f64));
 
 /// Two closures of each choice alone are compiled for it; all that counts is compiled once.
 fn entry<T: Real>(
@@ -210,7 +207,7 @@ type See<'a, 'b> = dyn FnMut(&'a CoveredTriangle<Valued>, &Sample, [i32; 2], f64
 
 /// Calls `see` for each sample.
 fn at_samples<'a>(
-    choice: Emit<'_>,
+    choice: Emit<'_, Valued>,
     drawn: &'a [CoveredTriangle<Valued>],
     samples: &[Sample],
     see: &mut See<'a, '_>,
@@ -238,7 +235,7 @@ fn row_of(spans: &[Span], y_px: i32) -> Span {
 }
 
 /// Errors of a choice at the samples, over M, in u M and over the bound; and the triangles in which it is visibly wrong.
-fn judge(input: &Input, (bound, unit): (Bound, f64), choice: Emit<'_>) -> Run {
+fn judge(input: &Input, (bound, unit): (Bound, f64), choice: Emit<'_, Valued>) -> Run {
     let (mut worst, mut worst_bound) = (0f64, None::<f64>);
     let mut wrong: Vec<([u32; 2], u64)> = Vec::new();
     at_samples(

@@ -3,7 +3,7 @@
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels, against derivatives in
 //! quotients of big integers, of which the logarithm alone is rounded.
 
-use super::drawn::{Canvas, CoveredTriangle, dress, pixels};
+use super::drawn::{Canvas, CoveredTriangle, Emit, dress, pixels};
 use super::entry::{Columns, Entry};
 use super::scene::{Scene, Size, scenes};
 use super::{Choice, Column, CostOptions, Pass, Run};
@@ -116,10 +116,7 @@ fn entry(
     )
 }
 
-fn judge(
-    Input { drawn, samples, .. }: &Input,
-    emit: &dyn Fn(&CoveredTriangle<Textured>, &mut dyn FnMut(i32, i32, f64)),
-) -> Run {
+fn judge(Input { drawn, samples, .. }: &Input, emit: Emit<'_, Textured>) -> Run {
     let (mut worst, mut sum, mut number) = (0f64, 0.0, 0);
     let mut left = samples.iter().peekable();
     let mut see = |_, _, level: f64| {

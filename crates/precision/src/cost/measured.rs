@@ -41,7 +41,7 @@ impl<'a> Draft<'a> {
                 Ok((run, pass)) => {
                     let placed = |pass| PlacedPass { choice, column: number, pass };
                     self.passes.extend(pass.map(placed));
-                    Cell::Run(run)
+                    Cell::Run(Box::new(run))
                 }
             });
         }

@@ -288,7 +288,7 @@ impl Choice {
 pub enum Cell {
     /// It was not run, and why.
     NotRun(String),
-    Run(Run),
+    Run(Box<Run>),
 }
 
 impl Cell {

@@ -110,7 +110,7 @@ pub fn costs(subject: &Places<'_>, boards: &[Board]) -> Value {
         let choice = |(number, row): (usize, &Vec<Cell>)| {
             let (choice, not_run) = (&board.choices[number], Run::default());
             let (run, refused) = match &row[0] {
-                Cell::Run(run) => (run, None),
+                Cell::Run(run) => (&**run, None),
                 Cell::NotRun(why) => (&not_run, Some(why)),
             };
             let first = run.found.first.map(|(of, [x, y])| {
