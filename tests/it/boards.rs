@@ -7,6 +7,7 @@
 use std::fs;
 
 use rasterproof_precision::cost::{Board, Recorded};
+use rasterproof_report::table::Table;
 use rasterproof_report::text;
 use rasterproof_study::report::board;
 use sha2::{Digest as _, Sha256};
@@ -75,18 +76,31 @@ fn code_is_without_tests_and_comments() {
     assert_eq!(code(text), " fn f() { g(); // c }");
 }
 
-/// A page with the times that were recorded for a board in the block of text below its heading.
+/// A page with the tables that were recorded for a board, those that it shows above the plot of the board.
 fn renewed(page: &str, board: &Board) -> String {
-    const HEAD: &str = "ns for each covered pixel, median of";
-    let tables = board::tables(board);
-    let times = tables.iter().find(|table| table.caption.starts_with(HEAD)).expect("times");
-    let times = text::tables(std::slice::from_ref(times), text::WIDTH, false);
-    let times: String = times.lines().map(|line| line.trim_end().to_owned() + "\n").collect();
     let plot = format!("{}.svg)", board::plot_name(board.ladder));
     let end = page.find(&plot).unwrap_or_else(|| panic!("no plot {plot}"));
-    let start = page[..end].rfind(HEAD).expect("a table of times");
-    let fence = start + page[start..].find("```").expect("the end of a block");
-    format!("{}{times}{}", &page[..start], &page[fence..])
+    let start = page[..end].rfind(".svg)").unwrap_or(0);
+    let mut section = page[start..end].to_owned();
+    let mut found = 0;
+    for table in board::tables(board) {
+        // On a page the heading has the name of the group.
+        let caption = table.caption.trim_start_matches(&format!("{}: ", board.ladder.title()));
+        // The number of rounds is another one each time, and a long caption goes on in the next line.
+        let begin = caption.split(" median of").next().unwrap_or(caption);
+        let begin: String = begin.chars().take(60).collect();
+        let Some(at) = section.find(&begin) else { continue };
+        let table = Table { caption: caption.to_owned(), notes: Vec::new(), ..table.clone() };
+        let shown = text::tables(&[table], text::WIDTH, false);
+        // The rows of a page are not further in than its captions.
+        let flush = |line: &str| line.strip_prefix("  ").unwrap_or(line).trim_end().to_owned();
+        let shown: Vec<String> = shown.trim_end().lines().map(flush).collect();
+        let old = section[at..].find("\n\n").into_iter().chain(section[at..].find("\n```")).min();
+        section.replace_range(at..at + old.expect("an end"), &shown.join("\n"));
+        found += 1;
+    }
+    assert!(found > 0, "{plot}: no table");
+    format!("{}{section}{}", &page[..start], &page[end..])
 }
 
 #[test]

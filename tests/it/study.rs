@@ -546,7 +546,7 @@ fn a_study_answers_in_three_sentences_that_other_commands_confirm() {
         };
         let wrong: Vec<f64> = choices.iter().map(least).filter(|wrong| *wrong > 0.0).collect();
         let worst = wrong.iter().copied().fold(0.0, f64::max);
-        let (before, _) = sentence(0).split_once(" choices of coverage ").unwrap();
+        let (before, _) = sentence(0).split_once(" choices ").unwrap();
         let last = sentence(0).rsplit(". ").next().unwrap();
         assert!(
             last.starts_with(before.rsplit(". ").next().unwrap()),

@@ -233,10 +233,10 @@ fn accuracy(boards: &[Board]) -> [String; 2] {
     let are_wrong = all.iter().filter(|one| wrong(one) > 0.0);
     let number = are_wrong.clone().count() as u64;
     let _ = match are_wrong.max_by(|a, b| wrong(a).total_cmp(&wrong(b))) {
-        None => write!(others, " All {} choices of coverage are right here.", all.len()),
+        None => write!(others, " All {} choices are right here.", all.len()),
         Some(worst) => write!(
             others,
-            " {} of the {} choices of coverage {}, in {} {unit}.",
+            " {} of {} choices {}, in {} {unit}.",
             thousands(number),
             all.len(),
             match number {
