@@ -13,7 +13,7 @@ use super::typed::Typed;
 use super::view::ViewArguments;
 use super::{InputError, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
-    Board, CostOptions, ExternalVariant, Ladder, Recorded, Timing, measure_with,
+    Board, CostOptions, ExternalChoice, Ladder, Recorded, Timing, measure_with,
 };
 use rasterproof_study::report::board;
 
@@ -94,14 +94,14 @@ impl CostArguments {
 
     /// The devices that are measured beside the choices.
     #[cfg(feature = "vulkan")]
-    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, InputError> {
-        self.engine.iter().map(|name| super::vulkan::external_variant(name)).collect()
+    fn external(&self) -> Result<Vec<Box<dyn ExternalChoice>>, InputError> {
+        self.engine.iter().map(|name| super::vulkan::external_choice(name)).collect()
     }
 
     /// There are none.
     #[cfg(not(feature = "vulkan"))]
     #[allow(clippy::unnecessary_wraps, clippy::unused_self, reason = "with devices there are both")]
-    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, InputError> {
+    fn external(&self) -> Result<Vec<Box<dyn ExternalChoice>>, InputError> {
         Ok(Vec::new())
     }
 }
@@ -110,15 +110,17 @@ impl CostArguments {
 pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let ladders = match &arguments.what {
         Some(Scenes::Model(path)) => {
-            let of_groups = ["from", "seed", "engine", "report", "out", "force"];
+            let of_groups = ["from", "seed", "engine"];
             if let Some(option) = typed.given(&of_groups) {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
             }
             let how = (arguments.once.effort(arguments.quick), arguments.json);
-            return study::cost(path, &arguments.view, how, typed, streams);
+            arguments.page.refuse_idle_folder(typed)?;
+            let file = (&**path, arguments.page.page("cost.html"));
+            return study::cost(file, &arguments.view, how, typed, streams);
         }
         Some(Scenes::Ladders(ladders)) => ladders,
-        None => &Ladder::ALL[..],
+        None => Ladder::OF_SCENES,
     };
     study::refuse_view(typed)?;
     arguments.check_files(ladders)?;
@@ -170,13 +172,13 @@ fn measure_all(
     arguments: &CostArguments,
     on_terminal: bool,
 ) -> Result<Vec<Board>, InputError> {
-    let mut external = arguments.external()?;
+    let external = arguments.external()?;
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let CostArguments { seed, quick, .. } = *arguments;
     // Of each class of scenes, of which a group has nine.
     let timing = if quick { Timing::QUICK.within(0.3) } else { Timing::USUAL.within(0.5) };
     let options = CostOptions { seed, quick, timing: Some(timing) };
-    Ok(measure_with(ladders, &options, &mut external, &|share, what| {
+    Ok(measure_with(ladders, &options, external, &|share, what| {
         progress.at((share * 100.0) as u64, what);
     }))
 }

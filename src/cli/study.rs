@@ -5,11 +5,12 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use rasterproof_host::text::{printable, printable_path};
+use rasterproof_precision::cost::Board;
 use rasterproof_registry::comparison::EnginesToJudge;
 use rasterproof_render::scene::Scene;
 use rasterproof_report::html::Report;
 use rasterproof_study::corner_grid::CornerGrid;
-use rasterproof_study::cost::{self, Effort, Group};
+use rasterproof_study::cost::{self, Effort};
 use rasterproof_study::effects;
 use rasterproof_study::faces;
 use rasterproof_study::grid;
@@ -17,7 +18,7 @@ use rasterproof_study::report::around::Around;
 use rasterproof_study::report::studied::Studied;
 use rasterproof_study::report::{self as report, costs, engines, json};
 
-use super::files;
+use super::files::{self, Output};
 use super::inspect_case::{self, InspectedCase};
 use super::page::{PageArguments, Shown, as_file, show};
 use super::progress::Progress;
@@ -85,7 +86,7 @@ fn measure(
     view: &ViewArguments,
     effort: Effort,
     on_terminal: bool,
-) -> Result<Vec<Group>, InputError> {
+) -> Result<Vec<Board>, InputError> {
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let told = |share: f64, what: &str| progress.at((share * 100.0) as u64, what);
     let mut target = view.target()?;
@@ -95,24 +96,29 @@ fn measure(
 
 /// `cost FILE`: what each choice costs on the triangles of a model.
 pub(super) fn cost(
-    path: &Path,
+    (path, page): (&Path, Option<Output>),
     view: &ViewArguments,
     (effort, is_json): (Effort, bool),
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
+    files::check(as_file(&page))?;
     let maker = view.maker(path, Purpose::Measured, streams)?;
+    files::check(as_file(&page))?;
     let studied = studied(&maker, maker.scene.clone(), view, CornerGrid::USUAL)?;
-    let groups = measure(&studied, view, effort, streams.progress)?;
+    let boards = measure(&studied, view, effort, streams.progress)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     let report = Report {
+        title: format!("What accuracy costs for {}", studied.scene.name),
         about: studied.head(),
-        tables: costs(&subject, &groups),
-        data: json::costs(&subject, &groups),
+        pictured: report::pictured(&boards),
+        command: page.as_ref().map_or_else(String::new, |_| typed.line()),
+        tables: costs(&subject, &boards),
+        data: json::costs(&subject, &boards),
         ..Report::default()
     };
-    show(report, Shown::All.or_json(is_json), None, exit::AGREES, streams)
+    show(report, Shown::All.or_json(is_json), page, exit::AGREES, streams)
 }
 
 fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
@@ -133,7 +139,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     }
     let studied = studied(&maker, maker.scene.clone(), &what.view, arguments.grid.grid())?;
     let effort = arguments.once.effort(arguments.quick);
-    let groups = measure(&studied, &what.view, effort, streams.progress)?;
+    let boards = measure(&studied, &what.view, effort, streams.progress)?;
     let mut target = what.view.target()?;
     let window = target.size();
     let pieces = studied.sampled.at_centres();
@@ -164,7 +170,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         hard: &studied.hard,
         grids: &grids,
         needs: &needs,
-        costs: &groups,
+        costs: &boards,
         not_drawn: &maker.model.not_drawn,
         pieces: pieces.len(),
         loading_s: maker.model.loading_s,
@@ -189,8 +195,8 @@ fn all_around(
     for number in 0..views {
         let turn = f64::from(number) / f64::from(views);
         let studied = studied(maker, maker.turned(turn), view, arguments.grid.grid())?;
-        let groups = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
-        around.add(360.0 * turn, &studied.hard, &groups);
+        let boards = measure(&studied, view, arguments.once.effort(arguments.quick), false)?;
+        around.add(360.0 * turn, &studied.hard, &boards);
         progress.done(1);
     }
     drop(progress);

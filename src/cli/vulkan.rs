@@ -16,7 +16,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::Options;
-use rasterproof_precision::cost::ExternalVariant;
+use rasterproof_precision::cost::ExternalChoice;
 use rasterproof_report::table::Table;
 
 /// Cases of each family where nothing is said.
@@ -76,7 +76,7 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
     Ok(look::coverage(&mut Gpu::named(engine)?, list, window)?)
 }
 
-pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, InputError> {
+pub fn external_choice(engine: &str) -> Result<Box<dyn ExternalChoice>, InputError> {
     Ok(Box::new(OnLadder::new(engine)?))
 }
 

@@ -51,7 +51,8 @@ fn error(board: &Board, choice_name: &str, column_name: &str, measure: usize) ->
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn cost_errors_of_a_seed() {
-    let text = Ladder::ALL.map(|ladder| shown(&untimed(ladder, 1), false)).join("\n");
+    let text = Ladder::OF_SCENES.iter().map(|&ladder| shown(&untimed(ladder, 1), false));
+    let text = text.collect::<Vec<_>>().join("\n");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     check_words("cost-errors", &text);
 }
@@ -61,7 +62,7 @@ fn cost_errors_of_a_seed() {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn cost_promises_are_kept() {
     let mut kept = 0;
-    for board in Ladder::ALL.iter().flat_map(|&l| [2, 3].map(|seed| untimed(l, seed))) {
+    for board in Ladder::OF_SCENES.iter().flat_map(|&l| [2, 3].map(|seed| untimed(l, seed))) {
         for (number, info) in board.choices.iter().enumerate() {
             for &measure in &info.promises {
                 for c in board.columns_run() {
@@ -160,7 +161,8 @@ fn cost_from_the_command_line() {
 #[test]
 fn cost_plots_name_every_choice() {
     let board = timed(1);
-    let drawings = [cost_plots::pareto(&board, 2), cost_plots::pareto(&board, 1)];
+    let boards = std::slice::from_ref(&board);
+    let drawings = [cost_plots::pareto(boards, 2), cost_plots::pareto(boards, 1)];
     assert!(drawings[1].size[0] <= 400.0, "{:?}", drawings[1].size);
     for drawing in drawings {
         let svg = canvas::svg(&drawing);
@@ -188,12 +190,12 @@ fn cost_json_is_read_back() {
         recorded(vec![untimed(Ladder::Scanline, 5), untimed(Ladder::Depth, 5), timed(5)]);
     let json = json::cost(&recorded);
     let back = Recorded::read(&as_text(&json)).unwrap();
-    assert_eq!(back, recorded);
     assert_eq!(json::cost(&back), json);
     for (a, b) in recorded.boards.iter().zip(&back.boards) {
         assert_eq!(shown(a, true), shown(b, true));
-        assert_eq!(canvas::svg(&cost_plots::pareto(a, 2)), canvas::svg(&cost_plots::pareto(b, 2)));
     }
+    let drawn = |boards: &[Board]| canvas::svg(&cost_plots::pareto(boards, 2));
+    assert_eq!(drawn(&recorded.boards), drawn(&back.boards));
 }
 
 /// Each kind of broken file is refused with its line; none of them panics.

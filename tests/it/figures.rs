@@ -15,6 +15,7 @@ use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
 use rasterproof_faults::published::sysu_strict_t::clip_strict;
 use rasterproof_invariants::CATALOGUE;
 use rasterproof_judge::league::League;
+use rasterproof_precision::cost::{Choice, Price, Priced, Recorded, prices};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_registry::published_check::{free_truth, specimen_coverage};
 use rasterproof_render::effects::render::Rendered;
@@ -157,8 +158,11 @@ pub const ALL: &[(&str, Values)] = &[
     }),
     ("random-ties", ties_of_random_triangles),
     ("f64-stepped-cracks", || {
-        let cracks = |i| cell("Coverage by edge function", "holes", "f64 stepped", i);
-        vec![cracks(0) + cracks(1)]
+        let hit = |times: &str| {
+            let title = format!("pixels inside the mesh that {times}");
+            cell("Coverage by edge function", &title, "f64 stepped", MESH)
+        };
+        vec![hit("no triangle") + hit("two triangles")]
     }),
     ("worst-errors", || {
         let text = page("docs", "differential");
@@ -214,7 +218,8 @@ pub const ALL: &[(&str, Values)] = &[
     ("invariants", || vec![CATALOGUE.len() as f64]),
     ("cheapest-float", || {
         let tiles_come_first = |i: &usize| edges(TILES, *i) < scanline("24.8 DDA", *i);
-        assert_eq!((0..8).filter(tiles_come_first).collect::<Vec<_>>(), [1, 2], "25 px, <8 px");
+        let classes: Vec<_> = (0..8).filter(tiles_come_first).collect();
+        assert_eq!(classes, [1, 2, 4, 5, 6, 7], "all but large and sliver");
         let prices = drawn_prices().map(|[float, _]| float);
         sorted_ends(prices.to_vec())
     }),
@@ -237,13 +242,14 @@ pub const ALL: &[(&str, Values)] = &[
     ("planes-errors", || {
         let errors = |i| [PLANES, "plane"].map(|choice| cell("Interpolation", "worst", choice, i));
         let larger = |i: &usize| errors(*i)[0] > errors(*i)[1];
-        assert_eq!((0..12).filter(larger).collect::<Vec<_>>(), [FAR]);
+        assert_eq!((0..12).filter(larger).collect::<Vec<_>>(), [0, SLIVER, FAR]);
         let worst = [0, 1].map(|which| range(12, |i| errors(i)[which])[1]);
         assert_eq!(worst, errors(11), "at w 1e4");
         [worst, errors(FAR)].concat()
     }),
     ("f64-over-reversed", || {
-        range(5, |i| cell("Depth", "ns", "f64", i) / cell("Depth", "ns", "f32 reversed", i))
+        let times = |i| cell("Depth", "ns", "f64", i) / cell("Depth", "ns", "f32 reversed", i);
+        vec![(0..5).map(times).sum::<f64>() / 5.0]
     }),
     ("adaptive-over-dda", || vec![scanline("adaptive", HALF) / scanline("24.8 DDA", HALF)]),
     ("steps-at-990", || [24, 24, 43, 53].map(step_at_990).to_vec()),
@@ -420,32 +426,28 @@ fn cuts_behind_the_eye() -> Vec<f64> {
 const SLIVER: usize = 3;
 const HALF: usize = 4;
 const FAR: usize = 6;
+const MESH: usize = 7;
 const TILES: &str = "tiles i32 x 16";
 const PLANES: &str = "planes f32 x 16";
 const FLOATS: [&str; 4] = ["f32 accumulated", "f32 direct", "f64 accumulated", "f64 direct"];
 
 /// A table of `docs/cost.md`, under a heading, whose title begins so: the names of its columns, and its rows by name.
 fn board(heading: &str, title: &str) -> (Vec<String>, BTreeMap<String, Vec<f64>>) {
-    const NAME: usize = 16;
-    let text = page("docs", "cost");
-    let (_, section) = text.split_once(&format!("# {heading}\n")).expect("a heading");
-    let lines = section.lines().skip_while(|line| !line.starts_with(title)).skip(1);
-    let is_head = |line: &str| line.starts_with(&" ".repeat(NAME));
-    // A long title goes on in the next line, further in.
-    let mut lines = lines.skip_while(|line| line.starts_with("  ") && !is_head(line)).peekable();
-    let names = lines.next_if(|line| is_head(line)).unwrap_or("");
-    let rows = lines.take_while(|line| !line.is_empty() && !line.starts_with("```"));
-    let number = |cell: &str| cell.trim_end_matches(['<', '*', '+']).parse().unwrap_or(f64::NAN);
-    let rows: BTreeMap<_, Vec<f64>> = rows
-        .map(|row| row.split_at(NAME))
-        .map(|(name, cells)| {
-            (name.trim().to_owned(), cells.split_whitespace().map(number).collect())
-        })
-        .collect();
-    let columns = rows.values().map(Vec::len).max().unwrap_or_else(|| panic!("no table {title}"));
-    let width = (names.len() + 1).saturating_sub(NAME) / columns;
-    let name = |at: usize| names.get(NAME + at * width..)?.get(..width - 1);
-    ((0..columns).filter_map(name).map(|name| name.trim().to_owned()).collect(), rows)
+    let boards = Recorded::read(&read("docs/cost.json")).unwrap().boards;
+    let board = boards.iter().find(|board| board.ladder.title() == heading).expect(heading);
+    let measure = board.measures.iter().position(|measure| measure.title.starts_with(title));
+    assert!(title == "ns" || measure.is_some(), "no table {title}");
+    let value = |choice: usize, column: usize| match measure {
+        Some(measure) => board.error(choice, column, measure),
+        None => board.time(choice, column).map(|time| time.pixel_ns.median),
+    };
+    let columns: Vec<usize> = board.columns_run().collect();
+    let row = |(number, choice): (usize, &Choice)| {
+        let values = columns.iter().map(|&column| value(number, column).unwrap_or(f64::NAN));
+        (choice.name.to_string(), values.collect())
+    };
+    let rows = board.choices.iter().enumerate().map(row).collect();
+    (columns.iter().map(|&column| board.columns[column].name.to_string()).collect(), rows)
 }
 
 fn cell(heading: &str, title: &str, choice: &str, column: usize) -> f64 {
@@ -464,13 +466,11 @@ pub fn cost_cell(reference: &str) -> f64 {
 
 /// The prices that the picture at the top states, by class: of the cheapest float, and of what is exact as given.
 fn drawn_prices() -> [[f64; 2]; 8] {
-    let plot = include_str!("../../docs/cost-price.svg");
-    let labels = plot.split("</text>").filter_map(|text| text.rsplit_once('>'));
-    let prices = labels.filter_map(|(_, label)| label.rsplit_once(' ')?.1.strip_suffix('x'));
-    let prices: Vec<f64> = prices.filter_map(|price| price.parse().ok()).collect();
-    let (pairs, rest) = prices.as_chunks();
-    assert!(rest.is_empty(), "two for each class: {prices:?}");
-    pairs.try_into().expect("eight classes")
+    let recorded = Recorded::read(&read("docs/cost.json")).unwrap();
+    let median = |priced: Option<Priced>| priced.expect("a price").ratio.median;
+    let price = |price: Price| [median(price.unpromised), median(price.given)];
+    let prices: Vec<_> = prices(&recorded.boards).into_iter().map(price).collect();
+    prices.try_into().expect("eight classes")
 }
 
 fn edges(choice: &str, column: usize) -> f64 {

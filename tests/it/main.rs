@@ -6,6 +6,7 @@
 
 mod accessibility;
 mod against;
+mod boards;
 mod book;
 mod by_hand;
 mod circles;

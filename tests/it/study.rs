@@ -276,8 +276,7 @@ fn what_is_culled_or_hidden_is_only_in_the_mesh() {
         } else {
             "only in the mesh"
         });
-        let word = if is_double_sided { "HARD CASES" } else { "CLEAN" };
-        assert!(folder.text("study.html").contains(&format!("<strong>{word}</strong>")));
+        assert!(folder.text("study.html").contains("<p class=\"pictured\">"));
     }
     // A sliver in the front of a box, looked at from either side.
     folder.put(
@@ -416,7 +415,8 @@ fn pixels_that_rounding_decides_are_a_hard_case() {
         .check("study m.obj --size 320x240 --once --report --out .", 0)
         .prints("decided by rounding alone, the first at");
     let page = folder.text("study.html");
-    assert!(page.contains("<strong>HARD CASES</strong>") && !page.contains("CLEAN"));
+    // Hard cases are no faults of a model: nothing is called bad.
+    assert!(page.contains("decided by rounding alone") && !page.contains("class=\"verdict"));
 }
 
 /// The seam of two levels of detail is no rim: it is counted apart, and its pixels are those that faces in the gaps would
@@ -546,9 +546,14 @@ fn a_study_answers_in_three_sentences_that_other_commands_confirm() {
         };
         let wrong: Vec<f64> = choices.iter().map(least).filter(|wrong| *wrong > 0.0).collect();
         let worst = wrong.iter().copied().fold(0.0, f64::max);
-        let (_, last) = sentence(0).split_once(" Of ").unwrap();
+        let (before, _) = sentence(0).split_once(" choices ").unwrap();
+        let last = sentence(0).rsplit(". ").next().unwrap();
+        assert!(
+            last.starts_with(before.rsplit(". ").next().unwrap()),
+            "the last one counts: {last}"
+        );
         let found = numbers_in(last);
-        assert_eq!(found[..2], [choices.len() as f64, wrong.len() as f64], "{last}");
+        assert_eq!(found[..2], [wrong.len() as f64, choices.len() as f64], "{last}");
         assert_eq!(found.last(), Some(&worst), "{last}");
         // What is unstable.
         let cases = verify["hard_cases"]["cases"].as_array().unwrap();

@@ -41,6 +41,8 @@ pub struct Report {
     pub about: String,
     /// What the reader wants to know, shown below the verdict.
     pub answers: Vec<Statement>,
+    /// The first answer as a picture, at the top of the page; the tables and other plots are folded below it.
+    pub pictured: Option<PicturedAnswer>,
     /// The tables of the text in a terminal that is not asked for all of them.
     pub first_screen: Vec<Table>,
     /// The command that was typed, with the options that make the page.
@@ -63,6 +65,13 @@ pub struct Report {
     pub docs: String,
     /// Whether the playground lies beside the page.
     pub has_playground: bool,
+}
+
+/// An answer in one sentence with the picture that shows it.
+#[derive(Clone, Debug)]
+pub struct PicturedAnswer {
+    pub sentence: String,
+    pub figure: Figure,
 }
 
 /// The answer to a question that a command is called for.
@@ -220,7 +229,8 @@ pub fn page(report: &Report) -> String {
         limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
     let mut left_out = Vec::new();
     let head = head(report);
-    let tables: String = report.tables.iter().map(table).collect();
+    let is_folded = report.pictured.is_some();
+    let tables: String = report.tables.iter().map(|one| table(one, is_folded)).collect();
     room = room.saturating_sub(head.len() + tables.len() + report.command.len());
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
@@ -236,7 +246,10 @@ pub fn page(report: &Report) -> String {
         kept(&diff.name, text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME)))
     };
     let diffs: String = report.diffs.iter().filter_map(diff).collect();
-    let figures = report.figures.iter().filter_map(|one| kept(&one.caption, figure(one)));
+    let figures = report.figures.iter().filter_map(|one| {
+        let figure = figure(one);
+        kept(&one.caption, if is_folded { folded(&one.caption, &figure) } else { figure })
+    });
     let figures: String = figures.collect();
     let cases = report.cases.iter().filter_map(|case| kept(&case.name, json(case)));
     let cases = cases.collect::<Vec<_>>().join(",");
@@ -319,10 +332,17 @@ fn head(report: &Report) -> String {
             let _ = writeln!(out, "<p id=\"counts\">{}</p>", escape(&outcome.sentence));
         }
     }
+    if let Some(PicturedAnswer { sentence, figure: shown }) = &report.pictured {
+        let _ = writeln!(out, "<p class=\"pictured\">{}</p>", escape(sentence));
+        out += &figure(shown);
+    }
     for line in report.about.lines() {
         let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(line));
     }
+    let said = report.pictured.as_ref().map_or("", |pictured| &pictured.sentence);
     for Statement { about, sentence, command: more } in &report.answers {
+        // What stands above the picture is not said again.
+        let sentence = sentence.strip_prefix(said).unwrap_or(sentence).trim_start();
         let (about, sentence) = (escape(about), escape(sentence));
         let _ = writeln!(out, "<p class=\"answer\"><strong>{about}:</strong> {sentence}</p>");
         out += &command(more);
@@ -335,7 +355,9 @@ const ABOUT: &str = "<meta name=\"rasterproof\" content=\"";
 
 fn about(report: &Report) -> String {
     let outcome = report.outcome.as_ref();
-    let said = outcome.map_or(String::new(), |o| format!("{}: {}", o.word, o.first()));
+    let said = outcome.map(|o| format!("{}: {}", o.word, o.first()));
+    let pictured = || report.pictured.as_ref().map(|pictured| pictured.sentence.clone());
+    let said = said.or_else(pictured).unwrap_or_default();
     format!("{ABOUT}{}\">\n", escape(&said))
 }
 
@@ -396,15 +418,23 @@ fn notes(notes: &[String], left_out: &[String]) -> String {
     out
 }
 
-fn table(table: &Table) -> String {
-    let mut out = format!("<h3 class=\"caption\">{}</h3>", escape(&table.caption));
+/// What is seen once its title is clicked at.
+fn folded(title: &str, inside: &str) -> String {
+    format!("<details><summary>{}</summary>\n{inside}</details>\n", escape(title))
+}
+
+fn table(table: &Table, is_folded: bool) -> String {
+    let mut out = String::new();
     if !table.rows.is_empty() {
         out += &rows(table);
     }
     for note in &table.notes {
         let _ = writeln!(out, "<p class=\"quiet\">{}</p>", escape(note));
     }
-    out
+    match is_folded {
+        true => folded(&table.caption, &out),
+        false => format!("<h3 class=\"caption\">{}</h3>{out}", escape(&table.caption)),
+    }
 }
 
 fn rows(table: &Table) -> String {

@@ -1,22 +1,20 @@
 //! What a scene costs in a view: every choice of each group and every planner on its own triangles, against the exact
-//! answer.
+//! answer. A scene is a column of the boards of `cost`, with pixels counted instead of shares.
 
 use std::cell::RefCell;
 
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{Interpolate as _, Rasterize as _, RasterizeExact as _};
+use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
 use rasterproof_core::raster::scanline::Scanline;
-use rasterproof_core::triangle::{Span, check_value};
+use rasterproof_core::triangle::check_value;
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Choice, Clock, Ladder, Measure, Pass, Places, RatioKind, Times, Timing, Variant,
-    compare as compare_times, compared_values, measure_on, over_fastest, variants, wrong_pixels,
-    wrong_values,
+    Board, Choice, Clock, Column, Details, Draft, Entry, Ladder, Measure, Part, Pass, PreparedCell,
+    Run, Sampling, Timing, antialiasing, coverage, interpolation, timed,
 };
-use rasterproof_precision::ladder::snap;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::Effects;
 use rasterproof_render::effects::render::BadScene;
@@ -25,158 +23,12 @@ use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 use rasterproof_tiles::frames::{self, TilesError};
 use rasterproof_verify::comparison::tolerance::SCANLINE;
-use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
 use crate::effects::differing;
 use crate::hard::HardCases;
 use crate::memory;
 use crate::view::{NOTHING, Piece, Sampled, seen};
-
-/// A choice with what it gets wrong of the triangles of a scene, and what it takes.
-#[derive(Clone, Debug, Default)]
-pub struct JudgedChoice {
-    pub choice: Choice,
-    /// By each measure of the group; none where it does not apply.
-    pub errors: Vec<Option<f64>>,
-    /// Where it is wrong first: the triangle of the scene, where it is of one, and the pixel.
-    pub first_wrong: Option<(Option<u32>, [i32; 2])>,
-    /// Wrong samples by the triangles that they are of: the one that should be there, and the one that is.
-    pub wrong: Vec<([u32; 2], u64)>,
-    /// The smallest distance of a decision from 0, in error bounds; where such a bound is derived.
-    pub margin: Option<f64>,
-    pub time: Option<Times>,
-    /// Memory at the peak, see [`crate::memory`].
-    pub bytes: Option<u64>,
-    pub refused: Option<String>,
-}
-
-impl JudgedChoice {
-    fn new(choice: &Choice) -> Self {
-        Self { choice: choice.clone(), ..Self::default() }
-    }
-
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.choice.name
-    }
-}
-
-/// How much of something there is, and of how much it is a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Part {
-    pub part: u64,
-    pub of: u64,
-}
-
-impl Part {
-    fn all(of: u64) -> Self {
-        Self { part: of, of }
-    }
-
-    #[must_use]
-    pub fn is_all(self) -> bool {
-        self.part == self.of
-    }
-}
-
-/// Choices between which one may choose.
-#[derive(Clone, Debug)]
-pub struct Group {
-    pub title: &'static str,
-    pub measures: Vec<Measure>,
-    pub choices: Vec<JudgedChoice>,
-    /// Triangles that are timed.
-    pub timed: Part,
-    /// Pixels that these cover.
-    pub timed_pixels: Part,
-    /// Pixels in which it was looked for errors.
-    pub judged: Part,
-    /// Pixels of hard cases in which it was looked for what is wrong, where that is another part.
-    pub looked_at: Option<Part>,
-    /// Pieces that were left out, since single precision does not hold a value or 1/w of a corner.
-    pub not_judged: u64,
-}
-
-/// The cheapest exact choice, and those of which the same rounds do not show that they are slower.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cheapest {
-    pub choice: usize,
-    /// Those between which and it there is no difference.
-    pub equal: Vec<usize>,
-    /// Those that may be faster or slower than it, for all that was measured.
-    pub undecided: Vec<usize>,
-    pub rounds: usize,
-}
-
-impl Group {
-    fn new(title: &'static str, measures: Vec<Measure>, sample: &Sample) -> Self {
-        Self {
-            title,
-            measures,
-            choices: Vec::new(),
-            timed: sample.pieces,
-            timed_pixels: sample.pixels,
-            judged: Part::all(sample.pixels.of),
-            looked_at: None,
-            not_judged: 0,
-        }
-    }
-
-    /// Whether an error of a choice is one that a measure calls exact. Where no pixel was compared, nothing is.
-    #[must_use]
-    pub fn is_exact(&self, choice: &JudgedChoice, measure: usize) -> bool {
-        let error = choice.errors.get(measure).copied().flatten();
-        let goal = self.measures.get(measure).and_then(|measure| measure.goal);
-        let meets = error.zip(goal).is_some_and(|(error, goal)| error <= goal);
-        choice.refused.is_none() && self.judged.part > 0 && meets
-    }
-
-    /// The fastest of some choices.
-    #[must_use]
-    pub fn cheapest(&self, filter: &dyn Fn(&JudgedChoice) -> bool) -> Option<usize> {
-        let timed = self.choices.iter().enumerate();
-        let timed = timed.filter(|(_, choice)| choice.refused.is_none() && filter(choice));
-        let timed =
-            timed.filter_map(|(number, choice)| Some((number, choice.time.as_ref()?.median())));
-        timed.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
-    }
-
-    /// The fastest of all choices that do the same job: both groups of coverage do.
-    #[must_use]
-    pub fn cheapest_of_job<'a>(&self, groups: &'a [Self]) -> Option<&'a Times> {
-        let job = |group: &Self| group.title.split(" by ").next();
-        let same = groups.iter().filter(|group| job(group) == job(self));
-        let cheapest =
-            same.filter_map(|group| group.choices[group.cheapest(&|_| true)?].time.as_ref());
-        cheapest.min_by(|a, b| a.median().total_cmp(&b.median()))
-    }
-
-    pub fn cheapest_exact(&self, measure: usize) -> Option<usize> {
-        self.cheapest(&|choice| self.is_exact(choice, measure))
-    }
-
-    /// The same with those that are as fast, as far as it can be told.
-    pub fn compared(&self, measure: usize) -> Option<Cheapest> {
-        let choice = self.cheapest_exact(measure)?;
-        let best = self.choices[choice].time.as_ref()?;
-        let (mut equal, mut undecided) = (Vec::new(), Vec::new());
-        for (number, other) in self.choices.iter().enumerate() {
-            if number == choice || !self.is_exact(other, measure) {
-                continue;
-            }
-            let Some(ratio) = other.time.as_ref().and_then(|time| time.over(best)) else {
-                continue;
-            };
-            match ratio.said() {
-                RatioKind::NoDifference => equal.push(number),
-                RatioKind::CannotBeTold if ratio.low <= 1.0 => undecided.push(number),
-                RatioKind::CannotBeTold | RatioKind::Holds => {}
-            }
-        }
-        Some(Cheapest { choice, equal, undecided, rounds: best.rounds() })
-    }
-}
 
 /// How thoroughly times are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,58 +55,44 @@ impl Effort {
 /// Pixels that are timed on a group, quickly or not: which choice is the cheapest depends on the triangles.
 const TIMED_PX: u64 = 200_000;
 
-/// The costs of a scene in a view. `progress` gets the share done and a word about it.
+/// The costs of a scene in a view, a board with one column for each group. `progress` gets the share done and a word about it.
 pub fn measure(
     scene: &Scene,
     (sampled, hard): (&Sampled, &HardCases),
     target: &mut Target,
     effort: Effort,
     progress: &dyn Fn(f64, &str),
-) -> Result<Vec<Group>, BadScene> {
+) -> Result<Vec<Board>, BadScene> {
     let sample = Sample::new(&sampled.planes[0], sampled.window, TIMED_PX);
     let timing = effort.timing();
     progress(0.0, Ladder::Scanline.title());
-    let mut groups = coverage(sampled, &sample, timing.within(2.0));
+    let mut boards = coverage_boards(sampled, &sample, timing.within(2.0));
     progress(0.4, Ladder::Interpolation.title());
-    groups.push(ladder(Ladder::Interpolation, sampled.shaded(), Some(hard), timing));
+    boards.push(interpolation_board(sampled.shaded(), hard, timing));
     progress(0.5, Ladder::Depth.title());
-    groups.push(depth(sampled, &sample, timing.within(2.0)));
+    boards.push(depth(sampled, &sample, timing.within(2.0)));
     progress(0.6, Ladder::Antialiasing.title());
-    let centres = (sampled.at_centres(), sampled.size);
-    groups.push(ladder(Ladder::Antialiasing, centres, None, timing));
+    boards.push(antialiasing_board((sampled.at_centres(), sampled.size), timing));
     progress(0.7, "planners");
-    groups.push(planners(scene, target, timing.within(2.0))?);
-    Ok(groups)
+    boards.push(planners(scene, target, timing.within(2.0))?);
+    Ok(boards)
 }
 
-/// Adds to the choices of interpolation what each gets wrong of the triangles that are hard cases.
-fn wrong_values_of((pieces, window): (&[Piece], PixelRect), hard: &HardCases, group: &mut Group) {
-    let is_hard =
-        |piece: &&Piece| hard.is_hard(piece.face) && piece.free().is_some() && has_values(piece);
-    let of: Vec<&Piece> = pieces.iter().filter(is_hard).collect();
-    if of.is_empty() {
-        return;
-    }
-    let found = wrong_values(&class(of.iter().copied(), window));
-    for (judged, by_piece) in group.choices.iter_mut().zip(&found.choices) {
-        let of_pieces = of.iter().zip(&by_piece.wrong).filter(|(_, count)| **count > 0);
-        judged.wrong = of_pieces.map(|(piece, count)| ([piece.face; 2], *count)).collect();
-        merge(&mut judged.wrong);
-        // What is wrong on hard cases is wrong of the model, whatever its other pixels show.
-        if let Some(Some(error)) = judged.errors.first_mut() {
-            *error = error.max(by_piece.worst);
-        }
-    }
-    group.looked_at = Some(Part { part: found.pixels, of: found.of });
+/// A board of a model, timed.
+fn board<'a>(
+    ladder: Ladder,
+    measure: Measure,
+    sampling: Sampling,
+    (choices, cells): (Vec<Choice>, Vec<PreparedCell<'a>>),
+    timing: Timing,
+) -> Board {
+    let mut draft = Draft::new(ladder, 0, vec![measure], choices);
+    draft.add(Column::of_model(sampling), cells);
+    timed(vec![draft], Some(timing), &|_| ()).remove(0)
 }
 
-fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
-    wrong.sort_unstable();
-    wrong.dedup_by(|later, kept| {
-        let is_same = later.0 == kept.0;
-        kept.1 += if is_same { later.1 } else { 0 };
-        is_same
-    });
+fn choices_of<I>(entries: &[Entry<'_, I>]) -> Vec<Choice> {
+    entries.iter().map(|entry| entry.choice.clone()).collect()
 }
 
 /// Pieces that are timed.
@@ -300,9 +138,24 @@ impl Sample {
         Self { numbers, pieces, pixels: Part { part: timed, of: all } }
     }
 
+    /// All pixels are judged.
+    fn sampling(&self) -> Sampling {
+        let (items, pixels) = (self.pieces, self.pixels);
+        Sampling { items, pixels, judged: Part::all(pixels.of), looked_at: None, not_judged: 0 }
+    }
+
     fn of<'a>(&self, pieces: &'a [Piece]) -> impl Iterator<Item = &'a Piece> {
         self.numbers.iter().map(|&number| &pieces[number])
     }
+}
+
+fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
+    wrong.sort_unstable();
+    wrong.dedup_by(|later, kept| {
+        let is_same = later.0 == kept.0;
+        kept.1 += if is_same { later.1 } else { 0 };
+        is_same
+    });
 }
 
 /// Whether the choices of interpolation, some of which are in single precision, take the values of a piece.
@@ -315,8 +168,9 @@ fn has_values(piece: &Piece) -> bool {
     values.map(check_value).all(|checked| checked.is_ok()) && piece.w.iter().all(is_held)
 }
 
-fn class<'a>(pieces: impl Iterator<Item = &'a Piece>, window: PixelRect) -> Class {
-    let free = pieces.filter_map(|piece| Some((piece.free()?, piece)));
+/// Pieces as a class of scenes, and the triangle of the model of each.
+fn class<'a>(pieces: impl IntoIterator<Item = &'a Piece>, window: PixelRect) -> (Class, Vec<u32>) {
+    let free = pieces.into_iter().filter_map(|piece| Some((piece.free()?, piece)));
     let (triangles, of): (Vec<_>, Vec<_>) = free.unzip();
     let mut values: Vec<[f64; 3]> = of
         .iter()
@@ -326,7 +180,7 @@ fn class<'a>(pieces: impl Iterator<Item = &'a Piece>, window: PixelRect) -> Clas
     if values.iter().flatten().all(|value| *value == 0.0) {
         values.clear();
     }
-    Class {
+    let class = Class {
         name: "model",
         about: "the triangles of the model",
         bounds: window,
@@ -334,20 +188,19 @@ fn class<'a>(pieces: impl Iterator<Item = &'a Piece>, window: PixelRect) -> Clas
         w: of.iter().map(|piece| piece.w).collect(),
         values,
         interior: None,
-    }
+    };
+    (class, of.iter().map(|piece| piece.face).collect())
 }
 
-/// What a choice of coverage gets wrong.
-#[derive(Clone, Default)]
-struct Wrong {
-    /// Against the corners as they are, and snapped.
-    pixels: [u64; 2],
-    first: Option<(u32, [i32; 2])>,
-    triangles: Vec<([u32; 2], u64)>,
-    refused: Option<String>,
+/// Puts triangles of a model in place of those of a class.
+fn rename(found: &mut Details, faces: &[u32]) {
+    let face = |number: u32| faces[number as usize];
+    found.first = found.first.map(|(of, pixel)| (of.map(face), pixel));
+    found.wrong.iter_mut().for_each(|(pair, _)| *pair = pair.map_array(face));
+    merge(&mut found.wrong);
 }
 
-/// Pieces whose coverage is compared at once.
+/// Pieces whose coverage is judged at once.
 const CHUNK: usize = 256;
 
 fn chunks(sampled: &Sampled) -> Vec<&[Piece]> {
@@ -355,49 +208,8 @@ fn chunks(sampled: &Sampled) -> Vec<&[Piece]> {
 }
 
 /// Both groups of coverage: all pieces against the oracle, as they are and snapped; times of a sample, in the same rounds.
-fn coverage(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Group> {
-    let ladders = [Ladder::Scanline, Ladder::EdgeFunction];
-    let all = ladders.map(variants);
-    let mut groups: Vec<Group> = ladders
-        .into_iter()
-        .zip(&all)
-        .map(|(ladder, variants)| judged_coverage(ladder, variants, sampled, sample))
-        .collect();
-    let class = class(sample.of(&sampled.planes[0]), sampled.window);
-    let frame = Places::new(|| Frame::new(sampled.window, 0));
-    let triangles = Places::new(|| class.triangles.clone());
-    let mut passes = Vec::new();
-    for (group, variants) in all.iter().enumerate() {
-        for (choice, variant) in variants.iter().enumerate() {
-            if groups[group].choices[choice].refused.is_none() {
-                let (frame, triangles) = (&frame, &triangles);
-                let pass = Pass::new(move || {
-                    variant
-                        .paint(std::hint::black_box(&triangles.borrow()), &mut frame.borrow_mut());
-                });
-                passes.push((group, choice, pass));
-            }
-        }
-    }
-    set_times(&mut groups, passes, timing);
-    groups
-}
-
-fn judged_coverage(
-    ladder: Ladder,
-    variants: &[Variant],
-    sampled: &Sampled,
-    sample: &Sample,
-) -> Group {
-    let window = sampled.window;
-    let chunks = chunks(sampled);
-    let of_chunks = parallel::map(chunks.len(), |number| {
-        let mut wrong = vec![Wrong::default(); variants.len()];
-        for piece in chunks[number] {
-            compare(variants, piece, window, &mut wrong);
-        }
-        wrong
-    });
+fn coverage_boards(sampled: &Sampled, sample: &Sample, timing: Timing) -> Vec<Board> {
+    let (window, chunks) = (sampled.window, chunks(sampled));
     let (titles, shorts) = match sampled.is_antialiased() {
         false => (
             ["wrong pixels, corners as they are", "wrong pixels, corners snapped"],
@@ -409,79 +221,51 @@ fn judged_coverage(
         ),
     };
     let measure = |i: usize| Measure::new(titles[i], shorts[i], Some(0.0)).counts(sampled.unit());
-    let mut group = Group::new(ladder.title(), [0, 1].map(measure).to_vec(), sample);
-    for (number, variant) in variants.iter().enumerate() {
-        let mut judged = JudgedChoice::new(&variant.choice);
-        let of_choice = || of_chunks.iter().map(|chunk| &chunk[number]);
-        let sum = |i: usize| of_choice().map(|wrong| wrong.pixels[i]).sum::<u64>() as f64;
-        judged.errors = vec![Some(sum(0)), Some(sum(1))];
-        let first = of_choice().find_map(|wrong| wrong.first);
-        judged.first_wrong = first.map(|(face, sample)| (Some(face), sampled.pixel(sample)));
-        judged.wrong = of_choice().flat_map(|wrong| &wrong.triangles).copied().collect();
-        merge(&mut judged.wrong);
-        judged.refused = of_choice().find_map(|wrong| wrong.refused.clone());
-        judged.bytes = Some(memory::coverage(judged.name(), window, sample.pieces.part));
-        let unit = match (ladder, judged.name()) {
-            (Ladder::EdgeFunction, "f32 direct") => Some(f64::from(f32::EPSILON) / 2.0),
-            (Ladder::EdgeFunction, "f64 direct") => Some(f64::EPSILON / 2.0),
-            _ => None,
-        };
-        judged.margin = unit.map(|unit| margin(sampled, unit));
-        group.choices.push(judged);
-    }
-    group
-}
-
-/// Adds what each choice gets wrong of a piece.
-fn compare(variants: &[Variant], piece: &Piece, window: PixelRect, wrong: &mut [Wrong]) {
-    let Some(free) = piece.free() else { return };
-    let (mut given, mut snapped) = (Vec::new(), Vec::new());
-    Oracle.cover_exact(&free, window, |span| given.push(span));
-    if let Some(corners) = snap(&free) {
-        Oracle.cover(corners, window, |span| snapped.push(span));
-    }
-    let mut spans = Vec::new();
-    for (variant, wrong) in variants.iter().zip(wrong) {
-        if wrong.refused.is_some() {
-            continue;
-        }
-        spans.clear();
-        match variant.spans(&free, window, &mut spans) {
-            Err(why) => wrong.refused = Some(why),
-            Ok(_) => {
-                let [by_given, by_snapped] =
-                    [&given, &snapped].map_array(|truth| wrong_pixels(&spans, truth));
-                wrong.pixels[0] += by_given;
-                wrong.pixels[1] += by_snapped;
-                // A choice that snaps is judged by what it was given after that.
-                let (count, truth) = match variant.choice.promises.contains(&1) {
-                    true => (by_snapped, &snapped),
-                    false => (by_given, &given),
-                };
-                if count > 0 {
-                    wrong.triangles.push(([piece.face; 2], count));
-                }
-                if count > 0 && wrong.first.is_none() {
-                    let first = first_difference(&spans, truth);
-                    wrong.first = first.map(|sample| (piece.face, sample));
-                }
+    let to_time = coverage::Input::timed(class(sample.of(&sampled.planes[0]), window).0);
+    let mut drafts = Vec::new();
+    for ladder in [Ladder::Scanline, Ladder::EdgeFunction] {
+        let of_chunks =
+            parallel::map(chunks.len(), |number| judged(ladder, chunks[number], window));
+        let entries = coverage::choices(ladder);
+        let mut draft = Draft::new(ladder, 0, [0, 1].map(measure).to_vec(), choices_of(&entries));
+        let cell = |(number, entry): (usize, &Entry<'_, coverage::Input>)| {
+            let mut found = Details::default();
+            for chunk in &of_chunks {
+                let Details { pixels, first, wrong, .. } = &chunk[number].as_ref()?.found;
+                found.pixels = [0, 1].map_array(|i| found.pixels[i] + pixels[i]);
+                let first = first.map(|(of, at)| (of, sampled.pixel(at)));
+                found.first = found.first.or(first);
+                found.wrong.extend(wrong);
             }
-        }
+            merge(&mut found.wrong);
+            let name = &*entry.choice.name;
+            found.bytes = Some(memory::coverage(name, window, sample.pieces.part));
+            let unit = match (ladder, name) {
+                (Ladder::EdgeFunction, "f32 direct") => Some(f64::from(f32::EPSILON) / 2.0),
+                (Ladder::EdgeFunction, "f64 direct") => Some(f64::EPSILON / 2.0),
+                _ => None,
+            };
+            found.margin = unit.map(|unit| margin(&chunks, window, unit));
+            let errors = found.pixels.map(|pixels| Some(pixels as f64)).to_vec();
+            Ok((Run { errors, found, ..Run::default() }, Some(entry.pass(&to_time)?)))
+        };
+        let cells: Vec<PreparedCell<'_>> = entries.iter().enumerate().map(cell).collect();
+        draft.add(Column::of_model(sample.sampling()), cells);
+        drafts.push(draft);
     }
+    timed(drafts, Some(timing), &|_| ())
 }
 
-/// The first pixel that one list of spans hits more often than the other.
-fn first_difference(a: &[Span], b: &[Span]) -> Option<[i32; 2]> {
-    let pixels = |spans: &[Span]| {
-        let each = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(move |x| (s.y_px, x)));
-        let mut all: Vec<(i32, i32)> = each.collect();
-        all.sort_unstable();
-        all
+/// What each choice of a group gets wrong of some pieces.
+fn judged(ladder: Ladder, pieces: &[Piece], window: PixelRect) -> Vec<Result<Run, String>> {
+    let (class, faces) = class(pieces, window);
+    let input = coverage::Input::judged(class);
+    let judge = |entry: Entry<'_, coverage::Input>| {
+        let mut run = entry.judge(&input)?;
+        rename(&mut run.found, &faces);
+        Ok(run)
     };
-    let (a, b) = (pixels(a), pixels(b));
-    let same = a.iter().zip(&b).take_while(|(a, b)| a == b).count();
-    let first = a.get(same).into_iter().chain(b.get(same)).min()?;
-    Some([first.1, first.0])
+    coverage::choices(ladder).into_iter().map(judge).collect()
 }
 
 /// The smallest |E| over the bound of its error in floats of unit roundoff `u`, at the samples that it decides.
@@ -490,10 +274,9 @@ fn first_difference(a: &[Span], b: &[Span]) -> Option<[i32; 2]> {
 /// u (|a| + |b|) for the corners and u times itself, a product by its factors' errors and u times itself, and E by
 /// the errors of both products and u times itself. A sample is decided by the edge that is farthest outside of it, or,
 /// inside, by the nearest of all.
-fn margin(sampled: &Sampled, u: f64) -> f64 {
-    let chunks = chunks(sampled);
+fn margin(chunks: &[&[Piece]], window: PixelRect, u: f64) -> f64 {
     let of_chunks = parallel::map(chunks.len(), |number| {
-        let each = chunks[number].iter().map(|piece| margin_of(piece.px, sampled.window, u));
+        let each = chunks[number].iter().map(|piece| margin_of(piece.px, window, u));
         each.fold(f64::INFINITY, f64::min)
     });
     of_chunks.into_iter().fold(f64::INFINITY, f64::min)
@@ -545,91 +328,70 @@ fn margin_of(px: [[f64; 2]; 3], window: PixelRect, u: f64) -> f64 {
     smallest
 }
 
-/// Times choices in the same rounds: each against the fastest of all, and the exact ones of each measure against each other.
-/// A pass comes with the numbers of its group and its choice.
-fn set_times(groups: &mut [Group], passes: Vec<(usize, usize, Pass<'_>)>, timing: Timing) {
-    let (places, mut passes): (Vec<[usize; 2]>, Vec<Pass<'_>>) =
-        passes.into_iter().map(|(group, choice, pass)| ([group, choice], pass)).unzip();
-    let mut sets = vec![(0..passes.len()).collect::<Vec<_>>()];
-    for (number, group) in groups.iter().enumerate() {
-        for measure in 0..group.measures.len() {
-            let is_exact = |&place: &usize| {
-                let [of, choice] = places[place];
-                of == number && group.is_exact(&group.choices[choice], measure)
-            };
-            sets.push((0..places.len()).filter(is_exact).collect());
+/// Choices of interpolation: errors at samples of all pieces, and at more samples of those that are hard cases; times of a sample.
+fn interpolation_board(
+    (pieces, window): (&[Piece], PixelRect),
+    hard: &HardCases,
+    timing: Timing,
+) -> Board {
+    let taken: Vec<Piece> = pieces.iter().filter(|piece| has_values(piece)).cloned().collect();
+    let sample = Sample::new(&taken, window, TIMED_PX / 4);
+    let judged = interpolation::Input::new(&class(&taken, window).0, interpolation::SAMPLES);
+    let to_time = interpolation::Input::new(&class(sample.of(&taken), window).0, 0);
+    let are_hard = taken.iter().filter(|piece| hard.is_hard(piece.face));
+    let (class_of_hard, faces) = class(are_hard, window);
+    let on_hard = (!faces.is_empty())
+        .then(|| interpolation::Input::new(&class_of_hard, 4 * interpolation::SAMPLES));
+    let entries = interpolation::choices();
+    let cell = |entry: &Entry<'_, interpolation::Input>| {
+        let mut run = entry.judge(&judged)?;
+        run.errors.truncate(1);
+        run.found = Details { bytes: Some(memory::interpolation(window)), ..Details::default() };
+        if let Some(on_hard) = &on_hard {
+            let mut of_hard = entry.judge(on_hard)?;
+            rename(&mut of_hard.found, &faces);
+            run.found.wrong = of_hard.found.wrong;
+            // What is wrong on hard cases is wrong of the model, whatever its other pixels show.
+            run.errors[0] = of_hard.errors[0].into_iter().chain(run.errors[0]).reduce(f64::max);
         }
-    }
-    let wanted = |medians: &[f64]| over_fastest(&sets, medians);
-    let times = compare_times(&mut passes, timing, &wanted, &|_| ());
-    for ([group, choice], of) in places.into_iter().zip(times) {
-        groups[group].choices[choice].time = Some(of);
-    }
+        Ok((run, Some(entry.pass(&to_time)?)))
+    };
+    let cells = entries.iter().map(cell).collect();
+    let title = "worst error over the largest value; up to half a step of 8 bits is good";
+    let sampling = Sampling {
+        judged: judged.judged(),
+        looked_at: on_hard.as_ref().map(interpolation::Input::judged),
+        not_judged: (pieces.len() - taken.len()) as u64,
+        ..sample.sampling()
+    };
+    let measure = Measure::new(title, "error / M", Some(1.0 / 512.0));
+    board(Ladder::Interpolation, measure, sampling, (choices_of(&entries), cells), timing)
 }
 
-/// A group of choices that are ready-made: errors of all pieces, times of a sample.
-fn ladder(
-    ladder: Ladder,
-    (pieces, window): (&[Piece], PixelRect),
-    hard: Option<&HardCases>,
-    timing: Timing,
-) -> Group {
-    let is_judged = |piece: &&Piece| ladder != Ladder::Interpolation || has_values(piece);
-    let taken: Vec<Piece> = pieces.iter().filter(is_judged).cloned().collect();
-    let sample = Sample::new(&taken, window, TIMED_PX / 4);
-    let classes = [class(taken.iter(), window), class(sample.of(&taken), window)];
-    let measure = match ladder {
-        Ladder::Interpolation => {
-            let title = "worst error over the largest value; up to half a step of 8 bits is good";
-            Measure::new(title, "error / M", Some(1.0 / 512.0))
-        }
-        _ => {
-            let title = "root mean square distance from the exact share of a pixel on an edge";
-            Measure::new(title, "rms of a px", Some(0.0))
-        }
+/// Choices of antialiasing: errors of all pieces, times of a sample.
+fn antialiasing_board((pieces, window): (&[Piece], PixelRect), timing: Timing) -> Board {
+    let sample = Sample::new(pieces, window, TIMED_PX / 4);
+    let judged = antialiasing::Input::new(&class(pieces, window).0);
+    let to_time = antialiasing::Input::new(&class(sample.of(pieces), window).0);
+    let entries = antialiasing::choices();
+    let cell = |entry: &Entry<'_, antialiasing::Input>| {
+        let mut run = entry.judge(&judged)?;
+        run.found.bytes = memory::antialiasing(&entry.choice.name, window);
+        Ok((run, Some(entry.pass(&to_time)?)))
     };
-    let mut groups = [Group::new(ladder.title(), vec![measure], &sample)];
-    measure_on(ladder, &classes, &mut |board, placed| {
-        let group = &mut groups[0];
-        group.judged = match ladder {
-            Ladder::Interpolation => {
-                let of = board.columns[0].pixels;
-                Part { part: compared_values(of), of }
-            }
-            _ => Part::all(sample.pixels.of),
-        };
-        group.not_judged = (pieces.len() - taken.len()) as u64;
-        for (number, info) in board.choices.iter().enumerate() {
-            let mut judged = JudgedChoice::new(info);
-            let run = board.run(number, 0);
-            judged.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
-            judged.bytes = match ladder {
-                Ladder::Antialiasing => memory::antialiasing(&info.name, window),
-                _ => Some(memory::interpolation(window)),
-            };
-            if run.is_none() {
-                judged.refused = Some("it does not take these triangles".to_owned());
-            }
-            group.choices.push(judged);
-        }
-        if let Some(hard) = hard {
-            wrong_values_of((pieces, window), hard, group);
-        }
-        let timed = placed.into_iter().filter(|placed| placed.column == 1);
-        let timed = timed.map(|placed| (0, placed.choice, placed.pass)).collect();
-        set_times(&mut groups, timed, timing);
-    });
-    let [group] = groups;
-    group
+    let cells = entries.iter().map(cell).collect();
+    let title = "root mean square distance from the exact share of a pixel on an edge";
+    let measure = Measure::new(title, "rms of a px", Some(0.0));
+    let choices = choices_of(&entries);
+    board(Ladder::Antialiasing, measure, sample.sampling(), (choices, cells), timing)
 }
 
 /// Formats of the depth buffer: pixels that show another piece than the exact depths say.
-fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Group {
+fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Board {
     let (window, pieces) = (sampled.window, &*sampled.planes[0]);
     let truths =
         parallel::map(sampled.planes.len(), |plane| exactly_seen(&sampled.planes[plane], window));
-    let mut choices = Vec::new();
-    for format in DepthFormat::ALL {
+    let choice = |format: DepthFormat| {
         let about = match format {
             DepthFormat::Unorm32 => "2^32 equal steps",
             DepthFormat::Unorm24 => "2^24 equal steps, as most hardware",
@@ -637,8 +399,11 @@ fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Group {
             DepthFormat::F32Reversed => "a float, 1 at the near plane",
             DepthFormat::F64 => "a double",
         };
-        let mut choice = JudgedChoice::new(&Choice::new(format.name(), about, &[]));
-        choice.bytes = Some(memory::depth(format, window, sampled.planes.len()));
+        Choice::new(format.name(), about, &[])
+    };
+    let cell = |format: DepthFormat| -> PreparedCell<'_> {
+        let bytes = Some(memory::depth(format, window, sampled.planes.len()));
+        let mut found = Details { bytes, ..Details::default() };
         for (pieces, truth) in sampled.planes.iter().zip(&truths) {
             let seen = seen(pieces, window, format, &mut (0..pieces.len()));
             for (y, row) in seen.rows() {
@@ -647,36 +412,29 @@ fn depth(sampled: &Sampled, sample: &Sample, timing: Timing) -> Group {
                         let face = |number: &u32| pieces.get(*number as usize).map(|p| p.face);
                         let (seen, exact) = (face(seen), face(exact));
                         let pixel = sampled.pixel([x, y]);
-                        choice.first_wrong = choice.first_wrong.or(Some((exact.or(seen), pixel)));
+                        found.first = found.first.or(Some((exact.or(seen), pixel)));
                         let pair = exact.or(seen).zip(seen.or(exact));
-                        choice.wrong.extend(pair.map(|(exact, seen)| ([exact, seen], 1)));
+                        found.wrong.extend(pair.map(|(exact, seen)| ([exact, seen], 1)));
                     }
                 }
             }
         }
-        let wrong = choice.wrong.len();
-        merge(&mut choice.wrong);
-        choice.errors = vec![Some(wrong as f64)];
-        choices.push(choice);
-    }
+        let errors = vec![Some(found.wrong.len() as f64)];
+        merge(&mut found.wrong);
+        let pass = Pass::new(move || {
+            let mut timed = sample.numbers.iter().copied();
+            std::hint::black_box(self::seen(pieces, window, format, &mut timed));
+        });
+        Ok((Run { errors, found, ..Run::default() }, Some(pass)))
+    };
     let (title, short) = match sampled.is_antialiased() {
         false => ("pixels that show another piece than exact depths do", "wrong px"),
         true => ("samples that show another piece than exact depths do", "wrong samples"),
     };
     let measure = Measure::new(title, short, Some(0.0)).counts(sampled.unit());
-    let mut groups = [Group::new(Ladder::Depth.title(), vec![measure], sample)];
-    groups[0].choices = choices;
-    let mut passes = Vec::new();
-    for (choice, format) in DepthFormat::ALL.into_iter().enumerate() {
-        let pass = Pass::new(move || {
-            let mut timed = sample.numbers.iter().copied();
-            std::hint::black_box(seen(pieces, window, format, &mut timed));
-        });
-        passes.push((0, choice, pass));
-    }
-    set_times(&mut groups, passes, timing);
-    let [group] = groups;
-    group
+    let formats = DepthFormat::ALL.into_iter();
+    let of = (formats.clone().map(choice).collect(), formats.map(cell).collect());
+    board(Ladder::Depth, measure, sample.sampling(), of, timing)
 }
 
 /// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
@@ -718,87 +476,65 @@ fn is_nearer(piece: &Piece, other: &Piece, x_px: i32, y_px: i32) -> bool {
 }
 
 /// Whole frames: each rasterizer by each planner, and tiles, against the one with everything switched on.
-fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Group, BadScene> {
+fn planners(scene: &Scene, target: &mut Target, timing: Timing) -> Result<Board, BadScene> {
     const PLANNERS: [(&str, Effects, &str); 3] = [
         ("all", Effects::ALWAYS, "every effect is computed everywhere"),
         ("usual", Effects::USUAL, "what a usual renderer leaves out is left out"),
         ("planned", Effects::PLANNED, "what changes no pixel, by a proof, is left out"),
     ];
-    let window = target.size();
-    let mut choices = Vec::new();
-    let mut pictures: Vec<Frame<Colour>> = Vec::new();
-    let mut draws: Vec<(Drawer, Effects)> = Vec::new();
+    let (size, antialias) = (target.size(), target.antialias());
+    let target = RefCell::new(target);
+    let mut first: Option<Frame<Colour>> = None;
+    let mut run = |picture: Frame<Colour>, bytes: Option<u64>| {
+        let wrong: Vec<_> =
+            differing(&picture, first.get_or_insert_with(|| picture.clone()), 0).collect();
+        let at = wrong.first().map(|&(x, y)| (None, [x, y]));
+        let found = Details { first: at, bytes, ..Details::default() };
+        Run { errors: vec![Some(wrong.len() as f64)], found, ..Run::default() }
+    };
+    let (mut choices, mut cells): (Vec<Choice>, Vec<PreparedCell<'_>>) = (Vec::new(), Vec::new());
     for drawer in Drawer::ALL {
         for (name, effects, about) in PLANNERS {
-            let name = format!("{} {name}", drawer.name());
-            let mut choice = JudgedChoice::new(&Choice::new(name, about, &[]));
-            let rendered = drawer.render(scene, &effects, target)?;
-            choice.bytes = Some(memory::frame(&rendered, scene, target));
-            pictures.push(rendered.picture);
-            choices.push(choice);
-            draws.push((drawer, effects));
+            choices.push(Choice::new(format!("{} {name}", drawer.name()), about, &[]));
+            let rendered = drawer.render(scene, &effects, &mut target.borrow_mut())?;
+            let bytes = memory::frame(&rendered, scene, &target.borrow());
+            let target = &target;
+            let pass = Pass::new(move || {
+                let rendered = drawer.render(scene, &effects, &mut target.borrow_mut());
+                std::hint::black_box(rendered.is_ok());
+            });
+            cells.push(Ok((run(rendered.picture, Some(bytes)), Some(pass))));
         }
     }
-    let samples = match target.antialias() {
+    let samples = match antialias {
         Antialias::None => Some(frames::Samples::One),
         Antialias::Multisample4 => Some(frames::Samples::Four),
         Antialias::Supersample(_) => None,
     };
+    let (width, height) = (size.width(), size.height());
     // What tiles would draw otherwise, or not alone, is no choice.
-    let mut samples = match frames::beyond_f32(scene, window.width(), window.height())? {
-        0 => samples,
-        _ => None,
-    };
-    if let Some(per_pixel) = samples {
-        match frames::render(scene, window.width(), window.height(), per_pixel) {
+    let is_the_same = frames::beyond_f32(scene, width, height)? == 0;
+    if let Some(samples) = samples.filter(|_| is_the_same) {
+        match frames::render(scene, width, height, samples) {
             Ok(picture) => {
-                pictures.push(picture);
                 let about = "coverage exact, values in f32; the time of all its threads together";
-                choices.push(JudgedChoice::new(&Choice::new("tiles", about, &[])));
+                choices.push(Choice::new("tiles", about, &[]));
+                let pass = Pass::new(move || {
+                    std::hint::black_box(frames::render(scene, width, height, samples).is_ok());
+                });
+                cells.push(Ok((run(picture, None), Some(pass.by(Clock::Threads)))));
             }
-            Err(TilesError::NotDrawn(_)) => samples = None,
+            Err(TilesError::NotDrawn(_)) => {}
             Err(TilesError::Scene(bad)) => return Err(bad),
         }
     }
-    for (choice, picture) in choices.iter_mut().zip(&pictures) {
-        let wrong: Vec<_> = differing(picture, &pictures[0], 0).collect();
-        choice.first_wrong = wrong.first().map(|&(x, y)| (None, [x, y]));
-        choice.errors = vec![Some(wrong.len() as f64)];
-    }
-    let target = RefCell::new(target);
-    let mut passes = Vec::new();
-    for (choice, (drawer, effects)) in draws.into_iter().enumerate() {
-        let target = &target;
-        let pass = Pass::new(move || {
-            let rendered = drawer.render(scene, &effects, &mut target.borrow_mut());
-            std::hint::black_box(rendered.is_ok());
-        });
-        passes.push((0, choice, pass));
-    }
-    if let Some(samples) = samples {
-        let pass = Pass::new(move || {
-            let rendered = frames::render(scene, window.width(), window.height(), samples);
-            std::hint::black_box(rendered.is_ok());
-        });
-        passes.push((0, passes.len(), pass.by(Clock::Threads)));
-    }
     let title = "pixels that differ from the frame of scanline with everything switched on";
     let measure = Measure::new(title, "wrong px", Some(0.0));
-    let pixels = u64::from(window.width()) * u64::from(window.height());
-    let of = Sample {
-        numbers: Vec::new(),
-        pieces: Part::all(scene.triangles() as u64),
-        pixels: Part::all(pixels),
-    };
-    let mut groups = [Group::new(FRAMES, vec![measure], &of)];
-    groups[0].choices = choices;
-    set_times(&mut groups, passes, timing);
-    let [group] = groups;
-    Ok(group)
+    let pixels = Part::all(u64::from(width) * u64::from(height));
+    let items = Part::all(scene.triangles() as u64);
+    let sampling = Sampling { items, pixels, judged: pixels, looked_at: None, not_judged: 0 };
+    Ok(board(Ladder::Frames, measure, sampling, (choices, cells), timing))
 }
-
-/// The title of the group of planners.
-pub const FRAMES: &str = "Whole frames";
 
 #[cfg(test)]
 mod tests {
@@ -818,11 +554,11 @@ mod tests {
 
     /// What choices of a group get wrong of one triangle, by name.
     fn wrong(ladder: Ladder, px: [[f64; 2]; 3]) -> Vec<(String, [u64; 2])> {
-        let variants = variants(ladder);
-        let mut wrong = vec![Wrong::default(); variants.len()];
-        compare(&variants, &piece(0, px, [0.5; 3]), WINDOW, &mut wrong);
-        let named = variants.iter().zip(wrong);
-        named.map(|(variant, wrong)| (variant.choice.name.to_string(), wrong.pixels)).collect()
+        let runs = judged(ladder, &[piece(0, px, [0.5; 3])], WINDOW);
+        let named = coverage::choices(ladder).into_iter().zip(runs);
+        named
+            .map(|(entry, run)| (entry.choice.name.to_string(), run.unwrap().found.pixels))
+            .collect()
     }
 
     /// An edge that passes the samples on a diagonal by less than f32 can tell: f32 gets them wrong, and whoever promises
@@ -858,12 +594,17 @@ mod tests {
     /// Where no pixel was compared, no choice is exact.
     #[test]
     fn nothing_is_exact_on_pixels_that_were_not_drawn() {
-        let judged = JudgedChoice { errors: vec![Some(0.0)], ..JudgedChoice::default() };
-        let mut group =
-            Group::new("", vec![Measure::new("", "", Some(0.0))], &Sample::of_sizes(&[7], 9));
-        assert!(group.is_exact(&judged, 0));
-        group.judged.part = 0;
-        assert!(!group.is_exact(&judged, 0));
+        let is_exact = |judged: u64| {
+            let sampling = Sampling {
+                judged: Part { part: judged, of: 7 },
+                ..Sample::of_sizes(&[7], 9).sampling()
+            };
+            let run = Run { errors: vec![Some(0.0)], ..Run::default() };
+            let of = (vec![Choice::default()], vec![Ok((run, None))]);
+            let measure = Measure::new("", "", Some(0.0));
+            board(Ladder::Depth, measure, sampling, of, Timing::ONCE).meets(0, 0, 0)
+        };
+        assert_eq!([is_exact(7), is_exact(0)], [Some(true), Some(false)]);
     }
 
     #[test]

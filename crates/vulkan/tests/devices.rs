@@ -20,7 +20,7 @@ use rasterproof_judge::ask::{Subject, runs_of};
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::verdict::Scores as _;
 use rasterproof_judge::{Options, against};
-use rasterproof_precision::cost::ExternalVariant as _;
+use rasterproof_precision::cost::ExternalChoice as _;
 use rasterproof_registry::engines;
 use rasterproof_report::html::Report;
 use rasterproof_report::text as terminal;

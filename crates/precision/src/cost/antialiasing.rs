@@ -5,39 +5,72 @@
 
 use std::ops::Range;
 
+use super::drawn::Canvas;
+use super::entry::{Columns, Entry};
 use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell, Told};
+use super::{Choice, Column, CostOptions, Pass, Run};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::Corners;
 
-struct Variant {
-    choice: Choice,
-    make: fn() -> Box<dyn Antialias>,
+/// Triangles that choices are given.
+pub struct Input {
+    triangles: Vec<Corners>,
+    truth: Truth,
+    canvas: Canvas<f64>,
 }
 
-fn variants() -> Vec<Variant> {
-    let new = |name, about, exact: bool, make| Variant {
-        choice: Choice::new(name, about, if exact { &[0] } else { &[] }),
-        make,
-    };
+impl Input {
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let triangles: Vec<Corners> = scene.triangles.iter().filter_map(snap).collect();
+        let truth = truth(&triangles, scene.bounds);
+        Self { triangles, truth, canvas: Canvas::new(scene.bounds) }
+    }
+}
+
+fn entry(
+    name: &'static str,
+    about: &'static str,
+    promises: &[usize],
+    make: fn() -> Box<dyn Antialias>,
+) -> Entry<'static, Input> {
+    Entry::new(
+        Choice::new(name, about, promises),
+        move |Input { triangles, truth, canvas }: &Input| {
+            let mut target = Frame::new(canvas.bounds, 0.0);
+            make().draw(triangles, &mut target);
+            Ok(Run::of(vec![Some(root_mean_square(&target, truth))]))
+        },
+        move |Input { triangles, canvas, .. }: &Input| {
+            let (mut choice, frames) = (make(), canvas.frames());
+            Ok(Pass::new(move || {
+                choice.draw(std::hint::black_box(triangles), &mut frames.borrow_mut());
+            }))
+        },
+    )
+}
+
+#[must_use]
+pub fn choices() -> Vec<Entry<'static, Input>> {
     vec![
-        new("1x", "the centre", false, || Box::new(Multisample::new(Scanline, ONE))),
-        new("4x multisample", "the standard pattern of four", false, || {
+        entry("1x", "the centre", &[], || Box::new(Multisample::new(Scanline, ONE))),
+        entry("4x multisample", "the standard pattern of four", &[], || {
             Box::new(Multisample::new(Scanline, FOUR))
         }),
-        new("2x2 supersample", "a window twice as large", false, || {
+        entry("2x2 supersample", "a window twice as large", &[], || {
             Box::new(Supersample::new(Scanline, 2))
         }),
-        new("4x4 supersample", "a window four times as large", false, || {
+        entry("4x4 supersample", "a window four times as large", &[], || {
             Box::new(Supersample::new(Scanline, 4))
         }),
-        new("8x8 supersample", "a window eight times as large", false, || {
+        entry("8x8 supersample", "a window eight times as large", &[], || {
             Box::new(Supersample::new(Scanline, 8))
         }),
-        new("exact area", "whole numbers, rounded once: the reference", true, || {
+        entry("exact area", "whole numbers, rounded once: the reference", &[0], || {
             Box::new(ExactArea)
         }),
     ]
@@ -50,8 +83,7 @@ struct Truth {
     pixels: u64,
 }
 
-fn truth(triangles: &[Corners], scene: &Scene) -> Truth {
-    let bounds = scene.bounds;
+fn truth(triangles: &[Corners], bounds: PixelRect) -> Truth {
     let (mut shares, mut on_edge) = (Frame::new(bounds, 0.0), Frame::new(bounds, false));
     let mut sum = 0.0;
     for corners in triangles {
@@ -76,41 +108,16 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     (sum / count.max(1) as f64).sqrt()
 }
 
-pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
     let pixels = if options.quick { 8_000 } else { 30_000 };
-    let scenes = scenes(options.seed, Size { side_px: 256, pixels });
-    measure_on(&scenes, options, (progress, &mut |_, _| ()))
-}
-
-pub(super) fn measure_on(
-    scenes: &[Scene],
-    options: &CostOptions,
-    (progress, afterwards): Told<'_>,
-) -> Board {
-    let variants = variants();
-    let triangles: Vec<Vec<Corners>> =
-        scenes.iter().map(|scene| scene.triangles.iter().filter_map(snap).collect()).collect();
-    let targets: Vec<_> =
-        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0.0))).collect();
-    let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Antialiasing, choices, options);
-    for ((scene, triangles), target) in scenes.iter().zip(&triangles).zip(&targets) {
-        draft.tell(progress, scenes.len());
-        let column = |pixels| Column::new(scene.name, scene.about, triangles.len() as u64, pixels);
-        if scene.name.starts_with(W_PREFIX) {
-            draft.leave_out(column(0), "coverage does not depend on w");
-            continue;
+    let column = |scene: Scene| {
+        let input = Input::new(&scene);
+        let column =
+            |pixels| Column::new(scene.name, scene.about, input.triangles.len() as u64, pixels);
+        match scene.name.starts_with(W_PREFIX) {
+            true => (column(0), Err("coverage does not depend on w".to_owned())),
+            false => (column(input.truth.pixels), Ok(input)),
         }
-        let truth = truth(triangles, scene);
-        let cells = variants.iter().map(|variant| {
-            let mut choice = (variant.make)();
-            choice.draw(triangles, &mut target.borrow_mut());
-            let error = root_mean_square(&target.borrow(), &truth);
-            PreparedCell::ready(vec![Some(error)], move || {
-                choice.draw(std::hint::black_box(triangles), &mut target.borrow_mut());
-            })
-        });
-        draft.add(column(truth.pixels), cells);
-    }
-    draft.finish_or_give(options, (progress, afterwards))
+    };
+    scenes(options.seed, Size { side_px: 256, pixels }).into_iter().map(column).collect()
 }

@@ -4,19 +4,18 @@
 //! and the triangle with its corners snapped to 1/256 px. Choices on the lattice are exact against the
 //! latter; what they show against the former is the price of snapping, an error of the input.
 
-use super::external::ExternalVariant;
+use std::cell::RefCell;
+
+use super::drawn::Canvas;
+use super::entry::{Columns, Entry};
 use super::tiles::Lists;
-use super::{
-    Board, Choice, Clock, Column, CostOptions, Draft, Ladder, Name, Pass, Places, PreparedCell,
-    finish,
-};
+use super::{Choice, Clock, Column, CostOptions, Details, Ladder, Name, Pass, Places, Run};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
 use crate::ladder::{Cover, Snapped, Unsnapped, Work, snap};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Rasterize, RasterizeExact};
-use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
@@ -27,9 +26,9 @@ use rasterproof_faults::published::book_triangle::BookChapter2;
 use rasterproof_faults::published::{Published, bare};
 use rasterproof_verify::oracle::Oracle;
 
-/// Errors of coverage, by their number in [`Board::measures`].
-pub(super) const GIVEN: usize = 0;
-pub(super) const SNAPPED: usize = 1;
+/// Errors of coverage, by their number in [`Board::measures`](super::Board).
+pub const GIVEN: usize = 0;
+pub const SNAPPED: usize = 1;
 const HOLES: usize = 2;
 const TWICE: usize = 3;
 
@@ -48,74 +47,99 @@ impl Cover for AsPublished {
     }
 }
 
-trait AnyChoice: Sync {
-    fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String>;
-    fn spans(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        spans: &mut Vec<Span>,
-    ) -> Option<Work>;
-    fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>);
-}
-
-impl<R: Cover + Sync> AnyChoice for R {
-    fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
-        Cover::accepts(self, corners, bounds)
-    }
+/// Somebody who fills triangles, such as a graphics card, and is judged and timed as the choices are.
+pub trait ExternalChoice {
+    fn choice(&self) -> Choice;
 
     fn spans(
-        &self,
-        corners: &FreeCorners,
+        &mut self,
+        triangles: &[FreeCorners],
         bounds: PixelRect,
-        spans: &mut Vec<Span>,
-    ) -> Option<Work> {
-        self.cover(corners, bounds, |span| spans.push(span))
+    ) -> Result<Vec<Vec<Span>>, String>;
+
+    /// Gets ready to fill all of them; what is returned does so, and is timed.
+    fn pass(
+        &mut self,
+        triangles: &[FreeCorners],
+        bounds: PixelRect,
+    ) -> Result<Box<dyn FnMut()>, String>;
+}
+
+/// Triangles that choices are given.
+pub struct Input {
+    pub scene: Scene,
+    truth: Truth,
+    triangles: Places<Vec<FreeCorners>>,
+    canvas: Canvas<u32>,
+}
+
+impl Input {
+    /// Triangles that are judged.
+    #[must_use]
+    pub fn judged(scene: Scene) -> Self {
+        Self { truth: Truth::of(&scene), ..Self::timed(scene) }
     }
 
-    fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
-        Cover::paint(self, triangles, bounds, target);
+    /// Triangles that are timed alone.
+    #[must_use]
+    pub fn timed(scene: Scene) -> Self {
+        let (triangles, canvas) =
+            (Places::new(|| scene.triangles.clone()), Canvas::new(scene.bounds));
+        Self { scene, truth: Truth::default(), triangles, canvas }
     }
 }
 
-/// A choice of coverage, ready to run: it lists the pixels of a triangle, to be judged, or paints them,
-/// to be timed.
-pub struct Variant {
-    pub choice: Choice,
-    body: Box<dyn AnyChoice>,
-}
+/// Lists the pixels of a triangle as a choice sees it, and returns its counted work.
+type Draw<'a> = &'a dyn Fn(&FreeCorners, PixelRect, &mut Vec<Span>) -> Result<Option<Work>, String>;
 
-fn variant(
+/// Two closures of each choice alone are compiled for it; all that counts is compiled once.
+fn entry(
     name: &'static str,
     about: impl Into<Name>,
     promises: &[usize],
-    body: impl Cover + Sync + 'static,
-) -> Variant {
-    Variant { choice: Choice::new(name, about, promises), body: Box::new(body) }
+    body: impl Cover + Copy + 'static,
+) -> Entry<'static, Input> {
+    let own_truth = usize::from(promises.contains(&SNAPPED));
+    Entry::new(
+        Choice::new(name, about, promises),
+        move |input: &Input| {
+            judge(input, own_truth, &|corners, bounds, spans| {
+                body.accepts(corners, bounds)?;
+                Ok(body.cover(corners, bounds, |span| spans.push(span)))
+            })
+        },
+        move |input: &Input| {
+            let (bounds, frames) = (input.canvas.bounds, input.canvas.frames());
+            Ok(Pass::new(move || {
+                let triangles = input.triangles.borrow();
+                body.paint(std::hint::black_box(&triangles), bounds, &mut frames.borrow_mut());
+            }))
+        },
+    )
 }
 
-impl Variant {
-    /// Adds the pixels of a triangle, as the choice sees it, to `spans`; returns its counted work.
-    ///
-    /// # Errors
-    /// The reason why the choice takes no such triangle.
-    pub fn spans(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        spans: &mut Vec<Span>,
-    ) -> Result<Option<Work>, String> {
-        self.body.accepts(corners, bounds)?;
-        Ok(self.body.spans(corners, bounds, spans))
-    }
-
-    /// Fills every triangle with a colour of its own: what is timed.
-    pub fn paint(&self, triangles: &[FreeCorners], target: &mut Frame<u32>) {
-        self.body.paint(triangles, target.bounds(), target);
-    }
+/// An external choice beside the others.
+pub(super) fn external(other: Box<dyn ExternalChoice>) -> Entry<'static, Input> {
+    let choice = other.choice();
+    let other = std::rc::Rc::new(RefCell::new(other));
+    let timed = std::rc::Rc::clone(&other);
+    Entry::new(
+        choice,
+        move |Input { scene, truth, .. }: &Input| {
+            let spans = other.borrow_mut().spans(&scene.triangles, scene.bounds)?;
+            Ok(score(&spans, scene, truth, GIVEN))
+        },
+        move |Input { scene, .. }: &Input| {
+            // A device works while the processor waits.
+            let pass = timed.borrow_mut().pass(&scene.triangles, scene.bounds)?;
+            Ok(Pass::new(pass).by(Clock::Wall))
+        },
+    )
 }
 
-pub fn variants(ladder: Ladder) -> Vec<Variant> {
+/// The choices of one of the two groups.
+#[must_use]
+pub fn choices(ladder: Ladder) -> Vec<Entry<'static, Input>> {
     match ladder {
         Ladder::Scanline => scanlines(),
         Ladder::EdgeFunction => edge_functions(),
@@ -123,58 +147,44 @@ pub fn variants(ladder: Ladder) -> Vec<Variant> {
     }
 }
 
-fn scanlines() -> Vec<Variant> {
+fn scanlines() -> Vec<Entry<'static, Input>> {
     vec![
-        variant("book", "as published, section 2.2, f64", &[], AsPublished(BookChapter2)),
-        variant("f32 accumulated", "x += slope", &[], Accumulated::<f32>::default()),
-        variant(
-            "f32 direct",
-            "x = ax + (yc - ay) dx / dy",
-            &[],
-            scanline::Direct::<f32>::default(),
-        ),
-        variant("f64 accumulated", "x += slope", &[], Accumulated::<f64>::default()),
-        variant(
-            "f64 direct",
-            "x = ax + (yc - ay) dx / dy",
-            &[],
-            scanline::Direct::<f64>::default(),
-        ),
-        variant("24.8 DDA", "snaps; the engine scanline", &[SNAPPED], Snapped(Scanline)),
-        variant("adaptive", "the engine scanline-exact", &[GIVEN], Unsnapped(ScanlineExact)),
-        variant("big integers", "every crossing an exact quotient", &[GIVEN], BigIntegers),
+        entry("book", "as published, section 2.2, f64", &[], AsPublished(BookChapter2)),
+        entry("f32 accumulated", "x += slope", &[], Accumulated::<f32>::default()),
+        entry("f32 direct", "x = ax + (yc - ay) dx / dy", &[], scanline::Direct::<f32>::default()),
+        entry("f64 accumulated", "x += slope", &[], Accumulated::<f64>::default()),
+        entry("f64 direct", "x = ax + (yc - ay) dx / dy", &[], scanline::Direct::<f64>::default()),
+        entry("24.8 DDA", "snaps; the engine scanline", &[SNAPPED], Snapped(Scanline)),
+        entry("adaptive", "the engine scanline-exact", &[GIVEN], Unsnapped(ScanlineExact)),
+        entry("big integers", "every crossing an exact quotient", &[GIVEN], BigIntegers),
     ]
 }
 
-fn edge_functions() -> Vec<Variant> {
+fn edge_functions() -> Vec<Entry<'static, Input>> {
     vec![
-        variant("f32 stepped", "E += step", &[], Stepped::<f32>::default()),
-        variant("f32 direct", "E at every sample", &[], edges::Direct::<f32>::default()),
-        variant("f32 ordered", "direct, from the smaller end", &[], Ordered::<f32>::default()),
-        variant("f64 stepped", "E += step", &[], Stepped::<f64>::default()),
-        variant("f64 direct", "E at every sample", &[], edges::Direct::<f64>::default()),
-        variant("f64 ordered", "direct, from the smaller end", &[], Ordered::<f64>::default()),
-        variant("i32", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i32>::default()),
-        variant("i64", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i64>::default()),
-        variant("i128", "snaps; E' stepped", &[SNAPPED], Integer::<i128, i128>::default()),
-        variant(
+        entry("f32 stepped", "E += step", &[], Stepped::<f32>::default()),
+        entry("f32 direct", "E at every sample", &[], edges::Direct::<f32>::default()),
+        entry("f32 ordered", "direct, from the smaller end", &[], Ordered::<f32>::default()),
+        entry("f64 stepped", "E += step", &[], Stepped::<f64>::default()),
+        entry("f64 direct", "E at every sample", &[], edges::Direct::<f64>::default()),
+        entry("f64 ordered", "direct, from the smaller end", &[], Ordered::<f64>::default()),
+        entry("i32", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i32>::default()),
+        entry("i64", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i64>::default()),
+        entry("i128", "snaps; E' stepped", &[SNAPPED], Integer::<i128, i128>::default()),
+        entry(
             "engine",
             "snaps; the engine edge-function, width by triangle",
             &[SNAPPED],
             Snapped(EdgeFunction),
         ),
-        variant("tiles i32 x 16", Lists::default().about(), &[SNAPPED], Lists::default()),
-        variant(
-            "adaptive",
-            "the engine edge-function-exact",
-            &[GIVEN],
-            Unsnapped(EdgeFunctionExact),
-        ),
-        variant("robust", "orient2d at every sample", &[GIVEN], Robust),
+        entry("tiles i32 x 16", Lists::default().about(), &[SNAPPED], Lists::default()),
+        entry("adaptive", "the engine edge-function-exact", &[GIVEN], Unsnapped(EdgeFunctionExact)),
+        entry("robust", "orient2d at every sample", &[GIVEN], Robust),
     ]
 }
 
 /// The pixels of one scene by both truths.
+#[derive(Default)]
 struct Truth {
     /// Spans of each triangle as given, then as snapped.
     spans: [Vec<Vec<Span>>; 2],
@@ -209,7 +219,7 @@ impl Truth {
 }
 
 /// Differences of hit counts, summed over the pixels of `a` and `b`.
-pub fn wrong_pixels(a: &[Span], b: &[Span]) -> u64 {
+fn wrong_pixels(a: &[Span], b: &[Span]) -> u64 {
     let mut wrong = 0;
     sweep(&[a, b], |hits, length| wrong += u64::from(hits[0].abs_diff(hits[1])) * length);
     wrong
@@ -258,16 +268,13 @@ fn cracks(truth: &Truth, spans: &[Vec<Span>], interior: PixelRect) -> (u64, u64)
     (holes, twice)
 }
 
-fn errors(
-    variant: &Variant,
-    scene: &Scene,
-    truth: &Truth,
-) -> Result<(Vec<Option<f64>>, Option<Work>), String> {
+fn judge(input: &Input, own_truth: usize, draw: Draw<'_>) -> Result<Run, String> {
+    let Input { scene, truth, .. } = input;
     let mut work = Some(Work::default());
     let mut spans = Vec::new();
     for corners in &scene.triangles {
         let mut of_this = Vec::new();
-        let counted = variant.spans(corners, scene.bounds, &mut of_this)?;
+        let counted = draw(corners, scene.bounds, &mut of_this)?;
         if let (Some(sum), Some(counted)) = (&mut work, counted) {
             *sum += counted;
         } else {
@@ -275,92 +282,57 @@ fn errors(
         }
         spans.push(of_this);
     }
-    Ok((score(&spans, scene, truth), work))
+    Ok(Run { work, ..score(&spans, scene, truth, own_truth) })
 }
 
-fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth) -> Vec<Option<f64>> {
-    let per_million = |i: usize| {
-        let pairs = spans.iter().zip(&truth.spans[i]);
-        let wrong: u64 = pairs.map(|(ours, truth)| wrong_pixels(ours, truth)).sum();
-        wrong as f64 * 1e6 / truth.pixels[i].max(1) as f64
-    };
+/// What is wrong of each triangle. A choice that snaps has first and single wrong pixels by what it was given after that.
+fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth, own_truth: usize) -> Run {
+    let mut found = Details::default();
+    for (number, ours) in (0..).zip(spans) {
+        let truths = [0, 1].map_array(|i| &truth.spans[i][number as usize][..]);
+        let wrong = truths.map_array(|truth| wrong_pixels(ours, truth));
+        found.pixels = [0, 1].map_array(|i| found.pixels[i] + wrong[i]);
+        if wrong[own_truth] > 0 {
+            found.wrong.push(([number; 2], wrong[own_truth]));
+            let first = || first_difference(ours, truths[own_truth]);
+            found.first = found.first.or_else(|| Some((Some(number), first()?)));
+        }
+    }
+    let per_million = |i: usize| found.pixels[i] as f64 * 1e6 / truth.pixels[i].max(1) as f64;
     let mut errors = vec![Some(per_million(0)), Some(per_million(1)), None, None];
     if let Some(interior) = scene.interior {
         let (holes, twice) = cracks(truth, spans, interior);
         (errors[HOLES], errors[TWICE]) = (Some(holes as f64), Some(twice as f64));
     }
-    errors
+    Run { found, ..Run::of(errors) }
 }
 
-fn prepare<'a>(
-    variant: &'a Variant,
-    scene: &'a Scene,
-    truth: &Truth,
-    target: &'a Places<Frame<u32>>,
-) -> PreparedCell<'a> {
-    match errors(variant, scene, truth) {
-        Err(why) => PreparedCell::NotRun(why),
-        Ok((errors, work)) => {
-            let pass = Pass::new(|| {
-                variant.paint(std::hint::black_box(&scene.triangles), &mut target.borrow_mut());
-            });
-            PreparedCell::Ready { errors, work, pass }
-        }
-    }
-}
-
-/// The errors of an external variant on a scene, and what is to be timed.
-fn prepare_external<'a>(
-    variant: &mut dyn ExternalVariant,
-    scene: &Scene,
-    truth: &Truth,
-) -> PreparedCell<'a> {
-    let mut ready = || {
-        let spans = variant.spans(&scene.triangles, scene.bounds)?;
-        // A device works while the processor waits.
-        let pass = Pass::new(variant.pass(&scene.triangles, scene.bounds)?).by(Clock::Wall);
-        Ok(PreparedCell::Ready { errors: score(&spans, scene, truth), work: None, pass })
+/// The first pixel that one list of spans hits more often than the other.
+fn first_difference(a: &[Span], b: &[Span]) -> Option<[i32; 2]> {
+    let pixels = |spans: &[Span]| {
+        let each = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(move |x| (s.y_px, x)));
+        let mut all: Vec<(i32, i32)> = each.collect();
+        all.sort_unstable();
+        all
     };
-    ready().unwrap_or_else(PreparedCell::NotRun)
+    let (a, b) = (pixels(a), pixels(b));
+    let same = a.iter().zip(&b).take_while(|(a, b)| a == b).count();
+    let first = a.get(same).into_iter().chain(b.get(same)).min()?;
+    Some([first.1, first.0])
 }
 
-/// Measures one of the two groups or both, with external variants on that of edge functions.
-pub(super) fn measure(
-    ladders: &[Ladder],
-    options: &CostOptions,
-    external: &mut [Box<dyn ExternalVariant>],
-    progress: &dyn Fn(f64, &str),
-) -> Vec<Board> {
+pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
     let pixels = if options.quick { 60_000 } else { 800_000 };
-    let scenes = scenes(options.seed, Size { side_px: 1024, pixels });
-    let groups: Vec<(Ladder, Vec<Variant>)> =
-        ladders.iter().map(|&ladder| (ladder, variants(ladder))).collect();
-    let targets: Vec<_> =
-        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0))).collect();
-    let mut drafts = Vec::new();
-    for (ladder, variants) in &groups {
-        let external: &mut [_] = if *ladder == Ladder::EdgeFunction { external } else { &mut [] };
-        let own = variants.iter().map(|variant| variant.choice.clone());
-        let choices = own.chain(external.iter().map(|variant| variant.choice()));
-        let mut draft = Draft::new(*ladder, choices, options);
-        for (scene, target) in scenes.iter().zip(&targets) {
-            draft.tell(progress, scenes.len());
-            let items = scene.triangles.len() as u64;
-            if scene.name.starts_with(W_PREFIX) {
-                let column = Column::new(scene.name, scene.about, items, 0);
-                draft.leave_out(column, "coverage does not depend on w");
-                continue;
-            }
-            let truth = Truth::of(scene);
-            let own = variants.iter().map(|variant| prepare(variant, scene, &truth, target));
-            let others = external.iter_mut();
-            let others = others.map(|variant| prepare_external(variant.as_mut(), scene, &truth));
-            let column = Column::new(scene.name, scene.about, items, truth.pixels[GIVEN]);
-            draft.add(column, own.chain(others));
+    let column = |scene: Scene| {
+        let (name, about, items) = (scene.name, scene.about, scene.triangles.len() as u64);
+        if name.starts_with(W_PREFIX) {
+            let why = "coverage does not depend on w".to_owned();
+            return (Column::new(name, about, items, 0), Err(why));
         }
-        drafts.push(draft);
-    }
-    finish(drafts, options, progress)
+        let input = Input::judged(scene);
+        (Column::new(name, about, items, input.truth.pixels[GIVEN]), Ok(input))
+    };
+    scenes(options.seed, Size { side_px: 1024, pixels }).into_iter().map(column).collect()
 }
 
 #[cfg(test)]
@@ -398,17 +370,18 @@ mod tests {
         assert_eq!(cracks(&truth, &[vec![span(0, 0, 6)], vec![span(0, 4, 9)]]), (0, 2));
     }
 
-    fn of(body: impl Cover + Sync + 'static) -> Vec<(&'static str, Vec<Option<f64>>)> {
-        let variant = variant("planted", "", &[], body);
+    fn of(body: impl Cover + Copy + 'static) -> Vec<(&'static str, Vec<Option<f64>>)> {
+        let planted = entry("planted", "", &[], body);
         scenes(1, Size { side_px: 128, pixels: 4000 })
-            .iter()
+            .into_iter()
             .filter(|scene| !scene.name.starts_with(W_PREFIX))
-            .map(|scene| (scene.name, errors(&variant, scene, &Truth::of(scene)).unwrap().0))
+            .map(|scene| (scene.name, planted.judge(&Input::judged(scene)).unwrap().errors))
             .collect()
     }
 
     /// Exact, but for one of the corners, which it takes a quarter of a pixel too far right; or
     /// without the last pixel of each row; or with one too many.
+    #[derive(Clone, Copy)]
     struct Planted(Fault);
 
     type Fault = fn(&mut [[f64; 2]; 3], &mut Span);
@@ -457,18 +430,17 @@ mod tests {
     /// What does not fit a word is refused with a reason instead of drawn wrongly.
     #[test]
     fn words_have_a_range() {
-        let corners = |side: f64| FreeCorners::new([[0.0; 2], [side, 0.0], [0.0, side]]).unwrap();
-        let accepts =
-            |choice: &dyn AnyChoice, side| choice.accepts(&corners(side), PixelRect::window(8, 8));
+        fn accepts(choice: impl Cover, corners: [[f64; 2]; 3]) -> Result<(), String> {
+            choice.accepts(&FreeCorners::new(corners).unwrap(), PixelRect::window(8, 8))
+        }
+        let corners = |side: f64| [[0.0; 2], [side, 0.0], [0.0, side]];
         let (i32s, i64s) = (Integer::<i64, i32>::default(), Integer::<i64, i64>::default());
-        assert!(accepts(&i32s, 2895.0).is_ok() && accepts(&i32s, 2896.0).is_err());
-        assert!(accepts(&i64s, 8_000_000.0).is_ok());
+        assert!(accepts(i32s, corners(2895.0)).is_ok() && accepts(i32s, corners(2896.0)).is_err());
+        assert!(accepts(i64s, corners(8_000_000.0)).is_ok());
         let widest = [[-8_388_608.0; 2], [8_388_607.0, -8_388_608.0], [0.0, 8_388_607.0]];
-        let widest = FreeCorners::new(widest).unwrap();
-        let window = PixelRect::window(8, 8);
-        assert!(AnyChoice::accepts(&i64s, &widest, window).is_err());
-        assert!(AnyChoice::accepts(&Integer::<i128, i128>::default(), &widest, window).is_ok());
-        let reason = accepts(&i32s, 1e6).unwrap_err();
+        assert!(accepts(i64s, widest).is_err());
+        assert!(accepts(Integer::<i128, i128>::default(), widest).is_ok());
+        let reason = accepts(i32s, corners(1e6)).unwrap_err();
         assert!(reason.contains("32 bits"), "{reason}");
     }
 
@@ -476,7 +448,14 @@ mod tests {
     /// square, and f64 crossings are for coordinates up to 2^17 px.
     #[test]
     fn floats_are_exact_where_theory_says() {
-        let window = PixelRect::window(16, 16);
+        fn check(choice: impl Cover, corners: [[f64; 2]; 3]) {
+            let window = PixelRect::window(16, 16);
+            let corners = FreeCorners::new(corners).unwrap();
+            let (mut ours, mut truth) = (Vec::new(), Vec::new());
+            choice.cover(&corners, window, |span| ours.push(span));
+            Oracle.cover_exact(&corners, window, |span| truth.push(span));
+            assert_eq!(wrong_pixels(&ours, &truth), 0, "{corners:?}");
+        }
         for index in 0..2000 {
             let mut rng = rasterproof_core::random::Rng::new("theory", 1, index);
             let px = |rng: &mut rasterproof_core::random::Rng, side: i64| {
@@ -484,18 +463,11 @@ mod tests {
             };
             let small = [(); 3].map(|()| [px(&mut rng, 15), px(&mut rng, 15)]);
             let large = [(); 3].map(|()| [px(&mut rng, 1 << 17), px(&mut rng, 1 << 17)]);
-            let check = |choice: &dyn AnyChoice, corners: [[f64; 2]; 3]| {
-                let corners = FreeCorners::new(corners).unwrap();
-                let (mut ours, mut truth) = (Vec::new(), Vec::new());
-                choice.spans(&corners, window, &mut ours);
-                Oracle.cover_exact(&corners, window, |span| truth.push(span));
-                assert_eq!(wrong_pixels(&ours, &truth), 0, "{corners:?}");
-            };
-            check(&edges::Direct::<f32>::default(), small);
-            check(&Stepped::<f32>::default(), small);
-            check(&scanline::Direct::<f64>::default(), small);
-            check(&scanline::Direct::<f64>::default(), large);
-            check(&edges::Direct::<f64>::default(), large);
+            check(edges::Direct::<f32>::default(), small);
+            check(Stepped::<f32>::default(), small);
+            check(scanline::Direct::<f64>::default(), small);
+            check(scanline::Direct::<f64>::default(), large);
+            check(edges::Direct::<f64>::default(), large);
         }
     }
 }

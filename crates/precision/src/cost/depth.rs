@@ -3,7 +3,8 @@
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
+use super::entry::{Columns, Entry, left_out};
+use super::{Choice, Column, CostOptions, Pass, Run};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -105,49 +106,61 @@ fn step<F: Format>(z: f64) -> f64 {
     (0..1000).map(|i| gap::<F>(z * (1.0 - 0.003 * f64::from(i) / 1013.0))).fold(0.0, f64::max)
 }
 
-/// Draws the layers and counts what is wrong of them; and draws them again to be timed.
-fn prepare<F: Format + 'static>(z: f64, layers: &[Layers]) -> PreparedCell<'_> {
-    let pixels = layers.len() * SIDE_PX * SIDE_PX;
-    let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
-    draw::<F>(layers, &mut buffer, &mut colours);
-    let wrong = colours.iter().filter(|&&colour| colour != 2).count();
-    let per_million = wrong as f64 * 1e6 / pixels as f64;
-    let errors = vec![Some(per_million), Some(gap::<F>(z)), Some(step::<F>(z))];
-    PreparedCell::ready(errors, move || {
-        draw::<F>(std::hint::black_box(layers), &mut buffer, &mut colours);
-        std::hint::black_box(&buffer);
-    })
+/// Layers at a distance from the eye.
+pub(super) struct Input {
+    z: f64,
+    layers: Vec<Layers>,
 }
 
-type Prepare = for<'a> fn(f64, &'a [Layers]) -> PreparedCell<'a>;
+impl Input {
+    fn pixels(&self) -> usize {
+        self.layers.len() * SIDE_PX * SIDE_PX
+    }
+}
 
-fn variants() -> Vec<(Choice, Prepare)> {
-    let choice = |name, about| Choice::new(name, about, &[]);
+fn entry<F: Format + 'static>(name: &'static str, about: &'static str) -> Entry<'static, Input> {
+    let buffers = |pixels: usize| (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
+    Entry::new(
+        Choice::new(name, about, &[]),
+        move |input: &Input| {
+            let (mut buffer, mut colours) = buffers(input.pixels());
+            draw::<F>(&input.layers, &mut buffer, &mut colours);
+            let wrong = colours.iter().filter(|&&colour| colour != 2).count();
+            let per_million = wrong as f64 * 1e6 / input.pixels() as f64;
+            Ok(Run::of(vec![Some(per_million), Some(gap::<F>(input.z)), Some(step::<F>(input.z))]))
+        },
+        move |input: &Input| {
+            let (mut buffer, mut colours) = buffers(input.pixels());
+            Ok(Pass::new(move || {
+                draw::<F>(std::hint::black_box(&input.layers), &mut buffer, &mut colours);
+                std::hint::black_box(&buffer);
+            }))
+        },
+    )
+}
+
+pub(super) fn choices() -> Vec<Entry<'static, Input>> {
     vec![
-        (choice("24-bit", "whole numbers, 0 at the near plane"), prepare::<Fixed24>),
-        (choice("f32", "-1 at the near plane"), prepare::<Forward<f32>>),
-        (choice("f32 reversed", "1 at the near plane"), prepare::<Reversed<f32>>),
-        (choice("f64", "-1 at the near plane"), prepare::<Forward<f64>>),
+        entry::<Fixed24>("24-bit", "whole numbers, 0 at the near plane"),
+        entry::<Forward<f32>>("f32", "-1 at the near plane"),
+        entry::<Reversed<f32>>("f32 reversed", "1 at the near plane"),
+        entry::<Forward<f64>>("f64", "-1 at the near plane"),
     ]
 }
 
-pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
-    let variants = variants();
+pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };
-    let made = DISTANCES.map(|(name, z)| layers(options.seed, name, z, tiles));
-    let mut draft =
-        Draft::new(Ladder::Depth, variants.iter().map(|(choice, _)| choice.clone()), options);
-    for ((name, z), layers) in DISTANCES.into_iter().zip(&made) {
-        draft.tell(progress, DISTANCES.len());
+    let mut columns = Vec::new();
+    for (name, z) in DISTANCES {
         let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");
-        let pixels = (2 * tiles * SIDE_PX * SIDE_PX) as u64;
-        let cells = variants.iter().map(|(_, prepare)| prepare(z, layers));
-        draft.add(Column::new(name, about, 2 * tiles as u64, pixels), cells);
+        let input = Input { z, layers: layers(options.seed, name, z, tiles) };
+        let pixels = 2 * input.pixels() as u64;
+        columns.push((Column::new(name, about, 2 * tiles as u64, pixels), Ok(input)));
     }
-    let why = "depth depends on the distance from the eye, not on the shape";
-    draft.leave_out_classes(options, why);
-    draft.finish(options, progress)
+    columns
+        .extend(left_out(options, "depth depends on the distance from the eye, not on the shape"));
+    columns
 }
 
 #[cfg(test)]

@@ -1,20 +1,36 @@
-//! Triangles of a scene with the pixels that they cover, and what computes a number at each of those.
+//! Triangles of a scene with the pixels that they cover, and what passes paint to.
 
+use std::cell::OnceCell;
+
+use super::Places;
 use super::scene::Scene;
-use crate::ladder::interpolation::Values;
 use crate::ladder::snap;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Span};
 
-/// A triangle and the rows it covers.
-pub(super) struct CoveredTriangle<T> {
-    /// Its place in the list of the scene's triangles.
-    pub number: usize,
-    pub triangle: T,
-    pub spans: Vec<Span>,
+pub use crate::ladder::interpolation::CoveredTriangle;
+
+/// Emits the values of a choice on a triangle.
+pub(super) type Emit<'a, T> = &'a dyn Fn(&CoveredTriangle<T>, &mut dyn FnMut(i32, i32, f64));
+
+/// Frames to which all passes of a column paint, made when the first pass is.
+pub(super) struct Canvas<T> {
+    pub bounds: PixelRect,
+    frames: OnceCell<Places<Frame<T>>>,
+}
+
+impl<T: Copy + Default> Canvas<T> {
+    pub fn new(bounds: PixelRect) -> Self {
+        Self { bounds, frames: OnceCell::new() }
+    }
+
+    pub fn frames(&self) -> &Places<Frame<T>> {
+        self.frames.get_or_init(|| Places::new(|| Frame::new(self.bounds, T::default())))
+    }
 }
 
 /// The triangles of a scene on the lattice; `make` gets the place of each, its corners and 1/w of each corner.
@@ -35,25 +51,4 @@ pub(super) fn dress<T>(
 
 pub(super) fn pixels<T>(drawn: &[CoveredTriangle<T>]) -> usize {
     drawn.iter().flat_map(|of_this| &of_this.spans).map(Span::pixels).sum()
-}
-
-/// What the measurements need of a choice, without its type.
-pub(super) trait AnyValues<T> {
-    fn each(&self, drawn: &CoveredTriangle<T>, emit: &mut dyn FnMut(i32, i32, f64));
-    fn paint(&self, drawn: &[CoveredTriangle<T>], target: &mut Frame<f32>);
-}
-
-impl<T, R: Values<T>> AnyValues<T> for R {
-    fn each(&self, drawn: &CoveredTriangle<T>, emit: &mut dyn FnMut(i32, i32, f64)) {
-        self.values(&drawn.triangle, &drawn.spans, emit);
-    }
-
-    fn paint(&self, drawn: &[CoveredTriangle<T>], target: &mut Frame<f32>) {
-        let x0 = target.bounds().x0;
-        for CoveredTriangle { triangle, spans, .. } in drawn {
-            self.values(triangle, spans, |x_px, y_px, value| {
-                target.row_mut(y_px)[(x_px - x0) as usize] = value as f32;
-            });
-        }
-    }
 }

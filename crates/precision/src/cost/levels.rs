@@ -3,14 +3,15 @@
 //! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels, against derivatives in
 //! quotients of big integers, of which the logarithm alone is rounded.
 
-use super::drawn::{AnyValues, CoveredTriangle, dress, pixels};
+use super::drawn::{Canvas, CoveredTriangle, Emit, dress, pixels};
+use super::entry::{Columns, Entry};
 use super::scene::{Scene, Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell};
+use super::{Choice, Column, CostOptions, Pass, Run};
+use crate::ladder::interpolation::Values;
 use crate::ladder::levels::{Derivatives, Differences, OfTriangle, SIDE, Textured};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 
 /// A part of a level that 8 bits between two levels can express, as the Vulkan specification wants at most.
@@ -84,13 +85,38 @@ fn samples(drawn: &[CoveredTriangle<Textured>]) -> Vec<Sample> {
     samples.collect()
 }
 
-type AnyLevel = dyn AnyValues<Textured>;
+/// Triangles that choices are given, and the pixels at which their levels are judged.
+pub(super) struct Input {
+    drawn: Vec<CoveredTriangle<Textured>>,
+    samples: Vec<Sample>,
+    canvas: Canvas<f32>,
+}
 
-fn errors(
-    choice: &AnyLevel,
-    drawn: &[CoveredTriangle<Textured>],
-    samples: &[Sample],
-) -> Vec<Option<f64>> {
+impl Input {
+    fn new(scene: &Scene) -> Self {
+        let drawn = textured(scene);
+        Self { samples: samples(&drawn), drawn, canvas: Canvas::new(scene.bounds) }
+    }
+}
+
+fn entry(
+    name: &'static str,
+    about: &'static str,
+    body: impl Values<Textured> + Copy + 'static,
+) -> Entry<'static, Input> {
+    Entry::new(
+        Choice::new(name, about, &[]),
+        move |input: &Input| {
+            Ok(judge(input, &|of, emit| body.values(&of.triangle, &of.spans, emit)))
+        },
+        move |Input { drawn, canvas, .. }: &Input| {
+            let frames = canvas.frames();
+            Ok(Pass::new(move || body.paint(std::hint::black_box(drawn), &mut frames.borrow_mut())))
+        },
+    )
+}
+
+fn judge(Input { drawn, samples, .. }: &Input, emit: Emit<'_, Textured>) -> Run {
     let (mut worst, mut sum, mut number) = (0f64, 0.0, 0);
     let mut left = samples.iter().peekable();
     let mut see = |_, _, level: f64| {
@@ -103,51 +129,38 @@ fn errors(
         }
         number += 1;
     };
-    drawn.iter().for_each(|of_this| choice.each(of_this, &mut see));
-    vec![Some(worst), Some(sum / samples.len().max(1) as f64)]
+    drawn.iter().for_each(|of_this| emit(of_this, &mut see));
+    Run::of(vec![Some(worst), Some(sum / samples.len().max(1) as f64)])
 }
 
-fn variants() -> Vec<(Choice, Box<AnyLevel>)> {
-    let choice = |name, about| Choice::new(name, about, &[]);
+pub(super) fn choices() -> Vec<Entry<'static, Input>> {
     vec![
-        (choice("one a triangle", "by the areas in texels and in pixels"), Box::new(OfTriangle)),
-        (
-            choice("differences f32", "of two pixels, for 2 x 2 at once, as hardware"),
-            Box::new(Differences::<f32>::default()),
+        entry("one a triangle", "by the areas in texels and in pixels", OfTriangle),
+        entry(
+            "differences f32",
+            "of two pixels, for 2 x 2 at once, as hardware",
+            Differences::<f32>::default(),
         ),
-        (choice("differences f64", "the same"), Box::new(Differences::<f64>::default())),
-        (choice("derivatives f32", "at each pixel"), Box::new(Derivatives::<f32>::default())),
-        (choice("derivatives f64", "at each pixel"), Box::new(Derivatives::<f64>::default())),
+        entry("differences f64", "the same", Differences::<f64>::default()),
+        entry("derivatives f32", "at each pixel", Derivatives::<f32>::default()),
+        entry("derivatives f64", "at each pixel", Derivatives::<f64>::default()),
     ]
 }
 
-pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
     let size = if options.quick { 20_000 } else { 200_000 };
-    let scenes = scenes(options.seed, Size { side_px: 512, pixels: size });
-    let variants = variants();
-    let drawn: Vec<_> = scenes.iter().map(textured).collect();
-    let targets: Vec<_> =
-        scenes.iter().map(|scene| Places::new(|| Frame::new(scene.bounds, 0f32))).collect();
-    let mut draft =
-        Draft::new(Ladder::Levels, variants.iter().map(|(choice, _)| choice.clone()), options);
-    for ((scene, drawn), target) in scenes.iter().zip(&drawn).zip(&targets) {
-        draft.tell(progress, scenes.len());
-        let samples = samples(drawn);
-        let cells = variants.iter().map(|(_, choice)| {
-            PreparedCell::ready(errors(&**choice, drawn, &samples), || {
-                choice.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
-            })
-        });
-        let (items, pixels) = (drawn.len() as u64, pixels(drawn) as u64);
-        draft.add(Column::new(scene.name, scene.about, items, pixels), cells);
-    }
-    draft.finish(options, progress)
+    let column = |scene: Scene| {
+        let input = Input::new(&scene);
+        let (items, pixels) = (input.drawn.len() as u64, pixels(&input.drawn) as u64);
+        (Column::new(scene.name, scene.about, items, pixels), Ok(input))
+    };
+    scenes(options.seed, Size { side_px: 512, pixels: size }).into_iter().map(column).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ladder::interpolation::Values;
+    use rasterproof_core::grid::PixelRect;
     use rasterproof_core::triangle::Span;
 
     /// A square of 256 x 256 texels in 64 x 64 pixels that faces the eye: four texels a pixel.
@@ -160,22 +173,21 @@ mod tests {
             uv: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
         };
         assert_eq!(exact(&triangle, 3, 7), Some(2.0));
-        let spans = [Span { y_px: 7, x0_px: 1, x1_px: 6 }];
-        let drawn = CoveredTriangle { number: 0, triangle, spans: spans.to_vec() };
-        let check = |choice: &AnyLevel| {
-            let mut count = 0;
-            choice.each(&drawn, &mut |_, _, level| {
-                assert!((level - 2.0).abs() < 1e-5, "{level}");
-                count += 1;
-            });
-            assert_eq!(count, 5);
-        };
-        variants().iter().for_each(|(_, choice)| check(&**choice));
+        let spans = vec![Span { y_px: 7, x0_px: 1, x1_px: 6 }];
+        let drawn = vec![CoveredTriangle { number: 0, triangle, spans }];
+        let samples = samples(&drawn);
+        assert_eq!(samples.len(), 5);
+        let input = Input { drawn, samples, canvas: Canvas::new(PixelRect::window(64, 64)) };
+        for choice in choices() {
+            let worst = choice.judge(&input).unwrap().errors[0].unwrap();
+            assert!(worst < 1e-5, "{}: {worst}", choice.choice.name);
+        }
     }
 
     /// A choice that forgets the slope of 1/w is far off where w differs, and right where it does not.
     #[test]
     fn a_level_without_perspective_is_seen() {
+        #[derive(Clone, Copy)]
         struct Affine;
         impl Values<Textured> for Affine {
             fn values(&self, triangle: &Textured, spans: &[Span], emit: impl FnMut(i32, i32, f64)) {
@@ -184,13 +196,13 @@ mod tests {
             }
         }
         let scenes = scenes(1, Size { side_px: 256, pixels: 4_000 });
-        let worst = |name: &str, choice: &AnyLevel| {
-            let drawn = textured(scenes.iter().find(|scene| scene.name == name).unwrap());
-            errors(choice, &drawn, &samples(&drawn))[0].unwrap()
+        let worst = |name: &str, choice: Entry<'_, Input>| {
+            let scene = scenes.iter().find(|scene| scene.name == name).unwrap();
+            choice.judge(&Input::new(scene)).unwrap().errors[0].unwrap()
         };
-        assert!(worst("w 1", &Affine) < 1e-9 && worst("w 4", &Affine) > 0.5);
-        let derivatives = Derivatives::<f64>::default();
-        assert!(worst("w 1e4", &derivatives) < 1e-6);
-        assert!(worst("w 100", &Differences::<f64>::default()) > STEP);
+        let affine = || entry("affine", "", Affine);
+        assert!(worst("w 1", affine()) < 1e-9 && worst("w 4", affine()) > 0.5);
+        assert!(worst("w 1e4", entry("", "", Derivatives::<f64>::default())) < 1e-6);
+        assert!(worst("w 100", entry("", "", Differences::<f64>::default())) > STEP);
     }
 }

@@ -1,10 +1,11 @@
 //! The group of lines: pixels beside the nearest one, and what drawing takes.
 
-use super::scene::{Size, scenes};
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, Places, PreparedCell};
+use super::drawn::Canvas;
+use super::entry::{Columns, Entry};
+use super::scene::{Scene, Size, scenes};
+use super::{Choice, Column, CostOptions, Pass, Run};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::line::dda::Dda;
@@ -14,52 +15,70 @@ use rasterproof_verify::oracle::Oracle;
 
 type Ends = [PixelPoint; 2];
 
-trait AnyDraw {
-    fn accepts(&self, ends: Ends) -> Result<(), String>;
-    fn pixels(&self, ends: Ends, window: PixelRect) -> Vec<PixelPoint>;
-    fn paint(&self, lines: &[Ends], target: &mut Frame<u32>);
+/// Lines that choices are given.
+pub(super) struct Input {
+    lines: Vec<Ends>,
+    truth: Vec<Vec<PixelPoint>>,
+    canvas: Canvas<u32>,
 }
 
-impl<D: Draw> AnyDraw for D {
-    fn accepts(&self, ends: Ends) -> Result<(), String> {
-        Draw::accepts(self, ends)
-    }
-
-    fn pixels(&self, ends: Ends, window: PixelRect) -> Vec<PixelPoint> {
-        let mut pixels = Vec::new();
-        self.draw(ends, window, |pixel| pixels.push(pixel));
-        pixels
-    }
-
-    fn paint(&self, lines: &[Ends], target: &mut Frame<u32>) {
-        let window = target.bounds();
-        for (ends, colour) in lines.iter().zip(1..) {
-            self.draw(*ends, window, |p| {
-                // Off by a row at the border, a drifting choice must not leave the frame.
-                let y_px = p.y.clamp(window.y0, window.y1 - 1);
-                let x = (p.x.clamp(window.x0, window.x1 - 1) - window.x0) as usize;
-                target.row_mut(y_px)[x] = colour;
-            });
-        }
+impl Input {
+    fn pixels(&self) -> u64 {
+        self.truth.iter().map(|list| list.len() as u64).sum()
     }
 }
 
-struct Variant {
-    choice: Choice,
-    body: Box<dyn AnyDraw>,
+/// Lists the pixels of a line as a choice sees it.
+type Pixels<'a> = &'a dyn Fn(Ends) -> Result<Vec<PixelPoint>, String>;
+
+fn entry(
+    name: &'static str,
+    about: &'static str,
+    promises: &[usize],
+    body: impl Draw + Copy + 'static,
+) -> Entry<'static, Input> {
+    Entry::new(
+        Choice::new(name, about, promises),
+        move |input: &Input| {
+            judge(input, &|ends| {
+                body.accepts(ends)?;
+                let mut pixels = Vec::new();
+                body.draw(ends, input.canvas.bounds, |pixel| pixels.push(pixel));
+                Ok(pixels)
+            })
+        },
+        move |Input { lines, canvas, .. }: &Input| {
+            let (window, frames) = (canvas.bounds, canvas.frames());
+            Ok(Pass::new(move || {
+                let target = &mut *frames.borrow_mut();
+                for (ends, colour) in std::hint::black_box(lines).iter().zip(1..) {
+                    body.draw(*ends, window, |p| {
+                        // Off by a row at the border, a drifting choice must not leave the frame.
+                        let y_px = p.y.clamp(window.y0, window.y1 - 1);
+                        let x = (p.x.clamp(window.x0, window.x1 - 1) - window.x0) as usize;
+                        target.row_mut(y_px)[x] = colour;
+                    });
+                }
+            }))
+        },
+    )
 }
 
-fn variants() -> Vec<Variant> {
-    let new = |name, about, exact: bool, body| Variant {
-        choice: Choice::new(name, about, if exact { &[0] } else { &[] }),
-        body,
-    };
+fn judge(input: &Input, pixels: Pixels<'_>) -> Result<Run, String> {
+    let mut wrong = 0;
+    for (ends, truth) in input.lines.iter().zip(&input.truth) {
+        wrong += differences(pixels(*ends)?, truth);
+    }
+    Ok(Run::of(vec![Some(wrong as f64 * 1e6 / input.pixels().max(1) as f64)]))
+}
+
+pub(super) fn choices() -> Vec<Entry<'static, Input>> {
     vec![
-        new("16.16 DDA", "y += dy / dx in fixed point", false, Box::new(FixedPoint)),
-        new("f32 DDA", "y += dy / dx", false, Box::<Drifting<f32>>::default()),
-        new("f64 DDA", "y += dy / dx", false, Box::<Drifting<f64>>::default()),
-        new("Bresenham", "the line drawer bresenham", true, Box::new(Contracted(Bresenham))),
-        new("exact DDA", "the line drawer dda: whole + part / n", true, Box::new(Contracted(Dda))),
+        entry("16.16 DDA", "y += dy / dx in fixed point", &[], FixedPoint),
+        entry("f32 DDA", "y += dy / dx", &[], Drifting::<f32>::default()),
+        entry("f64 DDA", "y += dy / dx", &[], Drifting::<f64>::default()),
+        entry("Bresenham", "the line drawer bresenham", &[0], Contracted(Bresenham)),
+        entry("exact DDA", "the line drawer dda: whole + part / n", &[0], Contracted(Dda)),
     ]
 }
 
@@ -136,40 +155,18 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
     missing(&truth, &ours).max(missing(&ours, &truth)) + ours.len().abs_diff(truth.len()) as u64
 }
 
-pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
+pub(super) fn columns(options: &CostOptions) -> Columns<Input> {
     let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };
-    let variants = variants();
     // The classes of the other groups, for their names and windows.
     let classes = scenes(options.seed, Size { side_px: size.side_px, pixels: 0 });
-    let made: Vec<_> =
-        classes.iter().map(|class| lines(class.name, options.seed, &size, class.bounds)).collect();
-    let targets: Vec<_> =
-        classes.iter().map(|class| Places::new(|| Frame::new(class.bounds, 0))).collect();
-    let choices = variants.iter().map(|variant| variant.choice.clone());
-    let mut draft = Draft::new(Ladder::Lines, choices, options);
-    for ((class, made), target) in classes.iter().zip(&made).zip(&targets) {
-        draft.tell(progress, classes.len());
-        let (lines, about) = match made {
-            Ok(made) => made,
-            Err(why) => {
-                draft.leave_out(Column::new(class.name, class.about, 0, 0), why);
-                continue;
-            }
-        };
-        let truth: Vec<_> = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
-        let pixels: u64 = truth.iter().map(|list| list.len() as u64).sum();
-        let cells = variants.iter().map(|Variant { body, .. }| {
-            if let Some(why) = lines.iter().find_map(|&ends| body.accepts(ends).err()) {
-                return PreparedCell::NotRun(why);
-            }
-            let drawn = lines.iter().map(|&ends| body.pixels(ends, class.bounds));
-            let wrong: u64 = drawn.zip(&truth).map(|(ours, t)| differences(ours, t)).sum();
-            let per_million = wrong as f64 * 1e6 / pixels.max(1) as f64;
-            PreparedCell::ready(vec![Some(per_million)], || {
-                body.paint(std::hint::black_box(lines), &mut target.borrow_mut());
-            })
-        });
-        draft.add(Column::new(class.name, *about, lines.len() as u64, pixels), cells);
-    }
-    draft.finish(options, progress)
+    let column = |class: Scene| match lines(class.name, options.seed, &size, class.bounds) {
+        Err(why) => (Column::new(class.name, class.about, 0, 0), Err(why)),
+        Ok((lines, about)) => {
+            let truth = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
+            let input = Input { lines, truth, canvas: Canvas::new(class.bounds) };
+            let items = input.lines.len() as u64;
+            (Column::new(class.name, about, items, input.pixels()), Ok(input))
+        }
+    };
+    classes.into_iter().map(column).collect()
 }

@@ -1,19 +1,21 @@
-//! What accuracy costs: every choice of a group on every class of scenes, verified, then timed.
+//! What accuracy costs: every choice of a group on every column of scenes, verified, then timed. A column is a class of made-up
+//! scenes, or the model of a user.
 //!
-//! A [`Board`] is a value: errors are decided by the seed alone, times are of this run. The result
+//! A [`Board`] is a value: errors are decided by the scenes alone, times are of this run. The result
 //! of a choice is compared with the oracle before the choice is timed, so no time is ever shown without
-//! its error. All choices of a class of scenes are timed in the same rounds ([`compare`]). It draws nothing and prints nothing.
+//! its error. All choices of a column are timed in the same rounds ([`compare`]). It draws nothing and prints nothing.
 
-mod antialiasing;
+pub mod antialiasing;
 mod bounds;
 mod clock;
-mod coverage;
+pub mod coverage;
 mod depth;
 mod drawn;
-mod external;
-mod interpolation;
+mod entry;
+pub mod interpolation;
 mod levels;
 mod lines;
+mod measured;
 mod recorded;
 pub mod scene;
 mod shadow;
@@ -28,13 +30,12 @@ use crate::ladder::Work;
 pub use bounds::Bound;
 pub use clock::{
     CELLS, Clock, Pair, Pass, Places, Ratio, RatioKind, Spread, Times, Timing, compare,
-    over_fastest,
 };
-pub use coverage::{Variant, variants, wrong_pixels};
-pub use external::ExternalVariant;
-pub use interpolation::{WrongValues, compared_values, wrong_values};
+pub use coverage::ExternalChoice;
+pub use entry::{Entry, PreparedCell};
+pub use measured::{Draft, measure, measure_with, timed};
 pub use recorded::Recorded;
-pub use verdict::{Best, Dominated, Price, Priced, prices};
+pub use verdict::{Best, Cheapest, Dominated, JudgedChoice, Price, Priced, fastest, prices};
 
 rasterproof_core::named! {
     /// A group of choices that do the same job. In the order of the boards; its name is also a name of files.
@@ -51,10 +52,27 @@ rasterproof_core::named! {
         Levels = "levels",
         Antialiasing = "antialiasing",
         Lines = "lines",
+        /// Whole frames, of a model alone.
+        Frames = "frames",
     }
 }
 
 impl Ladder {
+    /// Those that are measured on classes of scenes.
+    pub const OF_SCENES: &'static [Self] = Self::ALL.split_at(8).0;
+
+    /// Both groups of coverage do the same job.
+    #[must_use]
+    pub fn is_coverage(self) -> bool {
+        matches!(self, Self::Scanline | Self::EdgeFunction)
+    }
+
+    /// Beside the name of a choice of coverage.
+    #[must_use]
+    pub fn short(self) -> &'static str {
+        if self == Self::EdgeFunction { "edge" } else { self.name() }
+    }
+
     pub fn title(self) -> &'static str {
         match self {
             Self::Scanline => "Coverage by scanline",
@@ -65,6 +83,7 @@ impl Ladder {
             Self::Levels => "Levels of detail",
             Self::Antialiasing => "Antialiasing",
             Self::Lines => "Lines",
+            Self::Frames => "Whole frames",
         }
     }
 
@@ -140,6 +159,7 @@ impl Ladder {
                 let title = "wrong pixels per million, against the exact line";
                 vec![Measure::new(title, "wrong/M", Some(0.0))]
             }
+            Self::Frames => Vec::new(),
         }
     }
 }
@@ -181,7 +201,41 @@ impl Measure {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// How much of something there is, and of how much it is a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Part {
+    pub part: u64,
+    pub of: u64,
+}
+
+impl Part {
+    #[must_use]
+    pub fn all(of: u64) -> Self {
+        Self { part: of, of }
+    }
+
+    #[must_use]
+    pub fn is_all(self) -> bool {
+        self.part == self.of
+    }
+}
+
+/// Of how much of a model a column is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampling {
+    /// Triangles that are timed.
+    pub items: Part,
+    /// Pixels that these cover.
+    pub pixels: Part,
+    /// Pixels in which it was looked for errors.
+    pub judged: Part,
+    /// Pixels of hard cases in which it was looked for what is wrong, where that is another part.
+    pub looked_at: Option<Part>,
+    /// Pieces that were left out, since single precision does not hold a value or 1/w of a corner.
+    pub not_judged: u64,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Column {
     pub name: Name,
     pub about: String,
@@ -190,11 +244,28 @@ pub struct Column {
     pub pixels: u64,
     /// The ratio of two equal passes, where there were rounds enough.
     pub noise: Option<Ratio>,
+    /// None of a class of scenes, all of which is judged and timed.
+    #[serde(skip)]
+    pub sampling: Option<Sampling>,
 }
 
 impl Column {
     fn new(name: &'static str, about: impl Into<String>, items: u64, pixels: u64) -> Self {
-        Self { name: name.into(), about: about.into(), items, pixels, noise: None }
+        Self { name: name.into(), about: about.into(), items, pixels, noise: None, sampling: None }
+    }
+
+    #[must_use]
+    pub fn of_model(sampling: Sampling) -> Self {
+        let [items, pixels] = [sampling.items.part, sampling.pixels.part];
+        Self {
+            sampling: Some(sampling),
+            ..Self::new("model", "the triangles of the model", items, pixels)
+        }
+    }
+
+    /// Whether any pixel was compared; where none was, nothing is exact.
+    fn is_judged(&self) -> bool {
+        self.sampling.is_none_or(|sampling| sampling.judged.part > 0)
     }
 }
 
@@ -212,12 +283,12 @@ impl Choice {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cell {
     /// It was not run, and why.
     NotRun(String),
-    Run(Run),
+    Run(Box<Run>),
 }
 
 impl Cell {
@@ -229,25 +300,51 @@ impl Cell {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Run {
     /// For each measure of the board its error, where the measure applies.
     pub errors: Vec<Option<f64>>,
     /// Counted work, where the choice counts.
     pub work: Option<Work>,
     pub time: Option<Time>,
+    #[serde(skip)]
+    pub found: Details,
 }
 
-/// The time of a choice on a class of scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+impl Run {
+    fn of(errors: Vec<Option<f64>>) -> Self {
+        Self { errors, ..Self::default() }
+    }
+}
+
+/// What is kept of a choice on a model, beside its errors.
+#[derive(Clone, Debug, Default)]
+pub struct Details {
+    /// Pixels that are wrong by the first two measures, where these count any.
+    pub pixels: [u64; 2],
+    /// Where it is wrong first: the triangle, where it is of one, and the pixel.
+    pub first: Option<(Option<u32>, [i32; 2])>,
+    /// Wrong samples by the triangles that they are of: the one that should be there, and the one that is.
+    pub wrong: Vec<([u32; 2], u64)>,
+    /// The smallest distance of a decision from 0, in error bounds; where such a bound is derived.
+    pub margin: Option<f64>,
+    /// Memory at the peak.
+    pub bytes: Option<u64>,
+}
+
+/// The time of a choice on a column.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Time {
     /// Nanoseconds for each covered pixel.
     pub pixel_ns: Spread,
-    /// Over the cheapest choice of the class, in all groups that were measured together.
+    /// Over the cheapest choice of the column, in all groups that were measured together.
     pub times: Ratio,
+    /// Round by round; none where it was read from a file.
+    #[serde(skip)]
+    pub rounds: Option<Times>,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Board {
     #[serde(rename = "group")]
     pub ladder: Ladder,
@@ -267,203 +364,10 @@ impl Board {
     }
 
     pub fn error(&self, choice: usize, column: usize, measure: usize) -> Option<f64> {
-        self.run(choice, column)?.errors[measure]
+        self.run(choice, column)?.errors.get(measure).copied().flatten()
     }
 
     pub fn time(&self, choice: usize, column: usize) -> Option<&Time> {
         self.run(choice, column)?.time.as_ref()
     }
-}
-
-/// Measures a ladder. `progress` gets the share done, from 0 to 1, and a word about it.
-pub fn measure(ladder: Ladder, options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
-    let mut boards = measure_with(&[ladder], options, &mut [], progress);
-    boards.pop().expect("a board for each ladder")
-}
-
-/// Measures some ladders, with external variants on the group of edge functions. Both groups of coverage do the same job, so
-/// they are timed in the same rounds.
-pub fn measure_with(
-    ladders: &[Ladder],
-    options: &CostOptions,
-    external: &mut [Box<dyn ExternalVariant>],
-    progress: &dyn Fn(f64, &str),
-) -> Vec<Board> {
-    let is_coverage = |ladder: &&Ladder| matches!(ladder, Ladder::Scanline | Ladder::EdgeFunction);
-    let coverage: Vec<Ladder> = ladders.iter().filter(is_coverage).copied().collect();
-    let others: Vec<Ladder> = ladders.iter().filter(|one| !is_coverage(one)).copied().collect();
-    let parts = others.len() + usize::from(!coverage.is_empty());
-    let done = std::cell::Cell::new(0);
-    let told = |share: f64, what: &str| progress((done.get() as f64 + share) / parts as f64, what);
-    let mut boards = Vec::new();
-    if !coverage.is_empty() {
-        boards = coverage::measure(&coverage, options, external, &told);
-        done.set(1);
-    }
-    for ladder in others {
-        boards.push(match ladder {
-            Ladder::Interpolation => interpolation::measure(options, &told),
-            Ladder::Depth => depth::measure(options, &told),
-            Ladder::Shadows => shadow::measure(options, &told),
-            Ladder::Levels => levels::measure(options, &told),
-            Ladder::Lines => lines::measure(options, &told),
-            Ladder::Scanline | Ladder::EdgeFunction | Ladder::Antialiasing => {
-                antialiasing::measure(options, &told)
-            }
-        });
-        done.set(done.get() + 1);
-    }
-    boards
-}
-
-/// A pass with the numbers of its choice and its column.
-pub struct PlacedPass<'a> {
-    pub choice: usize,
-    pub column: usize,
-    pub pass: Pass<'a>,
-}
-
-/// What happens to a board and the passes of its cells.
-pub type Afterwards<'a> = &'a mut dyn FnMut(&Board, Vec<PlacedPass<'_>>);
-
-/// The errors of a group on scenes of the caller, who may time its passes; nothing for a group that draws scenes of its own. Errors
-/// are taken at as many pixels whether the measurement is quick or not.
-pub fn measure_on(ladder: Ladder, scenes: &[scene::Scene], afterwards: Afterwards<'_>) {
-    let options = CostOptions { seed: 0, quick: false, timing: None };
-    let told: Told<'_> = (&|_, _| (), afterwards);
-    match ladder {
-        Ladder::Interpolation => {
-            interpolation::measure_on(scenes, &options, interpolation::SAMPLES, told);
-        }
-        Ladder::Antialiasing => drop(antialiasing::measure_on(scenes, &options, told)),
-        _ => {}
-    }
-}
-
-/// The function that shows progress, and what happens to the passes that are not timed.
-type Told<'a> = (&'a dyn Fn(f64, &str), Afterwards<'a>);
-
-/// A cell before it is timed.
-enum PreparedCell<'a> {
-    NotRun(String),
-    Ready { errors: Vec<Option<f64>>, work: Option<Work>, pass: Pass<'a> },
-}
-
-impl<'a> PreparedCell<'a> {
-    fn ready(errors: Vec<Option<f64>>, pass: impl FnMut() + 'a) -> Self {
-        Self::Ready { errors, work: None, pass: Pass::new(pass) }
-    }
-}
-
-/// A board before it is timed.
-struct Draft<'a> {
-    board: Board,
-    passes: Vec<PlacedPass<'a>>,
-}
-
-impl<'a> Draft<'a> {
-    fn new(ladder: Ladder, choices: impl Iterator<Item = Choice>, options: &CostOptions) -> Self {
-        let choices: Vec<Choice> = choices.collect();
-        let cells = choices.iter().map(|_| Vec::new()).collect();
-        let (seed, columns, measures) = (options.seed, Vec::new(), ladder.measures());
-        let board = Board { ladder, seed, rounds: 0, measures, columns, choices, cells };
-        Self { board, passes: Vec::new() }
-    }
-
-    /// Tells `progress` how many of the classes of scenes are prepared.
-    fn tell(&self, progress: &dyn Fn(f64, &str), classes: usize) {
-        let Board { columns, ladder, .. } = &self.board;
-        progress(0.3 * columns.len() as f64 / classes as f64, ladder.title());
-    }
-
-    fn add(&mut self, class: Column, cells: impl Iterator<Item = PreparedCell<'a>>) {
-        let column = self.board.columns.len();
-        self.board.columns.push(class);
-        for (choice, (row, cell)) in self.board.cells.iter_mut().zip(cells).enumerate() {
-            row.push(match cell {
-                PreparedCell::NotRun(why) => Cell::NotRun(why),
-                PreparedCell::Ready { errors, work, pass } => {
-                    self.passes.push(PlacedPass { choice, column, pass });
-                    Cell::Run(Run { errors, work, time: None })
-                }
-            });
-        }
-    }
-
-    /// Adds a class of scenes on which no choice is measured, with the reason.
-    fn leave_out(&mut self, column: Column, why: &str) {
-        self.add(column, std::iter::repeat_with(|| PreparedCell::NotRun(why.to_owned())));
-    }
-
-    /// Adds the usual classes of scenes, on which a group is not measured that has columns of its own.
-    fn leave_out_classes(&mut self, options: &CostOptions, why: &str) {
-        for class in scene::scenes(options.seed, scene::Size { side_px: 64, pixels: 0 }) {
-            self.leave_out(Column::new(class.name, class.about, 0, 0), why);
-        }
-    }
-
-    /// Times what was prepared.
-    fn finish(self, options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
-        finish(vec![self], options, progress).pop().expect("a board of a draft")
-    }
-}
-
-impl Draft<'_> {
-    /// Times what was prepared, or gives it away where nothing says how to time it.
-    fn finish_or_give(self, options: &CostOptions, (progress, afterwards): Told<'_>) -> Board {
-        match options.timing {
-            Some(_) => self.finish(options, progress),
-            None => {
-                afterwards(&self.board, self.passes);
-                self.board
-            }
-        }
-    }
-}
-
-/// Times what was prepared for boards with the same columns: all choices of a column in the same rounds.
-fn finish(
-    drafts: Vec<Draft<'_>>,
-    options: &CostOptions,
-    progress: &dyn Fn(f64, &str),
-) -> Vec<Board> {
-    let mut boards = Vec::new();
-    let mut by_column: std::collections::BTreeMap<usize, Vec<(usize, PlacedPass<'_>)>> =
-        Default::default();
-    for (number, Draft { board, passes }) in drafts.into_iter().enumerate() {
-        boards.push(board);
-        for placed in passes {
-            by_column.entry(placed.column).or_default().push((number, placed));
-        }
-    }
-    let Some(timing) = options.timing else { return boards };
-    let columns = by_column.len();
-    for (done, (column, placed)) in by_column.into_iter().enumerate() {
-        let title = boards[0].ladder.title();
-        let (places, mut passes): (Vec<_>, Vec<_>) =
-            placed.into_iter().map(|(board, one)| ((board, one.choice), one.pass)).unzip();
-        let all = [(0..passes.len()).collect::<Vec<_>>()];
-        let wanted = |medians: &[f64]| over_fastest(&all, medians);
-        let told = |share: f64| progress(0.3 + 0.7 * (done as f64 + share) / columns as f64, title);
-        let times = compare(&mut passes, timing, &wanted, &told);
-        let Some(fastest) = times.iter().min_by(|a, b| a.median().total_cmp(&b.median())) else {
-            continue;
-        };
-        for ((number, choice), of) in places.into_iter().zip(&times) {
-            let board = &mut boards[number];
-            let class = &mut board.columns[column];
-            class.noise = of.noise();
-            let pixel_ns = of.spread().times(1.0 / class.pixels.max(1) as f64);
-            board.rounds = match board.rounds {
-                0 => of.rounds(),
-                rounds => rounds.min(of.rounds()),
-            };
-            if let (Cell::Run(run), Some(times)) =
-                (&mut board.cells[choice][column], of.over(fastest))
-            {
-                run.time = Some(Time { pixel_ns, times });
-            }
-        }
-    }
-    boards
 }

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::{Board, Cell, Ladder};
+use super::{Board, Cell, Column};
 
 /// A run of `cost`: what was measured, and the command that repeats it.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 pub struct Recorded {
     pub version: String,
     pub repeat: String,
@@ -48,10 +48,6 @@ impl<'de> Deserialize<'de> for Fitting {
     }
 }
 
-fn is_coverage(board: &Board) -> bool {
-    matches!(board.ladder, Ladder::Scanline | Ladder::EdgeFunction)
-}
-
 /// Boards that fit each other: each group once, and both groups of coverage on the same scenes.
 fn checked<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Board>, D::Error> {
     let boards: Vec<Board> =
@@ -63,13 +59,17 @@ fn checked<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Board>, D::Error> {
         }
         seen.push(board.ladder);
     }
-    let mut coverage = boards.iter().filter(|board| is_coverage(board));
+    let mut coverage = boards.iter().filter(|board| board.ladder.is_coverage());
     if let (Some(a), Some(b)) = (coverage.next(), coverage.next())
-        && a.columns != b.columns
+        && a.columns.iter().map(named).ne(b.columns.iter().map(named))
     {
         return Err(de::Error::custom("scanline and edge-function are of different scenes"));
     }
     Ok(boards)
+}
+
+fn named(column: &Column) -> (&str, u64, u64) {
+    (&column.name, column.items, column.pixels)
 }
 
 /// What does not fit in a board. Everything that shows boards relies on these.
@@ -77,7 +77,7 @@ fn misfit(board: &Board) -> Option<String> {
     let (choices, columns, measures) =
         (board.choices.len(), board.columns.len(), board.measures.len());
     // The first measure is the error of the plots; of coverage all four are asked for by number.
-    let least = if is_coverage(board) { 4 } else { 1 };
+    let least = if board.ladder.is_coverage() { 4 } else { 1 };
     if measures < least {
         return Some(format!("{measures} measures, and at least {least} are needed"));
     }

@@ -4,7 +4,8 @@
 //! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
 //! light. In the others they slope, and there the bias is larger than a step of any format.
 
-use super::{Board, Choice, Column, CostOptions, Draft, Ladder, PreparedCell};
+use super::entry::{Columns, Entry, left_out};
+use super::{Choice, Column, CostOptions, Pass, Run};
 use crate::ladder::shadow::{DepthPlane, Fixed16, Fixed24, Fixed32, Floats, Format, Unbiased};
 use rasterproof_core::random::Rng;
 
@@ -37,7 +38,7 @@ const MAP: f64 = 1024.0;
 /// The 3 x 3 texels around its place that a fragment reads.
 const TAPS: u8 = 9;
 
-struct Tile {
+pub(super) struct Tile {
     receiver: DepthPlane,
     /// How much nearer to the light the other surface is.
     apart: f64,
@@ -106,50 +107,53 @@ fn errors(lit: &[u8]) -> Vec<Option<f64>> {
     vec![share(0), share(1)]
 }
 
-/// Draws the tiles and counts what is wrong of them; and draws them again to be timed.
-fn prepare<F: Format + 'static>(tiles: &[Tile]) -> PreparedCell<'_> {
-    let places = tiles.len() * TILE;
-    let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
-    draw::<F>(tiles, &mut map, &mut lit);
-    PreparedCell::ready(errors(&lit), move || {
-        draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
-        std::hint::black_box(&lit);
-    })
+fn entry<F: Format + 'static>(
+    name: &'static str,
+    about: &'static str,
+) -> Entry<'static, Vec<Tile>> {
+    let buffers = |tiles: usize| (vec![F::store(1.0); tiles * TILE], vec![0; tiles * TILE]);
+    Entry::new(
+        Choice::new(name, about, &[]),
+        move |tiles: &Vec<Tile>| {
+            let (mut map, mut lit) = buffers(tiles.len());
+            draw::<F>(tiles, &mut map, &mut lit);
+            Ok(Run::of(errors(&lit)))
+        },
+        move |tiles: &Vec<Tile>| {
+            let (mut map, mut lit) = buffers(tiles.len());
+            Ok(Pass::new(move || {
+                draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
+                std::hint::black_box(&lit);
+            }))
+        },
+    )
 }
 
-type Prepare = for<'a> fn(&'a [Tile]) -> PreparedCell<'a>;
-
-fn variants() -> Vec<(Choice, Prepare)> {
-    let choice = |name, about| Choice::new(name, about, &[]);
+pub(super) fn choices() -> Vec<Entry<'static, Vec<Tile>>> {
     vec![
-        (choice("24-bit, no bias", "depths are compared as they are"), prepare::<Unbiased>),
-        (choice("16-bit", "whole numbers"), prepare::<Fixed16>),
-        (choice("24-bit", "whole numbers"), prepare::<Fixed24>),
-        (choice("32-bit", "whole numbers, as the renderer here"), prepare::<Fixed32>),
-        (choice("f32", "a float"), prepare::<Floats<f32>>),
-        (choice("f64", "a double"), prepare::<Floats<f64>>),
+        entry::<Unbiased>("24-bit, no bias", "depths are compared as they are"),
+        entry::<Fixed16>("16-bit", "whole numbers"),
+        entry::<Fixed24>("24-bit", "whole numbers"),
+        entry::<Fixed32>("32-bit", "whole numbers, as the renderer here"),
+        entry::<Floats<f32>>("f32", "a float"),
+        entry::<Floats<f64>>("f64", "a double"),
     ]
 }
 
-pub(super) fn measure(options: &CostOptions, progress: &dyn Fn(f64, &str)) -> Board {
-    let variants = variants();
+pub(super) fn columns(options: &CostOptions) -> Columns<Vec<Tile>> {
     // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
     let count = if options.quick { 16 } else { 256 };
-    let made = CLASSES.each_ref().map(|class| tiles(options.seed, class, count));
-    let mut draft =
-        Draft::new(Ladder::Shadows, variants.iter().map(|(choice, _)| choice.clone()), options);
-    for (class, tiles) in CLASSES.iter().zip(&made) {
-        draft.tell(progress, CLASSES.len());
+    let mut columns = Vec::new();
+    for class in &CLASSES {
         let slope =
             if class.slope > 0.0 { "sloping by up to 10 degrees" } else { "facing the light" };
         let about = format!("surfaces {slope}, 2^-{} of the map's depth apart", class.apart);
-        let cells = variants.iter().map(|(_, prepare)| prepare(tiles));
-        let pixels = (count * TILE) as u64;
-        draft.add(Column::new(class.name, about, count as u64, pixels), cells);
+        let column = Column::new(class.name, about, count as u64, (count * TILE) as u64);
+        columns.push((column, Ok(tiles(options.seed, class, count))));
     }
-    let why = "shadows depend on the depths of surfaces, not on their shapes";
-    draft.leave_out_classes(options, why);
-    draft.finish(options, progress)
+    columns
+        .extend(left_out(options, "shadows depend on the depths of surfaces, not on their shapes"));
+    columns
 }
 
 #[cfg(test)]
@@ -159,7 +163,7 @@ mod tests {
     fn errors_of<F: Format + Default + 'static>(name: &str) -> [f64; 2] {
         let class = CLASSES.iter().find(|class| class.name == name).unwrap();
         let tiles = tiles(3, class, 64);
-        let PreparedCell::Ready { errors, .. } = prepare::<F>(&tiles) else { unreachable!() };
+        let errors = entry::<F>("", "").judge(&tiles).unwrap().errors;
         [errors[0].unwrap(), errors[1].unwrap()]
     }
 

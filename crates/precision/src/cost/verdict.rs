@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::{Board, Ladder, Ratio, Time};
+use super::{Board, Choice, Ratio, RatioKind, Run, Times};
 
 /// The cheapest choices of one class of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -44,6 +44,73 @@ pub struct Priced {
     pub ratio: Ratio,
 }
 
+/// The cheapest exact choice of a column, and those of which the same rounds do not show that they are slower.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cheapest {
+    pub choice: usize,
+    /// Those between which and it there is no difference.
+    pub equal: Vec<usize>,
+    /// Those that may be faster or slower than it, for all that was measured.
+    pub undecided: Vec<usize>,
+    pub rounds: usize,
+}
+
+/// A choice that ran on a column.
+#[derive(Clone, Copy)]
+pub struct JudgedChoice<'a> {
+    pub board: &'a Board,
+    pub number: usize,
+    pub column: usize,
+    pub run: &'a Run,
+}
+
+impl<'a> JudgedChoice<'a> {
+    #[must_use]
+    pub fn choice(&self) -> &'a Choice {
+        &self.board.choices[self.number]
+    }
+
+    #[must_use]
+    pub fn name(&self) -> &'a str {
+        &self.choice().name
+    }
+
+    #[must_use]
+    pub fn error(&self, measure: usize) -> Option<f64> {
+        self.run.errors.get(measure).copied().flatten()
+    }
+
+    #[must_use]
+    pub fn is_exact(&self, measure: usize) -> bool {
+        self.board.meets(self.number, self.column, measure) == Some(true)
+    }
+
+    /// Its times, round by round.
+    #[must_use]
+    pub fn times(&self) -> Option<&'a Times> {
+        self.run.time.as_ref()?.rounds.as_ref()
+    }
+
+    #[must_use]
+    pub fn over(&self, other: &Self) -> Option<Ratio> {
+        match (self.number == other.number, std::ptr::eq(self.board, other.board)) {
+            (true, true) => Some(Ratio::ONE),
+            _ => self.times()?.over(other.times()?),
+        }
+    }
+
+    fn pixel_ns(&self) -> Option<f64> {
+        Some(self.run.time.as_ref()?.pixel_ns.median)
+    }
+}
+
+/// The fastest of some choices.
+#[must_use]
+pub fn fastest<'a>(choices: impl Iterator<Item = JudgedChoice<'a>>) -> Option<JudgedChoice<'a>> {
+    let timed = choices.filter_map(|choice| Some((choice.pixel_ns()?, choice)));
+    timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, choice)| choice)
+}
+
 impl Board {
     pub fn ranking(&self) -> impl Iterator<Item = usize> {
         self.measures.iter().enumerate().filter(|(_, m)| m.goal.is_some()).map(|(i, _)| i)
@@ -52,28 +119,54 @@ impl Board {
     /// Whether an error is as good as none; `None` where it was not measured.
     #[must_use]
     pub fn meets(&self, choice: usize, column: usize, measure: usize) -> Option<bool> {
-        Some(self.error(choice, column, measure)? <= self.measures[measure].goal?)
+        let error = self.error(choice, column, measure)?;
+        Some(error <= self.measures[measure].goal? && self.columns[column].is_judged())
+    }
+
+    /// The choices that ran on a column.
+    pub fn ran(&self, column: usize) -> impl Iterator<Item = JudgedChoice<'_>> {
+        (0..self.choices.len()).filter_map(move |number| {
+            Some(JudgedChoice { board: self, number, column, run: self.run(number, column)? })
+        })
     }
 
     pub fn columns_run(&self) -> impl Iterator<Item = usize> {
-        (0..self.columns.len())
-            .filter(|&column| (0..self.choices.len()).any(|r| self.run(r, column).is_some()))
+        (0..self.columns.len()).filter(|&column| self.ran(column).next().is_some())
+    }
+
+    /// The fastest choice that a measure calls exact.
+    #[must_use]
+    pub fn cheapest_exact(&self, column: usize, measure: usize) -> Option<JudgedChoice<'_>> {
+        fastest(self.ran(column).filter(|choice| choice.is_exact(measure)))
     }
 
     /// The cheapest choices of a column by a measure; `None` without times.
     pub fn best(&self, column: usize, measure: usize) -> Option<Best> {
-        let cheapest = |filter: &dyn Fn(usize) -> bool| {
-            (0..self.choices.len())
-                .filter(|&choice| filter(choice))
-                .filter_map(|choice| Some((choice, self.time(choice, column)?.pixel_ns.median)))
-                .min_by(|a, b| a.1.total_cmp(&b.1))
-                .map(|(choice, _)| choice)
-        };
+        let promises = |choice: &JudgedChoice<'_>| choice.choice().promises.contains(&measure);
+        let number = |choice: JudgedChoice<'_>| choice.number;
         Some(Best {
-            fastest: cheapest(&|_| true)?,
-            good: cheapest(&|choice| self.meets(choice, column, measure) == Some(true)),
-            certain: cheapest(&|choice| self.choices[choice].promises.contains(&measure)),
+            fastest: fastest(self.ran(column))?.number,
+            good: self.cheapest_exact(column, measure).map(number),
+            certain: fastest(self.ran(column).filter(promises)).map(number),
         })
+    }
+
+    /// The cheapest exact choice with those that are as fast, as far as it can be told.
+    #[must_use]
+    pub fn compared(&self, column: usize, measure: usize) -> Option<Cheapest> {
+        let best = self.cheapest_exact(column, measure)?;
+        let (mut equal, mut undecided) = (Vec::new(), Vec::new());
+        let others = self.ran(column).filter(|other| other.number != best.number);
+        for other in others.filter(|other| other.is_exact(measure)) {
+            let Some(ratio) = other.over(&best) else { continue };
+            match ratio.said() {
+                RatioKind::NoDifference => equal.push(other.number),
+                RatioKind::CannotBeTold if ratio.low <= 1.0 => undecided.push(other.number),
+                RatioKind::CannotBeTold | RatioKind::Holds => {}
+            }
+        }
+        let rounds = best.times().map_or(0, Times::rounds);
+        Some(Cheapest { choice: best.number, equal, undecided, rounds })
     }
 
     /// Whether `other` beats `choice` in a column: by this measure and those that rank nothing it is
@@ -125,24 +218,15 @@ impl Board {
 
 /// What exact coverage costs over the cheapest choice of both groups, for each class of scenes.
 pub fn prices(boards: &[Board]) -> Vec<Price> {
-    let coverage: Vec<&Board> = boards
-        .iter()
-        .filter(|board| matches!(board.ladder, Ladder::Scanline | Ladder::EdgeFunction))
-        .collect();
+    let coverage: Vec<&Board> = boards.iter().filter(|board| board.ladder.is_coverage()).collect();
     let Some(first) = coverage.first() else { return Vec::new() };
     let price = |column: usize| {
         let cheapest = |filter: &dyn Fn(&[usize]) -> bool| {
-            let timed = coverage.iter().flat_map(|board| {
-                let choices = board.choices.iter().enumerate();
-                let choices = choices.filter(|(_, choice)| filter(&choice.promises));
-                choices.filter_map(|(number, choice)| {
-                    let Time { pixel_ns, times } = board.time(number, column)?;
-                    let kind = if board.ladder == Ladder::Scanline { "scanline" } else { "edge" };
-                    let name = format!("{kind} {}", choice.name);
-                    Some(Priced { name, pixel_ns: pixel_ns.median, ratio: *times })
-                })
-            });
-            timed.min_by(|a, b| a.pixel_ns.total_cmp(&b.pixel_ns))
+            let all = coverage.iter().flat_map(|board| board.ran(column));
+            let cheapest = fastest(all.filter(|choice| filter(&choice.choice().promises)))?;
+            let name = format!("{} {}", cheapest.board.ladder.short(), cheapest.name());
+            let time = cheapest.run.time.as_ref()?;
+            Some(Priced { name, pixel_ns: time.pixel_ns.median, ratio: time.times })
         };
         Some(Price {
             column: first.columns[column].name.to_string(),

@@ -12,6 +12,7 @@ use std::marker::PhantomData;
 
 use super::{Real, centre};
 use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::frame::Frame;
 use rasterproof_core::geometry;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
@@ -24,9 +25,26 @@ pub struct Valued {
     pub value: [f64; 3],
 }
 
+/// A triangle and the rows it covers.
+pub struct CoveredTriangle<T> {
+    /// Its place in the list of the scene's triangles.
+    pub number: usize,
+    pub triangle: T,
+    pub spans: Vec<Span>,
+}
+
 pub trait Values<T = Valued> {
     /// Emits (column, row, value) for each pixel of `spans`, which are the rows of `triangle`.
     fn values(&self, triangle: &T, spans: &[Span], emit: impl FnMut(i32, i32, f64));
+
+    fn paint(&self, drawn: &[CoveredTriangle<T>], target: &mut Frame<f32>) {
+        let x0 = target.bounds().x0;
+        for CoveredTriangle { triangle, spans, .. } in drawn {
+            self.values(triangle, spans, |x_px, y_px, value| {
+                target.row_mut(y_px)[(x_px - x0) as usize] = value as f32;
+            });
+        }
+    }
 }
 
 macro_rules! choices {

@@ -1363,7 +1363,7 @@
     for (const table of all('table.counts')) {
       const rows = all('tbody tr', table);
       const more = rows.length - 6;
-      if (more < 3) continue;
+      if (more < 3 || table.closest('details')) continue;
       const button = el('button', { type: 'button', className: 'unfold' });
       const fold = (folded) => {
         table.classList.toggle('folded', folded);

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use rasterproof_precision::cost::Board;
 use rasterproof_report::html::Report;
 use rasterproof_report::json::value;
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::words::{number, thousands};
 
-use crate::cost::Group;
 use crate::hard::{HardCases, Kind};
 
 #[derive(serde::Serialize)]
@@ -42,7 +42,7 @@ const COUNTED: &str = "turn in degrees; kinds of hard cases that are seen; px of
 
 impl Around {
     /// Adds a view from a side, whose turn is in degrees.
-    pub fn add(&mut self, turn: f64, hard: &HardCases, groups: &[Group]) {
+    pub fn add(&mut self, turn: f64, hard: &HardCases, boards: &[Board]) {
         let pixels = |kind: Kind| hard.of(kind).map_or(0, |case| case.pixels);
         self.views.push(Turned {
             turn,
@@ -52,10 +52,10 @@ impl Around {
             by_rounding: hard.classes.by_rounding,
             equal: hard.classes.equal,
         });
-        for (place, group) in groups.iter().enumerate() {
-            if let Some(choice) = group.cheapest_exact(group.measures.len() - 1) {
-                let key = (place, group.choices[choice].name().to_owned());
-                self.best.entry(key).or_insert((group.title, 0)).1 += 1;
+        for (place, board) in boards.iter().enumerate() {
+            if let Some(choice) = board.cheapest_exact(0, board.measures.len() - 1) {
+                let key = (place, choice.name().to_owned());
+                self.best.entry(key).or_insert((board.ladder.title(), 0)).1 += 1;
             }
         }
     }

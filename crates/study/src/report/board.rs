@@ -7,10 +7,11 @@
 use super::{cost_plots, json};
 use rasterproof_host::text::printable;
 use rasterproof_precision::cost::{
-    Board, CELLS, Cell, Column, Ladder, Measure, Price, Priced, Ratio, Recorded, Run, Time, prices,
+    Board, CELLS, Cell, Column, Ladder, Measure, Price, Priced, Ratio, RatioKind, Recorded, Run,
+    Time, prices,
 };
 use rasterproof_report::canvas;
-use rasterproof_report::html::{Figure, Report};
+use rasterproof_report::html::{Figure, PicturedAnswer, Report};
 use rasterproof_report::table::{self, Row, Table};
 use rasterproof_report::words::number;
 
@@ -86,8 +87,8 @@ fn times(board: &Board) -> [Table; 2] {
         let Column { items, pixels, .. } = board.columns[c];
         cell(r, c, &|ns| ns * pixels.max(1) as f64 / items.max(1) as f64)
     });
-    let timed = board.cells.iter().flatten().filter_map(|cell| cell.run()?.time);
-    let spread = |t: Time| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median;
+    let timed = board.cells.iter().flatten().filter_map(|cell| cell.run()?.time.as_ref());
+    let spread = |t: &Time| (t.pixel_ns.high - t.pixel_ns.low) / t.pixel_ns.median;
     let mut spreads: Vec<f64> = timed.map(|time| spread(time) * 100.0).collect();
     spreads.sort_by(f64::total_cmp);
     if let (Some(middle), Some(worst)) = (spreads.get(spreads.len() / 2), spreads.last()) {
@@ -216,19 +217,56 @@ pub fn price(boards: &[Board]) -> Option<Table> {
     (!prices.is_empty()).then(|| table().noted(vec![CELLS.to_owned()]))
 }
 
-/// What was measured, with plots that are given.
-pub fn report(recorded: &Recorded, figures: Vec<Figure>) -> Report {
+/// What was measured, with plots that are given, the one that answers first.
+pub fn report(recorded: &Recorded, mut figures: Vec<Figure>) -> Report {
     let Recorded { version, repeat, seed, quick, boards } = recorded;
     let quick = if *quick { ", quick" } else { "" };
+    let sentence = sentence(boards);
+    let pictured = sentence.map(|sentence| PicturedAnswer { sentence, figure: figures.remove(0) });
     Report {
         title: "What accuracy costs in time".to_owned(),
         about: format!("rasterproof {version} cost, seed {seed}{quick}"),
         repeat: printable(repeat).into_owned(),
         tables: boards.iter().flat_map(tables).chain(price(boards)).collect(),
         figures,
+        pictured,
         data: json::cost(recorded),
         ..Report::default()
     }
+}
+
+/// What the first plot shows; nothing without times.
+fn sentence(boards: &[Board]) -> Option<String> {
+    let prices = prices(boards);
+    if prices.is_empty() {
+        let board = boards.last()?;
+        let best: Vec<_> = board.columns_run().filter_map(|column| board.best(column, 0)).collect();
+        let exact = best.iter().filter(|best| best.good == Some(best.fastest)).count();
+        let title = board.ladder.title();
+        return (!best.is_empty()).then(|| format!(
+            "{title}: in {exact} of {} classes of scenes the cheapest choice of all is exact or good enough.",
+            best.len()
+        ));
+    }
+    let takes = |of: &dyn Fn(&Price) -> Option<&Priced>| {
+        let ratios: Vec<Ratio> = prices.iter().filter_map(of).map(|priced| priced.ratio).collect();
+        let is_free =
+            |ratio: &Ratio| *ratio == Ratio::ONE || ratio.said() == RatioKind::NoDifference;
+        let low = ratios.iter().map(|ratio| ratio.low).fold(f64::INFINITY, f64::min);
+        let high = ratios.iter().map(|ratio| ratio.high).fold(0.0, f64::max);
+        match &ratios[..] {
+            [] => "was not measured".to_owned(),
+            all if all.iter().all(is_free) => {
+                "takes no longer than the cheapest choice of all".to_owned()
+            }
+            _ => format!("takes {low:.1} to {high:.1} times as long as the cheapest choice of all"),
+        }
+    };
+    Some(format!(
+        "By class of scenes, coverage that is exact once corners are snapped {}; exact for the corners as given, it {}.",
+        takes(&|price| price.snapped.as_ref()),
+        takes(&|price| price.given.as_ref()),
+    ))
 }
 
 /// The name of the plot of a group, as a file.
@@ -243,7 +281,7 @@ pub const PRICE: &str = "cost-price";
 pub fn plots(boards: &[Board]) -> Vec<(String, Figure)> {
     let of_board = |board: &Board| {
         let caption = format!("Time against error: {}", board.ladder.name());
-        let drawn = [2, 1].map(|in_row| cost_plots::pareto(board, in_row));
+        let drawn = [2, 1].map(|in_row| cost_plots::pareto(std::slice::from_ref(board), in_row));
         (plot_name(board.ladder), canvas::figure(&caption, drawn))
     };
     let prices = prices(boards);

@@ -4,9 +4,8 @@
 //! choices without any error, each in a row of its own. A line joins what is best at each price. Labels stand beside their
 //! dots and never overlap.
 
-use crate::cost::Group;
 use crate::grid::GridPrice;
-use rasterproof_precision::cost::{Board, Ladder, Price, Priced, Ratio};
+use rasterproof_precision::cost::{Board, JudgedChoice, Ladder, Price, Priced, Ratio, fastest};
 use rasterproof_report::canvas::{self, BLUE, Drawing, GREEN, GRID, INK, Ink, RED, SAND, SOFT};
 use rasterproof_report::words::{number, thousands};
 use rasterproof_verify::judge::ascii;
@@ -47,54 +46,72 @@ struct Panel {
     dots: Vec<Dot>,
 }
 
-/// Error against time, a panel for each class of scenes, as many in a row as are said: two, or one for narrow pages. The
-/// first measure that ranks is the error. The line through a dot spans the quartiles of its time.
-pub fn pareto(board: &Board, in_row: usize) -> Drawing {
-    let panel = |column: usize| Panel {
-        head: format!("{}: {}", board.columns[column].name, board.columns[column].about),
-        up: board.measures[0].title.to_string(),
-        right: "time in ns for each pixel".to_owned(),
-        snapping: snapping(board, column),
-        dots: dots(board, column),
-    };
-    let title = format!("{}: error against time", board.ladder.title());
-    drawn(&title, legend(board), board.columns_run().map(panel).collect(), in_row)
+/// Error against time, a panel for each column of each board, as many in a row as are said: two, or one for narrow pages. The
+/// first measure is the error. The line through a dot spans the quartiles of its time.
+pub fn pareto(boards: &[Board], in_row: usize) -> Drawing {
+    let mut panels = Vec::new();
+    for board in boards {
+        for column in board.columns_run() {
+            let info = &board.columns[column];
+            let of_model = info.sampling.is_some();
+            panels.push(Panel {
+                head: match of_model {
+                    true => board.ladder.title().to_owned(),
+                    false => format!("{}: {}", info.name, info.about),
+                },
+                up: board.measures[0].title.to_string(),
+                right: (if of_model { "time in ms" } else { "time in ns for each pixel" })
+                    .to_owned(),
+                snapping: snapping(board, column).filter(|_| !of_model),
+                dots: dots(board, column, &cheapest_exact(board, column)),
+            });
+        }
+    }
+    match boards {
+        [board] if board.columns.iter().all(|column| column.sampling.is_none()) => {
+            let title = format!("{}: error against time", board.ladder.title());
+            drawn(&title, legend(board), panels, in_rows_of(in_row))
+        }
+        _ => drawn("Error against time", LEGEND, panels, in_rows_of(in_row)),
+    }
 }
 
-/// The same of a model, a panel for each part of the work.
-pub fn pareto_of_model(groups: &[Group], in_row: usize) -> Drawing {
-    let panel = |group: &Group| {
-        let measures = 0..group.measures.len();
-        let best: Vec<usize> = measures.filter_map(|one| group.cheapest_exact(one)).collect();
-        let dot = |(number, choice): (usize, &crate::cost::JudgedChoice)| {
-            let time = choice.time.as_ref().filter(|_| choice.refused.is_none())?.spread();
-            let first = choice.errors.first().copied().flatten()?;
-            let is_exact = |measure: usize| group.is_exact(choice, measure);
-            // As on a board: what is exact once corners are snapped stands on the shelf.
-            let hollow = !is_exact(0) && group.measures.len() > 1 && is_exact(1);
-            Some(Dot {
-                label: choice.name().to_owned(),
-                time: time.median / 1e6,
-                quartiles: [time.low / 1e6, time.high / 1e6],
-                error: (first > 0.0 && !hollow).then_some(first),
-                good: hollow || is_exact(0),
-                hollow,
-                cracked: false,
-                best: best.contains(&number),
-            })
-        };
-        Panel {
-            head: group.title.to_owned(),
-            up: group.measures[0].title.to_string(),
-            right: "time in ms".to_owned(),
-            snapping: None,
-            dots: group.choices.iter().enumerate().filter_map(dot).collect(),
+const LEGEND: &str = "green: exact here, as a ring once corners are snapped; blue: wrong\n\
+                      a circle around it: the cheapest exact choice\n\
+                      line: the least error at each price; bars: the middle half of the times";
+
+/// The answer in one picture: both groups of coverage on a model, which do the same job, in one panel of this width.
+pub fn coverage_of_model(boards: &[Board], width: f64) -> Drawing {
+    let coverage: Vec<&Board> = boards.iter().filter(|board| board.ladder.is_coverage()).collect();
+    let mut best = Vec::new();
+    for measure in coverage.first().into_iter().flat_map(|board| board.ranking()) {
+        let all = coverage.iter().flat_map(|board| board.ran(0));
+        best.extend(fastest(all.filter(|choice| choice.is_exact(measure))));
+    }
+    let mut dots = Vec::new();
+    for board in coverage {
+        let best_here: Vec<usize> = best
+            .iter()
+            .filter(|best| best.board.ladder == board.ladder)
+            .map(|best| best.number)
+            .collect();
+        for dot in self::dots(board, 0, &best_here) {
+            dots.push(Dot { label: format!("{} {}", board.ladder.short(), dot.label), ..dot });
         }
+    }
+    let panel = Panel {
+        head: String::new(),
+        up: "wrong pixels of this view".to_owned(),
+        right: "time in ms".to_owned(),
+        snapping: None,
+        dots,
     };
-    let legend = "green: exact here, as a ring once corners are snapped; blue: wrong\n\
-                  a circle around it: the cheapest exact choice\n\
-                  line: the least error at each price; bars: the middle half of the times";
-    drawn("Error against time", legend, groups.iter().map(panel).collect(), in_row)
+    drawn("Coverage: error against time", LEGEND, vec![panel], (width, 1))
+}
+
+/// The width of a drawing with so many panels in a row, and their number.
+fn in_rows_of(in_row: usize) -> (f64, usize) {
+    (WIDTH / 2.0 * in_row as f64, in_row)
 }
 
 /// Pixels that change against time, a dot for each grid and a panel for each engine.
@@ -124,7 +141,7 @@ pub fn pareto_of_grids(prices: &[GridPrice], in_row: usize) -> Drawing {
     ];
     let legend = "each dot a grid: bits below the pixel; shelf: no pixel changes here\n\
                   up to 8 bits by whole numbers, beyond by the exact engines";
-    drawn("Pixels that the grid changes, against time", legend, panels, in_row)
+    drawn("Pixels that the grid changes, against time", legend, panels, in_rows_of(in_row))
 }
 
 /// A bar: its share of the longest, its colour, and what stands behind it.
@@ -223,14 +240,21 @@ pub fn price(prices: &[Price], width: f64) -> Drawing {
     bars(title, &legend, &rows, width)
 }
 
-fn drawn(title: &str, legend: &str, mut panels: Vec<Panel>, in_row: usize) -> Drawing {
-    let width = WIDTH / 2.0 * in_row as f64;
+fn drawn(
+    title: &str,
+    legend: &str,
+    mut panels: Vec<Panel>,
+    (width, in_row): (f64, usize),
+) -> Drawing {
+    let panel_width = width / in_row as f64;
     // A class that nothing ran on has nothing to show.
     panels.retain(|panel| !panel.dots.is_empty());
     let on_shelf = |panel: &Panel| panel.dots.iter().filter(|d| d.error.is_none()).count();
     let shelf = panels.iter().map(on_shelf).max().unwrap_or(0) as f64 * ROW;
     let shelf = if shelf > 0.0 { shelf + 8.0 } else { 0.0 };
-    let panel_height = HEAD + SCATTER + shelf + FOOT;
+    // A panel alone needs no name beside that of the drawing.
+    let room = if panels.iter().all(|panel| panel.head.is_empty()) { HEAD / 2.0 } else { HEAD };
+    let panel_height = room + SCATTER + shelf + FOOT;
     let legend: Vec<String> = legend.lines().flat_map(|line| wrapped(line, width - 24.0)).collect();
     let titles = wrapped(title, width - 24.0);
     let head = 10.0 + 16.0 * (titles.len() + legend.len()) as f64 + 12.0;
@@ -241,8 +265,9 @@ fn drawn(title: &str, legend: &str, mut panels: Vec<Panel>, in_row: usize) -> Dr
         drawing.text([12.0, 16.0 + 16.0 * line as f64], text, ink);
     }
     for (i, panel) in panels.iter().enumerate() {
-        let left = (i % in_row) as f64 * WIDTH / 2.0;
-        draw_panel(&mut drawing, [left, head + (i / in_row) as f64 * panel_height], shelf, panel);
+        let left = (i % in_row) as f64 * panel_width;
+        let top = head + (i / in_row) as f64 * panel_height + room - HEAD;
+        draw_panel(&mut drawing, [left, top, left + panel_width], shelf, panel);
     }
     drawing
 }
@@ -265,34 +290,53 @@ fn legend(board: &Board) -> &'static str {
     }
 }
 
-fn dots(board: &Board, column: usize) -> Vec<Dot> {
-    let mut dots = Vec::new();
-    for (choice, info) in board.choices.iter().enumerate() {
-        let Some(time) = board.time(choice, column) else { continue };
-        let (time, quartiles) = (time.pixel_ns.median, [time.pixel_ns.low, time.pixel_ns.high]);
-        let error = |measure: usize| board.error(choice, column, measure);
-        let Some(first) = error(0) else { continue };
-        // Measures that rank nothing and count pixels of a mesh: cracks.
-        let cracks: f64 = match board.ladder {
-            Ladder::Scanline | Ladder::EdgeFunction => (2..4).filter_map(error).sum(),
-            _ => 0.0,
-        };
-        let cracked = cracks > 0.0;
-        let good = board.meets(choice, column, 0) == Some(true);
-        // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
-        // vertices as given is the error of snapping, a line of its own.
-        let hollow = info.promises.contains(&1) && !good;
-        let label = match (hollow, cracked) {
-            (true, _) => format!("{} (snapped)", info.name),
-            (_, true) => format!("{} ({cracks})", info.name),
-            _ => info.name.to_string(),
-        };
-        let error = (first > 0.0 && !hollow).then_some(first);
-        let good = good || hollow;
-        let best = board.best(column, 0).and_then(|best| best.good) == Some(choice);
-        dots.push(Dot { label, time, quartiles, error, good, hollow, cracked, best });
+/// The cheapest exact choices of a column: of a class by the first measure, of a model by each.
+fn cheapest_exact(board: &Board, column: usize) -> Vec<usize> {
+    let number = |measure: usize| Some(board.cheapest_exact(column, measure)?.number);
+    match board.columns[column].sampling {
+        Some(_) => board.ranking().filter_map(number).collect(),
+        None => number(0).into_iter().collect(),
     }
-    dots
+}
+
+fn dots(board: &Board, column: usize, best: &[usize]) -> Vec<Dot> {
+    let of_model = board.columns[column].sampling.is_some();
+    let is_coverage = board.ladder.is_coverage();
+    let dot = |choice: JudgedChoice<'_>| {
+        let spread = match of_model {
+            true => choice.times()?.spread().times(1e-6),
+            false => choice.run.time.as_ref()?.pixel_ns,
+        };
+        let first = choice.error(0)?;
+        // One that is exact after snapping stands on the shelf, as a ring: what it shows against the
+        // vertices as given is the error of snapping, of classes of scenes a line of its own.
+        let is_snapped = match of_model {
+            true => choice.is_exact(1),
+            false => choice.choice().promises.contains(&1),
+        };
+        let hollow = is_coverage && is_snapped && !choice.is_exact(0);
+        // Measures that rank nothing and count pixels of a mesh: cracks.
+        let cracks: f64 = match is_coverage {
+            true => (2..4).filter_map(|measure| choice.error(measure)).sum(),
+            false => 0.0,
+        };
+        let name = choice.name();
+        Some(Dot {
+            label: match (hollow && !of_model, cracks > 0.0) {
+                (true, _) => format!("{name} (snapped)"),
+                (_, true) => format!("{name} ({cracks})"),
+                _ => name.to_owned(),
+            },
+            time: spread.median,
+            quartiles: [spread.low, spread.high],
+            error: (first > 0.0 && !hollow).then_some(first),
+            good: hollow || choice.is_exact(0),
+            hollow,
+            cracked: cracks > 0.0,
+            best: best.contains(&choice.number),
+        })
+    };
+    board.ran(column).filter_map(dot).collect()
 }
 
 /// A logarithmic axis: values at either end, and where these lie.
@@ -331,8 +375,8 @@ fn tick(value: f64) -> String {
     if (0.001..99_999.0).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
 }
 
-fn draw_panel(drawing: &mut Drawing, [left, top]: [f64; 2], shelf: f64, panel: &Panel) {
-    let (x0, x1) = (left + AXIS + 6.0, left + WIDTH / 2.0 - 10.0);
+fn draw_panel(drawing: &mut Drawing, [left, top, end]: [f64; 3], shelf: f64, panel: &Panel) {
+    let (x0, x1) = (left + AXIS + 6.0, end - 10.0);
     let (y0, y1) = (top + HEAD, top + HEAD + SCATTER);
     let bottom = y1 + shelf;
     let dots = &panel.dots;

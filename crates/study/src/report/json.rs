@@ -1,11 +1,10 @@
 //! A study and the boards of `cost` for machines.
 
-use rasterproof_precision::cost::{Recorded, Spread, Times, prices};
+use rasterproof_precision::cost::{Board, Cell, Recorded, Run, Spread, Time, Times, prices};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Places, StudyFindings};
-use crate::cost::{Group, JudgedChoice};
 use crate::effects::{Adds, Need, Needs, State};
 use crate::hard::HardCases;
 use crate::shift::Shifted;
@@ -109,49 +108,59 @@ pub fn hard_cases(subject: &Places<'_>, found: &HardCases) -> Value {
     })
 }
 
-pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Value {
-    let group = |group: &Group| {
-        let least = group.cheapest_of_job(groups);
-        let choice = |choice: &JudgedChoice| {
-            let first = choice.first_wrong.map(|(of, [x, y])| {
+pub fn costs(subject: &Places<'_>, boards: &[Board]) -> Value {
+    let board = |board: &Board| {
+        let choice = |(number, row): (usize, &Vec<Cell>)| {
+            let (choice, not_run) = (&board.choices[number], Run::default());
+            let (run, refused) = match &row[0] {
+                Cell::Run(run) => (&**run, None),
+                Cell::NotRun(why) => (&not_run, Some(why)),
+            };
+            let first = run.found.first.map(|(of, [x, y])| {
                 let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
                 json!({ "pixel": [x, y], "face": face })
             });
-            let time = choice.time.as_ref().map(quartiles);
-            let times = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
-            let measures = 0..group.measures.len();
-            let exact: Vec<_> = measures.filter(|one| group.is_exact(choice, *one)).collect();
+            let rounds = run.time.as_ref().and_then(|time: &Time| time.rounds.as_ref());
+            let is_exact = |one: &usize| board.meets(number, 0, *one) == Some(true);
             json!({
-                "name": choice.name(), "about": choice.choice.about, "errors": choice.errors,
-                "exact": exact, "first_wrong": first,
-                "margin": choice.margin.filter(|margin| margin.is_finite()), "time_ns": time,
-                "times": times, "wall_ns": choice.time.as_ref().and_then(|time| time.wall_ns),
-                "bytes": choice.bytes, "refused": choice.refused,
+                "name": choice.name, "about": choice.about, "errors": run.errors,
+                "exact": board.ranking().filter(is_exact).collect::<Vec<_>>(), "first_wrong": first,
+                "margin": run.found.margin.filter(|margin| margin.is_finite()),
+                "time_ns": rounds.map(quartiles), "times": run.time.as_ref().map(|time| time.times),
+                "wall_ns": rounds.and_then(|times| times.wall_ns),
+                "bytes": run.found.bytes, "refused": refused,
             })
         };
-        let measures: Vec<_> = group.measures.iter().map(|measure| &measure.title).collect();
-        let name = |number: usize| group.choices[number].name();
-        let best = (0..measures.len()).map(|number| group.cheapest_exact(number).map(name));
+        let measures: Vec<_> = board.measures.iter().map(|measure| &measure.title).collect();
+        let name = |number: usize| &*board.choices[number].name;
         let names = |all: &[usize]| all.iter().map(|&number| name(number)).collect::<Vec<_>>();
-        let compared = (0..measures.len()).map(|measure| {
-            let best = group.compared(measure)?;
+        let of_measures = || (0..measures.len()).map(|measure| board.compared(0, measure));
+        let best = of_measures().map(|best| Some(name(best?.choice)));
+        let compared = of_measures().map(|best| {
+            let best = best?;
             Some(json!({
                 "choice": name(best.choice), "equally_fast": names(&best.equal),
                 "undecided": names(&best.undecided), "rounds": best.rounds,
             }))
         });
+        let column = &board.columns[0];
+        let sampling = column.sampling.map(|of| {
+            let timed = json!({
+                "triangles": of.items.part, "of_triangles": of.items.of,
+                "pixels": of.pixels.part, "of_pixels": of.pixels.of,
+            });
+            (timed, json!({ "part": of.judged.part, "of": of.judged.of }), of.not_judged)
+        });
+        let (timed, judged, not_judged) = sampling.unwrap_or_default();
         json!({
-            "title": group.title, "measures": measures, "not_judged": group.not_judged,
-            "timed": { "triangles": group.timed.part, "of_triangles": group.timed.of,
-                "pixels": group.timed_pixels.part, "of_pixels": group.timed_pixels.of },
-            "compared_pixels": { "part": group.judged.part, "of": group.judged.of },
-            "noise": least.and_then(Times::noise),
-            "choices": group.choices.iter().map(choice).collect::<Vec<_>>(),
+            "title": board.ladder.title(), "measures": measures, "not_judged": not_judged,
+            "timed": timed, "compared_pixels": judged, "noise": column.noise,
+            "choices": board.cells.iter().enumerate().map(choice).collect::<Vec<_>>(),
             "cheapest_exact": best.collect::<Vec<_>>(),
             "compared": compared.collect::<Vec<_>>(),
         })
     };
-    groups.iter().map(group).collect()
+    boards.iter().map(board).collect()
 }
 
 /// Nanoseconds.

@@ -11,7 +11,6 @@ pub mod studied;
 
 use std::fmt::Write as _;
 
-use crate::cost::{FRAMES, Group, JudgedChoice, Part};
 use crate::effects::{Adds, Need, Needs, State};
 use crate::grid::GridPrice;
 use crate::hard::{HardCase, HardCases, Kind};
@@ -21,15 +20,19 @@ use crate::{face_of, triangle_of};
 use image::{Rgb, RgbImage};
 use rasterproof_host::text::printable_short;
 use rasterproof_models::Origin;
-use rasterproof_precision::cost::{CELLS, Ladder, Ratio, RatioKind, Times};
+use rasterproof_precision::cost::{
+    Board, CELLS, Cell, JudgedChoice, Ladder, Part, Ratio, RatioKind, fastest,
+};
 use rasterproof_render::scene::Scene;
 
 use rasterproof_report::canvas;
 use rasterproof_report::chapter::Chapter;
-use rasterproof_report::html::{Figure, Outcome, PictureLayer, PictureView, Report, Statement};
+use rasterproof_report::html::{
+    Figure, PictureLayer, PictureView, PicturedAnswer, Report, Statement,
+};
 use rasterproof_report::picture;
 use rasterproof_report::table::{self, Column, Row, Table};
-use rasterproof_report::words::{count, number, thousands};
+use rasterproof_report::words::{self, count, number, thousands};
 
 #[derive(Clone, Copy)]
 pub struct Places<'a> {
@@ -57,24 +60,29 @@ impl Places<'_> {
 }
 
 /// By group the choices that get triangles of a kind wrong, with how many samples.
-fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
-    let of_group = |group: &Group| {
-        let of_choice = |choice: &JudgedChoice| {
+fn wrong_on(found: &HardCases, kind: Kind, costs: &[Board]) -> Vec<String> {
+    let of_group = |board: &Board| {
+        let of_choice = |choice: JudgedChoice<'_>| {
             let of_kind = |pair: &[u32; 2]| pair.iter().any(|one| found.is(*one, kind));
-            let of_kind = choice.wrong.iter().filter(|(pair, _)| of_kind(pair));
+            let of_kind = choice.run.found.wrong.iter().filter(|(pair, _)| of_kind(pair));
             let count: u64 = of_kind.map(|(_, count)| count).sum();
             (count > 0).then(|| format!("{} {}", choice.name(), thousands(count)))
         };
-        let wrong: Vec<String> = group.choices.iter().filter_map(of_choice).collect();
-        let unit = group.measures.iter().find_map(|measure| measure.unit).unwrap_or("px");
-        (!wrong.is_empty()).then(|| format!("{} ({unit}): {}", group.title, wrong.join(", ")))
+        let wrong: Vec<String> = board.ran(0).filter_map(of_choice).collect();
+        let title = board.ladder.title();
+        (!wrong.is_empty()).then(|| format!("{title} ({}): {}", unit(board), wrong.join(", ")))
     };
     costs.iter().filter_map(of_group).collect()
 }
 
+/// What the errors of a board count.
+fn unit(board: &Board) -> &'static str {
+    board.measures.iter().find_map(|measure| measure.unit).unwrap_or("px")
+}
+
 /// In how many pixels of hard cases values were compared; nothing where in all of them.
-fn compared_in(costs: &[Group]) -> Option<String> {
-    let looked_at = costs.iter().find_map(|group| group.looked_at)?;
+fn compared_in(costs: &[Board]) -> Option<String> {
+    let looked_at = costs.iter().find_map(|board| board.columns[0].sampling?.looked_at)?;
     (!looked_at.is_all()).then(|| {
         let [some, all] = [looked_at.part, looked_at.of].map(thousands);
         format!("values were compared in {some} of the {all} px of these faces")
@@ -82,7 +90,7 @@ fn compared_in(costs: &[Group]) -> Option<String> {
 }
 
 /// What is said of all hard cases together, a line each.
-fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> Vec<String> {
+fn about_hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) -> Vec<String> {
     let mut lines: Vec<String> = compared_in(costs).into_iter().collect();
     let missing = Kind::ALL.into_iter().filter(|kind| found.of(*kind).is_none());
     let missing: Vec<&str> = missing.map(Kind::name).collect();
@@ -136,136 +144,134 @@ fn answers(
     commands: [String; 3],
 ) -> Vec<Statement> {
     let stability = stability(subject, found.hard) + &z_fighting(found.costs);
-    let sentences = [accuracy(found.costs), stability, effects(found)];
+    let sentences = [accuracy(found.costs).concat(), stability, effects(found)];
     let questions = ["accuracy", "hard cases", "effects"];
     let all = questions.into_iter().zip(sentences).zip(commands);
     let answer = |((about, sentence), command)| Statement { about, sentence, command };
     all.map(answer).collect()
 }
 
-/// A choice that was timed, with its group.
-#[derive(Clone, Copy)]
-struct TimedChoice<'a> {
-    group: &'a Group,
-    judged: &'a JudgedChoice,
-    time: &'a Times,
+/// A choice with its group.
+fn full_name(choice: &JudgedChoice<'_>) -> String {
+    format!("{} by {}", choice.name(), choice.board.ladder.title().trim_start_matches(COVERAGE))
 }
 
-impl TimedChoice<'_> {
-    fn name(&self) -> String {
-        format!("{} by {}", self.judged.name(), self.group.title.trim_start_matches(COVERAGE))
-    }
-
-    /// How many pixels are wrong, against corners as given or snapped, whatever is better.
-    fn wrong(&self) -> f64 {
-        self.judged.errors.iter().flatten().copied().fold(f64::MAX, f64::min)
-    }
-
-    /// Those that are wrong against the corners as given.
-    fn wrong_as_given(&self) -> u64 {
-        self.judged.errors.first().copied().flatten().unwrap_or(0.0) as u64
-    }
-
-    fn promises(&self, measure: usize) -> bool {
-        self.judged.choice.promises.contains(&measure)
-    }
-
-    fn over(&self, other: &Self) -> Ratio {
-        self.time.over(other.time).unwrap_or(Ratio::ONE)
-    }
+/// How many pixels are wrong, against corners as given or snapped, whatever is better.
+fn wrong(choice: &JudgedChoice<'_>) -> f64 {
+    choice.run.errors.iter().flatten().copied().fold(f64::MAX, f64::min)
 }
 
-/// What exact coverage costs, and what is wrong.
-fn accuracy(groups: &[Group]) -> String {
-    let of_coverage: Vec<&Group> =
-        groups.iter().filter(|group| group.title.starts_with(COVERAGE)).collect();
-    if of_coverage.iter().all(|group| group.timed_pixels.of == 0) {
-        return "No pixel is covered in this view, so nothing was compared.".to_owned();
+/// How many are wrong by the first measure: of coverage, against the corners as given.
+fn wrong_first(choice: &JudgedChoice<'_>) -> u64 {
+    choice.error(0).unwrap_or(0.0) as u64
+}
+
+fn over(choice: &JudgedChoice<'_>, other: &JudgedChoice<'_>) -> Ratio {
+    choice.over(other).unwrap_or(Ratio::ONE)
+}
+
+/// The boards of coverage, both of which do the same job.
+fn coverage(boards: &[Board]) -> impl Iterator<Item = &Board> {
+    boards.iter().filter(|board| board.ladder.is_coverage())
+}
+
+/// What exact coverage costs, above its picture; nothing where nothing was timed.
+pub fn pictured(boards: &[Board]) -> Option<PicturedAnswer> {
+    let drawn = [800.0, 400.0].map(|width| cost_plots::coverage_of_model(boards, width));
+    let figure = canvas::figure(
+        "Each choice of coverage on the triangles of this view: wrong pixels against time",
+        drawn,
+    );
+    let [sentence, _] = accuracy(boards);
+    coverage(boards).any(|board| board.rounds > 0).then_some(PicturedAnswer { sentence, figure })
+}
+
+/// What exact coverage costs, in a sentence; and what is wrong.
+fn accuracy(boards: &[Board]) -> [String; 2] {
+    let is_empty =
+        |board: &Board| board.columns[0].sampling.is_some_and(|sampling| sampling.pixels.of == 0);
+    if coverage(boards).all(is_empty) {
+        let none = "No pixel is covered in this view, so nothing was compared.".to_owned();
+        return [none, String::new()];
     }
-    let mut all = Vec::new();
-    for group in of_coverage {
-        let timed = group.choices.iter().filter(|judged| judged.refused.is_none());
-        all.extend(
-            timed.filter_map(|judged| {
-                Some(TimedChoice { group, judged, time: judged.time.as_ref()? })
-            }),
-        );
-    }
-    let least = |of: &dyn Fn(&TimedChoice<'_>) -> bool| {
-        let of = all.iter().filter(|one| of(one));
-        of.min_by(|a, b| a.time.median().total_cmp(&b.time.median()))
-    };
-    let certain = least(&|one| !one.judged.choice.promises.is_empty() && one.wrong() == 0.0);
+    let all: Vec<JudgedChoice<'_>> = coverage(boards).flat_map(|board| board.ran(0)).collect();
+    let least = |of: &dyn Fn(&JudgedChoice<'_>) -> bool| fastest(all.iter().copied().filter(of));
+    let promises =
+        |one: &JudgedChoice<'_>, measure: usize| one.choice().promises.contains(&measure);
+    let certain = least(&|one| !one.choice().promises.is_empty() && wrong(one) == 0.0);
     let (Some(cheapest), Some(certain)) = (least(&|_| true), certain) else {
-        return "No choice of coverage that is exact for every model takes these triangles."
-            .to_owned();
+        let none = "No choice of coverage that is exact for every model takes these triangles.";
+        return [none.to_owned(), String::new()];
     };
-    let unit = cheapest.group.measures[0].unit.unwrap_or("px");
-    let is_snapped = certain.promises(1);
+    let unit = unit(cheapest.board);
+    let is_snapped = promises(&certain, 1);
     let snapped = if is_snapped { " once its corners are snapped" } else { "" };
-    let name = certain.name();
-    let ratio = certain.over(cheapest);
-    let mut sentence = if ratio.said() == RatioKind::NoDifference {
+    let name = full_name(&certain);
+    let ratio = over(&certain, &cheapest);
+    let sentence = if ratio.said() == RatioKind::NoDifference {
         format!(
             "Exact coverage costs nothing here: no choice is cheaper than {name}, exact for every model{snapped}."
         )
     } else {
-        let is = match cheapest.wrong() {
+        let is = match wrong(&cheapest) {
             0.0 => "happens to be exact here".to_owned(),
             wrong => format!("is wrong in {} {unit}", thousands(wrong as u64)),
         };
         format!(
             "Exact coverage by {name}, exact for every model{snapped}, against the cheapest choice, {}, which {is}: {}.",
-            cheapest.name(),
+            full_name(&cheapest),
             ratio.words(LONG)
         )
     };
-    let as_given = least(&|one| one.promises(0));
-    if let Some(as_given) = as_given.filter(|_| is_snapped && certain.wrong_as_given() > 0) {
+    let mut others = String::new();
+    let as_given = least(&|one| promises(one, 0));
+    if let Some(as_given) = as_given.filter(|_| is_snapped && wrong_first(&certain) > 0) {
         let differ =
-            count(certain.wrong_as_given(), &format!("{unit} differs"), &format!("{unit} differ"));
-        let words = as_given.over(cheapest).words(LONG);
+            count(wrong_first(&certain), &format!("{unit} differs"), &format!("{unit} differ"));
+        let words = over(&as_given, &cheapest).words(LONG);
         let _ = write!(
-            sentence,
+            others,
             " {differ} from the corners as given; exact for those is {}: {words}.",
-            as_given.name()
+            full_name(&as_given)
         );
     }
-    let are_wrong: Vec<_> = all.iter().filter(|one| one.wrong() > 0.0).collect();
-    let worst = are_wrong.iter().max_by(|a, b| a.wrong().total_cmp(&b.wrong()));
-    let _ = match worst {
-        None => write!(sentence, " None of the {} choices is wrong here.", all.len()),
+    let are_wrong = all.iter().filter(|one| wrong(one) > 0.0);
+    let number = are_wrong.clone().count() as u64;
+    let _ = match are_wrong.max_by(|a, b| wrong(a).total_cmp(&wrong(b))) {
+        None => write!(others, " All {} choices are right here.", all.len()),
         Some(worst) => write!(
-            sentence,
-            " Of {} choices {} {}, in {} {unit}.",
+            others,
+            " {} of {} choices {}, in {} {unit}.",
+            thousands(number),
             all.len(),
-            count(are_wrong.len() as u64, "is wrong here:", "are wrong here, most of all"),
-            worst.name(),
-            thousands(worst.wrong() as u64)
+            match number {
+                1 => format!("is wrong here: {}", full_name(worst)),
+                _ => format!("are wrong here, most of all {}", full_name(worst)),
+            },
+            thousands(wrong(worst) as u64)
         ),
     };
-    sentence
+    [sentence, others]
 }
 
 const LONG: &str = "long";
 
 /// Which depth buffers show another surface than exact depths do; nothing where none does.
-fn z_fighting(groups: &[Group]) -> String {
-    let Some(group) = groups.iter().find(|group| group.title == Ladder::Depth.title()) else {
+fn z_fighting(boards: &[Board]) -> String {
+    let Some(board) = boards.iter().find(|board| board.ladder == Ladder::Depth) else {
         return String::new();
     };
-    let wrong =
-        |choice: &JudgedChoice| choice.errors.first().copied().flatten().unwrap_or(0.0) as u64;
-    let wrong: Vec<String> = group
-        .choices
-        .iter()
-        .filter(|choice| wrong(choice) > 0)
-        .map(|choice| format!("{} in {}", choice.name(), thousands(wrong(choice))))
+    let wrong: Vec<String> = board
+        .ran(0)
+        .filter(|choice| wrong_first(choice) > 0)
+        .map(|choice| format!("{} in {}", choice.name(), thousands(wrong_first(&choice))))
         .collect();
-    let unit = group.measures.iter().find_map(|measure| measure.unit).unwrap_or("px");
     match &wrong[..] {
         [] => String::new(),
-        wrong => format!(" Depth buffers that show another surface: {} {unit}.", wrong.join(", ")),
+        wrong => {
+            let unit = unit(board);
+            format!(" Depth buffers that show another surface: {} {unit}.", wrong.join(", "))
+        }
     }
 }
 
@@ -321,10 +327,10 @@ fn effects(found: &StudyFindings<'_>) -> String {
         let (name, wrong) = (most.effect.name(), thousands(most.wrong));
         let _ = write!(sentence, " Without {name}, {wrong} px are wrong.");
     }
-    let frames = found.costs.iter().find(|group| group.title == FRAMES);
-    let time = |name: &str| frames?.choices.iter().find(|one| one.name() == name)?.time.as_ref();
-    let times = time("scanline all").zip(time("scanline planned"));
-    if let Some(ratio) = times.and_then(|(every, planned)| every.over(planned)) {
+    let frames = found.costs.iter().find(|board| board.ladder == Ladder::Frames);
+    let frame = |name: &str| frames?.ran(0).find(|one| one.name() == name);
+    let both = frame("scanline all").zip(frame("scanline planned"));
+    if let Some(ratio) = both.and_then(|(every, planned)| every.over(&planned)) {
         let _ = write!(
             sentence,
             " Paying for all {}, against what the plan pays for: {}.",
@@ -382,15 +388,14 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
     let safe = listed("paid for to be safe, though no pixel changes here", &safe);
     let called = short(columns, called.into_iter().map(row).collect(), safe);
     let mut rows = Vec::new();
-    let is_coverage = |group: &&Group| group.title.starts_with(COVERAGE);
-    let coverage: Vec<&Group> = found.costs.iter().filter(is_coverage).collect();
-    if let Some(first) = coverage.first() {
+    let both: Vec<&Board> = coverage(found.costs).collect();
+    if let Some(first) = both.first() {
         for (number, measure) in first.measures.iter().enumerate() {
-            rows.push(cheapest_row(&coverage, number, &format!("Coverage, {}", measure.short)));
+            rows.push(cheapest_row(&both, number, &format!("Coverage, {}", measure.short)));
         }
     }
-    for group in found.costs.iter().filter(|group| !is_coverage(group)) {
-        rows.push(cheapest_row(&[group], 0, group.title));
+    for board in found.costs.iter().filter(|board| !board.ladder.is_coverage()) {
+        rows.push(cheapest_row(&[board], 0, board.ladder.title()));
     }
     let columns =
         "what exactness costs 27 | cheapest exact 27 | >ms 7 | times 14 the cheapest of all";
@@ -400,74 +405,62 @@ fn first_screen(subject: &Places<'_>, found: &StudyFindings<'_>) -> Vec<Table> {
 }
 
 /// The cheapest choice that a measure calls exact of groups that do the same job, and what it takes.
-fn cheapest_row(groups: &[&Group], measure: usize, title: &str) -> Row {
-    let (mut exact, mut all) = (Vec::new(), Vec::new());
-    for &group in groups {
-        for judged in &group.choices {
-            let Some(time) = judged.time.as_ref() else { continue };
-            all.push(time);
-            if group.is_exact(judged, measure) {
-                exact.push(TimedChoice { group, judged, time });
-            }
-        }
-    }
-    let least = all.into_iter().min_by(|a, b| a.median().total_cmp(&b.median()));
-    let best = exact.iter().min_by(|a, b| a.time.median().total_cmp(&b.time.median()));
-    let Some((best, least)) = best.zip(least) else {
-        let is_compared = groups.iter().any(|group| group.judged.part > 0);
+fn cheapest_row(boards: &[&Board], measure: usize, title: &str) -> Row {
+    let exact = || {
+        let all = boards.iter().flat_map(|board| board.ran(0));
+        all.filter(|choice| choice.is_exact(measure))
+    };
+    let Some((best, times)) = fastest(exact()).and_then(|best| Some((best, best.times()?))) else {
+        let sampling = boards.iter().filter_map(|board| board.columns[0].sampling);
+        let is_compared = sampling.map(|sampling| sampling.judged.part).any(|part| part > 0);
         let none = if is_compared { "none" } else { "no pixel was compared" };
         return Row::of(&[&title, &none, &"-", &"-"]);
     };
-    let is_rival = |other: &&TimedChoice<'_>| {
-        let ratio = other.over(best);
+    let is_rival = |other: &JudgedChoice<'_>| {
+        let ratio = over(other, &best);
         ratio != Ratio::ONE && ratio.said() != RatioKind::Holds && ratio.low <= 1.0
     };
-    let rivals = exact.iter().filter(is_rival).count();
-    let mut name = best.judged.name().to_owned();
-    if groups.len() > 1 {
-        let kind = best.group.title.trim_start_matches(COVERAGE).split(' ').next();
+    let rivals = exact().filter(is_rival).count();
+    let mut name = best.name().to_owned();
+    if boards.len() > 1 {
+        let kind = best.board.ladder.title().trim_start_matches(COVERAGE).split(' ').next();
         name = format!("{} {name}", kind.unwrap_or_default());
     }
     if rivals > 0 {
         let _ = write!(name, " +{rivals}");
     }
-    let times = best.time.over(least).map_or("-".to_owned(), |ratio| ratio.to_string());
-    Row::of(&[&title, &name, &ms(best.time.median()), &times])
+    let over = best.run.time.as_ref().map_or("-".to_owned(), |time| time.times.to_string());
+    Row::of(&[&title, &name, &ms(times.median()), &over])
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
-pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
+pub fn advice(subject: &Places<'_>, board: &Board) -> Vec<String> {
+    let Some(sampling) = board.columns[0].sampling else { return Vec::new() };
     let mut lines = Vec::new();
-    let mut limit: Option<&Times> = None;
-    for (number, measure) in group.measures.iter().enumerate() {
-        let Some(best) = group.cheapest_exact(number) else {
-            lines.push(match group.judged.part {
-                0 => "no pixel was compared, so nothing is called exact".to_owned(),
-                _ => format!("none is exact ({})", measure.short),
-            });
-            continue;
-        };
-        lines.extend(compared(group, number));
-        let time = group.choices[best].time.as_ref();
-        limit = match (limit, time) {
-            (Some(known), Some(time)) if time.median() >= known.median() => Some(known),
-            (known, time) => time.or(known),
-        };
+    for (number, measure) in board.measures.iter().enumerate() {
+        match board.compared(0, number) {
+            Some(_) => lines.extend(compared(board, number)),
+            None if sampling.judged.part == 0 => {
+                lines.push("no pixel was compared, so nothing is called exact".to_owned());
+            }
+            None => lines.push(format!("none is exact ({})", measure.short)),
+        }
     }
-    if !group.judged.is_all() && group.judged.part > 0 {
-        let [part, of] = [group.judged.part, group.judged.of].map(thousands);
+    let measures = 0..board.measures.len();
+    let limit = fastest(measures.clone().filter_map(|one| board.cheapest_exact(0, one)));
+    if !sampling.judged.is_all() && sampling.judged.part > 0 {
+        let [part, of] = [sampling.judged.part, sampling.judged.of].map(thousands);
         lines.push(format!("exact and wrong are of a sample: {part} of {of} px were compared"));
     }
-    for choice in &group.choices {
-        let is_cheaper = choice.time.as_ref().zip(limit).is_some_and(|(time, limit)| {
-            time.over(limit)
-                .is_some_and(|ratio| ratio.said() == RatioKind::Holds && ratio.high < 1.0)
-        });
-        let goal = |i: usize| group.measures[i].goal.unwrap_or(f64::INFINITY);
-        let mut errors = choice.errors.iter().enumerate();
-        let is_wrong = errors.all(|(i, error)| error.is_some_and(|error| error > goal(i)));
-        match (choice.margin, choice.first_wrong) {
-            (Some(margin), _) if !is_wrong && choice.refused.is_none() => {
+    for choice in board.ran(0) {
+        let is_cheaper = limit
+            .and_then(|limit| choice.over(&limit))
+            .is_some_and(|ratio| ratio.said() == RatioKind::Holds && ratio.high < 1.0);
+        let goal = |i: usize| board.measures[i].goal.unwrap_or(f64::INFINITY);
+        let is_wrong =
+            measures.clone().all(|i| choice.error(i).is_some_and(|error| error > goal(i)));
+        match (choice.run.found.margin, choice.run.found.first) {
+            (Some(margin), _) if !is_wrong => {
                 let luck = if margin < 1.0 { ": it might have been wrong" } else { "" };
                 lines.push(format!(
                     "{} is exact here; the nearest decision is {} times its error bound away from 0{luck}",
@@ -475,9 +468,7 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
                     number(margin, 9)
                 ));
             }
-            (_, Some((triangle, [x, y])))
-                if is_wrong && (is_cheaper || choice.margin.is_some()) =>
-            {
+            (margin, Some((triangle, [x, y]))) if is_wrong && (is_cheaper || margin.is_some()) => {
                 let cheaper = if is_cheaper { "cheaper and " } else { "" };
                 let place = triangle.map(|one| format!(": {}", subject.place(one)));
                 let place = place.unwrap_or_default();
@@ -487,8 +478,8 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
             _ => {}
         }
     }
-    if group.not_judged > 0 {
-        let count = thousands(group.not_judged);
+    if sampling.not_judged > 0 {
+        let count = thousands(sampling.not_judged);
         let why = "single precision does not hold a value or 1/w of a corner";
         lines.push(format!("not judged: {count} pieces, since {why}"));
     }
@@ -496,14 +487,14 @@ pub fn advice(subject: &Places<'_>, group: &Group) -> Vec<String> {
 }
 
 /// The cheapest exact choice, or that there is no difference between those that are exact.
-fn compared(group: &Group, measure: usize) -> Vec<String> {
-    let Some(best) = group.compared(measure) else { return Vec::new() };
+fn compared(board: &Board, measure: usize) -> Vec<String> {
+    let Some(best) = board.compared(0, measure) else { return Vec::new() };
     let names = |all: &[usize]| {
-        all.iter().map(|one| group.choices[*one].name()).collect::<Vec<_>>().join(", ")
+        all.iter().map(|one| &*board.choices[*one].name).collect::<Vec<_>>().join(", ")
     };
-    let short = &group.measures[measure].short;
-    let exact = |choice: &&JudgedChoice| choice.time.is_some() && group.is_exact(choice, measure);
-    let is_all = group.choices.iter().filter(exact).count() == best.equal.len() + 1;
+    let short = &board.measures[measure].short;
+    let exact = |choice: &JudgedChoice<'_>| choice.times().is_some() && choice.is_exact(measure);
+    let is_all = board.ran(0).filter(exact).count() == best.equal.len() + 1;
     if is_all && !best.equal.is_empty() {
         let all = names(&[&[best.choice], &*best.equal].concat());
         return vec![format!("no difference between the exact choices ({short}): {all}")];
@@ -608,7 +599,7 @@ pub struct StudyFindings<'a> {
     /// What each grid changes and takes; nothing where that was not measured.
     pub grids: &'a [GridPrice],
     pub needs: &'a Needs,
-    pub costs: &'a [Group],
+    pub costs: &'a [Board],
     pub not_drawn: &'a str,
     pub pieces: usize,
     /// How long the file was read, where there is one.
@@ -626,7 +617,7 @@ fn figures(found: &StudyFindings<'_>) -> Vec<Figure> {
     let mut figures = vec![
         canvas::figure(
             "Error against time of each choice on the triangles of this view",
-            [2, 1].map(|in_row| cost_plots::pareto_of_model(found.costs, in_row)),
+            [2, 1].map(|in_row| cost_plots::pareto(found.costs, in_row)),
         ),
         canvas::figure(
             "What each effect takes or saves, and the pixels that are wrong without it",
@@ -706,15 +697,6 @@ pub fn report(
     command: String,
 ) -> Report {
     let classes = &found.hard.classes;
-    let in_view = found.hard.in_view().count();
-    let outcome = match in_view {
-        0 => Outcome::new(true, "CLEAN", "No hard case is seen in this view."),
-        1 => Outcome::new(false, "HARD CASES", "One kind of hard case is seen in this view."),
-        kinds => {
-            let sentence = format!("{kinds} kinds of hard cases are seen in this view.");
-            Outcome::new(false, "HARD CASES", sentence)
-        }
-    };
     let mut hard = hard_cases(subject, found.hard, found.costs);
     hard.notes.push(ties(subject, classes));
     let mut tables = vec![hard];
@@ -742,9 +724,9 @@ pub fn report(
     });
     Report {
         title: format!("A study of {}", subject.scene.name),
-        outcome: Some(outcome),
         about,
         answers,
+        pictured: pictured(found.costs),
         first_screen: first_screen(subject, found),
         command: command.clone(),
         tables,
@@ -769,7 +751,7 @@ pub fn report(
 }
 
 /// The hard cases with what is said of them, and the choices that are wrong on them where costs were measured.
-pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Group]) -> Table {
+pub fn hard_cases(subject: &Places<'_>, found: &HardCases, costs: &[Board]) -> Table {
     let row = |case: &HardCase| {
         let first = case.triangles.first();
         let mut place = first.map_or(String::new(), |one| subject.place(*one));
@@ -809,35 +791,34 @@ fn needs_table(needs: &Needs, state: State) -> Table {
 }
 
 /// What each choice costs, a table for each group, with what to choose.
-pub fn costs(subject: &Places<'_>, groups: &[Group]) -> Vec<Table> {
-    groups.iter().map(|group| cost_table(subject, groups, group)).collect()
+pub fn costs(subject: &Places<'_>, boards: &[Board]) -> Vec<Table> {
+    boards.iter().map(|board| cost_table(subject, board)).collect()
 }
 
-fn cost_table(subject: &Places<'_>, groups: &[Group], group: &Group) -> Table {
-    let least = group.cheapest_of_job(groups);
-    let row = |choice: &JudgedChoice| {
-        if let Some(why) = &choice.refused {
-            return Row::of(&[&choice.name(), &format!("not run: {why}")]);
-        }
-        let mut cells = vec![choice.name().to_owned()];
-        let or_none =
-            |value: Option<f64>, width| value.map_or("-".to_owned(), |value| number(value, width));
-        cells.extend(choice.errors.iter().map(|error| or_none(*error, 9)));
-        let over = choice.time.as_ref().zip(least).and_then(|(time, least)| time.over(least));
-        cells.extend(match choice.time.as_ref().zip(over) {
-            Some((time, over)) => {
-                let spread = time.spread();
-                let [low, high] = [spread.low, spread.high].map(ms);
-                [ms(spread.median), format!("{low}-{high}"), over.to_string()]
-            }
-            None => Default::default(),
-        });
-        cells.push(or_none(choice.bytes.map(|bytes| bytes as f64 / 1e6), 7));
-        cells.push(choice.choice.about.to_string());
+fn cost_table(subject: &Places<'_>, board: &Board) -> Table {
+    let row = |(number, row): (usize, &Vec<Cell>)| {
+        let choice = &board.choices[number];
+        let run = match &row[0] {
+            Cell::NotRun(why) => return Row::of(&[&choice.name, &format!("not run: {why}")]),
+            Cell::Run(run) => run,
+        };
+        let mut cells = vec![choice.name.to_string()];
+        let or_none = |value: Option<f64>, width| {
+            value.map_or("-".to_owned(), |value| words::number(value, width))
+        };
+        cells.extend(run.errors.iter().map(|error| or_none(*error, 9)));
+        let timed =
+            run.time.as_ref().and_then(|time| Some((time.rounds.as_ref()?.spread(), time.times)));
+        cells.extend(timed.map_or(Default::default(), |(spread, times)| {
+            let [low, high] = [spread.low, spread.high].map(ms);
+            [ms(spread.median), format!("{low}-{high}"), times.to_string()]
+        }));
+        cells.push(or_none(run.found.bytes.map(|bytes| bytes as f64 / 1e6), 7));
+        cells.push(choice.about.to_string());
         cells.into()
     };
     let mut columns = table::columns("~choice 23");
-    columns.extend(group.measures.iter().map(|m| Column::numbers(&m.short, &m.title).least(9)));
+    columns.extend(board.measures.iter().map(|m| Column::numbers(&m.short, &m.title).least(9)));
     columns.extend(table::columns(
         ">ms 7 of processor time, median | >quartiles 13 a quarter of the rounds took less, a quarter more, in ms \
          | >times 16 the cheapest, with an interval | >MB 6 at the peak, from the sizes of its buffers; the scene is not in it | how",
@@ -846,20 +827,23 @@ fn cost_table(subject: &Places<'_>, groups: &[Group], group: &Group) -> Table {
         true => thousands(part.of),
         false => format!("a sample of {} of {}", thousands(part.part), thousands(part.of)),
     };
-    let [items, pixels] = [group.timed, group.timed_pixels].map(part);
-    let caption = format!("{}, ms for {items} triangles and {pixels} pixels", group.title);
-    let measures = group.measures.iter();
+    let column = &board.columns[0];
+    let of = column.sampling.map(|sampling| [sampling.items, sampling.pixels].map(part));
+    let of = of.map(|[items, pixels]| format!(", ms for {items} triangles and {pixels} pixels"));
+    let caption = format!("{}{}", board.ladder.title(), of.unwrap_or_default());
+    let measures = board.measures.iter();
     let mut notes: Vec<_> = measures.map(|m| format!("{}: {}", m.short, m.title)).collect();
     notes.push(format!("times: {CELLS}"));
-    notes.extend(group.choices.iter().filter_map(|choice| {
-        let wall = choice.time.as_ref()?.wall_ns?;
+    notes.extend(board.ran(0).filter_map(|choice| {
+        let wall = choice.times()?.wall_ns?;
         Some(format!("{}: {} ms pass meanwhile, on all threads", choice.name(), ms(wall)))
     }));
-    let noise = least.and_then(Times::noise);
-    notes
-        .extend(noise.map(|noise| {
-            format!("two equal passes in the same rounds: {:.3} times", noise.median)
-        }));
-    notes.extend(advice(subject, group));
-    Table::of(&caption, columns, group.choices.iter().map(row).collect()).noted(notes)
+    notes.extend(
+        column
+            .noise
+            .map(|noise| format!("two equal passes in the same rounds: {:.3} times", noise.median)),
+    );
+    notes.extend(advice(subject, board));
+    let rows = board.cells.iter().enumerate().map(row).collect();
+    Table::of(&caption, columns, rows).noted(notes)
 }

@@ -12,7 +12,7 @@ use crate::device::open::Opened;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_judge::ask::runs_of;
-use rasterproof_precision::cost::{Choice, ExternalVariant};
+use rasterproof_precision::cost::{Choice, ExternalChoice};
 
 /// Triangles that are drawn at once to be judged.
 const AT_ONCE: usize = 1024;
@@ -44,7 +44,7 @@ fn near(corners: &FreeCorners, bounds: PixelRect) -> PixelRect {
     PixelRect { x0, y0, x1, y1 }.intersect(&bounds)
 }
 
-impl ExternalVariant for OnLadder {
+impl ExternalChoice for OnLadder {
     fn choice(&self) -> Choice {
         let about = self.gpu.about();
         let bits = about.subpixel_bits;
