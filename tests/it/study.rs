@@ -392,6 +392,32 @@ fn render_and_study_count_the_same_pixels() {
     }
 }
 
+/// The pages of `cost` and `study` begin with a sentence and the picture of it, and every table is folded below.
+#[test]
+fn pages_begin_with_the_answer_as_a_picture() {
+    let folder = Folder::new("study-pictured");
+    folder.put("m.obj", format!("{BOX}{FACES}"));
+    for command in ["cost", "study"] {
+        folder.check(&*format!("{command} m.obj --size 64x48 --once --report --out ."), 0);
+        let page = folder.text(&format!("{command}.html"));
+        let place = |what: &str| page.find(what).unwrap_or_else(|| panic!("{command}: {what}"));
+        let places =
+            ["<h1>", "<p class=\"pictured\">", "<figure>", "<p class=\"quiet\">", "<details>"];
+        assert!(places.map(place).is_sorted(), "{command}: {:?}", places.map(place));
+        let picture = &page[place("<img src=\"data:image/svg+xml;base64,")..];
+        let svg = picture.split_once("base64,").unwrap().1.split_once('"').unwrap().0;
+        let svg = base64::engine::general_purpose::STANDARD.decode(svg).unwrap();
+        let svg = String::from_utf8(svg).unwrap();
+        for choice in ["scanline book", "scanline 24.8 DDA", "edge robust"] {
+            assert!(svg.contains(&format!(">{choice}</text>")), "{command}: {choice}");
+        }
+        let outside: Vec<&str> =
+            page.split("<details>").map(|part| part.rsplit("</details>").next().unwrap()).collect();
+        assert!(outside.iter().all(|part| !part.contains("<table class=\"counts\"")), "{command}");
+        assert!(page.matches("<table class=\"counts\"").count() >= 6, "{command}");
+    }
+}
+
 /// Two boxes that run into each other have no other hard case than the pixels beside the lines in which they do, and those
 /// are one.
 #[test]
