@@ -8,7 +8,7 @@ use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
 use super::{Read, Test, Topic, Unit, exponent, fact, facts_of, numbers};
-use crate::cases::{Case, Shape, Triangle};
+use crate::cases::{Case, Limits, Shape, Triangle};
 
 /// Triangles before and behind each other.
 pub const TOPIC: Topic = Topic {
@@ -18,6 +18,7 @@ pub const TOPIC: Topic = Topic {
     impossible: include_str!("impossible/depth-design.txt"),
     draw,
     vary,
+    put: Limits::put,
 };
 
 /// The most triangles that the line protocol has in one question.
