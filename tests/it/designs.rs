@@ -143,16 +143,26 @@ fn with_rows(page: &str, head: &str, rows: &str) -> String {
     let after = |from: usize| from + page[from..].find('\n').expect("a next line") + 1;
     // Behind the head and the line under it.
     let first = after(after(start));
-    let end = first + page[first..].find("\n\n").expect("the end of the table") + 1;
+    // An empty table ends at once.
+    let end = first + page[first - 1..].find("\n\n").expect("the end of the table");
     format!("{}{rows}{}", &page[..first], &page[end..])
 }
 
-/// Compares the rows of a table with those of the pages, or renews them.
-fn check_rows(heads: [&str; 2], rows: [String; 2], test: &str) {
+/// A table of the pages: how its head begins and its rows, in both languages.
+struct PageTable {
+    heads: [&'static str; 2],
+    rows: [String; 2],
+}
+
+/// Compares the rows of tables with those of the pages, or renews them.
+fn check_tables(tables: &[PageTable], test: &str) {
     let mut renewal = Renewal::default();
     for at in 0..2 {
-        let page = read(PAGES[at]);
-        renewal.is(PAGES[at], &with_rows(&page, heads[at], &rows[at]));
+        let mut page = read(PAGES[at]);
+        for PageTable { heads, rows } in tables {
+            page = with_rows(&page, heads[at], &rows[at]);
+        }
+        renewal.is(PAGES[at], &page);
     }
     renewal.check(test);
 }
@@ -246,8 +256,13 @@ fn shares_of_polygons(counts: &[u64]) -> Shares {
     }
 }
 
+/// What the families have and a design does not draw: two corners with the largest w, of which the third has more than half.
+const NOT_DRAWN: [&str; 1] = [
+    "the largest w, as a multiple of the smallest,: 1 to less than 2 & the corner of the largest w: none",
+];
+
 /// The table of shares: by 1,000 cases, the default number and 100,000, and by the families alone. What families ask is never
-/// called impossible.
+/// called impossible, but for what is listed.
 #[test]
 #[ignore = "minutes; .ci/run --all runs it"]
 fn designs_ask_most_of_what_can_be_asked() {
@@ -257,11 +272,12 @@ fn designs_ask_most_of_what_can_be_asked() {
     let rows: String = all.iter().map(Shares::row).collect();
     let impossible: Vec<&String> =
         all.iter().flat_map(|shares| &shares.by_families.impossible).collect();
-    assert!(impossible.is_empty(), "{impossible:#?}");
+    assert_eq!(impossible, NOT_DRAWN);
     for Shares { whole, by_design, .. } in &all {
         assert_eq!(by_design[0].pairs, whole.of_pairs, "{}", whole.family);
     }
-    check_rows(["design", "设计"], [rows.clone(), rows], "designs_ask_most");
+    let table = PageTable { heads: ["design", "设计"], rows: [rows.clone(), rows] };
+    check_tables(&[table], "designs_ask_most");
 }
 
 /// How many cases it takes to find a wrong program, in turn over some families; nothing where none of so many is wrong.
@@ -413,6 +429,9 @@ fn designs_find_faults_early() {
             }
         }
     }
-    check_rows(["programs", "程序"], rows, "designs_find_faults");
-    check_rows(["found later", "更晚找到"], [later.clone(), later], "designs_find_faults");
+    let tables = [
+        PageTable { heads: ["programs", "程序"], rows },
+        PageTable { heads: ["found later", "更晚找到"], rows: [later.clone(), later] },
+    ];
+    check_tables(&tables, "designs_find_faults");
 }

@@ -186,7 +186,7 @@ fn draw_side(rng: &mut Rng) -> i64 {
         0 => 1,
         1 => 2,
         2 | 3 => rng.int(3, 8),
-        4 => 16,
+        4 => 16 * rng.int(1, 2),
         _ => rng.int(9, 24),
     }
 }
