@@ -29,7 +29,7 @@ pub fn run(name: &str, streams: &mut Streams<'_>) -> Status {
 
 /// The names that `engine` takes; planted faults are not shown.
 pub fn names() -> Vec<PossibleValue> {
-    let shown = engines::ENTRIES.iter().chain(&engines::SPECIMENS).map(|entry| entry.name);
+    let shown = engines::speaking().map(|entry| entry.name);
     let exact = ExactMutant::ALL.map(|mutant| mutant.name());
     let planted = Mutant::all().into_iter().map(|mutant| mutant.name()).chain(exact);
     let planted = planted.filter(|name| engines::find_planted(name).is_some());

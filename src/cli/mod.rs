@@ -60,6 +60,7 @@ use rasterproof_report::html::Report;
 use rasterproof_report::table::{Row, Table};
 use rasterproof_verify::cases;
 use rasterproof_verify::cases::facts::{self, design};
+use rasterproof_verify::partition;
 
 pub mod exit {
     pub const AGREES: u8 = 0;
@@ -439,8 +440,7 @@ pub fn quiet_engines() {
 }
 
 fn list(streams: &mut Streams<'_>) -> Status {
-    let speaking = engines::ENTRIES.iter().chain(&engines::SPECIMENS);
-    let speaking = speaking.map(|entry| (entry.name, entry.about));
+    let speaking = engines::speaking().map(|entry| (entry.name, entry.about));
     let families = cases::families().map(|f| (f.name, f.about));
     let off_grid = cases::unsnapped::FAMILIES.iter().map(|f| (f.name, f.about));
     let named =
@@ -464,21 +464,23 @@ fn list(streams: &mut Streams<'_>) -> Status {
 
 /// The facts of each kind of question, each with its classes.
 fn list_facts(streams: &mut Streams<'_>) -> Status {
-    let mut tables = Vec::new();
-    for topic in &facts::TOPICS {
-        let mut rows = Vec::new();
-        for fact in topic.facts {
-            rows.push(Row::of(&[&fact.name, &fact.classes().join(" · ")]));
-        }
-        let impossible = design::impossible(topic).len();
-        let title = format!(
-            "Facts of the family {}: {} classes, {impossible} pairs of which cannot occur",
-            topic.name,
-            topic.count()
-        );
-        tables.push(Table::new(&title, "~fact 40 | ~classes 1", rows));
-    }
+    let mut tables: Vec<Table> = facts::TOPICS.iter().map(facts_of).collect();
+    tables.push(facts_of(&partition::design::TOPIC));
     page::print(Report { tables, ..Report::default() }, exit::AGREES, streams)
+}
+
+fn facts_of<Q, L>(topic: &facts::Topic<Q, L>) -> Table {
+    let mut rows = Vec::new();
+    for fact in topic.facts {
+        rows.push(Row::of(&[&fact.name, &fact.classes().join(" · ")]));
+    }
+    let impossible = design::impossible(topic).len();
+    let title = format!(
+        "Facts of the family {}: {} classes, {impossible} pairs of which cannot occur",
+        topic.name,
+        topic.count()
+    );
+    Table::new(&title, "~fact 40 | ~classes 1", rows)
 }
 
 /// A list under a title, what an entry is about beside its name.

@@ -18,7 +18,8 @@ use rasterproof_report::html::{Excerpt, Outcome, Report};
 use rasterproof_report::table::{Row, Table};
 use rasterproof_report::{differential, json, page_cases, picture, summary};
 use rasterproof_teaching::case_view;
-use rasterproof_verify::cases::{self, Case, Kind, Shape};
+use rasterproof_verify::cases::facts::asked::DesignShare;
+use rasterproof_verify::cases::{self, Case, Family, Kind, Limits, Shape};
 use rasterproof_verify::comparison::{
     self, Cause, FamilyReport, Options, PairReport, Shard, Verdict,
 };
@@ -275,6 +276,8 @@ impl Run<'_> {
             let hint = "every family as a table: add --table".to_owned();
             first_screen.push(Table::of_notes("", self.closest().chain([hint]).collect()));
         }
+        let asked = self.asked();
+        first_screen.extend(summary::asked(&asked));
         let cause =
             verdict.failures.first().and_then(|first| judged.cause(&first.evidence.pair[0]));
         let repeat = |family: &str, index: u64| self.repeat(family, index);
@@ -292,11 +295,29 @@ impl Run<'_> {
             command: self.repeat_all().line(),
             repeat: self.repeat_all().without_output().line(),
             first_screen,
-            tables: families.into_iter().chain([differential::refused()]).collect(),
+            tables: families
+                .into_iter()
+                .chain([differential::refused()])
+                .chain(summary::asked(&asked))
+                .collect(),
             cases: cases.unwrap_or_default(),
-            data: json::verdict(verdict, &repeat),
+            data: json::verdict(verdict, &asked, &repeat),
             ..Report::default()
         }
+    }
+
+    /// What the designs asked; nothing where some of their cases were not judged.
+    fn asked(&self) -> Vec<DesignShare> {
+        let options = &self.verdict.options;
+        if options.only.is_some() || options.shard.parts() > 1 || options.time_limit.is_some() {
+            return Vec::new();
+        }
+        let is_judged = |family: &&Family| {
+            self.verdict.families.iter().any(|of| of.family == family.name && of.cases > 0)
+        };
+        let families = cases::families().filter(is_judged);
+        let limits = Limits::default();
+        DesignShare::of_families(families, options.seed, &options.numbers(), &limits)
     }
 
     /// The verdict; where the cause is known, it says which engine is wrong and why.

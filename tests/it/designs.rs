@@ -1,11 +1,24 @@
 //! Wrong rasterizers that the families of dangers hardly see, and the designs do: each is wrong under two facts together.
 
+use rayon::prelude::*;
+
+use crate::mistakes::{FILLS, Fill, STROKES, Stroke, right};
+use crate::pages::{Renewal, read};
 use rasterproof::cases::triangles::FAMILIES;
-use rasterproof::cases::{Case, Family, FamilyName};
-use rasterproof::contract::Rasterize;
+use rasterproof::cases::{self, Case, Family, FamilyName, Limits, Shape};
+use rasterproof::contract::{DrawLine as _, Rasterize};
 use rasterproof::grid::PixelRect;
 use rasterproof::oracle::Oracle;
 use rasterproof::triangle::{Corners, Span};
+use rasterproof_core::frame::Coverage;
+use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_registry::comparison::EnginesToJudge;
+use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_report::words::thousands;
+use rasterproof_verify::cases::facts::asked::{AskedClasses, DesignShare};
+use rasterproof_verify::cases::facts::{self, Topic};
+use rasterproof_verify::comparison::{Convention, Watch, caught};
+use rasterproof_verify::partition::{self, Coordinates, Family as PolygonFamily};
 
 /// What is wrong of a span that is right: it is changed, or dropped.
 type Fault = fn(&[[i64; 2]; 3], PixelRect, Span) -> Option<Span>;
@@ -119,4 +132,306 @@ fn designs_find_what_needs_two_facts() {
         }
     }
     assert!(missed.is_empty(), "{missed:?}");
+}
+
+/// The pages that say how much is asked, and how soon wrong programs are found.
+const PAGES: [&str; 2] = ["docs/designs.md", "docs/zh/designs.md"];
+
+/// Writes the rows of the table under the head that begins so, in a page.
+fn with_rows(page: &str, head: &str, rows: &str) -> String {
+    let start = page.find(&format!("| {head} |")).unwrap_or_else(|| panic!("no table {head}"));
+    let after = |from: usize| from + page[from..].find('\n').expect("a next line") + 1;
+    // Behind the head and the line under it.
+    let first = after(after(start));
+    // An empty table ends at once.
+    let end = first + page[first - 1..].find("\n\n").expect("the end of the table");
+    format!("{}{rows}{}", &page[..first], &page[end..])
+}
+
+/// A table of the pages: how its head begins and its rows, in both languages.
+struct PageTable {
+    heads: [&'static str; 2],
+    rows: [String; 2],
+}
+
+/// Compares the rows of tables with those of the pages, or renews them.
+fn check_tables(tables: &[PageTable], test: &str) {
+    let mut renewal = Renewal::default();
+    for at in 0..2 {
+        let mut page = read(PAGES[at]);
+        for PageTable { heads, rows } in tables {
+            page = with_rows(&page, heads[at], &rows[at]);
+        }
+        renewal.is(PAGES[at], &page);
+    }
+    renewal.check(test);
+}
+
+/// What of all pairs and triples is asked: by so many questions of the design, and by families.
+struct Shares {
+    whole: DesignShare,
+    by_design: Vec<AskedClasses>,
+    by_families: AskedClasses,
+}
+
+impl Shares {
+    /// Of a topic with its default number of cases.
+    fn row(&self) -> String {
+        let DesignShare { family, facts, classes, of_pairs, of_triples, .. } = &self.whole;
+        let share = |asked: &AskedClasses| {
+            let percent = |part: usize, of: usize| 100.0 * part as f64 / of as f64;
+            format!(
+                "{:.1} / {:.1}",
+                percent(asked.pairs, *of_pairs),
+                percent(asked.triples, *of_triples)
+            )
+        };
+        let shares: Vec<String> =
+            self.by_design.iter().chain([&self.by_families]).map(share).collect();
+        format!(
+            "| `{family}` | {facts} | {classes} | {} | {} | {} |\n",
+            thousands(*of_pairs as u64),
+            thousands(*of_triples as u64),
+            shares.join(" | ")
+        )
+    }
+}
+
+/// The families that a design is compared with, and how many cases of each are asked by default.
+fn families_beside(design: &str) -> (Vec<&'static Family>, u64) {
+    let all = cases::families().chain(cases::near_plane::FAMILIES);
+    let drawn = all.filter(|family| family.design().is_none());
+    let chosen = drawn.filter(|family| {
+        let name = family.name;
+        let is_of_stages = ["depth-order", "depth-near-tie", "near-plane"].contains(&name);
+        match design {
+            "line-design" => name.starts_with("line-"),
+            "w-design" => name.starts_with("w-"),
+            "depth-design" => name.starts_with("depth-"),
+            "near-design" => name == "near-plane",
+            "mesh-design" => ["rectangle", "fan", "strip", "mesh-border"].contains(&name),
+            _ => !is_of_stages && !name.starts_with("line-") && !name.starts_with("w-"),
+        }
+    });
+    let of_engines = ["design", "w-design", "line-design"].contains(&design);
+    // Of samples every eighth case of a family is asked.
+    let cases = match design {
+        "sample-design" => 125,
+        _ if of_engines => 20_000,
+        _ => 1000,
+    };
+    (chosen.collect(), cases)
+}
+
+/// What is asked of a topic by default, and by these numbers of cases.
+fn shares_of(topic: &Topic, counts: &[u64]) -> Shares {
+    let limits = Limits::default();
+    let question = |index: u64| facts::design::case(topic, 1, index, &limits);
+    let (families, cases) = families_beside(topic.name);
+    let drawn = families.iter().flat_map(|family| (0..cases).map(|index| family.case(1, index)));
+    let default = if cases == 20_000 { cases } else { 1000 };
+    let counts = counts.iter().map(|count| if *count == 0 { default } else { *count });
+    Shares {
+        whole: DesignShare::of(topic, 0..1000, &limits, &question),
+        by_design: counts
+            .map(|count| AskedClasses::by(topic, &limits, (0..count).map(question)))
+            .collect(),
+        by_families: AskedClasses::by(topic, &limits, drawn),
+    }
+}
+
+/// The same of polygons.
+fn shares_of_polygons(counts: &[u64]) -> Shares {
+    let (topic, limits) = (&partition::design::TOPIC, Coordinates::F64);
+    let question = |index: u64| partition::design::polygon(1, index, limits);
+    let families = PolygonFamily::ALL.into_iter().filter(|of| *of != PolygonFamily::Design);
+    let drawn = families.flat_map(|of| (0..2000).map(move |index| of.polygon(1, index, limits)));
+    let counts = counts.iter().map(|count| if *count == 0 { 2000 } else { *count });
+    Shares {
+        whole: partition::design::asked(1, 0..1000, limits),
+        by_design: counts
+            .map(|count| AskedClasses::by(topic, &limits, (0..count).map(question)))
+            .collect(),
+        by_families: AskedClasses::by(topic, &limits, drawn),
+    }
+}
+
+/// What the families have and a design does not draw: two corners with the largest w, of which the third has more than half.
+const NOT_DRAWN: [&str; 1] = [
+    "the largest w, as a multiple of the smallest,: 1 to less than 2 & the corner of the largest w: none",
+];
+
+/// The table of shares: by 1,000 cases, the default number and 100,000, and by the families alone. What families ask is never
+/// called impossible, but for what is listed.
+#[test]
+#[ignore = "minutes; .ci/run --all runs it"]
+fn designs_ask_most_of_what_can_be_asked() {
+    let counts = [1000, 0, 100_000];
+    let mut all: Vec<Shares> = facts::TOPICS.par_iter().map(|of| shares_of(of, &counts)).collect();
+    all.push(shares_of_polygons(&counts));
+    let rows: String = all.iter().map(Shares::row).collect();
+    let impossible: Vec<&String> =
+        all.iter().flat_map(|shares| &shares.by_families.impossible).collect();
+    assert_eq!(impossible, NOT_DRAWN);
+    for Shares { whole, by_design, .. } in &all {
+        assert_eq!(by_design[0].pairs, whole.of_pairs, "{}", whole.family);
+    }
+    let table = PageTable { heads: ["design", "设计"], rows: [rows.clone(), rows] };
+    check_tables(&[table], "designs_ask_most");
+}
+
+/// How many cases it takes to find a wrong program, in turn over some families; nothing where none of so many is wrong.
+fn cases_to_find(families: &[&Family], seed: u64, is_wrong: &dyn Fn(&Case) -> bool) -> Option<u64> {
+    const MOST: u64 = 1000;
+    // What takes 2^31 steps for a line or a triangle is not asked.
+    let limits = Limits { line_range_px: Some(4096), ..Convention::default().limits(Some(4096)) };
+    // What panics is wrong, and not worth a line for each case.
+    let watch = Watch::begin();
+    let mut asked = 0;
+    for index in 0..MOST {
+        for family in families {
+            asked += 1;
+            let case = family.case_within(seed, index, &limits);
+            if watch.during(|| caught(|| is_wrong(&case))).unwrap_or(true) {
+                return Some(asked);
+            }
+        }
+    }
+    None
+}
+
+/// The median over five seeds, by families alone and by designs.
+fn medians(families: [&[&Family]; 2], is_wrong: &dyn Fn(&Case) -> bool) -> [Option<u64>; 2] {
+    families.map(|families| {
+        let mut found: Vec<u64> = (1..=5)
+            .map(|seed| cases_to_find(families, seed, is_wrong).unwrap_or(u64::MAX))
+            .collect();
+        found.sort_unstable();
+        Some(found[2]).filter(|median| *median < u64::MAX)
+    })
+}
+
+/// A wrong program: its name, and whether it draws a case wrong.
+type Program = (String, Box<dyn Fn(&Case) -> bool + Send + Sync>);
+
+/// Planted faults, judged as `verify` does.
+fn planted_faults(lines: bool) -> Vec<Program> {
+    let judged = |name: &str, engines: EnginesToJudge| -> Program {
+        let is_wrong =
+            move |case: &Case| engines.judge_case(case).iter().any(|(_, found)| found.is_wrong());
+        (name.to_owned(), Box::new(is_wrong))
+    };
+    if lines {
+        let of = |fault: LineMutant| judged(fault.name(), LineEngine::Mutant(fault).into());
+        LineMutant::ALL.into_iter().map(of).collect()
+    } else {
+        let of = |fault: TriangleMutant| judged(fault.name(), Engine::Mutant(fault).into());
+        TriangleMutant::ALL.into_iter().map(of).collect()
+    }
+}
+
+/// The programs with the mistakes of the tables.
+fn mistakes_in(lines: bool) -> Vec<Program> {
+    let mut programs: Vec<Program> = Vec::new();
+    if lines {
+        for (number, (name, stroke)) in STROKES.iter().enumerate() {
+            let is_wrong = move |case: &Case| is_stroke_wrong(*stroke, case);
+            programs.push((format!("{name} ({number})"), Box::new(is_wrong)));
+        }
+    } else {
+        for (number, (name, fill)) in FILLS.iter().enumerate() {
+            let is_wrong = move |case: &Case| is_fill_wrong(*fill, case);
+            programs.push((format!("{name} ({number})"), Box::new(is_wrong)));
+        }
+    }
+    programs
+}
+
+fn is_fill_wrong(fill: Fill, case: &Case) -> bool {
+    case.triangles().iter().any(|triangle| {
+        let [mut drawn, mut expected] = [(); 2].map(|()| Coverage::new(case.window, 0));
+        fill(triangle.corners(), case.window, &mut drawn);
+        right(triangle.corners(), case.window, &mut expected);
+        drawn != expected
+    })
+}
+
+fn is_stroke_wrong(stroke: Stroke, case: &Case) -> bool {
+    let Shape::Lines(lines) = &case.shape else { return false };
+    lines.iter().any(|line| {
+        let window = case.window;
+        let ends = line.ends.map(|end| [end.pixel.x, end.pixel.y]);
+        let mut drawn = Vec::new();
+        stroke(ends, [window.x1 - 1, window.y1 - 1], &mut |x, y| {
+            if window.contains(x, y) {
+                drawn.push([x, y]);
+            }
+        });
+        let mut expected = Vec::new();
+        Oracle.draw(line, window, |f| expected.push([f.x_px, f.y_px]));
+        drawn.sort_unstable();
+        drawn.dedup();
+        expected.sort_unstable();
+        drawn != expected
+    })
+}
+
+/// A median and the largest of some counts; what was never found is larger than all.
+fn summed(counts: &[Option<u64>]) -> String {
+    let mut counts: Vec<u64> = counts.iter().map(|count| count.unwrap_or(u64::MAX)).collect();
+    counts.sort_unstable();
+    let shown = |count: u64| match count {
+        u64::MAX => "-".to_owned(),
+        count => thousands(count),
+    };
+    let missed = counts.iter().filter(|count| **count == u64::MAX).count();
+    let found: Vec<u64> = counts.iter().copied().filter(|count| *count < u64::MAX).collect();
+    let worst = found.last().copied().unwrap_or(u64::MAX);
+    format!("{} | {} | {missed}", shown(counts[counts.len() / 2]), shown(worst))
+}
+
+/// How many cases it takes to find planted faults and the mistakes of the tables: by families alone, and by the design.
+#[test]
+#[ignore = "minutes; .ci/run --all runs it"]
+fn designs_find_faults_early() {
+    let groups = [
+        (["planted in triangles", "植入的三角形错误"], false, planted_faults(false)),
+        (["mistakes in triangles", "三角形错误表"], false, mistakes_in(false)),
+        (["planted in lines", "植入的直线错误"], true, planted_faults(true)),
+        (["mistakes in lines", "直线错误表"], true, mistakes_in(true)),
+    ];
+    let (mut rows, mut later) = ([String::new(), String::new()], String::new());
+    for (names, lines, programs) in groups {
+        let families = if lines { cases::lines::FAMILIES } else { FAMILIES };
+        // Windows that do not begin at the origin are for engines alone.
+        let families = families.iter().filter(|family| family.name != "far");
+        let (designs, drawn): (Vec<&Family>, Vec<&Family>) =
+            families.partition(|family| family.design().is_some());
+        let found: Vec<[Option<u64>; 2]> = programs
+            .par_iter()
+            .map(|(_, is_wrong)| medians([&drawn, &designs], is_wrong))
+            .collect();
+        let [by_families, by_design] =
+            [0, 1].map(|way| summed(&found.iter().map(|both| both[way]).collect::<Vec<_>>()));
+        for at in 0..2 {
+            let count = programs.len();
+            rows[at] += &format!("| {} | {count} | {by_families} | {by_design} |\n", names[at]);
+        }
+        for ((name, _), [families, design]) in programs.iter().zip(&found) {
+            let is_later = match (families, design) {
+                (Some(families), Some(design)) => *design > 2 * families,
+                (Some(_), None) => true,
+                (None, _) => false,
+            };
+            if is_later {
+                let shown = |count: &Option<u64>| count.map_or("-".to_owned(), thousands);
+                later += &format!("| {name} | {} | {} |\n", shown(families), shown(design));
+            }
+        }
+    }
+    let tables = [
+        PageTable { heads: ["programs", "程序"], rows },
+        PageTable { heads: ["found later", "更晚找到"], rows: [later.clone(), later] },
+    ];
+    check_tables(&tables, "designs_find_faults");
 }

@@ -112,7 +112,7 @@ fn judge_catches_every_specimen() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn judge_finds_the_same_through_a_pipe() {
-    let engines = engines::ENTRIES.iter().chain(&SPECIMENS).map(|entry| entry.name);
+    let engines = engines::speaking().map(|entry| entry.name);
     let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
     let lines = LineMutant::ALL.iter().map(|mutant| mutant.name());
     let exact = ExactMutant::ALL.iter().map(|mutant| mutant.name());
@@ -734,6 +734,28 @@ fn judge_takes_a_declared_shape() {
     assert!(verdict.agrees(), "{:?}", verdict.failures);
     for wrong in ["shape=covered range=1024", "range=1024"] {
         assert!(judged_as(wrong).as_declared().wrong > 100, "{wrong}");
+    }
+}
+
+/// Both readings of what touches: each engine of ours is right by its own, wrong by the other, and right where either may be drawn.
+#[test]
+fn judge_takes_both_readings_of_touching() {
+    let judged_as = |name: &str, words: &str, cases: u64| {
+        let mut engine = inside(name);
+        let declared = Declared::parse(&format!("HELLO 2 x coverage {words}")).unwrap();
+        let answer = move |questions: &[Question], most| engine.ask(questions, most);
+        recognised(Box::new(Answering(declared, answer)), &options(cases, &[]))
+    };
+    for (name, other) in [("touched-closed", "touched-open"), ("touched-open", "touched-closed")] {
+        for shape in [name, "touched"] {
+            let verdict = judged_as(name, &format!("shape={shape}"), 20);
+            assert!(verdict.agrees(), "{name} as {shape}: {:?}", verdict.failures);
+        }
+        let verdict = judged_as(name, &format!("shape={other}"), 20);
+        assert!(verdict.as_declared().wrong > 100, "{name} as {other}");
+        // What it does is recognised, with the word that says so.
+        let found = verdict.more.recognised.unwrap();
+        assert_eq!(found.declare, format!("shape={name}"), "{:?}", found.sentences);
     }
 }
 

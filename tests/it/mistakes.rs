@@ -35,11 +35,11 @@ use rasterproof_verify::convention::{
 use rasterproof_verify::mistakes::{self, Explanation, Mistakes, values};
 use rasterproof_verify::oracle::values::ExactTriangle;
 
-type Fill = fn(Corners, PixelRect, &mut Coverage);
+pub type Fill = fn(Corners, PixelRect, &mut Coverage);
 /// The ends, and the last pixel of the window.
-type Stroke = fn([[i32; 2]; 2], [i32; 2], &mut dyn FnMut(i32, i32));
+pub type Stroke = fn([[i32; 2]; 2], [i32; 2], &mut dyn FnMut(i32, i32));
 
-fn right(corners: Corners, window: PixelRect, picture: &mut Coverage) {
+pub fn right(corners: Corners, window: PixelRect, picture: &mut Coverage) {
     Scanline.cover(corners, window, |s| picture.hit(s.y_px, s.x0_px, s.x1_px));
 }
 
@@ -110,7 +110,7 @@ fn extent(c: Corners, axis: usize) -> [i32; 2] {
     [v.into_iter().min().unwrap(), v.into_iter().max().unwrap()]
 }
 
-const FILLS: &[(&str, Fill)] = &[
+pub const FILLS: &[(&str, Fill)] = &[
     ("neighbours of covered pixels", |c, w, out| {
         // Only pixels whose upper and lower neighbours are covered, too.
         let pictures = [0, 256, -256].map(|by| {
@@ -1114,7 +1114,7 @@ fn bresenham([[mut x, mut y], [x1, y1]]: [[i32; 2]; 2], emit: &mut dyn FnMut(i32
     }
 }
 
-const STROKES: &[(&str, Stroke)] = &[
+pub const STROKES: &[(&str, Stroke)] = &[
     ("the error term is off", |[a, b], _, emit| {
         // It begins at a quarter of the longer side.
         let [dx, dy] = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];

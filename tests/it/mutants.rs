@@ -66,7 +66,7 @@ fn recount(actual: &Hits, target: &Hits, sums: &mut [u64; 3]) {
 fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
     let Tally { missing, extra, twice, order } = verdict.comparisons().oracle;
     assert_eq!([missing, extra, twice], sums, "{name}");
-    let json = json::verdict(verdict, &|_, _| String::new());
+    let json = json::verdict(verdict, &[], &|_, _| String::new());
     let mismatches = missing + extra + twice + order;
     assert_eq!(json["mismatches"], mismatches, "{name}");
     let kinds = ["missing", "extra", "twice"];

@@ -92,6 +92,32 @@ pub fn greatest_divisor(a: i64, b: i64) -> i64 {
     if b == 0 { a.abs() } else { greatest_divisor(b, a % b) }
 }
 
+/// An edge of a triangle, in its direction.
+pub type Edge = [SubpixelPoint; 2];
+
+/// The edges of a triangle, in the order of its corners.
+#[must_use]
+pub fn edges(&[a, b, c]: &Corners) -> [Edge; 3] {
+    [[a, b], [b, c], [c, a]]
+}
+
+/// Whether the interiors of all triangles are disjoint and none is degenerate: for convex shapes
+/// iff an edge of one of the two separates them.
+#[must_use]
+pub fn is_disjoint(list: &[Corners]) -> bool {
+    let separates = |one: &Corners, other: &Corners| {
+        let inside = twice_area(one).signum();
+        edges(one)
+            .iter()
+            .any(|[a, b]| other.iter().all(|p| twice_area(&[*a, *b, *p]) * inside <= 0))
+    };
+    list.iter().all(|t| twice_area(t) != 0)
+        && list
+            .iter()
+            .enumerate()
+            .all(|(i, a)| list[..i].iter().all(|b| separates(a, b) || separates(b, a)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -135,5 +161,15 @@ mod tests {
             expected.sort_by_key(|(key, _)| *key);
             assert_eq!(sorted(named, |a, b| a.0 > b.0), expected);
         }
+    }
+
+    #[test]
+    fn overlap_is_noticed() {
+        let p = |x: i32, y: i32| SubpixelPoint::new(x * 256, y * 256);
+        let (a, b, c, d) = (p(1, 1), p(7, 1), p(7, 7), p(1, 7));
+        assert!(is_disjoint(&[[a, b, c], [a, c, d]]));
+        assert!(is_disjoint(&[[c, b, a]]), "the winding does not matter");
+        assert!(!is_disjoint(&[[a, b, c], [a, c, d], [b, p(5, 2), c]]));
+        assert!(!is_disjoint(&[[a, b, b]]), "degenerate");
     }
 }

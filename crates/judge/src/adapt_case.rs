@@ -6,6 +6,7 @@
 //! whose windows do not, is left out.
 
 use super::declared::Declared;
+use rasterproof_core::geometry::is_disjoint;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::{self, Case, Family, Limits, Shape};
@@ -58,7 +59,7 @@ pub fn put(case: Case, declared: &Declared) -> Case {
 fn mended(mut case: Case) -> Case {
     if let Shape::Triangles { list, disjoint } = &mut case.shape {
         let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
-        *disjoint = list.len() > 1 && super::mesh::is_disjoint(&corners);
+        *disjoint = list.len() > 1 && is_disjoint(&corners);
     }
     case
 }

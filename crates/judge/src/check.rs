@@ -255,6 +255,11 @@ impl Check {
                     checks.push(Self::Carried);
                 }
             }
+            Shape::Triangles { .. } if family == facts::samples::TOPIC.name => {
+                if declared.answers_samples() {
+                    checks.push(Self::Samples);
+                }
+            }
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
             Shape::Lines(_) | Shape::Unsnapped { .. } => {}
             Shape::Triangles { list, disjoint } => {
@@ -282,12 +287,7 @@ impl Check {
                         checks.push(Self::Watertight);
                     }
                 }
-                if declared.samples4
-                    && declared.shape == declared::Shape::Sample
-                    && declared.convention.is_standard()
-                    && (index % 8 == 1 || family == facts::triangles::TOPIC.name)
-                    && !is_perspective
-                {
+                if declared.answers_samples() && index % 8 == 1 && !is_perspective {
                     checks.push(Self::Samples);
                 }
             }

@@ -68,8 +68,13 @@ rasterproof_core::named! {
     pub enum Shape {
         /// The pixels whose sample lies in the triangle.
         Sample = "sample",
-        /// The pixels of which any part lies in the triangle: outer conservative rasterization.
+        /// The pixels of which any part lies in the triangle: outer conservative rasterization. A pixel that meets the triangle
+        /// at its border alone may be drawn or not.
         Touched = "touched",
+        /// The same with the border: a pixel that meets it is drawn.
+        TouchedClosed = "touched-closed",
+        /// The same without the border: a pixel that meets nothing else is not drawn.
+        TouchedOpen = "touched-open",
         /// The pixels that lie in the triangle as a whole: inner conservative rasterization.
         Covered = "covered",
     }
@@ -346,6 +351,12 @@ impl Declared {
     #[must_use]
     pub fn grid(&self) -> i32 {
         1 << self.convention.subpixel_bits
+    }
+
+    /// Whether it can be asked for the samples of a triangle: they have fixed places, so that the top-left rule must be meant.
+    #[must_use]
+    pub fn answers_samples(&self) -> bool {
+        self.samples4 && self.shape == Shape::Sample && self.convention.is_standard()
     }
 
     pub fn capabilities(&self) -> Vec<&'static str> {

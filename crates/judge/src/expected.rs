@@ -55,11 +55,13 @@ pub(super) fn runs(coverage: &Coverage) -> Vec<Span> {
 /// What a program declares: the picture of its convention, or of its shape.
 impl Expect for Declared {
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Expectation> {
-        // Half a pixel further out, or further in, along both axes.
-        let reach = match self.shape {
+        // Half a pixel further out, or further in, along both axes: what has to be drawn, and what may be.
+        let (reach, must, may) = match self.shape {
             Shape::Sample => return self.convention.picture(corners, window),
-            Shape::Touched => HALF_PIXEL,
-            Shape::Covered => -HALF_PIXEL,
+            Shape::Touched => (HALF_PIXEL, "strict", Some("inclusive")),
+            Shape::TouchedClosed => (HALF_PIXEL, "inclusive", None),
+            Shape::TouchedOpen => (HALF_PIXEL, "strict", None),
+            Shape::Covered => (-HALF_PIXEL, "strict", Some("inclusive")),
         };
         // What has no area is nothing but its border, of which nothing is promised.
         if twice_area(corners) == 0 {
@@ -72,7 +74,7 @@ impl Expect for Declared {
             let convention = convention::TriangleConvention { shape, ties, ..known.declared };
             convention.cover(corners, window).as_ref().map(runs)
         };
-        Some(Expectation { must: of("strict")?, may: of("inclusive") })
+        Some(Expectation { must: of(must)?, may: may.and_then(of) })
     }
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {

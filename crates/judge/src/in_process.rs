@@ -1,10 +1,10 @@
 //! An engine of the registry as a judged program without a process: the server answers in memory.
 
 use super::ask::{Answer, Breach, Question, Subject};
-use super::declared::{Declared, MOST_IN_FLIGHT};
+use super::declared::{Declared, MOST_IN_FLIGHT, Shape};
 use super::server;
 use super::text::Words;
-use rasterproof_registry::engines::{Entry, Specimen};
+use rasterproof_registry::engines::{Entry, Specimen, TouchedPixels, Variant};
 use rasterproof_verify::comparison::{Watch, caught};
 
 /// The values of both engines lie within u (15 D + 2 M) of the exact ones (`verify::tolerance`),
@@ -19,10 +19,19 @@ impl From<&Entry> for Declared {
             _ => None,
         };
         let is_engine = entry.engine.is_some();
+        let shape = match entry.variant {
+            Some(Variant::Touched(TouchedPixels { is_closed: true })) => Shape::TouchedClosed,
+            Some(Variant::Touched(_)) => Shape::TouchedOpen,
+            None => Shape::Sample,
+        };
         Self {
             name: entry.name.to_owned(),
             version: 2,
-            coverage: is_engine || entry.exact_engine.is_some() || triangle.is_some(),
+            coverage: is_engine
+                || entry.exact_engine.is_some()
+                || triangle.is_some()
+                || entry.variant.is_some(),
+            shape,
             line: entry.line_engine.is_some() || matches!(entry.specimen, Some(Specimen::Line(_))),
             attributes: is_engine || triangle.is_some_and(|specimen| specimen.has_values()),
             samples4: is_engine,

@@ -5,35 +5,14 @@
 //! triangle of it; and triangles whose interiors are disjoint share no pixel. All in exact integers.
 
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::geometry::twice_area;
+use rasterproof_core::geometry::{Edge, edges, twice_area};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::comparison::Tally;
 
-type Edge = [SubpixelPoint; 2];
-
 /// Twice the area of a, b, p.
 fn side([a, b]: Edge, p: SubpixelPoint) -> i128 {
     twice_area(&[a, b, p])
-}
-
-/// Whether the interiors of all triangles are disjoint and none is degenerate: for convex shapes
-/// iff an edge of one of the two separates them.
-#[must_use]
-pub fn is_disjoint(list: &[Corners]) -> bool {
-    let separates = |one: &Corners, other: &Corners| {
-        let inside = twice_area(one).signum();
-        edges(one).any(|e| other.iter().all(|p| side(e, *p) * inside <= 0))
-    };
-    list.iter().all(|t| twice_area(t) != 0)
-        && list
-            .iter()
-            .enumerate()
-            .all(|(i, a)| list[..i].iter().all(|b| separates(a, b) || separates(b, a)))
-}
-
-fn edges(&[a, b, c]: &Corners) -> impl Iterator<Item = Edge> {
-    [[a, b], [b, c], [c, a]].into_iter()
 }
 
 /// The edges that belong to one triangle only, in one direction or the other.
@@ -115,22 +94,11 @@ mod tests {
     #[test]
     fn holes_and_doubles_by_hand() {
         let square = square();
-        assert!(is_disjoint(&square));
         let mut hits = Coverage::new(PixelRect::window(8, 8), 0);
         assert_eq!(holes_and_doubles(&square, &hits), (4, 0));
         (1..7).for_each(|y| hits.hit(y, 1, 7));
         assert_eq!(holes_and_doubles(&square, &hits), (0, 0));
         hits.hit(1, 1, 3);
         assert_eq!(holes_and_doubles(&square, &hits), (0, 2));
-    }
-
-    #[test]
-    fn overlap_is_noticed() {
-        let mut list = square();
-        let [a, b, c] = list[0];
-        assert!(is_disjoint(&[[c, b, a]]), "the winding does not matter");
-        list.push([b, SubpixelPoint::new(5 * 256, 2 * 256), c]);
-        assert!(!is_disjoint(&list));
-        assert!(!is_disjoint(&[[a, b, b]]), "degenerate");
     }
 }

@@ -10,6 +10,7 @@ use super::declared::Declared;
 use super::run::{MOST_DEATHS, Row, RunFindings};
 use super::timed::Timed;
 use super::verdict::{self, Particulars, Verdict};
+use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::partition::{self, Family, Polygon, Refused, Triangle};
 
 /// The options of partitions for a program that declares this.
@@ -117,6 +118,13 @@ pub fn polygon_that_asks(
     None
 }
 
+/// What the polygons of the design ask.
+#[must_use]
+pub fn asked(report: &partition::Verdict) -> DesignShare {
+    let options = &report.options;
+    partition::design::asked(options.seed, options.numbers(), options.terms.coordinates)
+}
+
 /// The report as a verdict with a property for each family, for what is written for machines.
 pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdict) -> Verdict {
     let row = |family: &partition::Polygons| Row {
@@ -140,6 +148,10 @@ pub fn verdict(declared: &Declared, options: &Options, report: &partition::Verdi
     let (declared, left_out) = (declared.clone(), report.more);
     let more = Particulars { declared, found, left_out, ..Particulars::default() };
     let mut verdict = verdict::verdict(options, more, Vec::new(), Vec::new());
+    let is_whole = !is_out_of_time(report) && options.only.is_none();
+    if is_whole && report.families.iter().any(|of| of.family == Family::Design) {
+        verdict.more.asked = vec![asked(report)];
+    }
     // The families of cases have a text of their own.
     for family in &report.families {
         let name = family.family.name();

@@ -12,7 +12,7 @@ use super::Options;
 use super::adapt_case;
 use super::ask::{Answer, Asked, Question, Subject};
 use super::check::{Check, Truth};
-use super::declared::Declared;
+use super::declared::{Declared, Shape};
 use super::expected::{Expect, runs};
 use super::in_process::Inside;
 use super::leaving;
@@ -22,7 +22,7 @@ use super::stages;
 use super::text::px;
 use super::timed::Timed;
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect};
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
 use rasterproof_registry::engines::{self, Entry};
@@ -456,8 +456,25 @@ impl convention::AskLine for Bench<'_> {
     }
 }
 
+/// The shape that is declared for what was found, where every pixel that a triangle touches is drawn.
+fn touched(found: &Diagnosis) -> Option<Shape> {
+    let by_touch =
+        convention::Shape::Reach { x: HALF_PIXEL, y: HALF_PIXEL, reach: HALF_PIXEL, square: true };
+    if found.convention.shape != by_touch || found.confidence == Confidence::Unexplained {
+        return None;
+    }
+    Some(match found.convention.ties.name(found.compass.seen()) {
+        Some("inclusive") => Shape::TouchedClosed,
+        Some("strict") => Shape::TouchedOpen,
+        _ => Shape::Touched,
+    })
+}
+
 /// The words that declare what was found and is not declared; none where the protocol has none.
 fn words(declared: &Declared, found: &Diagnosis) -> String {
+    if let Some(shape) = touched(found).filter(|shape| *shape != declared.shape) {
+        return format!("shape={}", shape.name());
+    }
     let Some(found) = found.declaration(&declared.convention) else { return String::new() };
     let grid =
         [256, 64, 16].into_iter().find(|grid| *grid <= 1 << found.subpixel_bits).unwrap_or(1);

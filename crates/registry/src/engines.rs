@@ -1,6 +1,7 @@
 //! The engines by name: the one file that names every engine and line drawer, and turns a word of the
 //! command line into one.
 
+pub use crate::variants::TouchedPixels;
 use rasterproof_core::contract::{
     Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact, Run,
 };
@@ -406,6 +407,15 @@ pub struct Entry {
     pub exact_engine: Option<ExactEngine>,
     /// The published algorithm of this name.
     pub specimen: Option<Specimen>,
+    /// The engine of another rule.
+    pub variant: Option<Variant>,
+}
+
+/// An engine of a rule that a program may declare instead of the book's.
+#[derive(Clone, Copy, Debug)]
+pub enum Variant {
+    /// Every pixel that a triangle touches.
+    Touched(TouchedPixels),
 }
 
 const NOBODY: Entry = Entry {
@@ -415,6 +425,7 @@ const NOBODY: Entry = Entry {
     line_engine: None,
     exact_engine: None,
     specimen: None,
+    variant: None,
 };
 
 /// Entries from a table: name, what it is, and what it can do.
@@ -480,8 +491,21 @@ pub const SPECIMENS: [Entry; 15] = entries![
         specimen: Specimen::Line(&SysuBresenham);
 ];
 
+/// Engines of other rules, for what programs may declare.
+pub const VARIANTS: [Entry; 2] = entries![
+    "touched-closed", "every pixel that a triangle touches, its border too: no line separates them",
+        variant: Variant::Touched(TouchedPixels { is_closed: true });
+    "touched-open", "every pixel that the inside of a triangle touches",
+        variant: Variant::Touched(TouchedPixels { is_closed: false });
+];
+
+/// Everything that speaks the line protocol.
+pub fn speaking() -> impl Iterator<Item = &'static Entry> {
+    ENTRIES.iter().chain(&VARIANTS).chain(&SPECIMENS)
+}
+
 pub fn find(name: &str) -> Option<&'static Entry> {
-    ENTRIES.iter().chain(&SPECIMENS).find(|entry| entry.name == name)
+    speaking().find(|entry| entry.name == name)
 }
 
 pub fn find_planted(name: &str) -> Option<Entry> {

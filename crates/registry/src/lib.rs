@@ -13,3 +13,4 @@ pub mod named;
 pub mod published_check;
 #[cfg(feature = "host")]
 pub mod undecided;
+mod variants;

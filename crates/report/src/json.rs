@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use rasterproof_judge::verdict::{Score, Scores as _, Verdict as Judgement};
 use rasterproof_registry::digest::DigestRow;
 use rasterproof_verify::cases::Kind;
+use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::comparison::{Verdict, shrink};
 
 /// What `--json` prints: lines that can be read, or one line for what is as long as the plan of a large model.
@@ -31,8 +32,12 @@ pub fn value(of: &impl Serialize) -> Value {
     serde_json::to_value(of).unwrap_or_default()
 }
 
-/// The verdict as JSON; `repeat` gives the command that repeats a failing case.
-pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+/// The verdict as JSON, with what the designs asked; `repeat` gives the command that repeats a failing case.
+pub fn verdict(
+    verdict: &Verdict,
+    asked: &[DesignShare],
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> Value {
     let failures = verdict.failures.iter().map(|f| {
         json!({
             "family": f.family, "index": f.index, "pair": f.evidence.pair, "what": f.what,
@@ -47,7 +52,7 @@ pub fn verdict(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value
         "cases": verdict.options.cases, "shard": format!("{part}/{parts}"),
         "agrees": verdict.agrees(), "mismatches": verdict.mismatches(),
         "comparisons": verdict.comparisons(), "triangles": shapes[0], "lines": shapes[1],
-        "off_grid_triangles": shapes[2], "families": verdict.families,
+        "off_grid_triangles": shapes[2], "families": verdict.families, "asked": asked,
         "failures": failures.collect::<Vec<_>>(),
     })
 }

@@ -61,10 +61,7 @@ pub fn report(
             }
         }
     }
-    let asked = asked(verdict);
-    if !asked.is_empty() {
-        first_screen.push(Table::of_notes("", asked));
-    }
+    first_screen.extend(summary::asked(&verdict.more.asked));
     if verdict.more.known > 0 {
         let known = thousands(verdict.more.known);
         let note = format!("not shown: {known} failing cases that the baseline knows");
@@ -189,6 +186,10 @@ pub fn of_polygons(
         true => "all are covered exactly once".to_owned(),
         false => sum.describe(""),
     };
+    // What was asked is said where all of it was.
+    let is_whole = !polygons::is_out_of_time(report) && report.options.only.is_none();
+    let has_design = report.families.iter().any(|of| of.family == partition::Family::Design);
+    let asked = Vec::from_iter((is_whole && has_design).then(|| polygons::asked(report)));
     let [polygons, triangles, left_out] =
         [sum.polygons, sum.triangles, sum.left_out].map(thousands);
     let sentence = format!(
@@ -198,6 +199,8 @@ pub fn of_polygons(
         about,
         excerpts: if agrees { Vec::new() } else { vec![Excerpt { grid, ..Excerpt::default() }] },
         repeat: repeat_all.to_owned(),
+        first_screen: Vec::from_iter(summary::asked(&asked)),
+        tables: Vec::from_iter(summary::asked(&asked)),
         outcome: Some(Outcome { answer, ..Outcome::of(agrees, sentence) }),
         ..Report::default()
     }
@@ -265,31 +268,6 @@ fn dangers(verdict: &Verdict) -> Table {
         out.push(summary::row(is_good(row.name), row.name, &what));
     }
     summary::judged("", out)
-}
-
-/// How much of all that could be asked was asked, and what was not.
-fn asked(verdict: &Verdict) -> Vec<String> {
-    let mut notes = Vec::new();
-    for share in &verdict.more.asked {
-        let [pairs, of_pairs] = [share.pairs, share.of_pairs].map(|n| thousands(n as u64));
-        let pairs = match share.pairs == share.of_pairs {
-            true => format!("all {pairs}"),
-            false => format!("{pairs} of {of_pairs}"),
-        };
-        let percent = 100 * share.triples / share.of_triples.max(1);
-        let triples = thousands(share.of_triples as u64);
-        notes.push(format!(
-            "asked of the family {}: {pairs} pairs and {percent}% of {triples} triples of facts",
-            share.family
-        ));
-        if let Some(first) = share.never.first() {
-            let count = share.never.len();
-            notes.push(format!(
-                "  never, by what it declares: {count} classes of facts, as '{first}'"
-            ));
-        }
-    }
-    notes
 }
 
 /// A score in the words of what it counts.

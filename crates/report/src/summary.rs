@@ -3,6 +3,7 @@
 
 use super::table::{Row, Table};
 use super::words::{of_bound, thousands};
+use rasterproof_verify::cases::facts::asked::DesignShare;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
 pub struct Danger {
@@ -40,6 +41,31 @@ pub const DANGERS: &[Danger] = dangers![
         "f32-mixed", "f32-denormal", "f32-far", "f32-huge", "f64-near-tie", "f64-huge",
         "f64-denormal";
 ];
+
+/// How much of all that could be asked was asked by the designs, and what was not; nothing where no design was.
+pub fn asked(shares: &[DesignShare]) -> Option<Table> {
+    let mut notes = Vec::new();
+    for share in shares {
+        let [pairs, of_pairs] = [share.pairs, share.of_pairs].map(|n| thousands(n as u64));
+        let pairs = match share.pairs == share.of_pairs {
+            true => format!("all {pairs}"),
+            false => format!("{pairs} of {of_pairs}"),
+        };
+        let percent = 100 * share.triples / share.of_triples.max(1);
+        let triples = thousands(share.of_triples as u64);
+        notes.push(format!(
+            "asked of the family {}: {pairs} pairs and {percent}% of {triples} triples of facts",
+            share.family
+        ));
+        if let Some(first) = share.never.first() {
+            let count = share.never.len();
+            notes.push(format!(
+                "  never, by what it declares: {count} classes of facts, as '{first}'"
+            ));
+        }
+    }
+    (!notes.is_empty()).then(|| Table::of_notes("", notes))
+}
 
 /// The danger that a family belongs to.
 ///

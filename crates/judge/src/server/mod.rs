@@ -25,7 +25,7 @@ use rasterproof_core::triangle::{
     FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span,
     check_position, check_value,
 };
-use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine};
+use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Variant};
 use rasterproof_render::pipeline::multisample;
 
 const READ_BYTES: usize = 1 << 16;
@@ -159,6 +159,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         .map_err(refused)?;
     let reply = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
         ("T", Some(engine), ..) => cover(engine, window, &numbers),
+        ("T", ..) if entry.variant.is_some() => by_variant(entry, window, &numbers),
         ("T", _, _, Some(engine)) => cover_exact(engine, window, &numbers),
         ("S", Some(engine), ..) => samples(engine, window, &numbers),
         ("L", _, Some(engine), _) => line(engine, window, &numbers),
@@ -226,7 +227,7 @@ fn vertex(
         .map_err(|(name, refusal)| named(&format!("{name}{i}"))(refusal))
 }
 
-fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
+fn cover(engine: impl Rasterize, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let (mut runs, mut n) = (Vec::new(), 0);
     engine.cover(corners, window, |span| {
@@ -234,6 +235,14 @@ fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
         write_run(&mut runs, span);
     });
     Ok(('C', n, runs))
+}
+
+/// The pixels of a triangle by another rule.
+fn by_variant(entry: &Entry, window: PixelRect, numbers: &[f64]) -> Reply {
+    match entry.variant {
+        Some(Variant::Touched(engine)) => cover(engine, window, numbers),
+        None => Err("unsupported".to_owned()),
+    }
 }
 
 fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {

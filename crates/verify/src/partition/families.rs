@@ -85,13 +85,25 @@ rasterproof_core::named! {
         SnappedCircle = "SnappedCircle",
         /// Polygons of the other families, every coordinate moved by an ulp at most.
         Neighbours = "Neighbours",
+        /// Every two facts of a polygon together, as a covering design chooses them; at most 32 vertices.
+        Design = "Design",
     }
 }
 
 impl Family {
-    /// The polygon number `index` of this family under `seed`.
-    #[must_use]
-    pub fn polygon(self, seed: u64, index: u64, coordinates: Coordinates) -> Polygon {
+    /// The families whose polygons are drawn, each without the others.
+    pub(super) const DRAWN: [Self; Self::ALL.len() - 1] = {
+        let mut drawn = [Self::Collinear; Self::ALL.len() - 1];
+        let mut at = 0;
+        while at < drawn.len() {
+            drawn[at] = Self::ALL[at];
+            at += 1;
+        }
+        drawn
+    };
+
+    /// The polygon number `index` under `seed` of a family whose polygons are drawn.
+    pub(super) fn drawn(self, seed: u64, index: u64, coordinates: Coordinates) -> Polygon {
         let mut rng = Rng::new(self.name(), seed, index);
         for _ in 0..100 {
             let mut polygon = self.draw(&mut rng, coordinates);
@@ -107,7 +119,8 @@ impl Family {
         Polygon::new(vec![vec![[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]]])
     }
 
-    fn draw(self, rng: &mut Rng, coordinates: Coordinates) -> Polygon {
+    /// A polygon that may not be valid; of the design one of no family.
+    pub(super) fn draw(self, rng: &mut Rng, coordinates: Coordinates) -> Polygon {
         let contours = match self {
             Self::Collinear => collinear(rng),
             Self::Duplicates => duplicates(rng),
@@ -119,7 +132,7 @@ impl Family {
             Self::Comb => vec![comb(rng)],
             Self::Spiral => vec![spiral(rng)],
             Self::SnappedCircle => circle(rng, coordinates),
-            Self::Neighbours => base(rng),
+            Self::Neighbours | Self::Design => base(rng),
         };
         let mut polygon = placed(contours, rng, coordinates);
         if self == Self::Neighbours {
@@ -328,7 +341,7 @@ fn cells(rng: &mut Rng) -> Vec<Contour> {
 }
 
 /// Twice the area, exact for small whole numbers.
-fn area(contour: &[Point]) -> f64 {
+pub(super) fn area(contour: &[Point]) -> f64 {
     let next = contour.iter().cycle().skip(1);
     contour.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum()
 }

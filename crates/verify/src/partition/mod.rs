@@ -82,6 +82,8 @@
 
 mod cause;
 mod decide;
+#[doc(hidden)]
+pub mod design;
 mod exact;
 mod families;
 mod region;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::table::Table;
 use super::{Topic, design};
-use crate::cases::Limits;
+use crate::cases::{Family, Limits};
 
 /// How much some cases of a design ask.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,28 +30,61 @@ pub struct DesignShare {
     pub never: Vec<String>,
 }
 
+/// What some questions ask.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AskedClasses {
+    /// Pairs of classes that occur.
+    pub pairs: usize,
+    /// Triples of classes that occur.
+    pub triples: usize,
+    /// Pairs among them that are called impossible, in words: there should be none.
+    pub impossible: Vec<String>,
+}
+
+impl AskedClasses {
+    /// What these questions ask, whoever chose them.
+    #[must_use]
+    pub fn by<Q, L>(topic: &Topic<Q, L>, limits: &L, questions: impl Iterator<Item = Q>) -> Self {
+        let table = table_of(topic, limits, questions);
+        let [pairs, triples] = table.counts();
+        let mut impossible = design::impossible(topic);
+        impossible.retain(|pair| table.has(pair));
+        let words = |[first, second]: [u16; 2]| {
+            format!("{} & {}", topic.class_words(first), topic.class_words(second))
+        };
+        Self { pairs, triples, impossible: impossible.into_iter().map(words).collect() }
+    }
+}
+
+/// The pairs and triples of the questions that have the facts of a topic.
+fn table_of<Q, L>(topic: &Topic<Q, L>, limits: &L, questions: impl Iterator<Item = Q>) -> Table {
+    let mut table = Table::new(topic.count());
+    for question in questions {
+        if let Some(classes) = topic.classes(&question, limits) {
+            table.note(&classes);
+        }
+    }
+    table
+}
+
 /// Cases of which triples are counted at most: after so many of them hardly one is missing.
 const MOST_COUNTED: usize = 20_000;
 
 impl DesignShare {
-    /// What the cases of a design with these numbers ask, for a rasterizer with limits.
+    /// What the questions of a design with these numbers ask within limits.
     #[must_use]
-    pub fn of(topic: &Topic, seed: u64, numbers: Range<u64>, limits: &Limits) -> Self {
-        let mut table = Table::new(topic.count());
+    pub fn of<Q, L>(
+        topic: &Topic<Q, L>,
+        numbers: Range<u64>,
+        limits: &L,
+        question: &dyn Fn(u64) -> Q,
+    ) -> Self {
         let cases = numbers.end.saturating_sub(numbers.start);
-        for index in numbers.take(MOST_COUNTED) {
-            let case = design::case(topic, seed, index, limits);
-            if let Some(classes) = topic.classes(&case, limits) {
-                table.note(&classes);
-            }
-        }
+        let AskedClasses { pairs, triples, .. } =
+            AskedClasses::by(topic, limits, numbers.take(MOST_COUNTED).map(question));
         // What the first block does not have is not asked in any number of cases.
-        let mut whole = Table::new(topic.count());
-        for case in (0..design::BLOCK).map(|index| design::case(topic, seed, index, limits)) {
-            whole.note(&topic.classes(&case, limits).unwrap_or_default());
-        }
+        let whole = table_of(topic, limits, (0..design::BLOCK).map(question));
         let ([seen, never], [of_pairs, of_triples]) = possible(topic, &whole);
-        let [pairs, triples] = table.counts();
         Self {
             family: topic.name,
             cases,
@@ -64,10 +97,26 @@ impl DesignShare {
             never: never.into_iter().map(|class| topic.class_words(class)).collect(),
         }
     }
+
+    /// What the designs among some families ask of a rasterizer with limits.
+    #[must_use]
+    pub fn of_families<'a>(
+        families: impl IntoIterator<Item = &'a Family>,
+        seed: u64,
+        numbers: &Range<u64>,
+        limits: &Limits,
+    ) -> Vec<Self> {
+        let mut shares = Vec::new();
+        for topic in families.into_iter().filter_map(Family::design) {
+            let question = |index| design::case(topic, seed, index, limits);
+            shares.push(Self::of(topic, numbers.clone(), limits, &question));
+        }
+        shares
+    }
 }
 
 /// The classes that occur, the pairs of these that can occur, and the triples whose three pairs can.
-fn possible(topic: &Topic, table: &Table) -> ([Vec<u16>; 2], [usize; 2]) {
+fn possible<Q, L>(topic: &Topic<Q, L>, table: &Table) -> ([Vec<u16>; 2], [usize; 2]) {
     let facts = topic.facts_of_classes();
     let all = facts.len() as u16;
     let occurs =

@@ -8,7 +8,7 @@ use rasterproof_core::random::Rng;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
 use super::{Read, Test, Topic, Unit, exponent, fact, facts_of, numbers};
-use crate::cases::{Case, Shape, Triangle};
+use crate::cases::{Case, Limits, Shape, Triangle};
 
 /// Triangles before and behind each other.
 pub const TOPIC: Topic = Topic {
@@ -18,6 +18,7 @@ pub const TOPIC: Topic = Topic {
     impossible: include_str!("impossible/depth-design.txt"),
     draw,
     vary,
+    put: Limits::put,
 };
 
 /// The most triangles that the line protocol has in one question.
@@ -364,7 +365,7 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
     for _ in 0..rng.int(1, 3) {
         let depths = draw_depths(rng);
         let at = rng.int(0, list.len() as i64 - 1) as usize;
-        match rng.int(0, 13) {
+        match rng.int(0, 14) {
             0 => window = PixelRect::window(draw_side(rng) as u32, window.height()),
             1 => window = PixelRect::window(window.width(), draw_side(rng) as u32),
             2 => window.x1 = other.window.x1,
@@ -403,10 +404,32 @@ fn vary(rng: &mut Rng, one: &Case, other: &Case) -> Case {
                 list.swap(at, last);
             }
             12 => list[at] = background(rng, window),
+            // One or all from border to border of a wide or a high window, and within it.
+            13 => {
+                window = if rng.chance(2) {
+                    PixelRect::window(24, window.height())
+                } else {
+                    PixelRect::window(window.width(), 24)
+                };
+                let from = if rng.chance(2) { at } else { 0 };
+                for triangle in &mut list[from..] {
+                    span(rng, triangle, window);
+                }
+            }
             _ => arrange(rng, &mut list),
         }
     }
     Case { window, shape: Shape::Triangles { list, disjoint: false } }
+}
+
+/// Moves the corners of a triangle onto the border of a window.
+fn span(rng: &mut Rng, triangle: &mut Triangle, window: PixelRect) {
+    let sides = [window.x1, window.y1].map(|side| side * SUBPIXELS);
+    let at = rng.coordinate(0, 4) * (SUBPIXELS / 4);
+    let corners = [[0, at.min(sides[1])], [sides[0], 0], [at.min(sides[0]), sides[1]]];
+    for (v, [x, y]) in triangle.vertices.iter_mut().zip(corners) {
+        v.position = SubpixelPoint::new(x, y);
+    }
 }
 
 /// Multiplies all distances from the middle of a window by a power of two, on quarters of pixels.

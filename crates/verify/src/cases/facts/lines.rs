@@ -11,7 +11,7 @@ use super::{
     Read, Test, Topic, Unit, WINDOW_WAYS, draw_window, fact, facts_of, numbers, saturated,
     vary_window,
 };
-use crate::cases::{Case, Shape};
+use crate::cases::{Case, Limits, Shape};
 
 /// Lines.
 pub const TOPIC: Topic = Topic {
@@ -21,6 +21,7 @@ pub const TOPIC: Topic = Topic {
     impossible: include_str!("impossible/line-design.txt"),
     draw,
     vary,
+    put: Limits::put,
 };
 
 const SIDES: Test = Test::Steps(&[2, 3, 9, 33, 257]);

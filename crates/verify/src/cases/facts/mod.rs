@@ -12,7 +12,9 @@ pub mod asked;
 pub mod depth;
 pub mod design;
 pub mod lines;
+pub mod meshes;
 pub mod near;
+pub mod samples;
 mod table;
 pub mod triangles;
 pub mod values;
@@ -141,18 +143,23 @@ impl Fact {
 
 /// A fact with the number, read off what was measured of a question.
 #[derive(Clone, Copy)]
-struct Read<M> {
+pub(crate) struct Read<M> {
     fact: Fact,
     of: fn(&M) -> i64,
 }
 
 /// Shorthand of the tables of facts.
-const fn fact<M>(name: &'static str, unit: Unit, of: fn(&M) -> i64, test: Test) -> Read<M> {
+pub(crate) const fn fact<M>(
+    name: &'static str,
+    unit: Unit,
+    of: fn(&M) -> i64,
+    test: Test,
+) -> Read<M> {
     Read { fact: Fact { name, unit, test }, of }
 }
 
 /// The facts of a table without what reads them.
-const fn facts_of<M, const N: usize>(table: &[Read<M>; N]) -> [Fact; N] {
+pub(crate) const fn facts_of<M, const N: usize>(table: &[Read<M>; N]) -> [Fact; N] {
     let mut facts = [table[0].fact; N];
     let mut at = 1;
     while at < N {
@@ -163,27 +170,37 @@ const fn facts_of<M, const N: usize>(table: &[Read<M>; N]) -> [Fact; N] {
 }
 
 /// The numbers of a table, read off what was measured.
-fn numbers<M>(table: &[Read<M>], measured: &M) -> Vec<i64> {
+pub(crate) fn numbers<M>(table: &[Read<M>], measured: &M) -> Vec<i64> {
     table.iter().map(|read| (read.of)(measured)).collect()
 }
 
-/// A kind of question: what can be measured of it, and how such questions are drawn.
-#[derive(Clone, Copy)]
-pub struct Topic {
-    /// Its name: that of the family whose cases the design chooses.
+/// A kind of question: what can be measured of it, and how such questions are drawn. Most are cases, put within the limits
+/// of a rasterizer.
+pub struct Topic<Q: 'static = Case, L: 'static = Limits> {
+    /// Its name: that of the family whose questions the design chooses.
     pub name: &'static str,
     /// Its facts.
     pub facts: &'static [Fact],
-    measure: fn(&Case, &Limits) -> Option<Vec<i64>>,
+    pub(crate) measure: fn(&Q, &L) -> Option<Vec<i64>>,
     /// The pairs of classes that cannot occur: on each line the number of a class, and those of others.
-    impossible: &'static str,
-    /// Draws a case.
-    draw: fn(&mut Rng) -> Case,
-    /// A case beside the first one, that may take something of the second.
-    vary: fn(&mut Rng, &Case, &Case) -> Case,
+    pub(crate) impossible: &'static str,
+    /// Draws a question.
+    pub(crate) draw: fn(&mut Rng) -> Q,
+    /// A question beside the first one, that may take something of the second.
+    pub(crate) vary: fn(&mut Rng, &Q, &Q) -> Q,
+    /// Puts a question within the limits.
+    pub(crate) put: fn(&L, Q) -> Q,
 }
 
-impl Topic {
+impl<Q, L> Clone for Topic<Q, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<Q, L> Copy for Topic<Q, L> {}
+
+impl<Q, L> Topic<Q, L> {
     /// The number of the first class of each fact: all classes are numbered one after the other.
     #[must_use]
     pub fn starts(&self) -> Vec<usize> {
@@ -212,15 +229,15 @@ impl Topic {
         self.facts.iter().map(|fact| fact.test.count()).sum()
     }
 
-    /// The number of each fact of a question, for a rasterizer with limits; nothing where the case is of another kind.
+    /// The number of each fact of a question, within limits; nothing where the question is of another kind.
     #[must_use]
-    pub fn numbers(&self, case: &Case, limits: &Limits) -> Option<Vec<i64>> {
+    pub fn numbers(&self, case: &Q, limits: &L) -> Option<Vec<i64>> {
         (self.measure)(case, limits)
     }
 
     /// The class of each of these numbers. Those of all facts are numbered one after the other.
     #[must_use]
-    pub fn classes(&self, case: &Case, limits: &Limits) -> Option<Vec<u16>> {
+    pub fn classes(&self, case: &Q, limits: &L) -> Option<Vec<u16>> {
         let mut start = 0;
         let mut classes = Vec::with_capacity(self.facts.len());
         for (fact, number) in self.facts.iter().zip(self.numbers(case, limits)?) {
@@ -232,13 +249,13 @@ impl Topic {
 
     /// A case at random.
     #[must_use]
-    pub fn any(&self, rng: &mut Rng) -> Case {
+    pub fn any(&self, rng: &mut Rng) -> Q {
         (self.draw)(rng)
     }
 
     /// A case beside the first one, that may take something of the second.
     #[must_use]
-    pub fn beside(&self, rng: &mut Rng, one: &Case, other: &Case) -> Case {
+    pub fn beside(&self, rng: &mut Rng, one: &Q, other: &Q) -> Q {
         (self.vary)(rng, one, other)
     }
 
@@ -257,9 +274,16 @@ impl Topic {
     }
 }
 
-/// Every kind of question that has a design.
-pub const TOPICS: [Topic; 5] =
-    [triangles::TOPIC, values::TOPIC, lines::TOPIC, depth::TOPIC, near::TOPIC];
+/// Every kind of question about triangles and lines. Polygons have [`crate::partition::design::TOPIC`].
+pub const TOPICS: [Topic; 7] = [
+    triangles::TOPIC,
+    values::TOPIC,
+    lines::TOPIC,
+    samples::TOPIC,
+    meshes::TOPIC,
+    depth::TOPIC,
+    near::TOPIC,
+];
 
 /// A side of a window in pixels: mostly small, since every pixel of it is compared; each class of size and divisor occurs.
 fn draw_side(rng: &mut Rng) -> i32 {

@@ -18,6 +18,7 @@ pub const TOPIC: Topic = Topic {
     impossible: include_str!("impossible/near-design.txt"),
     draw,
     vary,
+    put: Limits::put,
 };
 
 const SIDE: Test = Test::Choice(&["behind", "in it", "before"]);

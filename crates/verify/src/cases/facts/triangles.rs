@@ -26,6 +26,7 @@ pub const TOPIC: Topic = Topic {
     impossible: include_str!("impossible/design.txt"),
     draw,
     vary,
+    put: Limits::put,
 };
 
 /// Where a corner lies: distances to the sides of the window.
@@ -161,7 +162,7 @@ pub struct TriangleFacts {
 }
 
 /// A point, in 64 bits, where pixels are sampled at their centres.
-type Point = [i64; 2];
+pub(super) type Point = [i64; 2];
 
 impl TriangleFacts {
     /// Of a case with one triangle or of the first one of several.
@@ -325,7 +326,7 @@ fn middle_side(corners: &Corners) -> i64 {
 
 /// The first column whose sample is not left of an edge in a row of samples, the last that is not right of it, and whether a
 /// sample lies on it. Of a level edge on the row the whole edge.
-fn columns_at(p: Point, q: Point, y: i64) -> Option<(i64, i64, bool)> {
+pub(super) fn columns_at(p: Point, q: Point, y: i64) -> Option<(i64, i64, bool)> {
     let half = i64::from(HALF_PIXEL);
     if y < p[1].min(q[1]) || y > p[1].max(q[1]) {
         return None;

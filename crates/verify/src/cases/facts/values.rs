@@ -17,6 +17,7 @@ pub const TOPIC: Topic = Topic {
     impossible: include_str!("impossible/w-design.txt"),
     draw,
     vary,
+    put: Limits::put,
 };
 
 const PX: i64 = SUBPIXELS as i64;
